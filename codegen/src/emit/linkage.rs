@@ -1,0 +1,95 @@
+//! Per linkage: the functions that turn a column into scene constants, and the table that finds them.
+
+use super::doc;
+use super::expression::Writer;
+use super::step::force_name;
+use crate::optimise::Constant;
+use crate::pattern::Linkage;
+use crate::symbolic::Arena;
+use crate::{Catalogue, LinkageRecord};
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+/// `open_1_3_of_5`: the linkage's name in generated code.
+fn stem(linkage: &Linkage) -> String {
+    let open: Vec<String> = (1..=linkage.blocks()).filter(|i| linkage.open[i - 1]).map(|i| i.to_string()).collect();
+    format!("open_{}_of_{}", open.join("_"), linkage.blocks())
+}
+
+/// All functions of one linkage.
+pub fn functions(record: &LinkageRecord) -> TokenStream {
+    let stem = stem(&record.linkage);
+    let step = scene_constants(
+        &format_ident!("step_{stem}"),
+        &format!("Scene constants of the step program where {} move(s).", stem.replace('_', " ")),
+        &record.arena,
+        &record.step_constants,
+    );
+    let interfaces = record.interfaces.iter().enumerate().map(|(interface, (_, constants))| {
+        let number = interface + 1;
+        scene_constants(
+            &format_ident!("forces_{number}_{stem}"),
+            &format!("Scene constants of the contact forces at interface {number}."),
+            &record.arena,
+            constants,
+        )
+    });
+    quote! { #step #(#interfaces)* }
+}
+
+/// A function from the column's sizes to scene constants, each with its formula and unit in the doc.
+pub fn scene_constants(name: &Ident, title: &str, arena: &Arena, constants: &[Constant]) -> TokenStream {
+    let mut text = format!("{title}\n");
+    for constant in constants {
+        text.push_str(&format!("\n- `{}` [{}] = `{}`", constant.name, constant.unit, arena.text(constant.source)));
+    }
+    let doc = doc(&text);
+    let mut writer = Writer::new(arena, constants.iter().map(|constant| constant.source), column_field);
+    for constant in constants {
+        writer.bind(&constant.name, constant.source, constant.source);
+    }
+    let lets = writer.finish();
+    let results = constants.iter().map(|constant| format_ident!("{}", constant.name));
+    quote! {
+        #doc
+        fn #name<S: Scalar>(column: &Geometry<S>) -> Vec<S> {
+            #(#lets)*
+            vec![#(#results),*]
+        }
+    }
+}
+
+/// How a block symbol is read: `half_height_2` is `column.half_height[1]`.
+fn column_field(symbol: &str) -> TokenStream {
+    let (family, index) = symbol.rsplit_once('_').expect("block symbols are named family_index");
+    let family = format_ident!("{family}");
+    let index = index.parse::<usize>().expect("block symbols are numbered from one") - 1;
+    let index = proc_macro2::Literal::usize_unsuffixed(index);
+    quote! { column.#family[#index] }
+}
+
+/// `fn linkage(blocks, mask)`: the equations of a linkage by the bits of its open interfaces.
+pub fn table(catalogue: &Catalogue) -> TokenStream {
+    let arms = catalogue.linkages.iter().map(|record| {
+        let blocks = record.linkage.blocks();
+        let mask = record.linkage.open.iter().rev().fold(0usize, |mask, &open| 2 * mask + usize::from(open));
+        let stem = stem(&record.linkage);
+        let step = format_ident!("step_{stem}");
+        let dof = record.linkage.dof();
+        let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {
+            let constants = format_ident!("forces_{}_{stem}", interface + 1);
+            let forces = force_name(*program);
+            quote! { InterfaceEquations { constants: #constants, forces: #forces } }
+        });
+        quote! {
+            (#blocks, #mask) => LinkageEquations { dof: #dof, constants: #step, interfaces: vec![#(#interfaces),*] },
+        }
+    });
+    let doc = doc("The equations of a linkage: `blocks` of the column, bit `i` of `mask` set where interface `i + 1` is open.\nWhat the build has not got is `None`.");
+    quote! {
+        #doc
+        pub fn linkage<S: Scalar>(blocks: usize, mask: usize) -> Option<LinkageEquations<S>> {
+            Some(match (blocks, mask) { #(#arms)* _ => return None })
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Step programs and contact-force programs as Rust items.
+
+use super::doc;
+use super::expression::Writer;
+use crate::optimise::{Program, Routine};
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+/// The type that stands for the step program of this many degrees of freedom.
+pub fn step_type(dof: usize) -> Ident {
+    format_ident!("Dof{dof}")
+}
+
+/// The name of a contact-force program.
+pub fn force_name(index: usize) -> Ident {
+    format_ident!("contact_forces_{}", index + 1)
+}
+
+/// `struct DofN` and its `StepProgram`.
+pub fn step_program(program: &Program) -> TokenStream {
+    let dof = program.dof;
+    let name = step_type(dof);
+    let count = program.constants.len();
+    let mut text = format!("Step-time equations shared by all modes with {dof} free angle(s).\n");
+    for routine in &program.routines {
+        if let Some(operations) = program.operations(routine.name) {
+            text.push_str(&format!("\n- `{}`: {operations}", routine.name));
+        }
+    }
+    text.push_str("\n\nScene constants, in order:\n");
+    for constant in &program.constants {
+        text.push_str(&format!("\n- `{}` [{}]", constant.name, constant.unit));
+    }
+    let doc = doc(&text);
+    let state = 2 * dof;
+    let body = |name: &str| routine_body(program, program.routines.iter().find(|r| r.name == name));
+    let (acceleration, mass_matrix, energies) = (body("acceleration"), body("mass_matrix"), body("energies"));
+    quote! {
+        #doc
+        #[derive(Clone, Copy, Debug)]
+        pub struct #name;
+
+        impl<S: Scalar> StepProgram<S> for #name {
+            const DOF: usize = #dof;
+            type Vector = [S; #dof];
+            type State = [S; #state];
+            type Matrix = [[S; #dof]; #dof];
+            type Constants = [S; #count];
+
+            #[inline(always)]
+            fn acceleration(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], ground_x: S, gravity: S) -> [S; #dof] {
+                #acceleration
+            }
+
+            fn mass_matrix(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof]) -> [[S; #dof]; #dof] {
+                #mass_matrix
+            }
+
+            fn energies(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], gravity: S) -> [S; 2] {
+                #energies
+            }
+        }
+    }
+}
+
+fn routine_body(program: &Program, routine: Option<&Routine>) -> TokenStream {
+    let Some(routine) = routine else { return TokenStream::new() };
+    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
+    let mut writer = Writer::new(&program.arena, values, |symbol| {
+        let name = format_ident!("{symbol}");
+        quote! { #name }
+    });
+    for statement in &routine.statements {
+        writer.bind(&statement.name, statement.symbol, statement.value);
+    }
+    let outputs: Vec<TokenStream> = routine.outputs.iter().map(|output| writer.read(*output)).collect();
+    let lets = writer.finish();
+    let result = if routine.name == "mass_matrix" {
+        let rows = outputs.chunks(program.dof).map(|row| quote! { [#(#row),*] });
+        quote! { [#(#rows),*] }
+    } else {
+        quote! { [#(#outputs),*] }
+    };
+    let used = quote! { #(#lets)* #result }.to_string();
+    let inputs = inputs(program, routine, &used);
+    quote! { #inputs #(#lets)* #result }
+}
+
+/// `let [cos_1, …] = *cos;`, names that the body does not read left out.
+fn inputs(program: &Program, routine: &Routine, used: &str) -> TokenStream {
+    let words: std::collections::HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let mut lets = TokenStream::new();
+    let families: &[&str] = match routine.name {
+        "mass_matrix" => &["cos", "sin"],
+        "contact_forces" => &["cos", "sin", "omega", "alpha"],
+        _ => &["cos", "sin", "omega"],
+    };
+    for family in families {
+        let names: Vec<String> = (1..=program.dof).map(|index| format!("{family}_{index}")).collect();
+        lets.extend(destructure(family, &names, &words));
+    }
+    let names: Vec<String> = program.constants.iter().map(|constant| constant.name.clone()).collect();
+    lets.extend(destructure("constants", &names, &words));
+    lets
+}
+
+fn destructure(array: &str, names: &[String], words: &std::collections::HashSet<&str>) -> TokenStream {
+    let array = format_ident!("{array}");
+    if names.iter().all(|name| !words.contains(name.as_str())) {
+        return quote! { let _ = #array; };
+    }
+    let names = names.iter().map(|name| {
+        let ident = format_ident!("{name}");
+        if words.contains(name.as_str()) { quote! { #ident } } else { quote! { _ } }
+    });
+    quote! { let [#(#names),*] = *#array; }
+}
+
+/// One contact-force program: `[N, T]` or `[N, T, M]`.
+pub fn force_program(index: usize, program: &Program) -> TokenStream {
+    let name = force_name(index);
+    let (dof, count) = (program.dof, program.constants.len());
+    let Some(routine) = program.routines.first() else { return TokenStream::new() };
+    let body = routine_body(program, Some(routine));
+    let results = routine.outputs.len();
+    let operations = program.operations("contact_forces").unwrap_or_default();
+    let what = if results == 3 { "closed interface: `[N, T, M]`" } else { "open interface: `[N, T]`" };
+    let doc = doc(&format!("Contact forces at one {what}, {dof} free angle(s); {operations}."));
+    let values = (0..3).map(|index| {
+        if index < results { quote! { forces[#index] } } else { quote! { S::from_f64(0.0) } }
+    });
+    let mismatch = "the caller passes as many angles and constants as the linkage has";
+    quote! {
+        #doc
+        fn #name<S: Scalar>(constants: &[S], cos: &[S], sin: &[S], omega: &[S], alpha: &[S], ground_x: S, gravity: S) -> [S; 3] {
+            let constants: &[S; #count] = constants.try_into().expect(#mismatch);
+            let cos: &[S; #dof] = cos.try_into().expect(#mismatch);
+            let sin: &[S; #dof] = sin.try_into().expect(#mismatch);
+            let omega: &[S; #dof] = omega.try_into().expect(#mismatch);
+            let alpha: &[S; #dof] = alpha.try_into().expect(#mismatch);
+            let forces: [S; #results] = { #body };
+            [#(#values),*]
+        }
+    }
+}
+
+/// A macro that runs a body with the step program of a number of degrees of freedom known at run time.
+pub fn dispatch(programs: &[Program]) -> TokenStream {
+    let arms = programs.iter().map(|program| {
+        let (dof, name) = (program.dof, step_type(program.dof));
+        quote! { #dof => { type $Program = equations::#name; $body } }
+    });
+    quote! {
+        /// Runs `$body` with `$Program` the step program of `$dof` degrees of freedom, or `$other` where there is none.
+        macro_rules! with_step_program {
+            ($dof:expr, $Program:ident => $body:expr, _ => $other:expr) => {
+                match $dof { #(#arms)* _ => $other }
+            };
+        }
+        pub(crate) use with_step_program;
+    }
+}

@@ -1,0 +1,120 @@
+//! Positions of the centroids (MODEL.md section 3) and their partial derivatives.
+
+use crate::pattern::Linkage;
+use crate::symbolic::{Arena, Expr, Level, Unit};
+
+/// A vector of the plane, `[x, y]`.
+pub type Vector = [Expr; 2];
+
+/// The symbols of a derivation. Links are counted from 1; entry `a - 1` belongs to link `a`.
+#[derive(Clone, Debug)]
+pub struct Symbols {
+    /// Absolute angle of each link `[rad]`, length dof.
+    pub theta: Vec<Expr>,
+    /// Rate of each link `[rad/s]`, length dof.
+    pub omega: Vec<Expr>,
+    /// Angular acceleration of each link `[rad/s²]`, length dof.
+    pub alpha: Vec<Expr>,
+    /// Horizontal ground acceleration `ẍ_g [m/s²]`.
+    pub ground_x: Expr,
+    /// Effective gravity `g + ÿ_g [m/s²]`: vertical ground motion acts like a change of gravity.
+    pub gravity: Expr,
+    /// Virtual angle of the part of a link above a closed interface `[rad]`; only contact forces use it.
+    pub psi: Expr,
+    /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
+    pub pivot: Vec<Expr>,
+    /// Half-heights `h_i [m]`, length N.
+    pub half_height: Vec<Expr>,
+    /// Masses `m_i [kg]`, length N.
+    pub mass: Vec<Expr>,
+    /// Centroidal moments of inertia `I_i [kg m²]`, length N.
+    pub inertia: Vec<Expr>,
+}
+
+impl Symbols {
+    /// Declares the symbols of a column of `blocks` blocks with `dof` free angles; state before scene.
+    pub fn declare(arena: &mut Arena, blocks: usize, dof: usize) -> Symbols {
+        let mut family = |name: &str, count: usize, level: Level, unit: Unit| -> Vec<Expr> {
+            (1..=count).map(|index| arena.symbol(format!("{name}_{index}"), level, unit)).collect()
+        };
+        let theta = family("theta", dof, Level::State, Unit::default());
+        let omega = family("omega", dof, Level::State, Unit(0, 0, -1));
+        let alpha = family("alpha", dof, Level::State, Unit(0, 0, -2));
+        let pivot = family("pivot", blocks, Level::Scene, Unit(1, 0, 0));
+        let half_height = family("half_height", blocks, Level::Scene, Unit(1, 0, 0));
+        let mass = family("mass", blocks, Level::Scene, Unit(0, 1, 0));
+        let inertia = family("inertia", blocks, Level::Scene, Unit(2, 1, 0));
+        let ground_x = arena.symbol("ground_x", Level::State, Unit(1, 0, -2));
+        let gravity = arena.symbol("gravity", Level::State, Unit(1, 0, -2));
+        let psi = arena.symbol("psi", Level::State, Unit::default());
+        Symbols { theta, omega, alpha, ground_x, gravity, psi, pivot, half_height, mass, inertia }
+    }
+}
+
+/// Positions of the centroids relative to the moving ground, base first, length N:
+/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (MODEL.md section 3).
+///
+/// Blocks of one link share an angle: their body vectors are added before they are turned, so the pivots of closed
+/// interfaces cancel. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
+pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<Expr>]) -> Vec<Vector> {
+    let zero = arena.zero();
+    // The chain so far: one body vector (u, v) per run of blocks with equal angle, base first.
+    let mut chain: Vec<(Option<Expr>, Vector)> = vec![(None, [symbols.pivot[0], zero])];
+    let mut positions = Vec::with_capacity(angle_of_block.len());
+    for (block, &angle) in angle_of_block.iter().enumerate() {
+        if chain.last().is_some_and(|(last, _)| *last != angle) {
+            chain.push((angle, [zero, zero]));
+        }
+        let own = chain.len() - 1;
+        let (below, half) = (symbols.pivot[block], symbols.half_height[block]);
+        let [u, v] = chain[own].1;
+        let to_centroid = [arena.sub(u, below), arena.add(v, half)];
+        let mut position = [zero, zero];
+        for (link, (angle, vector)) in chain.iter().enumerate() {
+            let turned = rotate(arena, *angle, if link == own { to_centroid } else { *vector });
+            position = [arena.add(position[0], turned[0]), arena.add(position[1], turned[1])];
+        }
+        positions.push(position);
+        if let Some(&above) = symbols.pivot.get(block + 1) {
+            let across = arena.add(to_centroid[0], above);
+            chain[own].1 = [across, arena.add(to_centroid[1], half)];
+        }
+    }
+    positions
+}
+
+/// `R(θ)(u, v) = (u cos θ + v sin θ, -u sin θ + v cos θ)`, clockwise positive.
+fn rotate(arena: &mut Arena, angle: Option<Expr>, [u, v]: Vector) -> Vector {
+    let Some(angle) = angle else { return [u, v] };
+    let (sine, cosine) = (arena.sin(angle), arena.cos(angle));
+    let (uc, vs, us, vc) = (arena.mul(u, cosine), arena.mul(v, sine), arena.mul(u, sine), arena.mul(v, cosine));
+    [arena.add(uc, vs), arena.sub(vc, us)]
+}
+
+/// Angle symbols of the blocks of a linkage, base first.
+pub(super) fn block_angles(symbols: &Symbols, linkage: &Linkage) -> Vec<Option<Expr>> {
+    linkage.link_of_block().iter().map(|&link| link.checked_sub(1).map(|index| symbols.theta[index])).collect()
+}
+
+/// `∂ vector / ∂ coordinate`
+pub fn jacobian(arena: &mut Arena, vector: Vector, coordinate: Expr) -> Vector {
+    vector.map(|component| arena.differentiate(component, coordinate))
+}
+
+/// `a · b`
+pub fn dot(arena: &mut Arena, a: Vector, b: Vector) -> Expr {
+    let (x, y) = (arena.mul(a[0], b[0]), arena.mul(a[1], b[1]));
+    arena.add(x, y)
+}
+
+/// Velocity or, applied twice, acceleration: `Σ_a ∂/∂θ_a · ω_a + ∂/∂ω_a · θ̈_a`, the total time derivative.
+pub(super) fn time_derivative(arena: &mut Arena, symbols: &Symbols, expr: Expr) -> Expr {
+    let mut terms = Vec::new();
+    for link in 0..symbols.theta.len() {
+        for (coordinate, rate) in [(symbols.theta[link], symbols.omega[link]), (symbols.omega[link], symbols.alpha[link])] {
+            let slope = arena.differentiate(expr, coordinate);
+            terms.push(arena.mul(slope, rate));
+        }
+    }
+    arena.total(terms)
+}

@@ -1,0 +1,13 @@
+//! From a linkage to its equations of motion, by the book: positions, energies, Euler-Lagrange, contact forces.
+//!
+//! Nothing here is simplified beyond what building an expression does; that is the duty of [`crate::optimise`].
+//! Time stepping, scenes and code are unknown here.
+
+mod contact;
+mod kinematics;
+mod lagrange;
+
+pub(crate) use contact::normal_and_tangent;
+pub use contact::{InterfaceForces, interface_forces};
+pub use kinematics::{Symbols, Vector, centroids};
+pub use lagrange::{Equations, equations_of_motion};

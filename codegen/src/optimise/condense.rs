@@ -1,0 +1,116 @@
+//! Choosing the form of an expression that costs least at step time.
+//!
+//! Three forms are tried in this order: multiplied out, if nothing of the state is left (the diagonal of the mass matrix);
+//! linear in the sine and cosine of one angle, with scene coefficients (a body vector turned into the ground's axes);
+//! factored by the state factor that most terms share (a lever common to all blocks above it).
+
+use crate::symbolic::{Arena, Expr, Level, Node, Rational};
+use std::collections::HashMap;
+
+/// `Σ driver · condensed coefficient + condensed rest`, for an expression linear in the drivers.
+pub fn collect(arena: &mut Arena, expr: Expr, drivers: &[Expr]) -> Expr {
+    let mut parts = Vec::new();
+    let mut rest = expr;
+    for &driver in drivers {
+        let (slope, remainder) = split_by_factor(arena, rest, driver);
+        let condensed = condense(arena, slope);
+        parts.push(arena.mul(condensed, driver));
+        rest = remainder;
+    }
+    parts.push(condense(arena, rest));
+    arena.total(parts)
+}
+
+/// The condensed coefficient of `driver` in `expr`.
+pub fn coefficient(arena: &mut Arena, expr: Expr, driver: Expr) -> Expr {
+    let (slope, _) = split_by_factor(arena, expr, driver);
+    condense(arena, slope)
+}
+
+/// The cheapest of the forms named above.
+pub fn condense(arena: &mut Arena, expr: Expr) -> Expr {
+    let expanded = arena.expand(expr);
+    if arena.level(expanded) != Level::State || is_turned_vector(arena, expanded) {
+        return merge_coefficients(arena, expanded);
+    }
+    let Some(factor) = most_shared_factor(arena, expr) else { return expanded };
+    let (inner, rest) = split_by_factor(arena, expr, factor);
+    let inner = condense(arena, inner);
+    let product = arena.mul(factor, inner);
+    if arena.is_zero(rest) {
+        return product;
+    }
+    let rest = condense(arena, rest);
+    arena.add(product, rest)
+}
+
+/// Splits `expr = factor · inner + rest`; a square of the driver counts as a factor when the driver is a square.
+fn split_by_factor(arena: &mut Arena, expr: Expr, factor: Expr) -> (Expr, Expr) {
+    let wanted = arena.factors(factor);
+    let (mut inner, mut rest) = (Vec::new(), Vec::new());
+    for (coefficient, term) in arena.terms(expr) {
+        let factors = arena.factors(term);
+        let holds = wanted.iter().all(|(f, power)| factors.iter().any(|(g, q)| g == f && q >= power));
+        if holds {
+            let quotient = arena.product(factors.into_iter().chain(wanted.iter().map(|&(f, power)| (f, -power))));
+            inner.push((coefficient, quotient));
+        } else {
+            rest.push((coefficient, term));
+        }
+    }
+    (arena.sum(inner), arena.sum(rest))
+}
+
+/// Every term is a scene coefficient times the sine or cosine of the same angle.
+fn is_turned_vector(arena: &Arena, expr: Expr) -> bool {
+    let mut angle = None;
+    arena.terms(expr).iter().all(|(_, term)| {
+        let state: Vec<_> = arena.factors(*term).into_iter().filter(|(f, _)| arena.level(*f) == Level::State).collect();
+        match state.as_slice() {
+            [(factor, 1)] => match arena.node(*factor) {
+                Node::Sin(a) | Node::Cos(a) => *angle.get_or_insert(*a) == *a,
+                _ => false,
+            },
+            _ => false,
+        }
+    })
+}
+
+/// Joins terms with equal state parts: `cos·m_1·h_1 + cos·m_2·h_2` becomes `cos·(m_1·h_1 + m_2·h_2)`.
+fn merge_coefficients(arena: &mut Arena, expr: Expr) -> Expr {
+    let mut order: Vec<Expr> = Vec::new();
+    let mut scene: HashMap<Expr, Vec<(Rational, Expr)>> = HashMap::new();
+    for (coefficient, term) in arena.terms(expr) {
+        let factors = arena.factors(term);
+        let (state, constant): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(f, _)| arena.level(*f) == Level::State);
+        let (state, constant) = (arena.product(state), arena.product(constant));
+        if !scene.contains_key(&state) {
+            order.push(state);
+        }
+        scene.entry(state).or_default().push((coefficient, constant));
+    }
+    let mut terms = Vec::with_capacity(order.len());
+    for state in order {
+        let constant = arena.sum(scene.remove(&state).unwrap_or_default());
+        terms.push(arena.mul(state, constant));
+    }
+    arena.total(terms)
+}
+
+/// The state factor that occurs in most terms; of equals the first in structural order.
+fn most_shared_factor(arena: &Arena, expr: Expr) -> Option<Expr> {
+    let mut counts: Vec<(Expr, usize)> = Vec::new();
+    for (_, term) in arena.terms(expr) {
+        for (factor, _) in arena.factors(term) {
+            if arena.level(factor) != Level::State {
+                continue;
+            }
+            match counts.iter_mut().find(|(known, _)| *known == factor) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((factor, 1)),
+            }
+        }
+    }
+    counts.sort_by(|a, b| b.1.cmp(&a.1).then(arena.order(a.0, b.0)));
+    counts.first().map(|(factor, _)| *factor)
+}

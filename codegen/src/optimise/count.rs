@@ -1,0 +1,73 @@
+//! Counting what a program costs.
+
+use super::program::Routine;
+use crate::symbolic::{Arena, Expr, Node, Rational};
+use std::collections::HashSet;
+use std::fmt;
+
+/// Operations of one evaluation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Additions and subtractions.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions (reciprocals).
+    pub divisions: usize,
+}
+
+impl Operations {
+    /// Additions and multiplications together.
+    pub fn flops(&self) -> usize {
+        self.additions + self.multiplications
+    }
+}
+
+impl fmt::Display for Operations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} flops ({} additions, {} multiplications), {} divisions",
+            self.flops(),
+            self.additions,
+            self.multiplications,
+            self.divisions
+        )
+    }
+}
+
+/// Counts one call of a routine; shared nodes count once, sines and cosines are its input.
+pub fn operations(arena: &Arena, routine: &Routine) -> Operations {
+    let mut count = Operations::default();
+    let mut seen = HashSet::new();
+    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
+    for value in values {
+        visit(arena, value, &mut seen, &mut count);
+    }
+    count
+}
+
+fn visit(arena: &Arena, expr: Expr, seen: &mut HashSet<Expr>, count: &mut Operations) {
+    if !seen.insert(expr) {
+        return;
+    }
+    match arena.node(expr) {
+        Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {}
+        Node::Sum(terms) => {
+            count.additions += terms.len() - 1;
+            for (coefficient, term) in terms {
+                let is_unit = *coefficient == Rational::ONE || *coefficient == -Rational::ONE;
+                count.multiplications += usize::from(!is_unit);
+                visit(arena, *term, seen, count);
+            }
+        }
+        Node::Product(factors) => {
+            let multiplications: u32 = factors.iter().map(|(_, power)| power.unsigned_abs()).sum();
+            count.multiplications += multiplications as usize - 1;
+            for (factor, power) in factors {
+                count.divisions += usize::from(*power < 0);
+                visit(arena, *factor, seen, count);
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! By what a term depends on: condense, hoist what is constant over a scene, share what is used twice, count.
+//!
+//! The three times of evaluation are number (build), scene (once per mode that a run enters) and state (every step).
+//! What is left for the step is compared between linkages: equal programs are emitted once.
+
+mod condense;
+mod count;
+mod forces;
+mod program;
+mod step;
+
+pub use count::Operations;
+pub use forces::force_program;
+pub use program::{Constant, Program, Routine, Statement};
+pub use step::step_program;

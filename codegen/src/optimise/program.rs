@@ -1,0 +1,270 @@
+//! Programs: scene constants pulled out, the rest as named statements over the state.
+//!
+//! A [`ProgramBuilder`] carries expressions of the derivation over into an arena of its own. Whatever a scene fixes becomes
+//! one constant, however large; what remains names no length or mass, so that the programs of different linkages can be
+//! compared. Constants are numbered by first use.
+
+use super::count::{Operations, operations};
+use crate::mechanics::{Symbols, Vector};
+use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
+use std::collections::HashMap;
+
+/// A scene constant of a program.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// Name in the emitted code.
+    pub name: String,
+    /// Unit of the constant.
+    pub unit: Unit,
+    /// What it is, in the arena of the derivation.
+    pub source: Expr,
+}
+
+/// `name = value`
+#[derive(Clone, Debug)]
+pub struct Statement {
+    /// Name of the intermediate.
+    pub name: String,
+    /// Its symbol in the program's arena.
+    pub symbol: Expr,
+    /// Its value in the program's arena.
+    pub value: Expr,
+}
+
+/// A straight-line routine over inputs and scene constants.
+#[derive(Clone, Debug)]
+pub struct Routine {
+    /// Name of the function emitted.
+    pub name: &'static str,
+    /// Intermediates in order of evaluation.
+    pub statements: Vec<Statement>,
+    /// Results, in the program's arena.
+    pub outputs: Vec<Expr>,
+}
+
+/// Routines that share their scene constants.
+#[derive(Debug)]
+pub struct Program {
+    /// Free angles.
+    pub dof: usize,
+    /// Owner of the statements' expressions.
+    pub arena: Arena,
+    /// Scene constants, in the order in which the emitted code receives them.
+    pub constants: Vec<Constant>,
+    /// The routines.
+    pub routines: Vec<Routine>,
+}
+
+impl Program {
+    /// A text that two programs share exactly if they are the same function of their constants and inputs.
+    pub fn fingerprint(&self) -> String {
+        let mut text = format!("dof {} constants {}\n", self.dof, self.constants.len());
+        for routine in &self.routines {
+            text.push_str(routine.name);
+            text.push('\n');
+            for statement in &routine.statements {
+                text.push_str(&format!("{} = {}\n", statement.name, self.arena.text(statement.value)));
+            }
+            for output in &routine.outputs {
+                text.push_str(&format!("-> {}\n", self.arena.text(*output)));
+            }
+        }
+        text
+    }
+
+    /// Operations of one call of a routine.
+    pub fn operations(&self, routine: &str) -> Option<Operations> {
+        let routine = self.routines.iter().find(|candidate| candidate.name == routine)?;
+        Some(operations(&self.arena, routine))
+    }
+}
+
+/// Builds a [`Program`] from expressions of a derivation.
+#[derive(Debug)]
+pub struct ProgramBuilder<'a> {
+    /// The arena of the derivation.
+    pub source: &'a mut Arena,
+    program: Program,
+    /// What is already known of the source, by expression: inputs, constants, named statements.
+    known: HashMap<Expr, Expr>,
+    statements: Vec<Statement>,
+}
+
+impl<'a> ProgramBuilder<'a> {
+    /// A builder whose inputs are `cos_a, sin_a, omega_a, alpha_a, ground_x, gravity`.
+    pub fn new(source: &'a mut Arena, symbols: &Symbols) -> ProgramBuilder<'a> {
+        let dof = symbols.theta.len();
+        let mut arena = Arena::new();
+        let mut known = HashMap::new();
+        let mut input = |name: String, of: Expr, source: &Arena| {
+            let symbol = arena.symbol(name, Level::State, source.unit(of));
+            known.insert(of, symbol);
+        };
+        for (family, index) in ["cos", "sin", "omega", "alpha"].iter().flat_map(|f| (0..dof).map(move |i| (f, i))) {
+            let of = match *family {
+                "cos" => source.cos(symbols.theta[index]),
+                "sin" => source.sin(symbols.theta[index]),
+                "omega" => symbols.omega[index],
+                _ => symbols.alpha[index],
+            };
+            input(format!("{family}_{}", index + 1), of, source);
+        }
+        input("ground_x".into(), symbols.ground_x, source);
+        input("gravity".into(), symbols.gravity, source);
+        let program = Program { dof, arena, constants: Vec::new(), routines: Vec::new() };
+        ProgramBuilder { source, program, known, statements: Vec::new() }
+    }
+
+    /// The program's arena.
+    pub fn arena(&mut self) -> &mut Arena {
+        &mut self.program.arena
+    }
+
+    /// The constant that stands for a scene expression; new ones are called `name`.
+    pub fn constant(&mut self, scene: Expr, name: &str) -> Expr {
+        if let Some(&symbol) = self.known.get(&scene) {
+            return symbol;
+        }
+        let opposite = self.source.neg(scene);
+        if let Some(&symbol) = self.known.get(&opposite) {
+            return self.program.arena.neg(symbol);
+        }
+        let unit = self.source.unit(scene);
+        let symbol = self.program.arena.symbol(name, Level::Scene, unit);
+        self.program.constants.push(Constant { name: name.into(), unit, source: scene });
+        self.known.insert(scene, symbol);
+        symbol
+    }
+
+    /// The expression of the derivation, in terms of inputs, constants and named statements.
+    pub fn translate(&mut self, expr: Expr) -> Expr {
+        if let Some(&known) = self.known.get(&expr) {
+            return known;
+        }
+        let opposite = self.source.neg(expr);
+        if let Some(&known) = self.known.get(&opposite) {
+            return self.program.arena.neg(known);
+        }
+        if self.source.level(expr) == Level::Scene {
+            let name = self.next_constant_name();
+            return self.constant(expr, &name);
+        }
+        match self.source.node(expr).clone() {
+            Node::Number(value) => self.program.arena.number(value),
+            Node::Product(factors) => self.translate_product(&factors, Rational::ONE),
+            Node::Sum(terms) => {
+                let (state, scene): (Vec<_>, Vec<_>) =
+                    terms.into_iter().partition(|(_, term)| self.source.level(*term) == Level::State);
+                let mut translated = Vec::new();
+                for (coefficient, term) in state {
+                    let factors = self.source.factors(term);
+                    translated.push(self.translate_product(&factors, coefficient));
+                }
+                let scene = self.source.sum(scene);
+                translated.push(self.translate_scene(scene));
+                self.program.arena.total(translated)
+            }
+            Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {
+                unreachable!("every state symbol of a derivation is an input of the program or substituted before")
+            }
+        }
+    }
+
+    /// `coefficient · Π factors`, the scene factors and the number joined to one constant.
+    fn translate_product(&mut self, factors: &[(Expr, i32)], coefficient: Rational) -> Expr {
+        let (state, scene): (Vec<_>, Vec<_>) =
+            factors.iter().copied().partition(|(factor, _)| self.source.level(*factor) == Level::State);
+        let scene = self.source.product(scene);
+        let weighted = self.source.scale(coefficient, scene);
+        let mut translated = vec![(self.translate_scene(weighted), 1)];
+        for (factor, power) in state {
+            translated.push((self.translate(factor), power));
+        }
+        self.program.arena.product(translated)
+    }
+
+    fn translate_scene(&mut self, scene: Expr) -> Expr {
+        match self.source.node(scene) {
+            Node::Number(value) => {
+                let value = *value;
+                self.program.arena.number(value)
+            }
+            _ => self.translate(scene),
+        }
+    }
+
+    fn next_constant_name(&self) -> String {
+        format!("constant_{}", self.program.constants.len() + 1)
+    }
+
+    /// Names a value: later uses of it, or of its opposite, read the name.
+    pub fn define(&mut self, name: String, value: Expr) -> Expr {
+        let unit = self.program.arena.unit(value);
+        let symbol = self.program.arena.symbol(name.clone(), Level::State, unit);
+        self.statements.push(Statement { name, symbol, value });
+        symbol
+    }
+
+    /// Lets a symbol of the derivation stand for a value of the program.
+    pub fn alias(&mut self, source: Expr, value: Expr) {
+        self.known.insert(source, value);
+    }
+
+    /// Translates an expression of the derivation and names it.
+    pub fn define_translated(&mut self, name: String, expr: Expr) -> Expr {
+        let value = self.translate(expr);
+        let symbol = self.define(name, value);
+        self.known.insert(expr, symbol);
+        symbol
+    }
+
+    /// Names a body vector turned by the angle of `link` (from 1), and its constants `*_axial` (along the link's axis) and
+    /// `*_lateral` (across it).
+    pub fn define_turned_vector(&mut self, name: &str, link: usize, vector: Vector) {
+        for (coefficient, term) in self.source.terms(vector[0]) {
+            let factors = self.source.factors(term);
+            let along = factors.iter().any(|(factor, _)| matches!(self.source.node(*factor), Node::Cos(_)));
+            let scene: Vec<_> =
+                factors.into_iter().filter(|(factor, _)| self.source.level(*factor) == Level::Scene).collect();
+            let scene = self.source.product(scene);
+            let scene = self.source.scale(coefficient, scene);
+            if self.source.level(scene) == Level::Scene {
+                self.constant(scene, &format!("{name}_{}_{link}", if along { "axial" } else { "lateral" }));
+            }
+        }
+        for (axis, component) in ["x", "y"].iter().zip(vector) {
+            self.define_translated(format!("{name}_{axis}_{link}"), component);
+        }
+    }
+
+    /// Closes a routine: the statements since the last one, those that the outputs do not need left out.
+    pub fn finish_routine(&mut self, name: &'static str, outputs: Vec<Expr>) {
+        let mut needed = outputs.clone();
+        let mut kept = Vec::new();
+        for statement in self.statements.drain(..).rev() {
+            if needed.iter().any(|&value| occurs(&self.program.arena, value, statement.symbol)) {
+                needed.push(statement.value);
+                kept.push(statement.clone());
+            }
+            self.known.retain(|_, symbol| *symbol != statement.symbol);
+        }
+        kept.reverse();
+        self.program.routines.push(Routine { name, statements: kept, outputs });
+    }
+
+    /// The finished program.
+    pub fn finish(self) -> Program {
+        self.program
+    }
+}
+
+/// Whether `symbol` occurs in `expr`.
+fn occurs(arena: &Arena, expr: Expr, symbol: Expr) -> bool {
+    expr == symbol
+        || match arena.node(expr) {
+            Node::Number(_) | Node::Symbol(_) => false,
+            Node::Sin(angle) | Node::Cos(angle) => occurs(arena, *angle, symbol),
+            Node::Sum(terms) => terms.iter().any(|(_, term)| occurs(arena, *term, symbol)),
+            Node::Product(factors) => factors.iter().any(|(factor, _)| occurs(arena, *factor, symbol)),
+        }
+}

@@ -1,0 +1,255 @@
+//! Interface states, patterns, modes and rigid links: the combinatorics of rocking, as plain data.
+//!
+//! A column of `N` blocks has `N` interfaces, counted from the base. Each is closed or open on one of its
+//! corners, so there are `3^N` patterns: one at rest, the others in mirror pairs, `(3^N - 1)/2` modes
+//! (MODEL.md section 2). This file lists and labels them; it knows no lengths, masses or equations.
+//!
+//! ```text
+//!     s = +1: pivots on the right corner      s = -1: on the left corner
+//!            ______                              ______
+//!           /     /   θ > 0 is clockwise         \     \
+//!          /_____/                                \_____\
+//!     ____________.___                          ___.____________
+//! ```
+
+use std::fmt;
+
+/// State of one interface: the sign of the relative rotation `φ_i = θ_i - θ_{i-1}`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Interface {
+    /// Open, pivoting on its right corner: `φ_i > 0`.
+    Right,
+    /// Closed: both blocks move as one.
+    Closed,
+    /// Open, pivoting on its left corner: `φ_i < 0`.
+    Left,
+}
+
+impl Interface {
+    /// The states in the order in which modes are numbered: `+1, 0, -1`.
+    pub const ORDER: [Interface; 3] = [Interface::Right, Interface::Closed, Interface::Left];
+
+    /// `+1`, `0` or `-1`.
+    pub fn sign(self) -> i8 {
+        match self {
+            Interface::Right => 1,
+            Interface::Closed => 0,
+            Interface::Left => -1,
+        }
+    }
+
+    /// The state with the sign of `value`; zero is closed.
+    pub fn from_sign(value: i8) -> Interface {
+        match value.signum() {
+            1 => Interface::Right,
+            0 => Interface::Closed,
+            _ => Interface::Left,
+        }
+    }
+
+    /// Whether the interface pivots on a corner.
+    pub fn is_open(self) -> bool {
+        self != Interface::Closed
+    }
+
+    /// The state seen in a mirror.
+    pub fn mirror(self) -> Interface {
+        Interface::from_sign(-self.sign())
+    }
+}
+
+/// States of all interfaces of a column, base first; length `N`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Pattern(pub Vec<Interface>);
+
+impl Pattern {
+    /// The pattern at rest: every interface closed.
+    pub fn rest(blocks: usize) -> Pattern {
+        Pattern(vec![Interface::Closed; blocks])
+    }
+
+    /// The pattern with these signs, base first.
+    pub fn from_signs(signs: &[i8]) -> Pattern {
+        Pattern(signs.iter().map(|&sign| Interface::from_sign(sign)).collect())
+    }
+
+    /// The pattern seen in a mirror.
+    pub fn mirror(&self) -> Pattern {
+        Pattern(self.0.iter().map(|interface| interface.mirror()).collect())
+    }
+
+    /// Index of the lowest open interface, `None` at rest.
+    pub fn lowest_open(&self) -> Option<usize> {
+        self.0.iter().position(|interface| interface.is_open())
+    }
+
+    /// Number of open interfaces: the degrees of freedom of the mode.
+    pub fn dof(&self) -> usize {
+        self.0.iter().filter(|interface| interface.is_open()).count()
+    }
+
+    /// Which interfaces are open, whatever the side.
+    pub fn linkage(&self) -> Linkage {
+        Linkage { open: self.0.iter().map(|interface| interface.is_open()).collect() }
+    }
+
+    /// Mode `k.j` of MODEL.md section 2, and whether this pattern is its mirror image; `None` at rest.
+    ///
+    /// ```
+    /// use rocking_codegen::pattern::Pattern;
+    /// let (label, mirrored) = Pattern::from_signs(&[-1, 0, 0]).mode().unwrap();
+    /// assert_eq!((label.to_string().as_str(), mirrored), ("1.5", true));
+    /// ```
+    pub fn mode(&self) -> Option<(ModeLabel, bool)> {
+        let lowest = self.lowest_open()?;
+        let mirrored = self.0[lowest] == Interface::Left;
+        let above = self.0[lowest + 1..].iter();
+        let rank = above.fold(0, |rank, interface| {
+            let state = if mirrored { interface.mirror() } else { *interface };
+            3 * rank + (1 - i64::from(state.sign())) as u64
+        });
+        Some((ModeLabel { lowest: lowest + 1, number: rank + 1 }, mirrored))
+    }
+}
+
+/// `(+,0,-)`, base first.
+impl fmt::Display for Pattern {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let signs: Vec<&str> = self.0.iter().map(|state| ["-", "0", "+"][(state.sign() + 1) as usize]).collect();
+        write!(f, "({})", signs.join(","))
+    }
+}
+
+/// The name `k.j` of a mode: `k` its lowest open interface, `j` the number of the states above it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ModeLabel {
+    /// Lowest open interface, from 1.
+    pub lowest: usize,
+    /// Number among the `3^(N-k)` states of the interfaces above, from 1.
+    pub number: u64,
+}
+
+impl ModeLabel {
+    /// Reads `k.j`.
+    ///
+    /// # Errors
+    /// `None` if the text is not two whole numbers above zero joined by a point.
+    pub fn parse(text: &str) -> Option<ModeLabel> {
+        let (lowest, number) = text.split_once('.')?;
+        let label = ModeLabel { lowest: lowest.parse().ok()?, number: number.parse().ok()? };
+        (label.lowest > 0 && label.number > 0).then_some(label)
+    }
+
+    /// The independent pattern with this label in a column of `blocks` blocks; `None` if there is no such mode.
+    pub fn pattern(self, blocks: usize) -> Option<Pattern> {
+        if self.lowest == 0 || self.lowest > blocks || self.number == 0 {
+            return None;
+        }
+        let mut states = vec![Interface::Closed; blocks];
+        states[self.lowest - 1] = Interface::Right;
+        let mut rank = self.number - 1;
+        for state in states[self.lowest..].iter_mut().rev() {
+            *state = Interface::ORDER[(rank % 3) as usize];
+            rank /= 3;
+        }
+        (rank == 0).then_some(Pattern(states))
+    }
+}
+
+impl fmt::Display for ModeLabel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.lowest, self.number)
+    }
+}
+
+/// The `(3^N - 1)/2` independent modes in the order of their labels, lazily: `N = 20` costs nothing until read.
+pub fn modes(blocks: usize) -> impl Iterator<Item = (ModeLabel, Pattern)> {
+    (1..=blocks).flat_map(move |lowest| {
+        let count = 3u64.saturating_pow((blocks - lowest) as u32);
+        (1..=count).filter_map(move |number| {
+            let label = ModeLabel { lowest, number };
+            Some((label, label.pattern(blocks)?))
+        })
+    })
+}
+
+/// Which interfaces are open, whatever the side: `2^N - 1` of them move.
+///
+/// The side enters the equations of motion only through the pivot offsets `p_i = s_i c_i`, which are data.
+/// All patterns of one linkage, mirror images among them, therefore share one derivation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Linkage {
+    /// Per interface, base first: is it open?
+    pub open: Vec<bool>,
+}
+
+impl Linkage {
+    /// The linkage whose interface `i` (from zero) is open where bit `i` of `mask` is set.
+    pub fn from_mask(blocks: usize, mask: usize) -> Linkage {
+        Linkage { open: (0..blocks).map(|interface| mask >> interface & 1 == 1).collect() }
+    }
+
+    /// Number of blocks of the column.
+    pub fn blocks(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Degrees of freedom: the number of open interfaces.
+    pub fn dof(&self) -> usize {
+        self.open.iter().filter(|&&open| open).count()
+    }
+
+    /// The rigid link that each block belongs to, base first: 0 moves with the ground, `a` has the free angle `a`.
+    pub fn link_of_block(&self) -> Vec<usize> {
+        let mut link = 0;
+        self.open
+            .iter()
+            .map(|&open| {
+                link += usize::from(open);
+                link
+            })
+            .collect()
+    }
+}
+
+/// The moving linkages of a column: masks `1 .. 2^N`, in order.
+pub fn linkages(blocks: usize) -> impl Iterator<Item = Linkage> {
+    (1..1usize << blocks).map(move |mask| Linkage::from_mask(blocks, mask))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_are_half_of_three_to_the_n_less_one_modes() {
+        let counts: Vec<usize> = (1..=8).map(|blocks| modes(blocks).count()).collect();
+        assert_eq!(counts, [1, 4, 13, 40, 121, 364, 1093, 3280]);
+    }
+
+    #[test]
+    fn labels_follow_the_paper() {
+        let named = |text: &str| ModeLabel::parse(text).and_then(|label| label.pattern(3)).map(|p| p.to_string());
+        assert_eq!(named("1.5").as_deref(), Some("(+,0,0)"));
+        assert_eq!(named("2.2").as_deref(), Some("(0,+,0)"));
+        assert_eq!(named("3.1").as_deref(), Some("(0,0,+)"));
+        assert_eq!(named("1.1").as_deref(), Some("(+,+,+)"));
+        assert_eq!(named("3.2"), None);
+        assert_eq!(named("4.1"), None);
+    }
+
+    #[test]
+    fn label_and_pattern_are_inverse_and_a_mirror_keeps_the_label() {
+        for (label, pattern) in modes(5) {
+            assert_eq!(pattern.mode(), Some((label, false)));
+            assert_eq!(pattern.mirror().mode(), Some((label, true)));
+            assert_eq!(pattern.mirror().mirror(), pattern);
+        }
+    }
+
+    #[test]
+    fn closed_interfaces_join_blocks_to_links() {
+        assert_eq!(Linkage::from_mask(5, 0b01010).link_of_block(), [0, 1, 1, 2, 2]);
+        assert_eq!(linkages(4).map(|linkage| linkage.dof()).sum::<usize>(), 4 * 8);
+    }
+}

@@ -1,0 +1,79 @@
+//! What `rocking derive` prints: a mode's derivation as text, and its code.
+
+use crate::optimise::{Constant, Program};
+use crate::pattern::Pattern;
+use crate::symbolic::{Arena, Expr};
+use crate::{Derivation, derive, emit};
+use std::fmt::Write;
+
+/// The derivation of a pattern, from positions to the step-time program, as plain text.
+pub fn text(pattern: &Pattern) -> String {
+    let derivation = derive(&pattern.linkage());
+    let Derivation { arena, symbols, equations, step, .. } = &derivation;
+    let mut out = title(pattern);
+    let mut section = |name: &str, lines: Vec<(String, Expr)>| {
+        let _ = writeln!(out, "\n{name}");
+        for (left, right) in lines {
+            let _ = writeln!(out, "  {left} = {}", arena.text(right));
+        }
+    };
+    let centroids = equations.centroids.iter().enumerate().flat_map(|(block, [x, y])| {
+        [(format!("x_{}", block + 1), *x), (format!("y_{}", block + 1), *y)]
+    });
+    section("Positions of the centroids relative to the ground [m]", centroids.collect());
+    section("Energies [J] (gravity stands for g + the vertical ground acceleration)", vec![
+        ("T".into(), equations.kinetic),
+        ("V".into(), equations.potential),
+    ]);
+    let dof = symbols.theta.len();
+    let mass = (0..dof).flat_map(|a| (0..=a).map(move |b| (a, b)));
+    section("Mass matrix [kg m^2] (symmetric)", mass.map(|(a, b)| (format!("M_{}{}", a + 1, b + 1), equations.mass[a][b])).collect());
+    section("Rate terms [N m]", numbered("B", &equations.bias));
+    section("Gravity and ground motion [N m]", numbered("Q", &equations.forcing));
+    let _ = writeln!(out, "\nEquations of motion: sum over b of M_ab alpha_b + B_a + Q_a = 0");
+    out.push_str(&constants_text("Scene constants of the step-time program", arena, &step.constants));
+    out.push_str(&program_text(step));
+    out
+}
+
+/// The emitted Rust of a pattern: its step program and its scene constants.
+pub fn rust(pattern: &Pattern) -> String {
+    let heading: String = title(pattern).lines().map(|line| format!("// {line}\n")).collect();
+    format!("{heading}{}", emit::excerpt(&derive(&pattern.linkage())))
+}
+
+fn title(pattern: &Pattern) -> String {
+    let name = pattern.mode().map_or("at rest".to_string(), |(label, mirrored)| {
+        format!("mode {label}{}", if mirrored { ", mirrored" } else { "" })
+    });
+    let signs: Vec<String> =
+        pattern.0.iter().enumerate().map(|(i, s)| format!("pivot_{} = {}", i + 1, ["-c_", "0 (closed)", "+c_"][(s.sign() + 1) as usize]) + &if s.is_open() { (i + 1).to_string() } else { String::new() }).collect();
+    format!("{name} of {} block(s), pattern {pattern}, {} free angle(s)\n{}\n", pattern.0.len(), pattern.dof(), signs.join(", "))
+}
+
+fn numbered(name: &str, values: &[Expr]) -> Vec<(String, Expr)> {
+    values.iter().enumerate().map(|(index, value)| (format!("{name}_{}", index + 1), *value)).collect()
+}
+
+fn constants_text(title: &str, arena: &Arena, constants: &[Constant]) -> String {
+    let mut out = format!("\n{title}\n");
+    for constant in constants {
+        let _ = writeln!(out, "  {} [{}] = {}", constant.name, constant.unit, arena.text(constant.source));
+    }
+    out
+}
+
+fn program_text(program: &Program) -> String {
+    let mut out = String::new();
+    for routine in &program.routines {
+        let operations = program.operations(routine.name).unwrap_or_default();
+        let _ = writeln!(out, "\nStep-time program `{}`: {operations}", routine.name);
+        for statement in &routine.statements {
+            let _ = writeln!(out, "  {} = {}", statement.name, program.arena.text(statement.value));
+        }
+        for output in &routine.outputs {
+            let _ = writeln!(out, "  -> {}", program.arena.text(*output));
+        }
+    }
+    out
+}

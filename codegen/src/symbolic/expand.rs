@@ -1,0 +1,98 @@
+//! Multiplying out: what makes two expressions of the state comparable term by term.
+
+use super::{Arena, Expr, Level, Node, Rational};
+
+impl Arena {
+    /// The expression as a sum of products of state atoms with scene coefficients; even powers of sines turned into
+    /// cosines (`sin² = 1 - cos²`), so that what is equal by Pythagoras becomes equal.
+    ///
+    /// Sums that hold no state stay factored: they are coefficients, evaluated once per scene.
+    pub fn expand(&mut self, expr: Expr) -> Expr {
+        if self.level(expr) != Level::State {
+            return expr;
+        }
+        match self.node(expr).clone() {
+            Node::Sum(terms) => {
+                let expanded: Vec<_> = terms.into_iter().map(|(coefficient, term)| (coefficient, self.expand(term))).collect();
+                self.sum(expanded)
+            }
+            Node::Product(factors) => {
+                let mut result = self.one();
+                for (factor, exponent) in factors {
+                    let power = self.expand_power(factor, exponent);
+                    result = self.distribute(result, power);
+                }
+                self.reduce_sines(result)
+            }
+            _ => expr,
+        }
+    }
+
+    fn expand_power(&mut self, factor: Expr, exponent: i32) -> Expr {
+        let sums_of_state = self.level(factor) == Level::State && matches!(self.node(factor), Node::Sum(_));
+        if !sums_of_state || exponent < 1 {
+            return self.product([(factor, exponent)]);
+        }
+        let base = self.expand(factor);
+        (1..exponent).fold(base, |power, _| self.distribute(power, base))
+    }
+
+    /// `a · b`, multiplied out over state sums.
+    fn distribute(&mut self, a: Expr, b: Expr) -> Expr {
+        let (left, right) = (self.addends(a), self.addends(b));
+        let mut terms = Vec::with_capacity(left.len() * right.len());
+        for &(p, x) in &left {
+            for &(q, y) in &right {
+                terms.push((p * q, self.mul(x, y)));
+            }
+        }
+        self.sum(terms)
+    }
+
+    /// Terms of a state sum; a sum without state counts as one term, which keeps it factored.
+    fn addends(&self, expr: Expr) -> Vec<(Rational, Expr)> {
+        match self.level(expr) {
+            Level::State => self.terms(expr),
+            _ => vec![(Rational::ONE, expr)],
+        }
+    }
+
+    fn reduce_sines(&mut self, expr: Expr) -> Expr {
+        let mut terms = Vec::new();
+        for (coefficient, term) in self.addends(expr) {
+            let factors = self.factors(term);
+            let sine = factors.iter().find(|(factor, power)| *power >= 2 && matches!(self.node(*factor), Node::Sin(_)));
+            let Some(&(sine, _)) = sine else {
+                terms.push((coefficient, term));
+                continue;
+            };
+            let Node::Sin(angle) = *self.node(sine) else { continue };
+            let cosine = self.cos(angle);
+            let rest = self.product(factors.iter().map(|&(f, power)| (f, if f == sine { power - 2 } else { power })));
+            let shifted = self.product([(rest, 1), (cosine, 2)]);
+            let reduced = self.sub(rest, shifted);
+            terms.push((coefficient, self.reduce_sines(reduced)));
+        }
+        self.sum(terms)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Unit;
+    use super::*;
+
+    #[test]
+    fn a_rotated_vector_keeps_its_length() {
+        let mut arena = Arena::new();
+        let theta = arena.symbol("theta", Level::State, Unit::default());
+        let [u, v] = ["u", "v"].map(|name| arena.symbol(name, Level::Scene, Unit(1, 0, 0)));
+        let (sine, cosine) = (arena.sin(theta), arena.cos(theta));
+        let (uc, vs, us, vc) = (arena.mul(u, cosine), arena.mul(v, sine), arena.mul(u, sine), arena.mul(v, cosine));
+        let (x, y) = (arena.add(uc, vs), arena.sub(vc, us));
+        let (x2, y2) = (arena.square(x), arena.square(y));
+        let length = arena.add(x2, y2);
+        let expanded = arena.expand(length);
+        assert_eq!(arena.text(expanded), "u^2 + v^2");
+    }
+}
