@@ -13,7 +13,9 @@ pub mod pattern;
 pub mod symbolic;
 pub mod mechanics;
 pub mod optimise;
+#[cfg(feature = "emit")]
 pub mod emit;
+#[cfg(feature = "emit")]
 pub mod report;
 
 use mechanics::{Equations, Symbols};
@@ -134,6 +136,7 @@ fn enlist(program: Program, known: &mut HashMap<String, usize>, distinct: &mut V
 ///
 /// # Errors
 /// As [`catalogue`].
+#[cfg(feature = "emit")]
 pub fn generate(max_blocks: usize) -> Result<String, GenerateError> {
     Ok(emit::module(&catalogue(max_blocks)?))
 }

@@ -48,6 +48,16 @@ pub fn step_program(program: &Program) -> TokenStream {
             type Constants = [S; #count];
 
             #[inline(always)]
+            fn vector(fill: S) -> [S; #dof] {
+                [fill; #dof]
+            }
+
+            #[inline(always)]
+            fn state(fill: S) -> [S; #state] {
+                [fill; #state]
+            }
+
+            #[inline(always)]
             fn acceleration(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], ground_x: S, gravity: S) -> [S; #dof] {
                 #acceleration
             }
@@ -148,7 +158,7 @@ pub fn force_program(index: usize, program: &Program) -> TokenStream {
 pub fn dispatch(programs: &[Program]) -> TokenStream {
     let arms = programs.iter().map(|program| {
         let (dof, name) = (program.dof, step_type(program.dof));
-        quote! { #dof => { type $Program = equations::#name; $body } }
+        quote! { #dof => { type $Program = $crate::generated::equations::#name; $body } }
     });
     quote! {
         /// Runs `$body` with `$Program` the step program of `$dof` degrees of freedom, or `$other` where there is none.

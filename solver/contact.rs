@@ -1,0 +1,377 @@
+//! Contact problems: which interfaces are open after an impact, and which open when forces change (MODEL.md sections 4 and 5).
+//!
+//! Both are the same question at two levels. *Impact*: velocities before are given, velocities after are sought, contacts
+//! transmit impulses. *Opening*: velocities are given, accelerations are sought, contacts transmit forces. In either, every
+//! interface at `φ = 0` that is free to choose is open on a corner or closed; a pattern is admissible if what opens moves apart
+//! under compression and what stays closed keeps its resultant inside the contact:
+//!
+//! ```text
+//!     open:    s φ̇ > 0 (s φ̈ ≥ 0),  N ≥ 0          closed:    |M| ≤ c N
+//! ```
+//!
+//! These are the optimality conditions of a projection onto a convex cone (two corners a contact, neither of which may sink in
+//! or pull), so admissible patterns differ at most in contacts that carry nothing: the first one found is the answer. It is
+//! found by starting from a guess and setting right what is violated, and by trying all patterns if that does not lead there.
+//! Where none is admissible MODEL.md takes the nearest one and calls it a separation.
+
+use crate::column::Column;
+use crate::dynamics::{ContactForce, Ground};
+use crate::generic::{forces, link_acceleration};
+use crate::kinematics::{Posture, Vec2};
+use rocking_codegen::pattern::{Interface, Pattern};
+
+/// Patterns are enumerated up to this many interfaces at `φ = 0` (3^9 = 19,683 of them); beyond, a contact problem without
+/// admissible pattern is answered from those that the search has visited.
+const MOST_ENUMERATED: usize = 9;
+
+/// Resultants may leave a contact by this share: it is the rounding of a sum over a dozen blocks, a thousand times over. Smaller,
+/// and contacts on the verge are thrown open by rounding; larger, and they open visibly late.
+const VERGE: f64 = 1e-12;
+
+/// What a contact problem has decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The pattern from now on.
+    pub pattern: Pattern,
+    /// Rates of the blocks from now on `[rad/s]`, length N.
+    pub omega: Vec<f64>,
+    /// No pattern was admissible: a block would fly.
+    pub separation: bool,
+}
+
+/// The mass matrix of a pattern could not be factorised: its blocks differ beyond what rounding can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SingularMass;
+
+/// How one candidate pattern answers a contact problem.
+struct Answer {
+    pattern: Pattern,
+    /// Rates after an impact, or accelerations, per block.
+    motion: Vec<f64>,
+    resultants: Vec<ContactForce>,
+    /// Half the squared distance in the metric of the masses: what breaks ties.
+    distance: f64,
+}
+
+/// A contact problem: which interfaces choose, and how a pattern is answered.
+struct Problem<'a, F> {
+    column: &'a Column,
+    /// Interfaces at `φ = 0` that choose their state.
+    free: Vec<usize>,
+    /// Whether an open interface may have no relative motion (accelerations) or must part (impacts).
+    at_rest_may_open: bool,
+    answer: F,
+}
+
+impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
+    fn relative(motion: &[f64], interface: usize) -> f64 {
+        motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
+    }
+
+    fn parts(&self, answer: &Answer, interface: usize) -> bool {
+        let apart = f64::from(answer.pattern.0[interface].sign()) * Self::relative(&answer.motion, interface);
+        if self.at_rest_may_open { apart >= 0.0 } else { apart > 0.0 }
+    }
+
+    /// What interface would rather be, if it is not content.
+    fn wish(&self, answer: &Answer, interface: usize) -> Option<Interface> {
+        let contact = answer.resultants[interface];
+        let half_width = self.column.contact_half_width(interface);
+        match answer.pattern.0[interface] {
+            Interface::Closed => {
+                let reach = half_width * contact.normal;
+                (contact.moment.abs() > reach + VERGE * half_width * contact.normal.abs()).then_some(
+                    // The resultant acts at x = -M / N: a negative moment presses on the right corner.
+                    if contact.moment < 0.0 { Interface::Right } else { Interface::Left },
+                )
+            }
+            _ if !self.parts(answer, interface) || contact.normal < 0.0 => Some(Interface::Closed),
+            _ => None,
+        }
+    }
+
+    fn is_admissible(&self, answer: &Answer) -> bool {
+        self.free.iter().all(|&interface| self.wish(answer, interface).is_none())
+    }
+
+    /// The admissible answer, or the nearest one whose opened interfaces part; `true` where it is a separation.
+    fn solve(&mut self, guess: Pattern) -> Result<(Answer, bool), SingularMass> {
+        let mut visited: Vec<Pattern> = Vec::new();
+        let mut pattern = guess.clone();
+        while !visited.contains(&pattern) && visited.len() < 8 * self.free.len() + 8 {
+            let answer = (self.answer)(&pattern).ok_or(SingularMass)?;
+            let wishes = self.free.iter().filter_map(|&i| self.wish(&answer, i).map(|state| (i, state)));
+            let wishes: Vec<_> = wishes.collect();
+            let Some(&(lowest, state)) = wishes.first() else { return Ok((answer, false)) };
+            visited.push(pattern.clone());
+            let mut next = pattern.clone();
+            wishes.iter().for_each(|&(interface, state)| next.0[interface] = state);
+            if visited.contains(&next) {
+                // All at once goes in circles: one at a time, from the base.
+                next = pattern.clone();
+                next.0[lowest] = state;
+            }
+            pattern = next;
+        }
+        let candidates = if self.free.len() <= MOST_ENUMERATED { self.all(&guess) } else { visited };
+        let mut nearest: Option<Answer> = None;
+        for candidate in candidates {
+            let answer = (self.answer)(&candidate).ok_or(SingularMass)?;
+            if self.is_admissible(&answer) {
+                return Ok((answer, false));
+            }
+            let mut opened = self.free.iter().filter(|interface| candidate.0[**interface].is_open());
+            let all_part = opened.all(|&interface| self.parts(&answer, interface));
+            if all_part && nearest.as_ref().is_none_or(|best| answer.distance < best.distance) {
+                nearest = Some(answer);
+            }
+        }
+        match nearest {
+            Some(answer) => Ok((answer, true)),
+            None => Ok(((self.answer)(&guess).ok_or(SingularMass)?, true)),
+        }
+    }
+
+    /// All patterns that the free interfaces may take, those with few open interfaces first.
+    fn all(&self, base: &Pattern) -> Vec<Pattern> {
+        let mut patterns = vec![base.clone()];
+        for &interface in &self.free {
+            let states = [Interface::Closed, Interface::Right, Interface::Left];
+            let with = |pattern: &Pattern, state| {
+                let mut next = pattern.clone();
+                next.0[interface] = state;
+                next
+            };
+            patterns = patterns.iter().flat_map(|p| states.map(|state| with(p, state))).collect();
+        }
+        patterns.sort_by_key(Pattern::dof);
+        patterns
+    }
+}
+
+/// Rates of the moving links among the rates of the blocks.
+fn link_rates(posture: &Posture, block: &[f64]) -> Vec<f64> {
+    let mut rates = vec![0.0; posture.dof];
+    posture.link.iter().zip(block).filter(|(link, _)| **link > 0).for_each(|(link, rate)| rates[*link - 1] = *rate);
+    rates
+}
+
+/// Motion before an impact: velocities of the centroids and the blocks' rates.
+struct Motion {
+    linear: Vec<Vec2>,
+    angular: Vec<f64>,
+}
+
+/// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (MODEL.md section 5, item 1).
+fn project(column: &Column, theta: &[f64], before: &Motion, pattern: &Pattern) -> Option<Answer> {
+    let posture = Posture::new(column, pattern, theta);
+    let rates = posture.factorised_mass()?.solve(&posture.generalised(&before.linear, &before.angular));
+    let (linear, motion) = (posture.linear(rates.as_slice()), posture.angular(rates.as_slice()));
+    let jump: Vec<Vec2> = linear.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+    let turn: Vec<f64> = motion.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
+    let resultants = posture.resultants(&jump, &turn);
+    let distance = posture.kinetic_energy(&jump, &turn);
+    Some(Answer { pattern: pattern.clone(), motion, resultants, distance })
+}
+
+/// Restitution and rest, as a scene sets them.
+#[derive(Clone, Copy, Debug)]
+pub struct ImpactLaw<'a> {
+    /// Factor `κ_i` of the plastic relative rate at each interface, length N; all one is plastic.
+    pub kappa: &'a [f64],
+    /// An interface that would hop by less closes `[rad]`.
+    pub stick_angle: f64,
+}
+
+/// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (MODEL.md section 5).
+///
+/// `pattern` is the one before, `theta` and `omega` are the blocks' angles and rates before, length N; angles at closed and
+/// closing interfaces are equal.
+///
+/// # Errors
+/// [`SingularMass`]
+pub fn impact(
+    column: &Column,
+    pattern: &Pattern,
+    theta: &[f64],
+    omega: &[f64],
+    closing: &[usize],
+    ground: Ground,
+    law: ImpactLaw,
+) -> Result<Decision, SingularMass> {
+    let posture = Posture::new(column, pattern, theta);
+    let before = Motion { linear: posture.linear(&link_rates(&posture, omega)), angular: omega.to_vec() };
+    let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
+
+    // Most often the interface that closes goes on to its other corner and the rest stays as it is.
+    let mut guess = pattern.clone();
+    closing.iter().for_each(|&interface| guess.0[interface] = pattern.0[interface].mirror());
+    let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
+    let answer = |candidate: &Pattern| project(column, theta, &before, candidate);
+    let mut problem = Problem { column, free, at_rest_may_open: false, answer };
+    let (plastic, separation) = problem.solve(guess)?;
+    let free = problem.free;
+
+    let rebound = restitute(column, theta, &plastic, closing, &free, law.kappa, energy_before);
+    let mut decision = Decision { pattern: plastic.pattern, omega: rebound.unwrap_or(plastic.motion), separation };
+    settle(column, theta, &mut decision, &free, ground, law.stick_angle)?;
+    let examined = open(column, &decision.pattern, theta, &decision.omega, ground, None)?;
+    decision.separation |= examined.separation;
+    decision.pattern = examined.pattern;
+    Ok(decision)
+}
+
+/// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or MODEL.md leaves it out.
+fn restitute(
+    column: &Column,
+    theta: &[f64],
+    plastic: &Answer,
+    closing: &[usize],
+    free: &[usize],
+    kappa: &[f64],
+    energy_before: f64,
+) -> Option<Vec<f64>> {
+    let pattern = &plastic.pattern;
+    let rebounding: Vec<usize> =
+        closing.iter().copied().filter(|&i| pattern.0[i].is_open() && kappa[i] != 1.0).collect();
+    if rebounding.is_empty() {
+        return None;
+    }
+    let posture = Posture::new(column, pattern, theta);
+    let mass = posture.factorised_mass()?;
+    let mut rows = nalgebra::DMatrix::zeros(rebounding.len(), posture.dof);
+    let mut gain = nalgebra::DVector::zeros(rebounding.len());
+    let relative = |motion: &[f64], i: usize| motion[i] - if i == 0 { 0.0 } else { motion[i - 1] };
+    for (row, &interface) in rebounding.iter().enumerate() {
+        rows[(row, posture.link[interface] - 1)] = 1.0;
+        if interface > 0 && posture.link[interface - 1] > 0 {
+            rows[(row, posture.link[interface - 1] - 1)] = -1.0;
+        }
+        gain[row] = (kappa[interface] - 1.0) * relative(&plastic.motion, interface);
+    }
+    let spread = mass.solve(&rows.transpose());
+    let impulse = (&rows * &spread).cholesky()?.solve(&gain);
+    let change = spread * impulse;
+    let rates: Vec<f64> = link_rates(&posture, &plastic.motion).iter().zip(change.iter()).map(|(a, b)| a + b).collect();
+    let rebound = posture.angular(&rates);
+
+    let flips = |&i: &usize| {
+        let sign = f64::from(pattern.0[i].sign());
+        pattern.0[i].is_open() && sign * relative(&plastic.motion, i) > 0.0 && sign * relative(&rebound, i) < 0.0
+    };
+    let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
+    let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
+    (!free.iter().any(flips) && !gains).then_some(rebound)
+}
+
+/// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (MODEL.md section 5).
+const ENERGY_ROUNDING: f64 = 1e-12;
+
+/// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest).
+fn settle(
+    column: &Column,
+    theta: &[f64],
+    decision: &mut Decision,
+    free: &[usize],
+    ground: Ground,
+    stick_angle: f64,
+) -> Result<(), SingularMass> {
+    loop {
+        let posture = Posture::new(column, &decision.pattern, theta);
+        let rates = link_rates(&posture, &decision.omega);
+        let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
+        let relative = |motion: &[f64], i: usize| motion[i] - if i == 0 { 0.0 } else { motion[i - 1] };
+        let sticks = |&i: &usize| {
+            let sign = f64::from(decision.pattern.0[i].sign());
+            let (rate, back) = (relative(&decision.omega, i), -sign * relative(&acceleration, i));
+            decision.pattern.0[i].is_open() && back > 0.0 && rate * rate < 2.0 * back * stick_angle
+        };
+        let sticking: Vec<usize> = free.iter().copied().filter(sticks).collect();
+        if sticking.is_empty() {
+            return Ok(());
+        }
+        let before = Motion { linear: posture.linear(&rates), angular: decision.omega.clone() };
+        let mut closed = decision.pattern.clone();
+        sticking.iter().for_each(|&interface| closed.0[interface] = Interface::Closed);
+        let answer = project(column, theta, &before, &closed).ok_or(SingularMass)?;
+        decision.omega = answer.motion;
+        decision.pattern = closed;
+    }
+}
+
+/// Examines every closed interface at the level of forces (MODEL.md section 4): the pattern that the blocks' angles `theta`,
+/// rates `omega` and the ground's motion call for. `released` is an interface, with the side, whose resultant has just reached
+/// a corner: it opens, whatever rounding says of its acceleration.
+///
+/// # Errors
+/// [`SingularMass`]
+pub fn open(
+    column: &Column,
+    pattern: &Pattern,
+    theta: &[f64],
+    omega: &[f64],
+    ground: Ground,
+    released: Option<(usize, Interface)>,
+) -> Result<Decision, SingularMass> {
+    let mut guess = pattern.clone();
+    if let Some((interface, side)) = released {
+        guess.0[interface] = side;
+    }
+    let free: Vec<usize> = (0..column.len()).filter(|&i| !guess.0[i].is_open()).collect();
+    let answer = |candidate: &Pattern| {
+        let posture = Posture::new(column, candidate, theta);
+        let rates = link_rates(&posture, omega);
+        let alpha = link_acceleration(&posture, &rates, ground)?;
+        let mut total = crate::generic::imposed_acceleration(&posture, &rates, ground);
+        total.iter_mut().zip(posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
+        let motion = posture.angular(&alpha);
+        let distance = posture.kinetic_energy(&total, &motion);
+        let resultants = forces(&posture, &rates, &alpha, ground);
+        Some(Answer { pattern: candidate.clone(), motion, resultants, distance })
+    };
+    let mut problem = Problem { column, free, at_rest_may_open: true, answer };
+    if problem.free.is_empty() {
+        return Ok(Decision { pattern: guess, omega: omega.to_vec(), separation: false });
+    }
+    let (answer, separation) = problem.solve(guess)?;
+    Ok(Decision { pattern: answer.pattern, omega: omega.to_vec(), separation })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::column::Block;
+
+    const GROUND: Ground = Ground { x: 0.0, gravity: 9.81 };
+
+    #[test]
+    fn one_block_loses_what_housner_says() {
+        let column = Column::new(vec![Block::rectangle(0.4, 1.6, 1.0)], 9.81).expect("valid");
+        let pattern = Pattern::from_signs(&[1]);
+        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9 };
+        let after = impact(&column, &pattern, &[0.0], &[-0.7], &[0], GROUND, law).expect("solvable");
+        let sine = libm::sin(libm::atan2(0.4, 1.6));
+        assert_eq!(after.pattern, Pattern::from_signs(&[-1]));
+        assert!((after.omega[0] / -0.7 - (1.0 - 1.5 * sine * sine)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_squat_block_stops_at_its_first_impact() {
+        let column = Column::new(vec![Block::rectangle(2.0, 1.0, 1.0)], 9.81).expect("valid");
+        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9 };
+        let after = impact(&column, &Pattern::from_signs(&[1]), &[0.0], &[-0.7], &[0], GROUND, law).expect("solvable");
+        assert_eq!((after.pattern, after.omega), (Pattern::rest(1), vec![0.0]));
+    }
+
+    #[test]
+    fn a_column_at_rest_opens_by_the_papers_equation() {
+        let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
+        let at = |share: f64| {
+            let ground = Ground { x: share * column.uplift_acceleration(0), gravity: 9.81 };
+            open(&column, &Pattern::rest(3), &[0.0; 3], &[0.0; 3], ground, None).expect("solvable").pattern
+        };
+        assert_eq!(at(0.999), Pattern::rest(3));
+        assert_eq!(at(1.001), Pattern::from_signs(&[-1, 0, 0]));
+        assert_eq!(at(-1.001), Pattern::from_signs(&[1, 0, 0]));
+    }
+}

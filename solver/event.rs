@@ -1,0 +1,289 @@
+//! Guards: finding the first instant in a step at which a function that was above zero is not any more.
+//!
+//! Every guard looks at the half-open interval `(start, end]`: a zero at the start belongs to what came before, one at the end to
+//! this step. Two kinds:
+//!
+//! * *Polynomial* guards, linear in the state, are isolated on the dense output itself: while all Bernstein coefficients of
+//!   a piece are above zero there is no root in it, with one change of sign there is exactly one, otherwise the piece is halved.
+//!   No root is missed, be it a pair inside one step. [`first_root`]
+//! * *Sampled* guards, any function of time, are looked at in a few places, between which a dip is sought by parabolas.
+//!   [`first_crossing`]
+//!
+//! Re-arming after a reset that leaves a guard at zero is by rule: the known root at the start (once, twice or three times,
+//! as the rate and the acceleration vanish too) is divided out of the polynomial. The state is never nudged.
+//!
+//! This file knows guards and polynomials, not what they mean.
+
+use crate::ode::Bernstein;
+
+/// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
+const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
+
+/// Binomial coefficients up to the degree of the longest dense output.
+const BINOMIAL: [[f64; 8]; 8] = {
+    let mut table = [[0.0; 8]; 8];
+    let mut n = 0;
+    while n < 8 {
+        table[n][0] = 1.0;
+        let mut k = 1;
+        while k <= n {
+            table[n][k] = table[n - 1][k - 1] + if k < n { table[n - 1][k] } else { 0.0 };
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+};
+
+impl Bernstein {
+    /// Value at `s`, 0 to 1, by de Casteljau.
+    pub fn evaluate(&self, s: f64) -> f64 {
+        let mut b = self.coefficients;
+        for level in (1..=self.degree).rev() {
+            for i in 0..level {
+                b[i] = (1.0 - s) * b[i] + s * b[i + 1];
+            }
+        }
+        b[0]
+    }
+
+    /// The polynomial divided by `s^order`, its roots at the start taken out.
+    fn deflated(&self, order: usize) -> Bernstein {
+        let degree = self.degree - order;
+        let mut coefficients = [0.0; 8];
+        for (j, coefficient) in coefficients[..=degree].iter_mut().enumerate() {
+            *coefficient = self.coefficients[j + order] * BINOMIAL[self.degree][j + order] / BINOMIAL[degree][j];
+        }
+        Bernstein { coefficients, degree }
+    }
+
+    /// The two halves, each on `[0, 1]` again.
+    fn halves(&self) -> (Bernstein, Bernstein) {
+        let (mut left, mut right) = (*self, *self);
+        let mut b = self.coefficients;
+        for level in 0..self.degree {
+            left.coefficients[level] = b[0];
+            right.coefficients[self.degree - level] = b[self.degree - level];
+            for i in 0..self.degree - level {
+                b[i] = 0.5 * (b[i] + b[i + 1]);
+            }
+        }
+        left.coefficients[self.degree] = b[0];
+        right.coefficients[0] = b[0];
+        (left, right)
+    }
+
+    fn sign_changes(&self) -> usize {
+        let signs = self.coefficients[..=self.degree].iter().map(|c| *c > 0.0);
+        signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count()
+    }
+
+    /// Smallest coefficient: a lower bound of the polynomial.
+    pub fn lower_bound(&self) -> f64 {
+        self.coefficients[..=self.degree].iter().fold(f64::INFINITY, |least, c| least.min(*c))
+    }
+}
+
+/// The first `s` in `(0, 1]` at which the polynomial is not above zero, `start_roots` known roots at `s = 0` left out.
+pub fn first_root(polynomial: &Bernstein, start_roots: usize) -> Option<f64> {
+    let polynomial = if start_roots > 0 { polynomial.deflated(start_roots) } else { *polynomial };
+    root_in_piece(&polynomial, 0.0, 1.0)
+}
+
+fn root_in_piece(piece: &Bernstein, start: f64, width: f64) -> Option<f64> {
+    if piece.lower_bound() > 0.0 {
+        return None;
+    }
+    let (first, last) = (piece.coefficients[0], piece.coefficients[piece.degree]);
+    if first <= 0.0 {
+        return Some(start);
+    }
+    if piece.sign_changes() == 1 && last <= 0.0 {
+        return Some(start + width * bisect(|s| piece.evaluate(s)));
+    }
+    if width < SMALLEST_PIECE {
+        return None;
+    }
+    let (left, right) = piece.halves();
+    let half = 0.5 * width;
+    root_in_piece(&left, start, half).or_else(|| root_in_piece(&right, start + half, half))
+}
+
+/// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: the Illinois rule with bisection
+/// where that does not halve the bracket.
+fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
+    let (mut a, mut b) = (0.0f64, 1.0f64);
+    let (mut fa, mut fb) = (f(a), f(b));
+    for round in 0..200 {
+        if fb == 0.0 || b - a <= f64::EPSILON * b {
+            break;
+        }
+        let secant = b - fb * (b - a) / (fb - fa);
+        let middle = if round % 3 == 2 || !(secant > a && secant < b) { 0.5 * (a + b) } else { secant };
+        if middle <= a || middle >= b {
+            break;
+        }
+        let value = f(middle);
+        if value > 0.0 {
+            (a, fa) = (middle, value);
+            fb *= 0.5;
+        } else {
+            (b, fb) = (middle, value);
+            fa *= 0.5;
+        }
+    }
+    b
+}
+
+/// Samples between the ends of a step.
+const INNER_SAMPLES: usize = 3;
+
+/// Refinements of a dip between samples.
+const DIP_ROUNDS: usize = 4;
+
+/// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` and `end` are its values at the ends of the
+/// whole step, 0 and 1.
+///
+/// If both ends are well above zero compared to what the guard changes by, nothing is evaluated.
+pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, end: f64, limit: f64) -> Option<f64> {
+    if limit >= 1.0 && start.min(end) > 2.0 * (end - start).abs() {
+        return None;
+    }
+    let mut samples = [(0.0, start); INNER_SAMPLES + 2];
+    for (index, sample) in samples.iter_mut().enumerate().skip(1) {
+        let s = limit * index as f64 / (INNER_SAMPLES + 1) as f64;
+        *sample = (s, if s >= 1.0 { end } else { guard(s) });
+    }
+    // A start that is not above zero by rounding was examined there; it counts only if the guard stays below.
+    let mut above = if start > 0.0 || samples[1].1 > 0.0 { samples[0] } else { return Some(0.0) };
+    above.1 = above.1.max(f64::MIN_POSITIVE);
+    for index in 1..samples.len() {
+        if samples[index].1 <= 0.0 {
+            return Some(crossing_between(&mut guard, above, samples[index]));
+        }
+        if index + 1 < samples.len() {
+            let dip = dip_below(&mut guard, samples[index - 1], samples[index], samples[index + 1]);
+            if let Some(below) = dip {
+                let above = if below.0 > samples[index].0 { samples[index] } else { above };
+                return Some(crossing_between(&mut guard, above, below));
+            }
+        }
+        above = samples[index];
+    }
+    None
+}
+
+/// A place between `left` and `right` where the guard is not above zero, if parabolas through a low middle lead to one.
+fn dip_below(
+    guard: &mut impl FnMut(f64) -> f64,
+    mut left: (f64, f64),
+    mut middle: (f64, f64),
+    mut right: (f64, f64),
+) -> Option<(f64, f64)> {
+    for _ in 0..DIP_ROUNDS {
+        if !(middle.1 < left.1 && middle.1 < right.1) || middle.1 > 4.0 * (left.1 - middle.1).max(right.1 - middle.1) {
+            return None;
+        }
+        let (p, q) = (middle.0 - left.0, middle.0 - right.0);
+        let (u, v) = (p * (middle.1 - right.1), q * (middle.1 - left.1));
+        let vertex = middle.0 - 0.5 * (p * u - q * v) / (u - v);
+        if !(vertex > left.0 && vertex < right.0) || vertex == middle.0 {
+            return None;
+        }
+        let lowest = (vertex, guard(vertex));
+        if lowest.1 <= 0.0 {
+            return Some(lowest);
+        }
+        let (below, above) = if vertex < middle.0 { (lowest, middle) } else { (middle, lowest) };
+        if below.1 < above.1 {
+            (middle, right) = (below, above);
+        } else {
+            (left, middle) = (below, above);
+        }
+    }
+    None
+}
+
+fn crossing_between(guard: &mut impl FnMut(f64) -> f64, above: (f64, f64), below: (f64, f64)) -> f64 {
+    let width = below.0 - above.0;
+    above.0
+        + width
+            * bisect(|u| {
+                if u == 0.0 {
+                    above.1
+                } else if u == 1.0 {
+                    below.1
+                } else {
+                    guard(above.0 + width * u)
+                }
+            })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bernstein coefficients of `Σ power[i] s^i`.
+    fn polynomial(power: &[f64]) -> Bernstein {
+        let degree = 7;
+        let mut coefficients = [0.0; 8];
+        for (j, coefficient) in coefficients.iter_mut().enumerate() {
+            *coefficient = (0..=j.min(power.len() - 1)).map(|i| power[i] * BINOMIAL[j][i] / BINOMIAL[degree][i]).sum();
+        }
+        Bernstein { coefficients, degree }
+    }
+
+    fn assert_root(found: Option<f64>, expected: f64) {
+        let found = found.expect("there is a root");
+        // A simple root of a polynomial with coefficients near one: a few roundings over its slope.
+        assert!((found - expected).abs() < 1e-13, "{found} for {expected}");
+    }
+
+    #[test]
+    fn the_first_of_two_crossings_in_one_step_is_found() {
+        // (s - 0.3)(s - 0.7)
+        assert_root(first_root(&polynomial(&[0.21, -1.0, 1.0]), 0), 0.3);
+    }
+
+    #[test]
+    fn a_root_at_the_end_belongs_to_the_step_and_one_at_the_start_does_not() {
+        assert_root(first_root(&polynomial(&[1.0, -1.0]), 0), 1.0);
+        // s (1 - s) (2 - s): known root at the start.
+        assert_root(first_root(&polynomial(&[0.0, 2.0, -3.0, 1.0]), 1), 1.0);
+        assert_eq!(first_root(&polynomial(&[0.0, 1.0]), 1), None);
+    }
+
+    #[test]
+    fn a_hop_of_a_millionth_of_a_step_is_found() {
+        // s (1e-6 - s): up and down again.
+        assert_root(first_root(&polynomial(&[0.0, 1e-6, -1.0]), 1), 1e-6);
+    }
+
+    #[test]
+    fn double_and_triple_starts_are_divided_out() {
+        assert_root(first_root(&polynomial(&[0.0, 0.0, 0.5, -1.0]), 2), 0.5);
+        assert_root(first_root(&polynomial(&[0.0, 0.0, 0.0, 0.25, -1.0]), 3), 0.25);
+    }
+
+    #[test]
+    fn a_near_miss_is_no_root() {
+        // (s - 0.5)² + 1e-9
+        assert_eq!(first_root(&polynomial(&[0.25 + 1e-9, -1.0, 1.0]), 0), None);
+    }
+
+    #[test]
+    fn a_dip_between_samples_is_found() {
+        // Below zero only within 0.437 ± 0.0316.
+        let guard = |s: f64| (s - 0.437) * (s - 0.437) - 1e-3;
+        assert_root(first_crossing(guard, guard(0.0), guard(1.0), 1.0), 0.437 - 1e-3f64.sqrt());
+        let above = |s: f64| (s - 0.437) * (s - 0.437) + 1e-3;
+        assert_eq!(first_crossing(above, above(0.0), above(1.0), 1.0), None);
+    }
+
+    #[test]
+    fn a_crossing_beyond_the_limit_is_left_alone() {
+        let guard = |s: f64| 0.6 - s;
+        assert_eq!(first_crossing(guard, 0.6, -0.4, 0.5), None);
+        assert_root(first_crossing(guard, 0.6, -0.4, 0.8), 0.6);
+    }
+}

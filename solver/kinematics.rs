@@ -1,0 +1,193 @@
+//! Where the blocks of a column are in a pattern, and how they move: corners, centroids, Jacobians, contact resultants.
+//!
+//! Found by walking up the column from corner to corner, for any number of blocks and any pattern. This is the geometry behind
+//! contact ([`crate::contact`]) and behind the hand-written dynamics ([`crate::generic`]); generated code shares none of it.
+//!
+//! Notation: link 0 moves with the ground, link `a >= 1` turns by the free angle `a`. Clockwise is positive, so a rate ω
+//! about a pivot moves a point at `r` with `ω (r_y, -r_x)` and a rate alone accelerates it by `-ω² r`.
+
+use crate::column::Column;
+use crate::dynamics::ContactForce;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rocking_codegen::pattern::Pattern;
+
+/// A vector of the plane, `[x, y]`.
+pub type Vec2 = [f64; 2];
+
+/// A column's geometry in one pattern and position.
+#[derive(Clone, Debug)]
+pub struct Posture<'a> {
+    column: &'a Column,
+    /// Link of each block, base first, length N.
+    pub link: Vec<usize>,
+    /// Number of links that move.
+    pub dof: usize,
+    /// Angle of the lower block of each interface `[rad]`, length N.
+    lower_angle: Vec<f64>,
+    /// Centre of each contact `[m]`, length N.
+    contact_centre: Vec<Vec2>,
+    /// Centroids `[m]`, length N.
+    centroid: Vec<Vec2>,
+    /// From the pivot of link `a` to the centroid of block `j`, or to the next pivot where the block is on a higher link:
+    /// entry `j * dof + a - 1`; zero where the link is above the block.
+    lever: Vec<Vec2>,
+}
+
+/// `R(θ)(u, v)`
+fn rotate(angle: f64, [u, v]: Vec2) -> Vec2 {
+    let (sin, cos) = libm::sincos(angle);
+    [u * cos + v * sin, v * cos - u * sin]
+}
+
+fn plus(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn minus(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+impl<'a> Posture<'a> {
+    /// The geometry where block `i` is turned by `theta[i]` `[rad]`, base first, length N; blocks of one link have equal
+    /// angles.
+    pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
+        let blocks = column.len();
+        let link = pattern.linkage().link_of_block();
+        let dof = pattern.dof();
+        let mut pivots: Vec<Vec2> = Vec::with_capacity(dof);
+        let (mut lower_angle, mut contact_centre, mut centroid) =
+            (Vec::with_capacity(blocks), Vec::with_capacity(blocks), Vec::with_capacity(blocks));
+        let (mut centre, mut below) = ([0.0, 0.0], 0.0);
+        for (index, block) in column.blocks().iter().enumerate() {
+            contact_centre.push(centre);
+            lower_angle.push(below);
+            let angle = theta[index];
+            let state = pattern.0[index];
+            let base = if state.is_open() {
+                let offset = f64::from(state.sign()) * column.contact_half_width(index);
+                let pivot = plus(centre, rotate(below, [offset, 0.0]));
+                pivots.push(pivot);
+                minus(pivot, rotate(angle, [offset, 0.0]))
+            } else {
+                centre
+            };
+            centroid.push(plus(base, rotate(angle, [0.0, block.half_height])));
+            centre = plus(base, rotate(angle, [0.0, 2.0 * block.half_height]));
+            below = angle;
+        }
+        let mut lever = vec![[0.0, 0.0]; blocks * dof];
+        for (block, &own) in link.iter().enumerate() {
+            for below in 1..=own {
+                let end = if below == own { centroid[block] } else { pivots[below] };
+                lever[block * dof + below - 1] = minus(end, pivots[below - 1]);
+            }
+        }
+        Posture { column, link, dof, lower_angle, contact_centre, centroid, lever }
+    }
+
+    /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, or the part of accelerations due to link accelerations.
+    pub fn linear(&self, rates: &[f64]) -> Vec<Vec2> {
+        let row = |block: usize| {
+            let levers = &self.lever[block * self.dof..(block + 1) * self.dof];
+            levers.iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| [sum[0] + rate * r[1], sum[1] - rate * r[0]])
+        };
+        (0..self.link.len()).map(row).collect()
+    }
+
+    /// Angular rates of the blocks for link rates.
+    pub fn angular(&self, rates: &[f64]) -> Vec<f64> {
+        self.link.iter().map(|&link| if link == 0 { 0.0 } else { rates[link - 1] }).collect()
+    }
+
+    /// Centripetal accelerations of the centroids `[m/s²]` at link rates.
+    pub fn centripetal(&self, rates: &[f64]) -> Vec<Vec2> {
+        let row = |block: usize| {
+            let levers = &self.lever[block * self.dof..(block + 1) * self.dof];
+            levers.iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| {
+                let square = rate * rate;
+                [sum[0] - square * r[0], sum[1] - square * r[1]]
+            })
+        };
+        (0..self.link.len()).map(row).collect()
+    }
+
+    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, dof × dof.
+    pub fn mass_matrix(&self) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(self.dof, self.dof);
+        for (index, (block, &own)) in self.column.blocks().iter().zip(&self.link).enumerate() {
+            let levers = &self.lever[index * self.dof..(index + 1) * self.dof];
+            for row in 0..own {
+                for column in 0..=row {
+                    let (r, q) = (levers[row], levers[column]);
+                    matrix[(row, column)] += block.mass * (r[0] * q[0] + r[1] * q[1]);
+                }
+            }
+            if own > 0 {
+                matrix[(own - 1, own - 1)] += block.inertia;
+            }
+        }
+        for row in 0..self.dof {
+            for column in row + 1..self.dof {
+                matrix[(row, column)] = matrix[(column, row)];
+            }
+        }
+        matrix
+    }
+
+    /// The mass matrix factorised; `None` if rounding has made it indefinite.
+    pub fn factorised_mass(&self) -> Option<Cholesky<f64, Dyn>> {
+        Cholesky::new(self.mass_matrix())
+    }
+
+    /// `Jᵀ m v`: what loads per unit mass on the centroids `[m/s²]` and angular loads per unit inertia `[rad/s²]` do on the
+    /// free angles `[N m]`; with velocities, the generalised momenta.
+    pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> DVector<f64> {
+        let mut result = DVector::zeros(self.dof);
+        for (index, (block, &own)) in self.column.blocks().iter().zip(&self.link).enumerate() {
+            let levers = &self.lever[index * self.dof..(index + 1) * self.dof];
+            for (row, r) in levers.iter().enumerate().take(own) {
+                result[row] += block.mass * (r[1] * linear[index][0] - r[0] * linear[index][1]);
+            }
+            if own > 0 {
+                result[own - 1] += block.inertia * angular[index];
+            }
+        }
+        result
+    }
+
+    /// What the contacts transmit to the stacks above when the blocks are given these accelerations less gravity
+    /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
+    pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> Vec<ContactForce> {
+        let blocks = self.column.blocks();
+        let mut resultants = vec![ContactForce::default(); blocks.len()];
+        for interface in 0..blocks.len() {
+            let centre = self.contact_centre[interface];
+            let (mut force, mut moment) = ([0.0, 0.0], 0.0);
+            for (index, block) in blocks.iter().enumerate().skip(interface) {
+                let r = minus(self.centroid[index], centre);
+                let load = [block.mass * linear[index][0], block.mass * linear[index][1]];
+                force = plus(force, load);
+                moment += block.inertia * angular[index] + (r[1] * load[0] - r[0] * load[1]);
+            }
+            let (sin, cos) = libm::sincos(self.lower_angle[interface]);
+            resultants[interface] = ContactForce {
+                normal: force[0] * sin + force[1] * cos,
+                tangential: force[0] * cos - force[1] * sin,
+                moment,
+            };
+        }
+        resultants
+    }
+
+    /// `½ Σ m v² + I ω²` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.
+    pub fn kinetic_energy(&self, linear: &[Vec2], angular: &[f64]) -> f64 {
+        let blocks = self.column.blocks().iter().zip(linear.iter().zip(angular));
+        blocks.map(|(b, (v, w))| 0.5 * (b.mass * (v[0] * v[0] + v[1] * v[1]) + b.inertia * w * w)).sum()
+    }
+
+    /// `Σ m g y` `[J]` under this gravity.
+    pub fn potential_energy(&self, gravity: f64) -> f64 {
+        let blocks = self.column.blocks().iter().zip(&self.centroid);
+        blocks.map(|(block, position)| block.mass * gravity * position[1]).sum()
+    }
+}

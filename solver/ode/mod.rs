@@ -1,0 +1,169 @@
+//! Initial value problems `ẋ = f(t, x)`: one step, its error, and what lies inside it.
+//!
+//! Embedded Runge-Kutta pairs with step control and dense output, over fixed arrays (the loops are compiled for their length)
+//! or vectors. Nothing here knows blocks, modes or impacts: a caller takes a step, looks inside by its [`Interpolant`], and
+//! keeps it, shortens it, or goes elsewhere.
+
+mod control;
+mod dop853;
+mod dormand_prince;
+mod interpolant;
+
+pub use control::{StepControl, Tolerance};
+pub use dop853::Dop853;
+pub use dormand_prince::DormandPrince54;
+pub use interpolant::{Bernstein, Interpolant};
+
+use crate::dynamics::StateVector;
+
+/// A right-hand side.
+pub trait System {
+    /// The state.
+    type State: StateVector;
+
+    /// Writes `f(t, x)` into `slope`.
+    fn slope(&mut self, t: f64, x: &Self::State, slope: &mut Self::State);
+}
+
+/// A Runge-Kutta pair with the stages of its last attempt.
+pub trait Pair<V: StateVector> {
+    /// Order of the solution that is carried on.
+    const ORDER: usize;
+    /// Order of the error estimate: the step size follows `error^(-1 / ERROR_ORDER)`.
+    const ERROR_ORDER: usize;
+    /// Right-hand sides of one attempt, its first and last slope not counted.
+    const STAGES: usize;
+
+    /// Storage for states like `zero`.
+    fn new(zero: &V) -> Self;
+
+    /// Attempts a step of length `h` from `(t, x)`, where the slope is `slope`, and returns its error relative to
+    /// `tolerance`: at most one if the step is good. The result is [`Pair::end`].
+    fn attempt<S: System<State = V>>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        x: &V,
+        slope: &V,
+        h: f64,
+        tolerance: Tolerance,
+    ) -> f64;
+
+    /// State at the end of the last attempt.
+    fn end(&self) -> &V;
+
+    /// Accepts the last attempt: evaluates the slope at its end. To be called before [`Pair::end_slope`] and
+    /// [`Pair::interpolate`].
+    fn accept<S: System<State = V>>(&mut self, system: &mut S);
+
+    /// Slope at the end of the last attempt.
+    fn end_slope(&self) -> &V;
+
+    /// The inside of the last attempt.
+    fn interpolate<S: System<State = V>>(&mut self, system: &mut S, interpolant: &mut Interpolant<V>);
+}
+
+/// Stage index and weight.
+type Term = (usize, f64);
+
+/// `x + h Σ weight · k[stage]` into `out`.
+#[inline(always)]
+fn combine<V: StateVector, const M: usize>(x: &V, h: f64, k: &[V], terms: &[Term; M], out: &mut V) {
+    let x = x.as_slice();
+    for (i, out) in out.as_mut_slice().iter_mut().enumerate() {
+        let mut sum = 0.0;
+        for &(stage, weight) in terms {
+            sum += weight * k[stage].as_slice()[i];
+        }
+        *out = x[i] + h * sum;
+    }
+}
+
+/// `h Σ weight · k[stage]` of one component.
+#[inline(always)]
+fn weighted<V: StateVector, const M: usize>(h: f64, k: &[V], terms: &[Term; M], i: usize) -> f64 {
+    let mut sum = 0.0;
+    for &(stage, weight) in terms {
+        sum += weight * k[stage].as_slice()[i];
+    }
+    h * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `ẋ = t^n`: a method of order p is exact for n < p.
+    struct Power(i32);
+
+    impl System for Power {
+        type State = [f64; 1];
+        fn slope(&mut self, t: f64, _: &[f64; 1], slope: &mut [f64; 1]) {
+            slope[0] = t.powi(self.0);
+        }
+    }
+
+    /// The nonlinear oscillator `θ̈ = -sin θ`.
+    struct Pendulum;
+
+    impl System for Pendulum {
+        type State = [f64; 2];
+        fn slope(&mut self, _: f64, x: &[f64; 2], slope: &mut [f64; 2]) {
+            *slope = [x[1], -libm::sin(x[0])];
+        }
+    }
+
+    fn advance<P: Pair<[f64; 2]>>(steps: usize) -> [f64; 2] {
+        let mut pair = P::new(&[0.0; 2]);
+        let (mut x, h) = ([1.0, 0.0], 4.0 / steps as f64);
+        let mut slope = [0.0; 2];
+        for step in 0..steps {
+            let t = step as f64 * h;
+            Pendulum.slope(t, &x, &mut slope);
+            pair.attempt(&mut Pendulum, t, &x, &slope, h, Tolerance { rtol: 1.0, atol: 1.0 });
+            x = *pair.end();
+        }
+        x
+    }
+
+    fn observed_order<P: Pair<[f64; 2]>>(steps: usize) -> f64 {
+        let exact = advance::<Dop853<[f64; 2]>>(400);
+        let error = |steps: usize| (advance::<P>(steps)[0] - exact[0]).abs();
+        (error(steps) / error(2 * steps)).log2()
+    }
+
+    #[test]
+    fn observed_order_is_the_stated_one() {
+        assert!((observed_order::<DormandPrince54<[f64; 2]>>(32) - 5.0).abs() < 0.4);
+        assert!((observed_order::<Dop853<[f64; 2]>>(10) - 8.0).abs() < 0.8);
+    }
+
+    fn power_error<P: Pair<[f64; 1]>>(power: usize) -> (f64, f64) {
+        let mut pair = P::new(&[0.0]);
+        let mut system = Power(power as i32);
+        let tolerance = Tolerance { rtol: 1.0, atol: 1.0 };
+        // From t = 0.5, so that no node falls on zero.
+        let (t, h, start) = (0.5, 1.5, [0.0]);
+        let slope = [0.5f64.powi(power as i32)];
+        pair.attempt(&mut system, t, &start, &slope, h, tolerance);
+        let integral = |to: f64| (to.powi(power as i32 + 1) - t.powi(power as i32 + 1)) / (power as f64 + 1.0);
+        let end_error = (pair.end()[0] - integral(t + h)).abs();
+        pair.accept(&mut system);
+        let mut interpolant = Interpolant::new(&start);
+        pair.interpolate(&mut system, &mut interpolant);
+        let mut inside = [0.0];
+        interpolant.evaluate(0.3, &mut inside);
+        (end_error, (inside[0] - integral(t + 0.3 * h)).abs())
+    }
+
+    /// A quadrature of order p integrates t^(p-1) exactly; dense output of order q, t^(q-1). 1e-13: a few roundings of
+    /// values up to 2^8 / 8.
+    #[test]
+    fn polynomials_are_integrated_exactly_up_to_the_order() {
+        assert!(power_error::<DormandPrince54<[f64; 1]>>(4).0 < 1e-13);
+        assert!(power_error::<DormandPrince54<[f64; 1]>>(3).1 < 1e-13);
+        assert!(power_error::<Dop853<[f64; 1]>>(7).0 < 1e-12);
+        assert!(power_error::<Dop853<[f64; 1]>>(6).1 < 1e-12);
+        assert!(power_error::<DormandPrince54<[f64; 1]>>(6).0 > 1e-6, "the test must be able to fail");
+    }
+}

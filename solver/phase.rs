@@ -1,0 +1,469 @@
+//! One smooth phase: a mode integrated from one event to the next.
+//!
+//! Compiled once per number of degrees of freedom and method. A step is attempted, its inside searched for the first zero
+//! of a guard, and, if there is one, taken again so that it ends there: the state at an event is a full step of the method, not
+//! an interpolated value.
+//!
+//! Guards (start excluded, end included; of several in one step the first):
+//!
+//! | guard | falls to zero when | found on |
+//! |---|---|---|
+//! | `s_i φ_i` | open interface `i` closes | the dense output's polynomial |
+//! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
+//! | `c_i N_i - abs(M_i)` | closed interface `i` opens | samples and parabolas |
+
+use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
+use crate::event::{first_crossing, first_root};
+use crate::excitation::Segment;
+use crate::ode::{Interpolant, Pair, StepControl, System, Tolerance};
+use crate::response::mode_name;
+use crate::simulate::{Run, SolveError};
+use rocking_codegen::pattern::Interface;
+
+/// How a stretch of time ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    /// These interfaces (from zero) closed.
+    Closing(Vec<usize>),
+    /// The resultant at a closed interface (from zero) reached a corner; it opens on this side.
+    Opening(usize, Interface),
+    /// The ground acceleration jumped.
+    Jump,
+    /// The angle of this block (from zero) reached the overturning angle.
+    Overturned(usize),
+    /// Nothing can start the column any more.
+    AtRest,
+    /// The time is over.
+    EndOfTime,
+}
+
+/// Where contact forces are noted.
+pub(crate) trait Tally {
+    /// Notes the forces of an instant, base first.
+    fn note_forces(&mut self, forces: &[ContactForce]);
+}
+
+/// A mode under the ground motion of one segment, as a right-hand side.
+struct Driven<'m, D> {
+    mode: &'m D,
+    segment: Segment,
+    gravity: f64,
+    calls: usize,
+}
+
+impl<D: Dynamics> System for Driven<'_, D> {
+    type State = D::State;
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
+        self.calls += 1;
+        self.mode.derivative(x, self.segment.ground(t, self.gravity), slope);
+    }
+}
+
+impl<D: Dynamics> Driven<'_, D> {
+    fn ground(&self, t: f64) -> Ground {
+        self.segment.ground(t, self.gravity)
+    }
+}
+
+/// An open interface and its link.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    interface: usize,
+    /// Index of the link above among the moving ones.
+    link: usize,
+    sign: f64,
+    /// Roots of the gap at the start of the step that are known: gap, rate and acceleration zero.
+    start_roots: usize,
+}
+
+impl Gap {
+    /// `s φ` of angles, or `s φ̇` of rates.
+    #[inline(always)]
+    fn of(&self, links: &[f64]) -> f64 {
+        let below = if self.link == 0 { 0.0 } else { links[self.link - 1] };
+        self.sign * (links[self.link] - below)
+    }
+}
+
+/// What a guard found inside a step.
+#[derive(Clone, Copy, Debug)]
+enum Found {
+    Gap(Gap),
+    Tilt { link: usize, sign: f64 },
+    Contact { interface: usize },
+}
+
+/// Newton's rounds when a step is repeated to end at a zero: the interpolant is good to some digits, each round doubles them.
+const REPEATS: usize = 4;
+
+/// A smooth phase.
+pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
+    run: &'p mut Run<'a>,
+    system: Driven<'m, D>,
+    pair: P,
+    interpolant: Interpolant<D::State>,
+    interpolated: bool,
+    dof: usize,
+    links: Vec<usize>,
+    gaps: Vec<Gap>,
+    closed: Vec<usize>,
+    half_width: Vec<f64>,
+    tolerance: Tolerance,
+    x: D::State,
+    slope: D::State,
+    forces: Vec<ContactForce>,
+    /// Values of the contact guards at the start of the step, per closed interface.
+    margins: Vec<f64>,
+    scratch: (D::State, D::State),
+}
+
+impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
+    /// The phase that begins with the run's present state.
+    pub fn new(run: &'p mut Run<'a>, mode: &'m D) -> Self {
+        let column = &run.scene.column;
+        let pattern = &run.pattern;
+        let zero = mode.zero_state();
+        let links = pattern.linkage().link_of_block();
+        let dof = pattern.dof();
+        let mut x = zero.clone();
+        for (block, &link) in links.iter().enumerate() {
+            if link > 0 {
+                x.as_mut_slice()[link - 1] = run.theta[block];
+                x.as_mut_slice()[dof + link - 1] = run.omega[block];
+            }
+        }
+        let open = (0..column.len()).filter(|i| pattern.0[*i].is_open());
+        let gaps = open.map(|interface| Gap {
+            interface,
+            link: links[interface] - 1,
+            sign: f64::from(pattern.0[interface].sign()),
+            start_roots: 0,
+        });
+        let gaps = gaps.collect();
+        let closed: Vec<usize> = (0..column.len()).filter(|i| !pattern.0[*i].is_open()).collect();
+        let options = &run.scene.options;
+        Phase {
+            system: Driven { mode, segment: run.segments[run.segment], gravity: column.gravity(), calls: 0 },
+            pair: P::new(&zero),
+            interpolant: Interpolant::new(&zero),
+            interpolated: false,
+            dof,
+            links,
+            gaps,
+            half_width: (0..column.len()).map(|i| column.contact_half_width(i)).collect(),
+            tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
+            x,
+            slope: zero.clone(),
+            forces: vec![ContactForce::default(); column.len()],
+            margins: vec![0.0; closed.len()],
+            closed,
+            scratch: (zero.clone(), zero),
+            run,
+        }
+    }
+
+    /// Integrates to the next event; the run's state is then that at the event, before what it brings about.
+    pub fn run(mut self) -> Result<Ended, SolveError> {
+        let control = StepControl::new(P::ERROR_ORDER);
+        self.system.slope(self.run.t, &self.x, &mut self.slope);
+        self.arm();
+        self.margins = self.weigh_start();
+        let mut wanted = match self.run.suggested_step {
+            Some(step) => step,
+            None => control.first_step(&self.x, &self.slope, self.tolerance),
+        };
+        loop {
+            let t = self.run.t;
+            let left = self.system.segment.end - t;
+            // A step that would leave a crumb takes half of it, one that almost reaches takes all.
+            let h = if wanted >= left { left } else { wanted.min(0.6 * left).max(wanted.min(left)) };
+            let error = self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
+            if error.is_nan() || error > 1.0 {
+                self.run.work.rejected += 1;
+                wanted = h * if error.is_nan() { 0.1 } else { control.factor(error).min(1.0) };
+                self.check_step(t, wanted, error)?;
+                continue;
+            }
+            self.pair.accept(&mut self.system);
+            self.run.work.steps += 1;
+            let factor = control.factor(error);
+            // A step cut short by a segment's end says nothing against the step wanted.
+            wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };
+            self.interpolated = false;
+            let found = self.search(t, h);
+            if let Some((found, s)) = found {
+                self.run.suggested_step = Some(wanted);
+                return Ok(self.stop_at(found, t, h, s));
+            }
+            self.output_until(t, h, t + h);
+            let reached_end = h == left;
+            self.advance(if reached_end { self.system.segment.end } else { t + h });
+            if reached_end {
+                if self.run.segment + 1 == self.run.segments.len() {
+                    return Ok(self.leave(Ended::EndOfTime));
+                }
+                self.run.segment += 1;
+                self.system.segment = self.run.segments[self.run.segment];
+                if self.system.segment.jumps {
+                    self.run.suggested_step = Some(wanted);
+                    return Ok(self.leave(Ended::Jump));
+                }
+            }
+        }
+    }
+
+    /// Decides how many roots of each gap lie at the start, by how it came to be open.
+    fn arm(&mut self) {
+        let (x, slope) = (self.x.as_slice(), self.slope.as_slice());
+        for gap in &mut self.gaps {
+            let is_closed = gap.of(&x[..self.dof]) == 0.0;
+            let has_no_rate = gap.of(&x[self.dof..]) == 0.0;
+            gap.start_roots = match (is_closed, has_no_rate) {
+                (false, _) => 0,
+                (true, false) => 1,
+                (true, true) if self.run.released == Some(gap.interface) => 3,
+                (true, true) if gap.of(&slope[self.dof..]) == 0.0 => 3,
+                (true, true) => 2,
+            };
+        }
+    }
+
+    /// Contact forces and margins of the contact guards at the start of the phase.
+    fn weigh_start(&mut self) -> Vec<f64> {
+        let (t, x, slope) = (self.run.t, self.x.clone(), self.slope.clone());
+        self.weigh(t, &x, &slope);
+        let margins = self.closed.iter().map(|&i| self.margin(i)).collect();
+        self.run.history.note_forces(&self.forces);
+        margins
+    }
+
+    fn weigh(&mut self, t: f64, x: &D::State, slope: &D::State) {
+        self.system.mode.contact_forces(x, slope, self.system.ground(t), &mut self.forces);
+    }
+
+    /// `c N - |M|` of a closed interface, from the forces weighed last.
+    fn margin(&self, interface: usize) -> f64 {
+        let force = self.forces[interface];
+        self.half_width[interface] * force.normal - force.moment.abs()
+    }
+
+    fn check_step(&self, t: f64, step: f64, error: f64) -> Result<(), SolveError> {
+        // A segment or an event may leave less than the resolution of the time: only an error may not.
+        if step > 2.0 * f64::EPSILON * t.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
+            return Ok(());
+        }
+        let (mode, _) = mode_name(&self.run.pattern);
+        let is_finite = self.x.as_slice().iter().chain(self.slope.as_slice()).all(|value| value.is_finite());
+        if error.is_nan() || !is_finite {
+            Err(SolveError::NotFinite { time: t, mode })
+        } else {
+            Err(SolveError::StepTooSmall { time: t, step, mode })
+        }
+    }
+
+    fn interpolate(&mut self) {
+        if !self.interpolated {
+            self.pair.interpolate(&mut self.system, &mut self.interpolant);
+            self.interpolated = true;
+        }
+    }
+
+    /// The first event inside the step just accepted, and where it is in it, 0 to 1.
+    fn search(&mut self, t: f64, h: f64) -> Option<(Found, f64)> {
+        let mut first: Option<(Found, f64)> = None;
+        let mut offer = |found: Found, s: Option<f64>| {
+            if let Some(s) = s.filter(|s| first.is_none_or(|(_, earliest)| *s < earliest)) {
+                first = Some((found, s));
+            }
+        };
+        for index in 0..self.gaps.len() {
+            let gap = self.gaps[index];
+            if gap.start_roots > 0 || self.may_close(gap, h) {
+                self.interpolate();
+                let dof = self.dof;
+                let polynomial = self.interpolant.bernstein(|x| gap.of(&x[..dof]));
+                offer(Found::Gap(gap), first_root(&polynomial, gap.start_roots));
+            }
+        }
+        let limit = self.run.scene.options.overturn_angle;
+        for link in 0..self.dof {
+            let (before, after) = (self.x.as_slice()[link], self.pair.end().as_slice()[link]);
+            let rates = self.x.as_slice()[self.dof + link].abs().max(self.pair.end().as_slice()[self.dof + link].abs());
+            if before.abs().max(after.abs()) + h * rates >= limit {
+                self.interpolate();
+                let sign = if after < 0.0 { -1.0 } else { 1.0 };
+                let mut polynomial = self.interpolant.bernstein(|x| -sign * x[link]);
+                polynomial.coefficients[..=polynomial.degree].iter_mut().for_each(|b| *b += limit);
+                offer(Found::Tilt { link, sign }, first_root(&polynomial, 0));
+            }
+        }
+        let reach = first.map_or(1.0, |(_, s)| s);
+        match self.search_contacts(t, h, reach) {
+            Some(earlier) => Some(earlier),
+            None => first,
+        }
+    }
+
+    /// Whether a gap's cubic through values and rates at both ends comes near zero: a bound that spares the dense output.
+    fn may_close(&self, gap: Gap, h: f64) -> bool {
+        let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
+        let (a, b) = (gap.of(&x[..self.dof]), gap.of(&end[..self.dof]));
+        let (u, v) = (gap.of(&x[self.dof..]), gap.of(&end[self.dof..]));
+        let control = [a, a + h * u / 3.0, b - h * v / 3.0, b];
+        let least = control.iter().fold(f64::INFINITY, |m, c| m.min(*c));
+        let most = control.iter().fold(f64::NEG_INFINITY, |m, c| m.max(*c));
+        // The quartic part that the cubic lacks is a fraction of the cubic's own range in any step that passed its error test.
+        least <= 0.5 * (most - least)
+    }
+
+    /// The first opening of a closed interface before `reach`; margins move on to the step's end.
+    fn search_contacts(&mut self, t: f64, h: f64, reach: f64) -> Option<(Found, f64)> {
+        let (end, end_slope) = (self.pair.end().clone(), self.pair.end_slope().clone());
+        self.weigh(t + h, &end, &end_slope);
+        let ends: Vec<f64> = self.closed.iter().map(|&i| self.margin(i)).collect();
+        let mut first: Option<(Found, f64)> = None;
+        for index in 0..self.closed.len() {
+            let interface = self.closed[index];
+            let (start, end) = (self.margins[index], ends[index]);
+            let reach = first.map_or(reach, |(_, s)| s);
+            let crossing = first_crossing(|s| self.margin_inside(interface, t, h, s), start, end, reach);
+            if let Some(s) = crossing {
+                first = Some((Found::Contact { interface }, s));
+            }
+        }
+        if first.is_none() && reach >= 1.0 {
+            self.margins = ends;
+            self.note_inside(t, h);
+            self.weigh(t + h, &end, &end_slope);
+            self.run.history.note_forces(&self.forces);
+        }
+        first
+    }
+
+    fn margin_inside(&mut self, interface: usize, t: f64, h: f64, s: f64) -> f64 {
+        self.weigh_inside(t, h, s);
+        self.margin(interface)
+    }
+
+    /// Contact forces inside the step.
+    fn weigh_inside(&mut self, t: f64, h: f64, s: f64) {
+        self.interpolate();
+        let (mut x, mut slope) = (self.scratch.0.clone(), self.scratch.1.clone());
+        self.interpolant.evaluate(s, &mut x);
+        self.system.slope(t + s * h, &x, &mut slope);
+        self.weigh(t + s * h, &x, &slope);
+    }
+
+    /// Notes the forces in the middle of the step: with both ends, enough to see a peak between them.
+    fn note_inside(&mut self, t: f64, h: f64) {
+        self.weigh_inside(t, h, 0.5);
+        self.run.history.note_forces(&self.forces);
+    }
+
+    /// Rows with times in the half-open interval from the step's start to `until`.
+    fn output_until(&mut self, t: f64, h: f64, until: f64) {
+        while let Some(time) = self.run.next_output().filter(|time| *time < until) {
+            self.interpolate();
+            let mut x = self.scratch.0.clone();
+            self.interpolant.evaluate(((time - t) / h).clamp(0.0, 1.0), &mut x);
+            let (theta, omega) = self.per_block(&x);
+            self.run.sample(time, theta, omega);
+        }
+    }
+
+    /// Takes the step: its end is the present state.
+    fn advance(&mut self, t: f64) {
+        self.x.clone_from(self.pair.end());
+        self.slope.clone_from(self.pair.end_slope());
+        self.run.t = t;
+        self.gaps.iter_mut().for_each(|gap| gap.start_roots = 0);
+        for (block, &link) in self.links.iter().enumerate() {
+            if link > 0 {
+                let peak = &mut self.run.history.peak_theta[block];
+                *peak = peak.max(self.x.as_slice()[link - 1].abs());
+            }
+        }
+    }
+
+    /// Repeats the step so that it ends where the guard is zero, and hands the state over.
+    fn stop_at(mut self, found: Found, t: f64, whole: f64, s: f64) -> Ended {
+        self.output_until(t, whole, t + s * whole);
+        let mut h = s * whole;
+        for _ in 0..REPEATS {
+            self.run.work.repeated += 1;
+            self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
+            let end = self.pair.end().as_slice();
+            let (value, rate) = match found {
+                Found::Gap(gap) => (gap.of(&end[..self.dof]), gap.of(&end[self.dof..])),
+                Found::Tilt { link, sign } => {
+                    (self.run.scene.options.overturn_angle - sign * end[link], -sign * end[self.dof + link])
+                }
+                Found::Contact { .. } => break,
+            };
+            let correction = -value / rate;
+            let next = h + correction;
+            if !(rate < 0.0 && next > 0.0 && next <= whole) || correction.abs() <= f64::EPSILON * h {
+                break;
+            }
+            h = next;
+        }
+        self.pair.accept(&mut self.system);
+        self.advance(if h == self.system.segment.end - t { self.system.segment.end } else { t + h });
+        let (x, slope) = (self.x.clone(), self.slope.clone());
+        self.weigh(self.run.t, &x, &slope);
+        self.run.history.note_forces(&self.forces);
+        match found {
+            Found::Contact { interface } => {
+                let side = if self.forces[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
+                self.leave(Ended::Opening(interface, side))
+            }
+            Found::Tilt { link, .. } => {
+                let block = self.links.iter().position(|own| *own == link + 1).unwrap_or(0);
+                self.leave(Ended::Overturned(block))
+            }
+            Found::Gap(gap) => {
+                let closing = self.closing_with(gap);
+                self.leave(Ended::Closing(closing.iter().map(|gap| gap.interface).collect()))
+            }
+        }
+    }
+
+    /// The gaps that close in the instant in which `first` does, and their angles made equal.
+    fn closing_with(&mut self, first: Gap) -> Vec<Gap> {
+        let dof = self.dof;
+        let (resolution, t) = (4.0 * f64::EPSILON, self.run.t);
+        let x = self.x.as_mut_slice();
+        let size = x[..dof].iter().fold(0.0f64, |size, angle| size.max(angle.abs()));
+        let is_closing = |gap: &&Gap, x: &[f64]| {
+            let (value, rate) = (gap.of(&x[..dof]), gap.of(&x[dof..]));
+            gap.interface == first.interface
+                || (rate < 0.0 && value <= resolution * size + rate.abs() * resolution * t)
+        };
+        let closing: Vec<Gap> = self.gaps.iter().filter(|gap| is_closing(gap, x)).copied().collect();
+        for gap in &closing {
+            x[gap.link] = if gap.link == 0 { 0.0 } else { x[gap.link - 1] };
+        }
+        closing
+    }
+
+    fn per_block(&self, x: &D::State) -> (Vec<f64>, Vec<f64>) {
+        let x = x.as_slice();
+        let pick = |offset: usize| {
+            let of = |link: &usize| if *link == 0 { 0.0 } else { x[offset + link - 1] };
+            self.links.iter().map(of).collect()
+        };
+        (pick(0), pick(self.dof))
+    }
+
+    /// Hands the state back to the run.
+    fn leave(self, ended: Ended) -> Ended {
+        let (theta, omega) = self.per_block(&self.x);
+        self.run.theta = theta;
+        self.run.omega = omega;
+        self.run.work.rhs_calls += self.system.calls;
+        self.run.note_peaks();
+        ended
+    }
+}

@@ -1,0 +1,197 @@
+//! What a run returns: history, events, and what a user must know of the model's validity.
+
+use rocking_codegen::pattern::Pattern;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopReason {
+    /// Some angle reached the overturning angle.
+    Overturned,
+    /// All interfaces are closed and the excitation up to `t_end` does not start one again.
+    AtRest,
+    /// The time asked for is over.
+    EndOfTime,
+}
+
+/// What happened at an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// The column at rest began to move.
+    Start,
+    /// A closed interface of the moving column opened.
+    Opening,
+    /// An open interface closed.
+    Impact,
+    /// The ground acceleration jumped and the pattern changed with it.
+    Jump,
+}
+
+/// A change of the pattern, or an impact. Patterns are signs per interface, base first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Event {
+    /// `[s]`
+    pub t: f64,
+    /// What happened.
+    pub kind: EventKind,
+    /// The interface that closed or opened, from 1; the lowest where several did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interface: Option<usize>,
+    /// All interfaces that closed in the same instant, from 1, where there are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub interfaces: Vec<usize>,
+    /// Pattern before.
+    #[serde(serialize_with = "signs")]
+    pub before: Pattern,
+    /// Pattern after.
+    #[serde(serialize_with = "signs")]
+    pub after: Pattern,
+    /// Mode before, `rest` where nothing moved; mirrored patterns have their twin's label.
+    pub mode_before: String,
+    /// Mode after.
+    pub mode: String,
+    /// Whether the pattern after is the mirror image of the labelled mode.
+    pub mirrored: bool,
+    /// Angles `[rad]`, per block.
+    pub theta: Vec<f64>,
+    /// Rates before `[rad/s]`, per block.
+    pub omega_before: Vec<f64>,
+    /// Rates after `[rad/s]`, per block.
+    pub omega_after: Vec<f64>,
+    /// Kinetic energy lost over that before, 0 to 1; impacts only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_lost: Option<f64>,
+}
+
+fn signs<S: serde::Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(pattern.0.iter().map(|interface| interface.sign()))
+}
+
+/// The column at an output time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// `[s]`
+    pub t: f64,
+    /// Absolute angles `[rad]`, per block.
+    pub theta: Vec<f64>,
+    /// Rates `[rad/s]`, per block.
+    pub omega: Vec<f64>,
+    /// Ground acceleration, horizontal and vertical `[m/s²]`.
+    pub ground: [f64; 2],
+    /// Interface states.
+    pub pattern: Pattern,
+}
+
+/// What a run cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps rejected by their error.
+    pub rejected: usize,
+    /// Steps taken once more to end at an event.
+    pub repeated: usize,
+    /// Right-hand sides.
+    pub rhs_calls: usize,
+    /// Distinct patterns whose scene constants were computed.
+    pub modes_entered: usize,
+    /// Smooth phases: how often the integrator was entered.
+    pub phases: usize,
+}
+
+/// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Separation {
+    /// `[s]`
+    pub t: f64,
+    /// What was going on.
+    pub during: EventKind,
+}
+
+/// The response of a column to a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// Why the run ended.
+    pub status: StopReason,
+    /// When: at overturning, at coming to rest for good, or `t_end` `[s]`.
+    pub t_final: f64,
+    /// The block whose angle reached the overturning angle first, from 1.
+    pub overturned_block: Option<usize>,
+    /// The column at the output times.
+    pub samples: Vec<Sample>,
+    /// Events in order of time.
+    pub events: Vec<Event>,
+    /// Largest size of each block's angle `[rad]`.
+    pub peak_theta: Vec<f64>,
+    /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here.
+    pub time_in_mode: BTreeMap<String, f64>,
+    /// Largest `|T| / N` per interface, dimensionless, while `N > 0`.
+    pub friction_demand: Vec<f64>,
+    /// Smallest normal force per interface `[N]`.
+    pub min_normal_force: Vec<f64>,
+    /// Contact problems without admissible pattern.
+    pub separations: Vec<Separation>,
+    /// What it cost.
+    pub work: Work,
+    /// Modes without generated equations in this build ran on the generic ones.
+    pub used_generic: bool,
+}
+
+impl Response {
+    /// Number of impacts.
+    pub fn impacts(&self) -> usize {
+        self.events.iter().filter(|event| event.kind == EventKind::Impact).count()
+    }
+
+    /// Time of overturning `[s]`.
+    pub fn overturned_at(&self) -> Option<f64> {
+        (self.status == StopReason::Overturned).then_some(self.t_final)
+    }
+
+    /// What a user must know before believing the run: separation, tension, and friction beyond `friction`.
+    pub fn warnings(&self, friction: Option<f64>) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if let Some(first) = self.separations.first() {
+            warnings.push(format!(
+                "{} separation(s), the first at t = {} s: a block would leave its contact, which the model cannot follow; \
+                 what comes after is not reliable",
+                self.separations.len(),
+                first.t
+            ));
+        }
+        for (index, normal) in self.min_normal_force.iter().enumerate() {
+            if *normal < 0.0 {
+                warnings.push(format!(
+                    "interface {}: the normal force falls to {normal} N: the contact would part, which the model excludes",
+                    index + 1
+                ));
+            }
+        }
+        for (index, demand) in self.friction_demand.iter().enumerate() {
+            if friction.is_some_and(|available| *demand > available) {
+                warnings.push(format!(
+                    "interface {}: the run needs a friction coefficient of {demand:.3}, the scene has {}: the blocks would \
+                     slide, which the model excludes",
+                    index + 1,
+                    friction.unwrap_or_default()
+                ));
+            }
+        }
+        if self.used_generic {
+            warnings.push(format!(
+                "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
+                 (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
+                crate::generated::MAX_BLOCKS
+            ));
+        }
+        warnings
+    }
+}
+
+/// The label of a pattern's mode, `rest` where nothing moves, and whether the pattern is its mirror image.
+pub fn mode_name(pattern: &Pattern) -> (String, bool) {
+    pattern.mode().map_or(("rest".into(), false), |(label, mirrored)| (label.to_string(), mirrored))
+}

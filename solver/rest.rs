@@ -1,0 +1,126 @@
+//! The column at rest: no integration, only the search for the instant at which the ground starts it.
+//!
+//! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (MODEL.md section 4, the paper's Eq. 1). On a piece of ground motion with
+//! a bounded second derivative, a step as long as the parabola through value and slope with that bound stays above zero cannot
+//! jump over a root: the search is conservative and converges quadratically.
+
+use crate::dynamics::ContactForce;
+use crate::excitation::Segment;
+use crate::phase::{Ended, Tally};
+use crate::simulate::Run;
+use rocking_codegen::pattern::Interface;
+
+/// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
+const ZERO: f64 = 16.0 * f64::EPSILON;
+
+/// Places per segment at which contact forces at rest are noted.
+const NOTED: usize = 16;
+
+/// Waits from the run's present time for the start, a jump of the ground acceleration, or the end.
+pub(crate) fn wait(run: &mut Run) -> Ended {
+    let since = run.t;
+    let first = run.segment;
+    loop {
+        let segment = run.segments[run.segment];
+        let start = earliest_start(run, &segment);
+        let until = start.map_or(segment.end, |(t, _, _)| t);
+        note_forces(run, &segment, until);
+        output_until(run, until);
+        run.t = until;
+        if let Some((_, interface, side)) = start {
+            return Ended::Opening(interface, side);
+        }
+        if run.segment + 1 == run.segments.len() {
+            run.t = since;
+            run.segment = first;
+            return Ended::AtRest;
+        }
+        run.segment += 1;
+        if run.segments[run.segment].jumps {
+            return Ended::Jump;
+        }
+    }
+}
+
+/// The first instant in a segment from the present time on at which some interface opens, and its side.
+fn earliest_start(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface)> {
+    if segment.is_quiet() {
+        return None;
+    }
+    let column = &run.scene.column;
+    let mut earliest: Option<(f64, usize, Interface)> = None;
+    for interface in 0..column.len() {
+        for side in [Interface::Right, Interface::Left] {
+            let until = earliest.map_or(segment.end, |(t, _, _)| t);
+            let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
+            if let Some(t) = first_zero(segment, column.gravity(), arm, side, run.t, until) {
+                if earliest.is_none_or(|(known, _, _)| t < known) {
+                    earliest = Some((t, interface, side));
+                }
+            }
+        }
+    }
+    earliest
+}
+
+/// First zero of `c (g + ÿ_g) + s h ẍ_g` (positive `ẍ_g` tips to the left) in `from .. until`.
+fn first_zero(
+    segment: &Segment,
+    gravity: f64,
+    [half_width, height]: [f64; 2],
+    side: Interface,
+    from: f64,
+    until: f64,
+) -> Option<f64> {
+    let sign = f64::from(side.sign());
+    let bend = half_width * segment.vertical.curvature_bound() + height * segment.horizontal.curvature_bound();
+    let mut t = from;
+    loop {
+        let ground = segment.ground(t, gravity);
+        let value = half_width * ground.gravity + sign * height * ground.x;
+        let slope = half_width * segment.vertical.rate(t) + sign * height * segment.horizontal.rate(t);
+        let scale = half_width * ground.gravity.abs() + height * ground.x.abs();
+        if value <= ZERO * scale && slope < 0.0 {
+            return Some(t);
+        }
+        // The longest step for which value + slope h - bend h²/2 stays at or above zero.
+        let value = value.max(0.0);
+        let step = if bend > 0.0 {
+            (slope + (slope * slope + 2.0 * bend * value).sqrt()) / bend
+        } else if slope < 0.0 {
+            -value / slope
+        } else {
+            return None;
+        };
+        let next = t + step.max(2.0 * f64::EPSILON * t.abs());
+        if next >= until || next == t {
+            return None;
+        }
+        t = next;
+    }
+}
+
+/// At rest the whole weight stands on each interface, and the ground drags it along.
+fn note_forces(run: &mut Run, segment: &Segment, until: f64) {
+    let column = &run.scene.column;
+    let count = if segment.is_quiet() { 1 } else { NOTED };
+    for place in 0..=count {
+        let t = run.t + (until - run.t) * place as f64 / count as f64;
+        let ground = segment.ground(t, column.gravity());
+        let forces: Vec<ContactForce> = (0..column.len())
+            .map(|interface| {
+                let mass = column.mass_above(interface);
+                let (normal, tangential) = (mass * ground.gravity, mass * ground.x);
+                ContactForce { normal, tangential, moment: column.centroid_height(interface) * tangential }
+            })
+            .collect();
+        run.history.note_forces(&forces);
+    }
+}
+
+fn output_until(run: &mut Run, until: f64) {
+    let blocks = run.theta.len();
+    while let Some(t) = run.next_output().filter(|t| *t < until) {
+        run.sample(t, vec![0.0; blocks], vec![0.0; blocks]);
+    }
+}

@@ -1,0 +1,433 @@
+//! The event-driven loop: rest, smooth phase, contact problem, next mode (see the pseudo-code in the crate's documentation).
+
+use crate::contact::{self, Decision, ImpactLaw};
+use crate::dynamics::Ground;
+use crate::excitation::{Excitation, Segment};
+use crate::generated::{self, GeneratedMode, with_step_program};
+use crate::generic::GenericMode;
+use crate::kinematics::Posture;
+use crate::ode::{Dop853, DormandPrince54};
+use crate::phase::{self, Ended, Phase};
+use crate::response::{Event, EventKind, Response, Sample, Separation, StopReason, Work, mode_name};
+use crate::rest;
+use crate::scene::{DynamicsSource, Method, Scene};
+use rocking_codegen::pattern::{Interface, Pattern};
+use std::any::Any;
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+/// Events in one instant beyond which a run is stuck. A column of N blocks may need a few per interface; chatter ends by
+/// `stick_angle` with time going on.
+const MOST_EVENTS_AT_ONCE: usize = 200;
+
+/// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
+const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
+
+/// Why a run could not be finished.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// The error demanded cannot be met with steps that still advance the time.
+    #[error("at t = {time} s in mode {mode}: the step has fallen to {step:e} s; loosen rtol and atol")]
+    StepTooSmall {
+        /// `[s]`
+        time: f64,
+        /// `[s]`
+        step: f64,
+        /// Label.
+        mode: String,
+    },
+    /// Numbers have left the range of doubles.
+    #[error("at t = {time} s in mode {mode}: the state is not finite; check sizes, masses and amplitudes for extreme values")]
+    NotFinite {
+        /// `[s]`
+        time: f64,
+        /// Label.
+        mode: String,
+    },
+    /// Events follow each other without time going on.
+    #[error("at t = {time} s: {events} events in one instant, the last pattern {pattern}; increase stick_angle")]
+    Stalled {
+        /// `[s]`
+        time: f64,
+        /// How many.
+        events: usize,
+        /// Where it hangs.
+        pattern: String,
+    },
+    /// A contact problem has a mass matrix that rounding has made singular.
+    #[error("at t = {time} s in pattern {pattern}: the mass matrix is singular to rounding; the blocks' masses differ too much")]
+    SingularMass {
+        /// `[s]`
+        time: f64,
+        /// The pattern before.
+        pattern: String,
+    },
+}
+
+/// Runs a scene.
+///
+/// # Errors
+/// [`SolveError`], with time and mode.
+///
+/// ```
+/// let column = rocking::Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81)?;
+/// let mut scene = rocking::Scene::new(column);
+/// scene.initial.theta = vec![0.1];
+/// scene.options.t_end = 2.0;
+/// let response = rocking::simulate(&scene)?;
+/// assert_eq!(response.status, rocking::StopReason::EndOfTime);
+/// assert!((response.events[0].t - 0.5012).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn simulate(scene: &Scene) -> Result<Response, SolveError> {
+    simulate_observed(scene, |_| {})
+}
+
+/// Runs a scene and tells `progress` the time `[s]` after every smooth phase and now and then within.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Response, SolveError> {
+    let mut run = Run::new(scene, Box::new(progress));
+    run.begin()?;
+    loop {
+        let ended = if run.pattern.dof() == 0 { run.rest()? } else { run.move_on()? };
+        match ended {
+            Ended::Closing(interfaces) => run.impact(&interfaces)?,
+            Ended::Opening(interface, side) => run.release(interface, side)?,
+            Ended::Jump => run.jump()?,
+            Ended::Overturned(block) => return Ok(run.finish(StopReason::Overturned, Some(block))),
+            Ended::AtRest => return Ok(run.finish(StopReason::AtRest, None)),
+            Ended::EndOfTime => return Ok(run.finish(StopReason::EndOfTime, None)),
+        }
+    }
+}
+
+/// A run under way.
+pub(crate) struct Run<'a> {
+    pub scene: &'a Scene,
+    pub segments: Vec<Segment>,
+    /// Index of the segment that the present time is in.
+    pub segment: usize,
+    pub t: f64,
+    /// Per block.
+    pub theta: Vec<f64>,
+    pub omega: Vec<f64>,
+    pub pattern: Pattern,
+    /// The interface that opened last because its resultant reached a corner: gap, rate and acceleration are zero there.
+    pub released: Option<usize>,
+    /// Step size suggested by what came before `[s]`.
+    pub suggested_step: Option<f64>,
+    pub work: Work,
+    pub history: History,
+    pub progress: Box<dyn FnMut(f64) + 'a>,
+    kappa: Vec<f64>,
+    modes: HashMap<Pattern, Rc<dyn Any>>,
+    events_at_once: usize,
+    used_generic: bool,
+}
+
+/// What is recorded of a run.
+pub(crate) struct History {
+    pub samples: Vec<Sample>,
+    pub next_sample: usize,
+    pub peak_theta: Vec<f64>,
+    pub friction_demand: Vec<f64>,
+    pub min_normal_force: Vec<f64>,
+    events: Vec<Event>,
+    separations: Vec<Separation>,
+    time_in_mode: BTreeMap<String, f64>,
+}
+
+impl<'a> Run<'a> {
+    fn new(scene: &'a Scene, progress: Box<dyn FnMut(f64) + 'a>) -> Run<'a> {
+        let blocks = scene.column.len();
+        let or_zero = |given: &[f64]| if given.is_empty() { vec![0.0; blocks] } else { given.to_vec() };
+        let history = History {
+            samples: Vec::new(),
+            next_sample: 0,
+            peak_theta: vec![0.0; blocks],
+            friction_demand: vec![0.0; blocks],
+            min_normal_force: vec![f64::INFINITY; blocks],
+            events: Vec::new(),
+            separations: Vec::new(),
+            time_in_mode: BTreeMap::new(),
+        };
+        Run {
+            scene,
+            segments: Excitation::segments(&scene.excitation, scene.options.t_end),
+            segment: 0,
+            t: 0.0,
+            theta: or_zero(&scene.initial.theta),
+            omega: or_zero(&scene.initial.omega),
+            pattern: Pattern::rest(blocks),
+            released: None,
+            suggested_step: None,
+            work: Work::default(),
+            history,
+            progress,
+            kappa: scene.restitution.factors(&scene.column),
+            modes: HashMap::new(),
+            events_at_once: 0,
+            used_generic: false,
+        }
+    }
+
+    /// The initial pattern: open where there is a gap or where the rates open one; then every closed interface is examined.
+    fn begin(&mut self) -> Result<(), SolveError> {
+        let mut below = (0.0f64, 0.0f64);
+        for interface in 0..self.theta.len() {
+            let gap = self.theta[interface] - below.0;
+            if gap.abs() <= CLOSED_GAP * self.theta[interface].abs().max(below.0.abs()) {
+                self.theta[interface] = below.0;
+            }
+            let (gap, rate) = (self.theta[interface] - below.0, self.omega[interface] - below.1);
+            let opening = if gap == 0.0 { rate } else { gap };
+            self.pattern.0[interface] = Interface::from_sign(opening.partial_cmp(&0.0).map_or(0, |order| order as i8));
+            below = (self.theta[interface], self.omega[interface]);
+        }
+        self.note_peaks();
+        let at_rest = self.pattern.dof() == 0;
+        let before = self.pattern.clone();
+        let decision = self.decide_forces(None)?;
+        self.adopt(decision, EventKind::Start);
+        if at_rest && self.pattern != before {
+            self.record(EventKind::Start, &[], before, self.omega.clone(), None);
+        }
+        Ok(())
+    }
+
+    /// Ground motion at the present instant, seen from what follows.
+    pub fn ground(&self) -> Ground {
+        self.segments[self.segment].ground(self.t, self.scene.column.gravity())
+    }
+
+    fn rest(&mut self) -> Result<Ended, SolveError> {
+        let start = self.t;
+        let ended = rest::wait(self);
+        self.spend(start);
+        if let Ended::Opening(interface, side) = ended {
+            let before = self.pattern.clone();
+            let decision = self.decide_forces(Some((interface, side)))?;
+            self.adopt(decision, EventKind::Start);
+            self.released = Some(interface);
+            self.record(EventKind::Start, &[], before, self.omega.clone(), None);
+            return self.move_on();
+        }
+        Ok(ended)
+    }
+
+    /// Integrates the present mode up to its next event.
+    fn move_on(&mut self) -> Result<Ended, SolveError> {
+        let start = self.t;
+        self.work.phases += 1;
+        let dof = self.pattern.dof();
+        let column = &self.scene.column;
+        let is_generated = self.scene.options.dynamics == DynamicsSource::Generated
+            && column.len() <= generated::MAX_BLOCKS;
+        let pattern = self.pattern.clone();
+        let ended = if is_generated {
+            with_step_program!(dof, Program => {
+                let build = || GeneratedMode::<Program>::new(column, &pattern).expect("the build has this column's linkages");
+                let mode = self.mode(build);
+                self.integrate(&*mode)?
+            }, _ => unreachable!("a build with equations for N blocks has programs for up to N free angles"))
+        } else {
+            self.used_generic |= self.scene.options.dynamics == DynamicsSource::Generated;
+            let mode = self.mode(|| GenericMode::new(column, &pattern));
+            self.integrate(&*mode)?
+        };
+        self.spend(start);
+        (self.progress)(self.t);
+        Ok(ended)
+    }
+
+    fn integrate<D: crate::dynamics::Dynamics>(&mut self, mode: &D) -> Result<Ended, SolveError> {
+        match self.scene.options.method {
+            Method::Dop853 => Phase::<D, Dop853<D::State>>::new(self, mode).run(),
+            Method::DormandPrince54 => Phase::<D, DormandPrince54<D::State>>::new(self, mode).run(),
+        }
+    }
+
+    /// The present pattern's mode; its scene constants are computed when it is entered first.
+    fn mode<D: 'static>(&mut self, build: impl FnOnce() -> D) -> Rc<D> {
+        if let Some(Ok(known)) = self.modes.get(&self.pattern).map(|mode| Rc::clone(mode).downcast::<D>()) {
+            return known;
+        }
+        self.work.modes_entered += 1;
+        let mode = Rc::new(build());
+        self.modes.insert(self.pattern.clone(), Rc::clone(&mode) as Rc<dyn Any>);
+        mode
+    }
+
+    fn impact(&mut self, closing: &[usize]) -> Result<(), SolveError> {
+        let law = ImpactLaw { kappa: &self.kappa, stick_angle: self.scene.options.stick_angle };
+        let column = &self.scene.column;
+        let decision =
+            contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
+        let decision = self.solved(decision)?;
+        let before = self.pattern.clone();
+        let omega_before = self.omega.clone();
+        let energy_before = self.kinetic_energy(&before, &omega_before);
+        self.adopt(decision, EventKind::Impact);
+        let energy_after = self.kinetic_energy(&self.pattern, &self.omega);
+        let lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
+        self.record(EventKind::Impact, closing, before, omega_before, Some(lost));
+        self.guard_against_stall()
+    }
+
+    fn release(&mut self, interface: usize, side: Interface) -> Result<(), SolveError> {
+        let before = self.pattern.clone();
+        let decision = self.decide_forces(Some((interface, side)))?;
+        self.adopt(decision, EventKind::Opening);
+        self.released = Some(interface);
+        self.record(EventKind::Opening, &[interface], before, self.omega.clone(), None);
+        self.guard_against_stall()
+    }
+
+    /// The ground acceleration has jumped: every closed interface is examined anew.
+    fn jump(&mut self) -> Result<(), SolveError> {
+        let before = self.pattern.clone();
+        let decision = self.decide_forces(None)?;
+        let kind = if before.dof() == 0 { EventKind::Start } else { EventKind::Jump };
+        self.adopt(decision, kind);
+        if self.pattern != before {
+            self.record(kind, &[], before, self.omega.clone(), None);
+        }
+        Ok(())
+    }
+
+    fn decide_forces(&self, released: Option<(usize, Interface)>) -> Result<Decision, SolveError> {
+        let decision =
+            contact::open(&self.scene.column, &self.pattern, &self.theta, &self.omega, self.ground(), released);
+        self.solved(decision)
+    }
+
+    fn solved(&self, decision: Result<Decision, contact::SingularMass>) -> Result<Decision, SolveError> {
+        decision.map_err(|_| SolveError::SingularMass { time: self.t, pattern: self.pattern.to_string() })
+    }
+
+    fn adopt(&mut self, decision: Decision, during: EventKind) {
+        if decision.separation {
+            self.history.separations.push(Separation { t: self.t, during });
+        }
+        self.pattern = decision.pattern;
+        self.omega = decision.omega;
+        self.released = None;
+    }
+
+    fn kinetic_energy(&self, pattern: &Pattern, omega: &[f64]) -> f64 {
+        let posture = Posture::new(&self.scene.column, pattern, &self.theta);
+        let mut rates = vec![0.0; posture.dof];
+        posture.link.iter().zip(omega).filter(|(link, _)| **link > 0).for_each(|(link, w)| rates[*link - 1] = *w);
+        posture.kinetic_energy(&posture.linear(&rates), omega)
+    }
+
+    fn record(
+        &mut self,
+        kind: EventKind,
+        interfaces: &[usize],
+        before: Pattern,
+        omega_before: Vec<f64>,
+        energy_lost: Option<f64>,
+    ) {
+        let (mode_before, _) = mode_name(&before);
+        let (mode, mirrored) = mode_name(&self.pattern);
+        let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
+        self.history.events.push(Event {
+            t: self.t,
+            kind,
+            interface: numbers.first().copied(),
+            interfaces: if numbers.len() > 1 { numbers } else { Vec::new() },
+            before,
+            after: self.pattern.clone(),
+            mode_before,
+            mode,
+            mirrored,
+            theta: self.theta.clone(),
+            omega_before,
+            omega_after: self.omega.clone(),
+            energy_lost,
+        });
+    }
+
+    fn guard_against_stall(&mut self) -> Result<(), SolveError> {
+        let events = &self.history.events;
+        let is_same_instant = events.len() > 1 && events[events.len() - 2].t == self.t;
+        self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
+        if self.events_at_once > MOST_EVENTS_AT_ONCE {
+            let pattern = self.pattern.to_string();
+            return Err(SolveError::Stalled { time: self.t, events: self.events_at_once, pattern });
+        }
+        Ok(())
+    }
+
+    fn spend(&mut self, since: f64) {
+        *self.history.time_in_mode.entry(mode_name(&self.pattern).0).or_insert(0.0) += self.t - since;
+    }
+
+    pub fn note_peaks(&mut self) {
+        for (peak, theta) in self.history.peak_theta.iter_mut().zip(&self.theta) {
+            *peak = peak.max(theta.abs());
+        }
+    }
+
+    /// The next output time `[s]`, if there is one up to the end.
+    pub fn next_output(&self) -> Option<f64> {
+        let dt = self.scene.output_dt?;
+        let t = self.history.next_sample as f64 * dt;
+        // The last row is not lost to the rounding of a product.
+        (t <= self.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
+    }
+
+    /// Records a row.
+    pub fn sample(&mut self, t: f64, theta: Vec<f64>, omega: Vec<f64>) {
+        let value = |motion: &Option<crate::excitation::Motion>| motion.as_ref().map_or(0.0, |motion| motion.value(t));
+        let ground = [value(&self.scene.excitation.horizontal), value(&self.scene.excitation.vertical)];
+        self.history.samples.push(Sample { t, theta, omega, ground, pattern: self.pattern.clone() });
+        self.history.next_sample += 1;
+    }
+
+    fn finish(mut self, status: StopReason, overturned_block: Option<usize>) -> Response {
+        let t_final = self.t;
+        if status != StopReason::Overturned {
+            let zero = vec![0.0; self.theta.len()];
+            while let Some(t) = self.next_output() {
+                let (theta, omega) = match status {
+                    StopReason::AtRest => (zero.clone(), zero.clone()),
+                    _ => (self.theta.clone(), self.omega.clone()),
+                };
+                self.sample(t, theta, omega);
+            }
+        }
+        let History { samples, peak_theta, friction_demand, min_normal_force, events, separations, time_in_mode, .. } =
+            self.history;
+        Response {
+            status,
+            t_final,
+            overturned_block: overturned_block.map(|block| block + 1),
+            samples,
+            events,
+            peak_theta,
+            time_in_mode,
+            friction_demand,
+            min_normal_force,
+            separations,
+            work: self.work,
+            used_generic: self.used_generic,
+        }
+    }
+}
+
+impl phase::Tally for History {
+    fn note_forces(&mut self, forces: &[crate::dynamics::ContactForce]) {
+        for (interface, force) in forces.iter().enumerate() {
+            let least = &mut self.min_normal_force[interface];
+            *least = least.min(force.normal);
+            if force.normal > 0.0 {
+                let demand = &mut self.friction_demand[interface];
+                *demand = demand.max(force.tangential.abs() / force.normal);
+            }
+        }
+    }
+}
