@@ -64,12 +64,8 @@ struct Problem<'a, F> {
 }
 
 impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
-    fn relative(motion: &[f64], interface: usize) -> f64 {
-        motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
-    }
-
     fn parts(&self, answer: &Answer, interface: usize) -> bool {
-        let apart = f64::from(answer.pattern.0[interface].sign()) * Self::relative(&answer.motion, interface);
+        let apart = f64::from(answer.pattern.0[interface].sign()) * relative(&answer.motion, interface);
         if self.at_rest_may_open { apart >= 0.0 } else { apart > 0.0 }
     }
 
@@ -147,6 +143,11 @@ impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
         patterns.sort_by_key(Pattern::dof);
         patterns
     }
+}
+
+/// `φ̇_i` or `φ̈_i` of the blocks' rates or accelerations.
+fn relative(motion: &[f64], interface: usize) -> f64 {
+    motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
 }
 
 /// Rates of the moving links among the rates of the blocks.
@@ -241,7 +242,6 @@ fn restitute(
     let mass = posture.factorised_mass()?;
     let mut rows = nalgebra::DMatrix::zeros(rebounding.len(), posture.dof);
     let mut gain = nalgebra::DVector::zeros(rebounding.len());
-    let relative = |motion: &[f64], i: usize| motion[i] - if i == 0 { 0.0 } else { motion[i - 1] };
     for (row, &interface) in rebounding.iter().enumerate() {
         rows[(row, posture.link[interface] - 1)] = 1.0;
         if interface > 0 && posture.link[interface - 1] > 0 {
@@ -267,7 +267,8 @@ fn restitute(
 /// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (MODEL.md section 5).
 const ENERGY_ROUNDING: f64 = 1e-12;
 
-/// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest).
+/// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest): all of them at
+/// once, judged by the rates and accelerations before any of them is closed.
 fn settle(
     column: &Column,
     theta: &[f64],
@@ -276,27 +277,23 @@ fn settle(
     ground: Ground,
     stick_angle: f64,
 ) -> Result<(), SingularMass> {
-    loop {
-        let posture = Posture::new(column, &decision.pattern, theta);
-        let rates = link_rates(&posture, &decision.omega);
-        let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
-        let relative = |motion: &[f64], i: usize| motion[i] - if i == 0 { 0.0 } else { motion[i - 1] };
-        let sticks = |&i: &usize| {
-            let sign = f64::from(decision.pattern.0[i].sign());
-            let (rate, back) = (relative(&decision.omega, i), -sign * relative(&acceleration, i));
-            decision.pattern.0[i].is_open() && back > 0.0 && rate * rate < 2.0 * back * stick_angle
-        };
-        let sticking: Vec<usize> = free.iter().copied().filter(sticks).collect();
-        if sticking.is_empty() {
-            return Ok(());
+    let posture = Posture::new(column, &decision.pattern, theta);
+    let rates = link_rates(&posture, &decision.omega);
+    let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
+    let mut closed = decision.pattern.clone();
+    for &interface in free {
+        let sign = f64::from(decision.pattern.0[interface].sign());
+        let (rate, back) = (relative(&decision.omega, interface), -sign * relative(&acceleration, interface));
+        if decision.pattern.0[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * stick_angle {
+            closed.0[interface] = Interface::Closed;
         }
+    }
+    if closed != decision.pattern {
         let before = Motion { linear: posture.linear(&rates), angular: decision.omega.clone() };
-        let mut closed = decision.pattern.clone();
-        sticking.iter().for_each(|&interface| closed.0[interface] = Interface::Closed);
-        let answer = project(column, theta, &before, &closed).ok_or(SingularMass)?;
-        decision.omega = answer.motion;
+        decision.omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion;
         decision.pattern = closed;
     }
+    Ok(())
 }
 
 /// Examines every closed interface at the level of forces (MODEL.md section 4): the pattern that the blocks' angles `theta`,

@@ -74,6 +74,7 @@ fn compare(name: &str, run: &Value, dynamics: DynamicsSource) {
             .fold(f64::INFINITY, f64::min);
         if found > 1e-7 { missing.push((time(k), event["interface"].clone(), found)) } else { worst_time = worst_time.max(found) }
     }
+    if std::env::var("SHOW").is_ok_and(|n| n==name) { for e in &response.events { println!("{} {:?} {:?} {}->{} th {:?} w- {:?} w+ {:?}", e.t, e.kind, e.interface, e.before, e.after, e.theta, e.omega_before, e.omega_after) } }
     println!("{name} {dynamics:?}: worst {:.2e} at {} (tol {tolerance:.1e}), event {worst_time:.1e}, {:?} {} events {} vs {}, seps {:?} work {:?}", worst.0, worst.1, response.status, response.t_final, ours.len(), events.iter().filter(|e| e["kind"] == "impact").count(), response.separations, response.work);
     assert!(missing.is_empty(), "{name}: {missing:?}");
     assert!(worst.0 <= tolerance, "{name}: {worst:?}");
