@@ -267,8 +267,13 @@ fn restitute(
 /// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (MODEL.md section 5).
 const ENERGY_ROUNDING: f64 = 1e-12;
 
+/// A hop of less than this is below the resolution of angles: 64 roundings of a radian `[rad]`. Larger, and short hops that
+/// MODEL.md has are lost; smaller, and two interfaces that strike in turn go on until rounding decides their pattern.
+const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
+
 /// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest): all of them at
-/// once, judged by the rates and accelerations before any of them is closed.
+/// once, judged by the rates and accelerations before any of them is closed. What then hops by less than angles resolve is
+/// closed as well.
 fn settle(
     column: &Column,
     theta: &[f64],
@@ -277,23 +282,27 @@ fn settle(
     ground: Ground,
     stick_angle: f64,
 ) -> Result<(), SingularMass> {
-    let posture = Posture::new(column, &decision.pattern, theta);
-    let rates = link_rates(&posture, &decision.omega);
-    let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
-    let mut closed = decision.pattern.clone();
-    for &interface in free {
-        let sign = f64::from(decision.pattern.0[interface].sign());
-        let (rate, back) = (relative(&decision.omega, interface), -sign * relative(&acceleration, interface));
-        if decision.pattern.0[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * stick_angle {
-            closed.0[interface] = Interface::Closed;
+    let mut height = stick_angle;
+    loop {
+        let posture = Posture::new(column, &decision.pattern, theta);
+        let rates = link_rates(&posture, &decision.omega);
+        let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
+        let mut closed = decision.pattern.clone();
+        for &interface in free {
+            let sign = f64::from(decision.pattern.0[interface].sign());
+            let (rate, back) = (relative(&decision.omega, interface), -sign * relative(&acceleration, interface));
+            if decision.pattern.0[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * height {
+                closed.0[interface] = Interface::Closed;
+            }
         }
-    }
-    if closed != decision.pattern {
+        if closed == decision.pattern {
+            return Ok(());
+        }
         let before = Motion { linear: posture.linear(&rates), angular: decision.omega.clone() };
         decision.omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion;
         decision.pattern = closed;
+        height = height.min(UNRESOLVED_HOP);
     }
-    Ok(())
 }
 
 /// Examines every closed interface at the level of forces (MODEL.md section 4): the pattern that the blocks' angles `theta`,
