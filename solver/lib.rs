@@ -56,6 +56,7 @@ pub use response::{Event, EventKind, Response, Sample, StopReason, Work};
 pub use rocking_codegen::pattern;
 pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions};
 
+pub use scene_file::SceneFileError;
 pub use simulate::{SolveError, simulate, simulate_observed};
 
 /// Gravity where a scene does not say otherwise `[m/s²]`.

@@ -98,6 +98,9 @@ enum Found {
 /// Newton's rounds when a step is repeated to end at a zero: the interpolant is good to some digits, each round doubles them.
 const REPEATS: usize = 4;
 
+/// A progress bar needs no more.
+const STEPS_BETWEEN_REPORTS: usize = 1024;
+
 /// A smooth phase.
 pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
     run: &'p mut Run<'a>,
@@ -188,6 +191,9 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             }
             self.pair.accept(&mut self.system);
             self.run.work.steps += 1;
+            if self.run.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
+                (self.run.progress)(t);
+            }
             let factor = control.factor(error);
             // A step cut short by a segment's end says nothing against the step wanted.
             wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };

@@ -49,6 +49,25 @@ pub enum Method {
     DormandPrince54,
 }
 
+impl Method {
+    /// All methods.
+    pub const ALL: [Method; 2] = [Method::Dop853, Method::DormandPrince54];
+
+    /// Its name in a scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Dop853 => "dop853",
+            Method::DormandPrince54 => "dormand-prince54",
+        }
+    }
+
+    /// The method of this name; `dopri5` is known as well.
+    pub fn parse(name: &str) -> Option<Method> {
+        let name = if name == "dopri5" { "dormand-prince54" } else { name };
+        Method::ALL.into_iter().find(|method| method.name() == name)
+    }
+}
+
 /// Whose right-hand sides are used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]

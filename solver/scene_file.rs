@@ -1,1 +1,378 @@
-//! stub
+//! Scene files: TOML in, a validated [`Scene`] out, or an error that names file, line, key and remedy.
+//!
+//! The file is read as a tree whose every key and value knows its place. [`Table`] hands out what a scene knows and, when it is
+//! closed, refuses what nobody asked for. Units are converted here and nowhere else.
+
+mod table;
+
+use crate::column::{Block, Column};
+use crate::excitation::{AccelerationUnit, Excitation, Motion, Record, TextOptions};
+use crate::scene::{Method, Restitution, Scene, SceneError};
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use table::{Place, Table};
+
+/// Why a scene file is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneFileError {
+    /// The file cannot be read.
+    #[error("{}: {problem}; check the path and its permissions", file.display())]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        problem: String,
+    },
+    /// The scene is not as it should be.
+    #[error("{}, line {line}, key `{key}`: {problem}; {remedy}", file.display())]
+    Scene {
+        /// The scene file.
+        file: PathBuf,
+        /// From 1.
+        line: usize,
+        /// Offset and length in bytes of the place in the file.
+        span: (usize, usize),
+        /// Dotted key, e.g. `excitation.horizontal.amplitude`.
+        key: String,
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A record is not as it should be.
+    #[error("{}: {problem} (asked for by {}, line {line}, key `{key}`)", record.display(), file.display())]
+    Record {
+        /// The scene file.
+        file: PathBuf,
+        /// Line of the key in the scene, from 1.
+        line: usize,
+        /// Dotted key.
+        key: String,
+        /// The record's file.
+        record: PathBuf,
+        /// What is wrong, with line and column of the record, and what to do.
+        problem: String,
+    },
+}
+
+impl Scene {
+    /// Reads a scene from a TOML file; records are found relative to it.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn from_file(file: &Path) -> Result<Scene, SceneFileError> {
+        let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
+            file: file.into(),
+            problem: error.to_string(),
+        };
+        let bytes = std::fs::read(file).map_err(unreadable)?;
+        let text = String::from_utf8_lossy(&bytes);
+        Scene::from_toml(&text, file)
+    }
+
+    /// Reads a scene from TOML text; `file` is named in errors, and records are found relative to it.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    ///
+    /// ```
+    /// let text = "[[block]]\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.1]\n[solver]\nt_end = 2.0\n";
+    /// let scene = rocking::Scene::from_toml(text, "free.toml".as_ref())?;
+    /// assert_eq!(scene.column.len(), 1);
+    /// # Ok::<(), rocking::SceneFileError>(())
+    /// ```
+    pub fn from_toml(text: &str, file: &Path) -> Result<Scene, SceneFileError> {
+        let reader = Reader { text, file };
+        let mut root = Table::parse(text).map_err(|wrong| reader.error(wrong))?;
+        let scene = reader.scene(&mut root)?;
+        root.close().map_err(|wrong| reader.error(wrong))?;
+        scene.check().map_err(|error| reader.refused(&root, error))?;
+        Ok(scene)
+    }
+}
+
+/// Something wrong at a place, before the file's name and line are put to it.
+type Wrong = table::Wrong;
+
+struct Reader<'t> {
+    text: &'t str,
+    file: &'t Path,
+}
+
+impl Reader<'_> {
+    fn line(&self, place: &Place) -> usize {
+        self.text.as_bytes().iter().take(place.start).filter(|byte| **byte == b'\n').count() + 1
+    }
+
+    fn error(&self, wrong: Wrong) -> SceneFileError {
+        SceneFileError::Scene {
+            file: self.file.into(),
+            line: self.line(&wrong.place),
+            span: (wrong.place.start, wrong.place.end - wrong.place.start),
+            key: wrong.key,
+            problem: wrong.problem,
+            remedy: wrong.remedy,
+        }
+    }
+
+    /// An error of [`Scene::check`], at the key that it names.
+    fn refused(&self, root: &Table, error: SceneError) -> SceneFileError {
+        let place = root.find(&error.key);
+        self.error(Wrong { place, key: error.key, problem: error.problem, remedy: error.remedy })
+    }
+
+    fn scene(&self, root: &mut Table) -> Result<Scene, SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let title = root.text("title").map_err(own)?.map(|(title, _)| title).unwrap_or_default();
+        let gravity = root.number("gravity").map_err(own)?.map_or(crate::DEFAULT_GRAVITY, |(value, _)| value);
+        if gravity <= 0.0 {
+            let wrong = root.wrong("gravity", format!("{gravity} is out of range"), "give m/s² above zero, or leave it out");
+            return Err(own(wrong));
+        }
+        let blocks = blocks(root).map_err(own)?;
+        let column = Column::new(blocks, gravity)
+            .map_err(|error| own(root.wrong("block", error.to_string(), "correct the block")))?;
+        let mut scene = Scene::new(column);
+        scene.title = title;
+        scene.friction = root.number("friction").map_err(own)?.map(|(value, _)| value);
+        scene.restitution = restitution(root).map_err(own)?;
+        scene.excitation = self.excitation(root, gravity)?;
+        if let Some(mut initial) = root.table("initial").map_err(own)? {
+            scene.initial.theta = initial.numbers("theta").map_err(own)?.unwrap_or_default();
+            scene.initial.omega = initial.numbers("omega").map_err(own)?.unwrap_or_default();
+            initial.close().map_err(own)?;
+        }
+        solver(root, &mut scene).map_err(own)?;
+        if let Some(mut output) = root.table("output").map_err(own)? {
+            scene.output_dt = output.number("dt").map_err(own)?.map(|(value, _)| value);
+            output.close().map_err(own)?;
+        }
+        scene.output_dt.get_or_insert(DEFAULT_OUTPUT_DT);
+        Ok(scene)
+    }
+
+    fn excitation(&self, root: &mut Table, gravity: f64) -> Result<Excitation, SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
+        let mut component = |name: &str| -> Result<Option<Motion>, SceneFileError> {
+            let Some(mut table) = table.table(name).map_err(own)? else { return Ok(None) };
+            let motion = self.motion(&mut table, gravity)?;
+            table.close().map_err(own)?;
+            Ok(Some(motion))
+        };
+        let excitation = Excitation { horizontal: component("horizontal")?, vertical: component("vertical")? };
+        table.close().map_err(own)?;
+        Ok(excitation)
+    }
+
+    fn motion(&self, table: &mut Table, gravity: f64) -> Result<Motion, SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let Some((kind, _)) = table.text("kind").map_err(own)? else {
+            return Err(own(table.missing("kind", &format!("choose one of {}", KINDS.join(", ")))));
+        };
+        let start = table.number("start").map_err(own)?.map_or(0.0, |(value, _)| value);
+        if kind == "record" {
+            return self.record(table, start, gravity).map(Motion::Record);
+        }
+        if !KINDS.contains(&kind.as_str()) {
+            let problem = format!("there is no kind `{kind}`");
+            return Err(own(table.wrong("kind", problem, &format!("choose one of {}", KINDS.join(", ")))));
+        }
+        let amplitude = table.one_of(&[("amplitude", &|a| a), ("amplitude_g", &|a| a * gravity)]).map_err(own)?;
+        let omega = table
+            .one_of(&[("omega", &|omega| omega), ("frequency", &|f| TAU * f), ("period", &|period| TAU / period)])
+            .map_err(own)?;
+        if !(omega.is_finite() && omega > 0.0) {
+            let key = ["omega", "frequency", "period"].into_iter().find(|key| table.has(key)).unwrap_or("omega");
+            return Err(own(table.wrong(key, "it must be above zero".into(), "give a finite number above zero")));
+        }
+        Ok(match kind.as_str() {
+            "sine-pulse" => Motion::SinePulse { amplitude, omega, start },
+            "cosine-pulse" => Motion::CosinePulse { amplitude, omega, start },
+            "ricker" => Motion::Ricker { amplitude, omega, start },
+            _ => {
+                let phase = table.number("phase").map_err(own)?.map_or(0.0, |(value, _)| value);
+                Motion::Harmonic { amplitude, omega, start, phase }
+            }
+        })
+    }
+
+    fn record(&self, table: &mut Table, start: f64, gravity: f64) -> Result<Record, SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let positive = |table: &mut Table, key: &str| match table.number(key)? {
+            Some((value, _)) if value <= 0.0 => {
+                Err(table.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
+            }
+            found => Ok(found.map(|(value, _)| value)),
+        };
+        let units = match table.text("units").map_err(own)? {
+            None => None,
+            Some((name, _)) => Some(AccelerationUnit::parse(&name).ok_or_else(|| {
+                own(table.wrong("units", format!("there is no unit `{name}`"), "choose g, m/s2, cm/s2 or gal"))
+            })?),
+        };
+        let dt = positive(table, "dt").map_err(own)?;
+        let options = TextOptions { gravity, dt, units };
+        let accel = table.numbers("accel").map_err(own)?;
+        let (record, key) = match (table.text("file").map_err(own)?, accel) {
+            (Some((name, _)), None) => (self.record_file(table, &name, options)?, "file"),
+            (None, Some(accel)) => {
+                let Some(dt) = dt else { return Err(own(table.missing("dt", "give the sampling interval in s"))) };
+                let scale = units.map_or(1.0, |unit| unit.in_si(gravity));
+                let accel = accel.into_iter().map(|a| a * scale).collect();
+                let refused = |error: crate::RecordError| own(table.wrong("accel", error.to_string(), "correct the samples"));
+                (Record::new(accel, dt, 0.0).map_err(refused)?, "accel")
+            }
+            (Some(_), Some(_)) => {
+                return Err(own(table.wrong("accel", "`file` is given as well".into(), "remove one of the two")));
+            }
+            (None, None) => return Err(own(table.missing("file", "name a record file, or give `accel` and `dt`"))),
+        };
+        let scale = table.number("scale").map_err(own)?;
+        let peak = table.number("pga_g").map_err(own)?;
+        let record = match (scale, peak) {
+            (Some(_), Some(_)) => {
+                return Err(own(table.wrong("pga_g", "`scale` is given as well".into(), "remove one of the two")));
+            }
+            (Some((factor, _)), None) => record.scaled(factor),
+            (None, Some((peak, _))) if peak <= 0.0 => {
+                return Err(own(table.wrong("pga_g", format!("{peak} is out of range"), "give a number above zero")));
+            }
+            (None, Some((peak, _))) => record
+                .scaled_to_peak(peak * gravity)
+                .map_err(|error| own(table.wrong(key, error.to_string(), "use another record")))?,
+            (None, None) => record,
+        };
+        Ok(record.starting_at(start))
+    }
+
+    fn record_file(&self, table: &Table, name: &str, options: TextOptions) -> Result<Record, SceneFileError> {
+        let path = self.file.parent().unwrap_or(Path::new("")).join(name);
+        let place = table.find("file");
+        let refuse = |problem: String| SceneFileError::Record {
+            file: self.file.into(),
+            line: self.line(&place),
+            key: table.dotted("file"),
+            record: path.clone(),
+            problem,
+        };
+        let bytes = std::fs::read(&path)
+            .map_err(|error| refuse(format!("{error}; give the path relative to the scene file")))?;
+        Record::from_text(&String::from_utf8_lossy(&bytes), options).map_err(|error| refuse(error.to_string()))
+    }
+}
+
+/// Interval of the rows of `response.csv` where a scene does not say `[s]`.
+const DEFAULT_OUTPUT_DT: f64 = 0.01;
+
+/// Kinds of ground motion, as a scene names them.
+const KINDS: [&str; 5] = ["sine-pulse", "cosine-pulse", "ricker", "harmonic", "record"];
+
+/// `[[block]]`, or `[column]` with equal blocks.
+fn blocks(root: &mut Table) -> Result<Vec<Block>, Wrong> {
+    let tables = root.tables("block")?;
+    let column = root.table("column")?;
+    match (tables, column) {
+        (Some(_), Some(column)) => Err(Wrong {
+            place: column.place(),
+            key: "column".into(),
+            problem: "`[[block]]` is given as well".into(),
+            remedy: "describe the column in one way".into(),
+        }),
+        (Some(mut tables), None) if !tables.is_empty() => tables.iter_mut().map(|table| block(table, 1.0)).collect(),
+        (None, Some(mut column)) => {
+            let (count, place) = match column.number("blocks")? {
+                Some(found) => found,
+                None => return Err(column.missing("blocks", "say of how many blocks the column is made")),
+            };
+            if !(count.fract() == 0.0 && (1.0..=MOST_BLOCKS).contains(&count)) {
+                let remedy = format!("give a whole number from 1 to {MOST_BLOCKS}");
+                let problem = format!("{count} is no number of blocks");
+                return Err(Wrong { place, key: "column.blocks".into(), problem, remedy });
+            }
+            Ok(vec![block(&mut column, count)?; count as usize])
+        }
+        _ => Err(root.missing("block", "add a [[block]] with half_width and half_height for each block, base first")),
+    }
+}
+
+/// Blocks beyond which a scene is taken for a mistake.
+const MOST_BLOCKS: f64 = 100.0;
+
+/// A block, or one of `count` equal parts of a column whose half-height is given as a whole.
+fn block(table: &mut Table, count: f64) -> Result<Block, Wrong> {
+    let positive = |table: &mut Table, key: &str| match table.number(key)? {
+        Some((value, _)) if value <= 0.0 => {
+            Err(table.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
+        }
+        found => Ok(found.map(|(value, _)| value)),
+    };
+    let size = |table: &mut Table, key: &str| match positive(table, key)? {
+        Some(value) => Ok(value),
+        None => Err(table.missing(key, "give it in m")),
+    };
+    let half_width = size(table, "half_width")?;
+    let half_height = size(table, "half_height")? / count;
+    let (density, mass) = (positive(table, "density")?, positive(table, "mass")?);
+    let mut block = match (density, mass) {
+        (Some(_), Some(_)) => {
+            return Err(table.wrong("mass", "`density` is given as well".into(), "remove one of the two"));
+        }
+        (_, Some(mass)) => Block::with_mass(half_width, half_height, mass / count),
+        (density, None) => Block::rectangle(half_width, half_height, density.unwrap_or(1.0)),
+    };
+    // A column's inertia as a whole is no block's.
+    if count == 1.0 {
+        block.inertia = positive(table, "inertia")?.unwrap_or(block.inertia);
+    }
+    table.close()?;
+    Ok(block)
+}
+
+fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {
+    let Some(mut table) = root.table("restitution")? else { return Ok(Restitution::Plastic) };
+    let law = table.text("law")?.map(|(law, _)| law);
+    if let Some(law) = law.as_ref().filter(|law| *law != "plastic") {
+        let problem = format!("there is no law `{law}`");
+        return Err(table.wrong("law", problem, "write \"plastic\", or give `eta` or `factors` without a law"));
+    }
+    let eta = table.number("eta")?;
+    let factors = table.numbers("factors")?;
+    let restitution = match (law, eta, factors) {
+        (Some(_), Some(_), _) | (Some(_), _, Some(_)) => {
+            return Err(table.wrong("law", "`eta` or `factors` is given as well".into(), "remove one of the two"));
+        }
+        (None, Some(_), Some(_)) => {
+            return Err(table.wrong("factors", "`eta` is given as well".into(), "remove one of the two"));
+        }
+        (None, Some((eta, _)), None) => Restitution::Eta(eta),
+        (None, None, Some(factors)) => Restitution::Factors(factors),
+        (_, None, None) => Restitution::Plastic,
+    };
+    table.close()?;
+    Ok(restitution)
+}
+
+fn solver(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
+    let Some(mut table) = root.table("solver")? else { return Ok(()) };
+    let options = &mut scene.options;
+    for (key, option) in [
+        ("t_end", &mut options.t_end),
+        ("rtol", &mut options.rtol),
+        ("atol", &mut options.atol),
+        ("stick_angle", &mut options.stick_angle),
+        ("overturn_angle", &mut options.overturn_angle),
+    ] {
+        if let Some((value, _)) = table.number(key)? {
+            *option = value;
+        }
+    }
+    if let Some((name, _)) = table.text("method")? {
+        options.method = Method::parse(&name).ok_or_else(|| {
+            let names: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
+            let problem = format!("there is no method `{name}`");
+            table.wrong("method", problem, &format!("choose one of {}", names.join(", ")))
+        })?;
+    }
+    table.close()
+}

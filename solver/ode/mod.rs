@@ -115,7 +115,7 @@ mod tests {
 
     fn advance<P: Pair<[f64; 2]>>(steps: usize) -> [f64; 2] {
         let mut pair = P::new(&[0.0; 2]);
-        let (mut x, h) = ([1.0, 0.0], 4.0 / steps as f64);
+        let (mut x, h) = ([1.0, 0.0], 12.0 / steps as f64);
         let mut slope = [0.0; 2];
         for step in 0..steps {
             let t = step as f64 * h;
@@ -127,15 +127,19 @@ mod tests {
     }
 
     fn observed_order<P: Pair<[f64; 2]>>(steps: usize) -> f64 {
-        let exact = advance::<Dop853<[f64; 2]>>(400);
-        let error = |steps: usize| (advance::<P>(steps)[0] - exact[0]).abs();
+        let exact = advance::<Dop853<[f64; 2]>>(800);
+        let error = |steps: usize| {
+            let end = advance::<P>(steps);
+            (end[0] - exact[0]).hypot(end[1] - exact[1])
+        };
         (error(steps) / error(2 * steps)).log2()
     }
 
     #[test]
     fn observed_order_is_the_stated_one() {
-        assert!((observed_order::<DormandPrince54<[f64; 2]>>(32) - 5.0).abs() < 0.4);
-        assert!((observed_order::<Dop853<[f64; 2]>>(10) - 8.0).abs() < 0.8);
+        // Measured 5.12 and 8.04: the next term of the error is a few per cent at these steps.
+        assert!((observed_order::<DormandPrince54<[f64; 2]>>(128) - 5.0).abs() < 0.2);
+        assert!((observed_order::<Dop853<[f64; 2]>>(28) - 8.0).abs() < 0.2);
     }
 
     fn power_error<P: Pair<[f64; 1]>>(power: usize) -> (f64, f64) {

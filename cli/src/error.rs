@@ -1,0 +1,98 @@
+//! What goes wrong, told so that the place and the remedy are seen.
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use rocking::{SceneFileError, SolveError};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The scene or its record must be corrected.
+    #[error("{error}")]
+    Scene {
+        /// What the library says.
+        error: SceneFileError,
+        /// The scene's text, to show the place in.
+        source_text: Option<NamedSource<String>>,
+    },
+    /// A file or folder cannot be written.
+    #[error("{}: {problem}; choose a folder that can be written to with --out", path.display())]
+    Output {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        problem: String,
+    },
+    /// There is no such mode.
+    #[error("--mode {mode}: a column of {blocks} block(s) has no such mode; `rocking modes --blocks {blocks}` lists them")]
+    Mode {
+        /// What was asked for.
+        mode: String,
+        /// Number of blocks.
+        blocks: usize,
+    },
+    /// The run could not be finished.
+    #[error("{}: {error}", scene.display())]
+    Solve {
+        /// The scene file.
+        scene: PathBuf,
+        /// What the library says.
+        error: SolveError,
+    },
+    /// Standard output cannot be written.
+    #[error("standard output: {problem}")]
+    Print {
+        /// What the system says.
+        problem: String,
+    },
+}
+
+impl Failure {
+    /// The failure of reading a scene, with its text if it can be shown.
+    pub fn scene(error: SceneFileError) -> Failure {
+        let source_text = match &error {
+            SceneFileError::Scene { file, .. } => std::fs::read_to_string(file)
+                .ok()
+                .map(|text| NamedSource::new(file.display().to_string(), text).with_language("toml")),
+            _ => None,
+        };
+        Failure::Scene { error, source_text }
+    }
+
+    /// A file or folder that cannot be written.
+    pub fn output(path: &Path, problem: impl fmt::Display) -> Failure {
+        Failure::Output { path: path.into(), problem: problem.to_string() }
+    }
+
+    /// Whether the user can mend it by other input.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, Failure::Scene { .. } | Failure::Output { .. } | Failure::Mode { .. })
+    }
+}
+
+impl Diagnostic for Failure {
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        match self {
+            Failure::Scene { source_text, .. } => source_text.as_ref().map(|text| text as &dyn SourceCode),
+            _ => None,
+        }
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        match self {
+            Failure::Scene { error: SceneFileError::Scene { span, .. }, source_text: Some(_) } => {
+                Some(Box::new(std::iter::once(LabeledSpan::new(Some("here".into()), span.0, span.1))))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Lets reports keep their lines whole: a broken line cannot be searched for.
+pub fn install_report() {
+    // An earlier hook would mean that this ran twice; the first one then stays.
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).break_words(false).build())
+    }));
+}

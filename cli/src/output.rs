@@ -1,0 +1,144 @@
+//! The files of a run: written beside their places, then renamed, so that nothing is ever half there.
+
+use crate::error::Failure;
+use rocking::{Response, Scene};
+use serde::Serialize;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+/// What `summary.json` holds. Lengths N per block or interface, base first.
+#[derive(Debug, Serialize)]
+struct Summary<'a> {
+    title: &'a str,
+    version: &'static str,
+    status: rocking::StopReason,
+    /// When the run ended, or the column came to rest for good `[s]`.
+    t_final: f64,
+    overturned_at: Option<f64>,
+    overturned_block: Option<usize>,
+    peak_theta: &'a [f64],
+    impacts: usize,
+    time_in_mode: &'a std::collections::BTreeMap<String, f64>,
+    friction_demand: &'a [f64],
+    min_normal_force: &'a [f64],
+    separations: &'a [rocking::response::Separation],
+    work: rocking::Work,
+    wall_seconds: f64,
+    warnings: &'a [String],
+    options: &'a rocking::SolveOptions,
+}
+
+/// The folder of a run's results, proved to be writable.
+#[derive(Debug)]
+pub struct Folder<'a> {
+    path: &'a Path,
+}
+
+impl<'a> Folder<'a> {
+    /// Makes the folder where it is missing, and tries it before any work is done.
+    ///
+    /// # Errors
+    /// [`Failure::Output`]
+    pub fn open(path: &'a Path) -> Result<Folder<'a>, Failure> {
+        std::fs::create_dir_all(path).map_err(|error| Failure::output(path, error))?;
+        NamedTempFile::new_in(path).map_err(|error| Failure::output(path, error))?;
+        Ok(Folder { path })
+    }
+
+    /// Writes all files of a run, or none.
+    ///
+    /// # Errors
+    /// [`Failure::Output`]
+    pub fn write(
+        &self,
+        scene: &Scene,
+        response: &Response,
+        wall_seconds: f64,
+        warnings: &[String],
+    ) -> Result<(), Failure> {
+        let summary = Summary {
+            title: &scene.title,
+            version: env!("CARGO_PKG_VERSION"),
+            status: response.status,
+            t_final: response.t_final,
+            overturned_at: response.overturned_at(),
+            overturned_block: response.overturned_block,
+            peak_theta: &response.peak_theta,
+            impacts: response.impacts(),
+            time_in_mode: &response.time_in_mode,
+            friction_demand: &response.friction_demand,
+            min_normal_force: &response.min_normal_force,
+            separations: &response.separations,
+            work: response.work,
+            wall_seconds,
+            warnings,
+            options: &scene.options,
+        };
+        let files = [
+            ("summary.json", self.fill(|file| serde_json::to_writer_pretty(file, &summary).map_err(Into::into))?),
+            ("response.csv", self.fill(|file| history(file, scene, response))?),
+            ("events.json", self.fill(|file| events(file, response))?),
+        ];
+        for (name, file) in files {
+            let path = self.path.join(name);
+            file.persist(&path).map_err(|error| Failure::output(&path, error))?;
+        }
+        Ok(())
+    }
+
+    fn fill(
+        &self,
+        write: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> std::io::Result<()>,
+    ) -> Result<NamedTempFile, Failure> {
+        let failed = |error: std::io::Error| Failure::output(self.path, error);
+        let mut file = NamedTempFile::new_in(self.path).map_err(failed)?;
+        let mut writer = BufWriter::new(file.as_file_mut());
+        write(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
+        drop(writer);
+        share(&file).map_err(failed)?;
+        Ok(file)
+    }
+}
+
+/// Temporary files are private; results are for whoever may read the folder.
+#[cfg(unix)]
+fn share(file: &NamedTempFile) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn share(_: &NamedTempFile) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// A JSON list, one event per line.
+fn events(mut file: impl Write, response: &Response) -> std::io::Result<()> {
+    for (index, event) in response.events.iter().enumerate() {
+        file.write_all(if index == 0 { b"[\n" } else { b",\n" })?;
+        serde_json::to_writer(&mut file, event)?;
+    }
+    file.write_all(if response.events.is_empty() { b"[]\n" } else { b"\n]\n" })
+}
+
+/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time.
+fn history(file: impl Write, scene: &Scene, response: &Response) -> std::io::Result<()> {
+    let mut csv = csv::Writer::from_writer(file);
+    let blocks = 1..=scene.column.len();
+    let mut header = vec!["t".to_string()];
+    header.extend(blocks.clone().map(|block| format!("theta_{block}")));
+    header.extend(blocks.map(|block| format!("omega_{block}")));
+    header.extend(["ground_x", "ground_y", "pattern"].map(String::from));
+    csv.write_record(&header)?;
+    for sample in &response.samples {
+        let numbers = std::iter::once(sample.t)
+            .chain(sample.theta.iter().copied())
+            .chain(sample.omega.iter().copied())
+            .chain(sample.ground);
+        // `{:?}` is the shortest text that reads back to the same bits.
+        let row = numbers.map(|number| format!("{number:?}")).chain([sample.pattern.to_string()]);
+        csv.write_record(row)?;
+    }
+    csv.flush()
+}

@@ -1,0 +1,286 @@
+//! A TOML table that knows where everything stands, and what has been asked for.
+
+use toml::de::{DeTable, DeValue};
+
+/// A stretch of the file, in bytes.
+pub type Place = std::ops::Range<usize>;
+
+/// Something wrong at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrong {
+    /// Where.
+    pub place: Place,
+    /// Dotted key.
+    pub key: String,
+    /// What is wrong.
+    pub problem: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+/// A value and its places.
+#[derive(Clone, Debug)]
+struct Entry {
+    key: String,
+    key_place: Place,
+    value_place: Place,
+    value: Value,
+}
+
+#[derive(Clone, Debug)]
+enum Value {
+    Text(String),
+    Number(f64),
+    Array(Vec<(Value, Place)>),
+    Table(Table),
+    Other(&'static str),
+}
+
+impl Value {
+    fn what(&self) -> &'static str {
+        match self {
+            Value::Text(_) => "text",
+            Value::Number(_) => "a number",
+            Value::Array(_) => "a list",
+            Value::Table(_) => "a table",
+            Value::Other(what) => what,
+        }
+    }
+}
+
+/// A table under way of being read.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Dotted name, empty at the root.
+    name: String,
+    place: Place,
+    entries: Vec<Entry>,
+    /// Keys that a reader has asked for: what a scene knows here.
+    asked: Vec<String>,
+}
+
+impl Table {
+    /// Reads TOML.
+    pub fn parse(text: &str) -> Result<Table, Wrong> {
+        let (tree, errors) = DeTable::parse_recoverable(text);
+        if let Some(error) = errors.first() {
+            let place = error.span().unwrap_or(0..0);
+            let start = place.start.min(text.len());
+            let line_start = text.as_bytes()[..start].iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
+            let line = text[line_start..].lines().next().unwrap_or("");
+            let key = line.split('=').next().unwrap_or("").trim().to_string();
+            let problem = format!("this is not TOML: {}", error.message().lines().collect::<Vec<_>>().join(", "));
+            return Err(Wrong { place, key, problem, remedy: "correct the line; text stands in quotes, lists in brackets".into() });
+        }
+        let place = tree.span();
+        Ok(Table::from_tree(String::new(), place, tree.into_inner()))
+    }
+
+    fn from_tree(name: String, place: Place, tree: DeTable<'_>) -> Table {
+        let mut entries = Vec::new();
+        for (key, value) in tree {
+            let (key_place, value_place) = (key.span(), value.span());
+            let key = key.into_inner().into_owned();
+            let dotted = dot(&name, &key);
+            let value = value_from_tree(dotted, value_place.clone(), value.into_inner());
+            entries.push(Entry { key, key_place, value_place, value });
+        }
+        // In the order of the file, so that of several faults the first is named.
+        entries.sort_by_key(|entry| entry.key_place.start);
+        Table { name, place, entries, asked: Vec::new() }
+    }
+
+    /// The full name of a key of this table.
+    pub fn dotted(&self, key: &str) -> String {
+        dot(&self.name, key)
+    }
+
+    /// Where the table stands.
+    pub fn place(&self) -> Place {
+        self.place.clone()
+    }
+
+    /// Whether the file gives this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.iter().any(|entry| entry.key == key)
+    }
+
+    /// Where a dotted key stands; the nearest table where it is not given.
+    pub fn find(&self, key: &str) -> Place {
+        let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+        match (self.entries.iter().find(|entry| entry.key == first), rest) {
+            (Some(Entry { value: Value::Table(table), .. }), Some(rest)) => table.find(rest),
+            (Some(entry), _) => entry.key_place.start..entry.value_place.end.max(entry.key_place.end),
+            (None, _) => self.place(),
+        }
+    }
+
+    /// An error at a key.
+    pub fn wrong(&self, key: &str, problem: String, remedy: &str) -> Wrong {
+        Wrong { place: self.find(key), key: self.dotted(key), problem, remedy: remedy.into() }
+    }
+
+    /// The error that a key is not given.
+    pub fn missing(&self, key: &str, remedy: &str) -> Wrong {
+        Wrong { place: self.place(), key: self.dotted(key), problem: "it is missing".into(), remedy: remedy.into() }
+    }
+
+    fn ask(&mut self, key: &str) -> Option<&Entry> {
+        self.asked.push(key.into());
+        self.entries.iter().find(|entry| entry.key == key)
+    }
+
+    fn expected(&self, key: &str, found: &Value, wanted: &str) -> Wrong {
+        self.wrong(key, format!("{} stands here", found.what()), &format!("give {wanted}"))
+    }
+
+    /// Text.
+    pub fn text(&mut self, key: &str) -> Result<Option<(String, Place)>, Wrong> {
+        match self.ask(key).cloned() {
+            None => Ok(None),
+            Some(Entry { value: Value::Text(text), value_place, .. }) => Ok(Some((text, value_place))),
+            Some(entry) => Err(self.expected(key, &entry.value, "text in quotes")),
+        }
+    }
+
+    /// A finite number.
+    pub fn number(&mut self, key: &str) -> Result<Option<(f64, Place)>, Wrong> {
+        match self.ask(key).cloned() {
+            None => Ok(None),
+            Some(Entry { value: Value::Number(value), value_place, .. }) if value.is_finite() => {
+                Ok(Some((value, value_place)))
+            }
+            Some(Entry { value: Value::Number(value), .. }) => {
+                Err(self.wrong(key, format!("{value} is not finite"), "give a finite number"))
+            }
+            Some(entry) => Err(self.expected(key, &entry.value, "a number")),
+        }
+    }
+
+    /// A list of finite numbers.
+    pub fn numbers(&mut self, key: &str) -> Result<Option<Vec<f64>>, Wrong> {
+        let items = match self.ask(key).cloned() {
+            None => return Ok(None),
+            Some(Entry { value: Value::Array(items), .. }) => items,
+            Some(entry) => return Err(self.expected(key, &entry.value, "a list of numbers")),
+        };
+        let mut numbers = Vec::with_capacity(items.len());
+        for (index, (item, place)) in items.into_iter().enumerate() {
+            match item {
+                Value::Number(value) if value.is_finite() => numbers.push(value),
+                other => {
+                    let what = if let Value::Number(value) = other { format!("{value}") } else { other.what().into() };
+                    let problem = format!("number {} of the list is {what}", index + 1);
+                    let key = self.dotted(key);
+                    return Err(Wrong { place, key, problem, remedy: "give finite numbers".into() });
+                }
+            }
+        }
+        Ok(Some(numbers))
+    }
+
+    /// Exactly one of several keys, each with its conversion.
+    pub fn one_of(&mut self, keys: &[(&str, &dyn Fn(f64) -> f64)]) -> Result<f64, Wrong> {
+        let mut found: Option<(&str, f64)> = None;
+        for (key, convert) in keys {
+            let Some((value, _)) = self.number(key)? else { continue };
+            if let Some((first, _)) = found {
+                return Err(self.wrong(key, format!("`{first}` is given as well"), "remove one of the two"));
+            }
+            found = Some((key, convert(value)));
+        }
+        let names: Vec<String> = keys.iter().map(|(key, _)| format!("`{key}`")).collect();
+        found.map(|(_, value)| value).ok_or_else(|| self.missing(keys[0].0, &format!("give one of {}", names.join(", "))))
+    }
+
+    /// A table within.
+    pub fn table(&mut self, key: &str) -> Result<Option<Table>, Wrong> {
+        match self.ask(key).cloned() {
+            None => Ok(None),
+            Some(Entry { value: Value::Table(mut table), key_place, .. }) => {
+                table.place = key_place;
+                Ok(Some(table))
+            }
+            Some(entry) => Err(self.expected(key, &entry.value, &format!("a table: [{}]", self.dotted(key)))),
+        }
+    }
+
+    /// An array of tables.
+    pub fn tables(&mut self, key: &str) -> Result<Option<Vec<Table>>, Wrong> {
+        let items = match self.ask(key).cloned() {
+            None => return Ok(None),
+            Some(Entry { value: Value::Array(items), .. }) => items,
+            Some(entry) => return Err(self.expected(key, &entry.value, &format!("tables: [[{}]]", self.dotted(key)))),
+        };
+        let as_table = |(index, (item, place)): (usize, (Value, Place))| match item {
+            Value::Table(mut table) => {
+                table.place = place;
+                table.name = format!("{}[{}]", self.dotted(key), index + 1);
+                Ok(table)
+            }
+            other => Err(self.expected(key, &other, &format!("tables: [[{}]]", self.dotted(key)))),
+        };
+        items.into_iter().enumerate().map(as_table).collect::<Result<Vec<Table>, Wrong>>().map(Some)
+    }
+
+    /// Refuses keys that nobody asked for.
+    pub fn close(&self) -> Result<(), Wrong> {
+        let Some(unknown) = self.entries.iter().find(|entry| !self.asked.contains(&entry.key)) else { return Ok(()) };
+        let nearest = self.asked.iter().min_by_key(|known| distance(known, &unknown.key));
+        let remedy = match nearest.filter(|known| distance(known, &unknown.key) <= 1 + unknown.key.len() / 4) {
+            Some(known) => format!("did you mean `{known}`?"),
+            None => format!("remove it; known here are {}", self.asked.join(", ")),
+        };
+        Err(Wrong {
+            place: unknown.key_place.clone(),
+            key: self.dotted(&unknown.key),
+            problem: "this key is unknown here".into(),
+            remedy,
+        })
+    }
+}
+
+fn dot(name: &str, key: &str) -> String {
+    if name.is_empty() { key.into() } else { format!("{name}.{key}") }
+}
+
+fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
+    match value {
+        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::Integer(integer) => {
+            i64::from_str_radix(integer.as_str(), integer.radix()).map_or(Value::Other("too large a number"), |n| Value::Number(n as f64))
+        }
+        DeValue::Float(float) => {
+            let text = float.as_str().replace("inf", "infinity");
+            text.parse().map_or(Value::Other("no number"), Value::Number)
+        }
+        DeValue::Boolean(_) => Value::Other("true or false"),
+        DeValue::Datetime(_) => Value::Other("a date"),
+        DeValue::Array(items) => Value::Array(
+            items
+                .into_iter()
+                .map(|item| {
+                    let place = item.span();
+                    (value_from_tree(name.clone(), place.clone(), item.into_inner()), place)
+                })
+                .collect(),
+        ),
+        DeValue::Table(table) => Value::Table(Table::from_tree(name, place, table)),
+    }
+}
+
+/// Edit distance of two short keys.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, c) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, d) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(c != *d);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
