@@ -16,7 +16,7 @@ use table::{Place, Table};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneFileError {
     /// The file cannot be read.
-    #[error("{}: {problem}; check the path and its permissions", file.display())]
+    #[error("{}: {problem}", file.display())]
     Unreadable {
         /// The file.
         file: PathBuf,
@@ -63,11 +63,15 @@ impl Scene {
     pub fn from_file(file: &Path) -> Result<Scene, SceneFileError> {
         let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
             file: file.into(),
-            problem: error.to_string(),
+            problem: format!("{error}; check the path and its permissions"),
         };
         let bytes = std::fs::read(file).map_err(unreadable)?;
-        let text = String::from_utf8_lossy(&bytes);
-        Scene::from_toml(&text, file)
+        let text = std::str::from_utf8(&bytes).map_err(|error| {
+            let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
+            let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
+            SceneFileError::Unreadable { file: file.into(), problem }
+        })?;
+        Scene::from_toml(text, file)
     }
 
     /// Reads a scene from TOML text; `file` is named in errors, and records are found relative to it.

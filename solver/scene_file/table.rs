@@ -120,8 +120,12 @@ impl Table {
         Wrong { place: self.find(key), key: self.dotted(key), problem, remedy: remedy.into() }
     }
 
-    /// The error that a key is not given.
+    /// The error that a key is not given, or that it is misspelt.
     pub fn missing(&self, key: &str, remedy: &str) -> Wrong {
+        let mut unasked = self.entries.iter().filter(|entry| !self.asked.contains(&entry.key));
+        if let Some(misspelt) = unasked.find(|entry| is_slip(key, &entry.key)) {
+            return self.unknown(misspelt, format!("did you mean `{key}`?"));
+        }
         Wrong { place: self.place(), key: self.dotted(key), problem: "it is missing".into(), remedy: remedy.into() }
     }
 
@@ -227,16 +231,16 @@ impl Table {
     pub fn close(&self) -> Result<(), Wrong> {
         let Some(unknown) = self.entries.iter().find(|entry| !self.asked.contains(&entry.key)) else { return Ok(()) };
         let nearest = self.asked.iter().min_by_key(|known| distance(known, &unknown.key));
-        let remedy = match nearest.filter(|known| distance(known, &unknown.key) <= 1 + unknown.key.len() / 4) {
+        let remedy = match nearest.filter(|known| is_slip(known, &unknown.key)) {
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("remove it; known here are {}", self.asked.join(", ")),
         };
-        Err(Wrong {
-            place: unknown.key_place.clone(),
-            key: self.dotted(&unknown.key),
-            problem: "this key is unknown here".into(),
-            remedy,
-        })
+        Err(self.unknown(unknown, remedy))
+    }
+
+    fn unknown(&self, entry: &Entry, remedy: String) -> Wrong {
+        let (place, key) = (entry.key_place.clone(), self.dotted(&entry.key));
+        Wrong { place, key, problem: "this key is unknown here".into(), remedy }
     }
 }
 
@@ -267,6 +271,11 @@ fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
         ),
         DeValue::Table(table) => Value::Table(Table::from_tree(name, place, table)),
     }
+}
+
+/// Whether `written` may be a slip for `key`.
+fn is_slip(key: &str, written: &str) -> bool {
+    distance(key, written) <= 1 + written.len() / 4
 }
 
 /// Edit distance of two short keys.
