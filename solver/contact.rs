@@ -347,6 +347,9 @@ pub fn open(
 mod tests {
     use super::*;
     use crate::column::Block;
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+    use std::cell::Cell;
 
     const GROUND: Ground = Ground { x: 0.0, gravity: 9.81 };
 
@@ -379,5 +382,63 @@ mod tests {
         assert_eq!(at(0.999), Pattern::rest(3));
         assert_eq!(at(1.001), Pattern::from_signs(&[-1, 0, 0]));
         assert_eq!(at(-1.001), Pattern::from_signs(&[1, 0, 0]));
+    }
+
+    /// MODEL.md section 5, item 3: of all patterns of random stacks of drums exactly one is admissible, and the search finds it.
+    #[test]
+    fn the_search_finds_the_one_admissible_pattern() {
+        let block = (0.3f64..0.5, 0.5f64..1.0).prop_map(|(b, h)| Block::rectangle(b, h, 1.0));
+        let stack = (2usize..=4).prop_flat_map(move |n| {
+            let state = (-1i8..=1, any::<bool>(), 0.001f64..0.1, 0.0f64..1.0);
+            (prop::collection::vec(block.clone(), n), prop::collection::vec(state, n))
+        });
+        let config = Config { cases: 3000, failure_persistence: None, ..Config::default() };
+        let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+        let (unique, total) = (Cell::new(0), Cell::new(0));
+        let check = |(blocks, states): (Vec<Block>, Vec<(i8, bool, f64, f64)>)| {
+            let column = Column::new(blocks, 9.81).expect("valid");
+            let pattern = Pattern(states.iter().map(|state| Interface::from_sign(state.0)).collect());
+            let (mut angle, mut rate) = (0.0, 0.0);
+            let (mut theta, mut omega, mut closing) = (Vec::new(), Vec::new(), Vec::new());
+            for (interface, &(sign, closes, gap, speed)) in states.iter().enumerate() {
+                if sign != 0 && closes {
+                    closing.push(interface);
+                    rate -= f64::from(sign) * speed;
+                } else {
+                    angle += f64::from(sign) * gap;
+                    rate += f64::from(sign) * (speed - 0.5);
+                }
+                theta.push(angle);
+                omega.push(rate);
+            }
+            if closing.is_empty() {
+                return Ok(());
+            }
+            let posture = Posture::new(&column, &pattern, &theta);
+            let before = Motion { linear: posture.linear(&link_rates(&posture, &omega)), angular: omega };
+            let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
+            let answer = |candidate: &Pattern| project(&column, &theta, &before, candidate);
+            let mut problem = Problem { column: &column, free, at_rest_may_open: false, answer };
+            let mut admissible = Vec::new();
+            for candidate in problem.all(&pattern) {
+                let answer = (problem.answer)(&candidate).expect("solvable");
+                if problem.is_admissible(&answer) {
+                    admissible.push(answer);
+                }
+            }
+            total.set(total.get() + 1);
+            unique.set(unique.get() + usize::from(admissible.len() == 1));
+            let (found, separation) = problem.solve(pattern).expect("solvable");
+            prop_assert_eq!(separation, admissible.is_empty());
+            if let Some(best) = admissible.iter().min_by(|a, b| a.distance.total_cmp(&b.distance)) {
+                for (a, b) in found.motion.iter().zip(&best.motion) {
+                    // Both are solves of systems with a condition number of some thousands.
+                    prop_assert!((a - b).abs() < 1e-10, "{} and {}", found.pattern, best.pattern);
+                }
+            }
+            Ok(())
+        };
+        runner.run(&stack, check).expect("the search agrees with trying all");
+        assert!(unique.get() as f64 >= 0.99 * f64::from(total.get()), "{} of {}", unique.get(), total.get());
     }
 }

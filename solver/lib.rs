@@ -42,6 +42,7 @@ pub mod dynamics;
 pub mod generated;
 pub mod generic;
 pub mod kinematics;
+pub mod mode;
 pub mod ode;
 pub mod event;
 pub mod contact;
@@ -52,6 +53,7 @@ pub mod response;
 
 pub use column::{Block, Column, ColumnError};
 pub use excitation::{Excitation, Motion, Record, RecordError};
+pub use mode::Mode;
 pub use response::{Event, EventKind, Response, Sample, StopReason, Work};
 pub use rocking_codegen::pattern;
 pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions};

@@ -63,6 +63,49 @@ pub trait Pair<V: StateVector> {
     fn interpolate<S: System<State = V>>(&mut self, system: &mut S, interpolant: &mut Interpolant<V>);
 }
 
+/// The states at `times` (ascending) of the solution that is `x` at the first of them, by dense output; `None` if a step
+/// falls below the resolution of the time before the tolerance is met.
+pub fn solve<V: StateVector, S: System<State = V>, P: Pair<V>>(
+    system: &mut S,
+    pair: &mut P,
+    mut x: V,
+    times: &[f64],
+    tolerance: Tolerance,
+) -> Option<Vec<V>> {
+    let control = StepControl::new(P::ERROR_ORDER);
+    let (Some(&start), Some(&end)) = (times.first(), times.last()) else { return Some(Vec::new()) };
+    let (mut t, mut slope, mut states) = (start, x.clone(), vec![x.clone()]);
+    system.slope(t, &x, &mut slope);
+    let mut interpolant = Interpolant::new(&x);
+    let mut wanted = control.first_step(&x, &slope, tolerance);
+    while states.len() < times.len() {
+        let h = wanted.min(end - t);
+        let error = pair.attempt(system, t, &x, &slope, h, tolerance);
+        if error.is_nan() || error > 1.0 {
+            wanted = h * if error.is_nan() { 0.1 } else { control.factor(error).min(1.0) };
+            if t + wanted == t {
+                return None;
+            }
+            continue;
+        }
+        pair.accept(system);
+        let next = if h == end - t { end } else { t + h };
+        if times[states.len()] <= next {
+            pair.interpolate(system, &mut interpolant);
+        }
+        while states.len() < times.len() && times[states.len()] <= next {
+            let mut state = x.clone();
+            interpolant.evaluate((times[states.len()] - t) / h, &mut state);
+            states.push(state);
+        }
+        x.clone_from(pair.end());
+        slope.clone_from(pair.end_slope());
+        t = next;
+        wanted = h * control.factor(error);
+    }
+    Some(states)
+}
+
 /// Stage index and weight.
 type Term = (usize, f64);
 

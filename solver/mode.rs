@@ -1,0 +1,159 @@
+//! One mode by itself: its right-hand side, energies and forces, and its integration without events.
+//!
+//! For programs that bring their own event logic, and for comparing generated with generic equations. The event-driven solver
+//! ([`crate::simulate`]) uses the same equations through types that know the number of free angles.
+
+use crate::column::Column;
+use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
+use crate::generated::{self, GeneratedMode, with_step_program};
+use crate::generic::GenericMode;
+use crate::ode::{self, Dop853, Pair, System, Tolerance};
+use rocking_codegen::pattern::Pattern;
+
+/// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
+pub struct Mode {
+    pattern: Pattern,
+    equations: Box<dyn Equations>,
+}
+
+/// [`Dynamics`] over slices.
+trait Equations {
+    fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64>;
+    fn energy(&self, x: &[f64], gravity: f64) -> Energy;
+    fn mass_matrix(&self, x: &[f64]) -> Vec<f64>;
+    fn contact_forces(&self, x: &[f64], ground: Ground, forces: &mut [ContactForce]);
+    fn integrate(
+        &self,
+        x: &[f64],
+        ground: &mut dyn FnMut(f64) -> Ground,
+        times: &[f64],
+        tolerance: Tolerance,
+    ) -> Option<Vec<Vec<f64>>>;
+}
+
+struct Forced<'m, D, G> {
+    mode: &'m D,
+    ground: G,
+}
+
+impl<D: Dynamics, G: FnMut(f64) -> Ground> System for Forced<'_, D, G> {
+    type State = D::State;
+
+    fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
+        self.mode.derivative(x, (self.ground)(t), slope);
+    }
+}
+
+fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
+    let mut state = mode.zero_state();
+    state.as_mut_slice().copy_from_slice(x);
+    state
+}
+
+impl<D: Dynamics> Equations for D {
+    fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {
+        let mut slope = self.zero_state();
+        Dynamics::derivative(self, &state(self, x), ground, &mut slope);
+        slope.as_slice().to_vec()
+    }
+
+    fn energy(&self, x: &[f64], gravity: f64) -> Energy {
+        Dynamics::energy(self, &state(self, x), gravity)
+    }
+
+    fn mass_matrix(&self, x: &[f64]) -> Vec<f64> {
+        Dynamics::mass_matrix(self, &state(self, x))
+    }
+
+    fn contact_forces(&self, x: &[f64], ground: Ground, forces: &mut [ContactForce]) {
+        let x = state(self, x);
+        let mut slope = self.zero_state();
+        Dynamics::derivative(self, &x, ground, &mut slope);
+        Dynamics::contact_forces(self, &x, &slope, ground, forces);
+    }
+
+    fn integrate(
+        &self,
+        x: &[f64],
+        ground: &mut dyn FnMut(f64) -> Ground,
+        times: &[f64],
+        tolerance: Tolerance,
+    ) -> Option<Vec<Vec<f64>>> {
+        let mut system = Forced { mode: self, ground };
+        let mut pair = Dop853::new(&self.zero_state());
+        let states = ode::solve(&mut system, &mut pair, state(self, x), times, tolerance)?;
+        Some(states.iter().map(|state| state.as_slice().to_vec()).collect())
+    }
+}
+
+impl Mode {
+    /// The mode of a pattern on generated equations; `None` at rest and for columns larger than this build has.
+    pub fn generated(column: &Column, pattern: &Pattern) -> Option<Mode> {
+        let equations: Box<dyn Equations> = with_step_program!(pattern.dof(), Program => {
+            Box::new(GeneratedMode::<Program>::new(column, pattern)?)
+        }, _ => return None);
+        Some(Mode { pattern: pattern.clone(), equations })
+    }
+
+    /// The mode of a pattern on hand-written equations, for any number of blocks; `None` at rest.
+    pub fn generic(column: &Column, pattern: &Pattern) -> Option<Mode> {
+        let equations = Box::new(GenericMode::new(column, pattern));
+        (pattern.dof() > 0).then(|| Mode { pattern: pattern.clone(), equations })
+    }
+
+    /// The mode on generated equations if this build has them, on generic ones otherwise; `None` at rest.
+    ///
+    /// ```
+    /// use rocking::{Column, Mode, dynamics::Ground, pattern::Pattern};
+    /// let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81)?;
+    /// let mode = Mode::new(&column, &Pattern::from_signs(&[1])).unwrap();
+    /// // Housner: θ̈ = -p² sin(α - θ), p² = 3 g / (4 R)
+    /// let (radius, alpha) = (0.4f64.hypot(1.6), 0.4f64.atan2(1.6));
+    /// let expected = -0.75 * 9.81 / radius * (alpha - 0.1).sin();
+    /// let slope = mode.derivative(&[0.1, 0.0], Ground { x: 0.0, gravity: 9.81 });
+    /// assert!((slope[1] - expected).abs() < 1e-14);
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    pub fn new(column: &Column, pattern: &Pattern) -> Option<Mode> {
+        if column.len() <= generated::MAX_BLOCKS { Mode::generated(column, pattern) } else { Mode::generic(column, pattern) }
+    }
+
+    /// The pattern.
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// `[θ̇, θ̈]` at a state. A panic means that `x` has not length 2·dof.
+    pub fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {
+        self.equations.derivative(x, ground)
+    }
+
+    /// Energies relative to the moving ground, with the effective gravity `g + ÿ_g [m/s²]`.
+    pub fn energy(&self, x: &[f64], gravity: f64) -> Energy {
+        self.equations.energy(x, gravity)
+    }
+
+    /// Mass matrix `[kg m²]`, row by row, dof × dof.
+    pub fn mass_matrix(&self, x: &[f64]) -> Vec<f64> {
+        self.equations.mass_matrix(x)
+    }
+
+    /// Contact forces at all interfaces, base first, length N.
+    pub fn contact_forces(&self, x: &[f64], ground: Ground) -> Vec<ContactForce> {
+        let mut forces = vec![ContactForce::default(); self.pattern.0.len()];
+        self.equations.contact_forces(x, ground, &mut forces);
+        forces
+    }
+
+    /// States at `times` `[s]` (ascending, the first is that of `x`) in this mode alone: hinges that hold both ways, no
+    /// events, DOP853 with dense output. `ground` must be smooth. `None` if the tolerance cannot be met.
+    pub fn integrate(
+        &self,
+        x: &[f64],
+        mut ground: impl FnMut(f64) -> Ground,
+        times: &[f64],
+        tolerance: Tolerance,
+    ) -> Option<Vec<Vec<f64>>> {
+        self.equations.integrate(x, &mut ground, times, tolerance)
+    }
+}

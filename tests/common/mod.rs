@@ -1,0 +1,34 @@
+//! Random columns and states for the tests over whole runs.
+#![allow(dead_code, reason = "each test file takes what it needs")]
+
+use proptest::prelude::*;
+use rocking::pattern::{Interface, Pattern};
+use rocking::{Block, Column};
+
+/// Blocks of very different sizes, capitals wider than shafts among them, with masses of their own.
+pub fn column(blocks: usize) -> impl Strategy<Value = Column> {
+    let block = (0.05f64..1.0, 0.05f64..1.0, 0.2f64..5.0, 0.5f64..1.5).prop_map(|(b, h, density, share)| {
+        let mut block = Block::rectangle(b, h, density);
+        block.inertia *= share;
+        block
+    });
+    prop::collection::vec(block, blocks).prop_map(|blocks| Column::new(blocks, 9.81).expect("positive sizes"))
+}
+
+/// All patterns of a column but rest, mirror images included.
+pub fn patterns(blocks: usize) -> Vec<Pattern> {
+    (0..3usize.pow(blocks as u32))
+        .map(|code| {
+            let digit = |i: usize| Interface::ORDER[code / 3usize.pow(i as u32) % 3];
+            Pattern((0..blocks).map(digit).collect())
+        })
+        .filter(|pattern| pattern.dof() > 0)
+        .collect()
+}
+
+/// A deterministic runner: the same cases on every machine, and the seed is the runner's own.
+pub fn runner(cases: u32) -> proptest::test_runner::TestRunner {
+    use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+    let config = Config { cases, failure_persistence: None, ..Config::default() };
+    TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+}
