@@ -3,7 +3,9 @@
 //! The one place that includes what `build.rs` wrote. Scene constants are computed here once per mode that a run enters.
 
 use crate::column::Column;
-use crate::dynamics::{ContactForce, ContactForces, Dynamics, Energy, Geometry, Ground, Scalar, StateVector, StepProgram};
+use crate::dynamics::{
+    ContactForce, ContactForces, Dynamics, Energy, Geometry, Ground, Scalar, StateVector, StepProgram,
+};
 use rocking_codegen::pattern::Pattern;
 
 /// Code written by `rocking_codegen` for this build.
@@ -50,10 +52,7 @@ impl<P: StepProgram<f64>> GeneratedMode<P> {
             forces: interface.forces,
             pivot,
         });
-        Some(GeneratedMode {
-            constants: P::Constants::try_from(&constants).ok()?,
-            interfaces: interfaces.collect(),
-        })
+        Some(GeneratedMode { constants: P::Constants::try_from(&constants).ok()?, interfaces: interfaces.collect() })
     }
 }
 

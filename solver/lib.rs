@@ -35,21 +35,21 @@
 //! ```
 
 pub mod column;
-pub mod excitation;
-pub mod scene;
-pub mod scene_file;
+pub mod contact;
 pub mod dynamics;
+pub mod event;
+pub mod excitation;
 pub mod generated;
 pub mod generic;
 pub mod kinematics;
 pub mod mode;
 pub mod ode;
-pub mod event;
-pub mod contact;
 mod phase;
-mod rest;
-pub mod simulate;
 pub mod response;
+mod rest;
+pub mod scene;
+pub mod scene_file;
+pub mod simulate;
 
 pub use column::{Block, Column, ColumnError};
 pub use excitation::{Excitation, Motion, Record, RecordError};

@@ -115,7 +115,11 @@ impl Mode {
     /// # Ok::<(), rocking::ColumnError>(())
     /// ```
     pub fn new(column: &Column, pattern: &Pattern) -> Option<Mode> {
-        if column.len() <= generated::MAX_BLOCKS { Mode::generated(column, pattern) } else { Mode::generic(column, pattern) }
+        if column.len() <= generated::MAX_BLOCKS {
+            Mode::generated(column, pattern)
+        } else {
+            Mode::generic(column, pattern)
+        }
     }
 
     /// The pattern.

@@ -444,8 +444,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let size = x[..dof].iter().fold(0.0f64, |size, angle| size.max(angle.abs()));
         let is_closing = |gap: &&Gap, x: &[f64]| {
             let (value, rate) = (gap.of(&x[..dof]), gap.of(&x[dof..]));
-            gap.interface == first.interface
-                || (rate < 0.0 && value <= resolution * size + rate.abs() * resolution * t)
+            gap.interface == first.interface || (rate < 0.0 && value <= resolution * size + rate.abs() * resolution * t)
         };
         let closing: Vec<Gap> = self.gaps.iter().filter(|gap| is_closing(gap, x)).copied().collect();
         for gap in &closing {

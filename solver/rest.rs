@@ -16,7 +16,8 @@ const ZERO: f64 = 16.0 * f64::EPSILON;
 /// Places per segment at which contact forces at rest are noted.
 const NOTED: usize = 16;
 
-/// Waits from the run's present time for the start, a jump of the ground acceleration, or the end.
+/// Waits from the run's present time for the start, a jump of the ground acceleration that starts it, or the end; in the end
+/// the run's time is again that from which on nothing happened.
 pub(crate) fn wait(run: &mut Run) -> Ended {
     let since = run.t;
     let first = run.segment;
@@ -36,7 +37,7 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
             return Ended::AtRest;
         }
         run.segment += 1;
-        if run.segments[run.segment].jumps {
+        if run.segments[run.segment].jumps && is_thrown_open(run) {
             return Ended::Jump;
         }
     }
@@ -61,6 +62,14 @@ fn earliest_start(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface
         }
     }
     earliest
+}
+
+/// Whether some interface cannot stay closed under the present acceleration.
+fn is_thrown_open(run: &Run) -> bool {
+    let ground = run.ground();
+    let column = &run.scene.column;
+    let margin = |i: usize| column.contact_half_width(i) * ground.gravity - column.centroid_height(i) * ground.x.abs();
+    (0..column.len()).any(|interface| margin(interface) < 0.0)
 }
 
 /// First zero of `c (g + ÿ_g) + s h ẍ_g` (positive `ẍ_g` tips to the left) in `from .. until`.

@@ -130,7 +130,8 @@ impl Reader<'_> {
         let title = root.text("title").map_err(own)?.map(|(title, _)| title).unwrap_or_default();
         let gravity = root.number("gravity").map_err(own)?.map_or(crate::DEFAULT_GRAVITY, |(value, _)| value);
         if gravity <= 0.0 {
-            let wrong = root.wrong("gravity", format!("{gravity} is out of range"), "give m/s² above zero, or leave it out");
+            let wrong =
+                root.wrong("gravity", format!("{gravity} is out of range"), "give m/s² above zero, or leave it out");
             return Err(own(wrong));
         }
         let blocks = blocks(root).map_err(own)?;
@@ -224,7 +225,8 @@ impl Reader<'_> {
                 let Some(dt) = dt else { return Err(own(table.missing("dt", "give the sampling interval in s"))) };
                 let scale = units.map_or(1.0, |unit| unit.in_si(gravity));
                 let accel = accel.into_iter().map(|a| a * scale).collect();
-                let refused = |error: crate::RecordError| own(table.wrong("accel", error.to_string(), "correct the samples"));
+                let refused =
+                    |error: crate::RecordError| own(table.wrong("accel", error.to_string(), "correct the samples"));
                 (Record::new(accel, dt, 0.0).map_err(refused)?, "accel")
             }
             (Some(_), Some(_)) => {

@@ -37,7 +37,9 @@ pub enum SolveError {
         mode: String,
     },
     /// Numbers have left the range of doubles.
-    #[error("at t = {time} s in mode {mode}: the state is not finite; check sizes, masses and amplitudes for extreme values")]
+    #[error(
+        "at t = {time} s in mode {mode}: the state is not finite; check sizes, masses and amplitudes for extreme values"
+    )]
     NotFinite {
         /// `[s]`
         time: f64,
@@ -55,7 +57,9 @@ pub enum SolveError {
         pattern: String,
     },
     /// A contact problem has a mass matrix that rounding has made singular.
-    #[error("at t = {time} s in pattern {pattern}: the mass matrix is singular to rounding; the blocks' masses differ too much")]
+    #[error(
+        "at t = {time} s in pattern {pattern}: the mass matrix is singular to rounding; the blocks' masses differ too much"
+    )]
     SingularMass {
         /// `[s]`
         time: f64,
@@ -223,8 +227,8 @@ impl<'a> Run<'a> {
         self.work.phases += 1;
         let dof = self.pattern.dof();
         let column = &self.scene.column;
-        let is_generated = self.scene.options.dynamics == DynamicsSource::Generated
-            && column.len() <= generated::MAX_BLOCKS;
+        let is_generated =
+            self.scene.options.dynamics == DynamicsSource::Generated && column.len() <= generated::MAX_BLOCKS;
         let pattern = self.pattern.clone();
         let ended = if is_generated {
             with_step_program!(dof, Program => {
@@ -263,8 +267,7 @@ impl<'a> Run<'a> {
     fn impact(&mut self, closing: &[usize]) -> Result<(), SolveError> {
         let law = ImpactLaw { kappa: &self.kappa, stick_angle: self.scene.options.stick_angle };
         let column = &self.scene.column;
-        let decision =
-            contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
+        let decision = contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
         let decision = self.solved(decision)?;
         let before = self.pattern.clone();
         let omega_before = self.omega.clone();
@@ -400,8 +403,9 @@ impl<'a> Run<'a> {
                 self.sample(t, theta, omega);
             }
         }
-        let History { samples, peak_theta, friction_demand, min_normal_force, events, separations, time_in_mode, .. } =
-            self.history;
+        let History {
+            samples, peak_theta, friction_demand, min_normal_force, events, separations, time_in_mode, ..
+        } = self.history;
         Response {
             status,
             t_final,

@@ -40,7 +40,10 @@ fn compare(column: &Column, pattern: &Pattern, x: &[f64], ground: Ground) {
 
     let (a, b) = (generated.energy(x, ground.gravity), generic.energy(x, ground.gravity));
     let scale = b.kinetic + mass * height * ground.gravity.abs();
-    assert!((a.kinetic - b.kinetic).abs() <= ROUNDINGS * (scale + most * rates * rates * dof as f64), "{pattern}: kinetic");
+    assert!(
+        (a.kinetic - b.kinetic).abs() <= ROUNDINGS * (scale + most * rates * rates * dof as f64),
+        "{pattern}: kinetic"
+    );
     assert!((a.potential - b.potential).abs() <= ROUNDINGS * scale, "{pattern}: potential {a:?} {b:?}");
 
     let forces = generated.contact_forces(x, ground).into_iter().zip(generic.contact_forces(x, ground));

@@ -157,7 +157,11 @@ fn impact_never_adds_energy() {
                     let after = impact(&column, &pattern, &theta, &omega, &closing, ground, law).expect("solvable");
                     let energy = kinetic_energy(&column, &after.pattern, &theta, &after.omega);
                     // 1e-12 is what restitution is allowed for η = 1 (MODEL.md section 5).
-                    prop_assert!(energy <= before * (1.0 + 2e-12), "{before} -> {energy}, {pattern} -> {}", after.pattern);
+                    prop_assert!(
+                        energy <= before * (1.0 + 2e-12),
+                        "{before} -> {energy}, {pattern} -> {}",
+                        after.pattern
+                    );
                     admissible.set(admissible.get() + usize::from(!after.separation));
                 }
                 Ok(())

@@ -31,7 +31,9 @@ fn read(path: &Path) -> Result<Scene, Failure> {
 /// A reader that has seen enough and closes the pipe is no failure.
 fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Print { problem: error.to_string() }),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::Print { problem: error.to_string() })
+        }
         _ => Ok(()),
     }
 }
@@ -44,8 +46,8 @@ fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(), F
     let folder = Folder::open(out)?;
     let bar = Progress::new(scene.options.t_end, quiet);
     let start = Instant::now();
-    let response = simulate_observed(&scene, |t| bar.advance(t))
-        .map_err(|error| Failure::Solve { scene: path.into(), error })?;
+    let response =
+        simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve { scene: path.into(), error })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
     let warnings = response.warnings(scene.friction);
@@ -82,7 +84,14 @@ fn account(scene: &Scene, response: &Response, out: &Path) -> String {
 fn list_modes(blocks: usize) -> String {
     let mut text = format!("{:<8} {:<width$} free angles\n", "mode", "pattern", width = 2 * blocks + 2);
     for (label, pattern) in modes(blocks) {
-        let _ = writeln!(text, "{:<8} {:<width$} {}", label.to_string(), pattern.to_string(), pattern.dof(), width = 2 * blocks + 2);
+        let _ = writeln!(
+            text,
+            "{:<8} {:<width$} {}",
+            label.to_string(),
+            pattern.to_string(),
+            pattern.dof(),
+            width = 2 * blocks + 2
+        );
     }
     let count = (3u64.pow(blocks as u32) - 1) / 2;
     let _ = writeln!(

@@ -25,7 +25,9 @@ pub enum Failure {
         problem: String,
     },
     /// There is no such mode.
-    #[error("--mode {mode}: a column of {blocks} block(s) has no such mode; `rocking modes --blocks {blocks}` lists them")]
+    #[error(
+        "--mode {mode}: a column of {blocks} block(s) has no such mode; `rocking modes --blocks {blocks}` lists them"
+    )]
     Mode {
         /// What was asked for.
         mode: String,

@@ -9,14 +9,14 @@
 //! assert!(text.contains("pub struct Dof2"));
 //! ```
 
-pub mod pattern;
-pub mod symbolic;
-pub mod mechanics;
-pub mod optimise;
 #[cfg(feature = "emit")]
 pub mod emit;
+pub mod mechanics;
+pub mod optimise;
+pub mod pattern;
 #[cfg(feature = "emit")]
 pub mod report;
+pub mod symbolic;
 
 use mechanics::{Equations, Symbols};
 use optimise::{Constant, Program};
@@ -165,7 +165,10 @@ impl std::fmt::Display for GenerateError {
                 write!(f, "ROCKING_MAX_BLOCKS = {max_blocks}: choose a whole number from 1 to {LARGEST}")
             }
             GenerateError::Programs { found, expected } => {
-                write!(f, "{found} distinct step programs where {expected} were expected: the optimiser missed an equality")
+                write!(
+                    f,
+                    "{found} distinct step programs where {expected} were expected: the optimiser missed an equality"
+                )
             }
         }
     }

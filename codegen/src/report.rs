@@ -17,17 +17,22 @@ pub fn text(pattern: &Pattern) -> String {
             let _ = writeln!(out, "  {left} = {}", arena.text(right));
         }
     };
-    let centroids = equations.centroids.iter().enumerate().flat_map(|(block, [x, y])| {
-        [(format!("x_{}", block + 1), *x), (format!("y_{}", block + 1), *y)]
-    });
+    let centroids = equations
+        .centroids
+        .iter()
+        .enumerate()
+        .flat_map(|(block, [x, y])| [(format!("x_{}", block + 1), *x), (format!("y_{}", block + 1), *y)]);
     section("Positions of the centroids relative to the ground [m]", centroids.collect());
-    section("Energies [J] (gravity stands for g + the vertical ground acceleration)", vec![
-        ("T".into(), equations.kinetic),
-        ("V".into(), equations.potential),
-    ]);
+    section(
+        "Energies [J] (gravity stands for g + the vertical ground acceleration)",
+        vec![("T".into(), equations.kinetic), ("V".into(), equations.potential)],
+    );
     let dof = symbols.theta.len();
     let mass = (0..dof).flat_map(|a| (0..=a).map(move |b| (a, b)));
-    section("Mass matrix [kg m^2] (symmetric)", mass.map(|(a, b)| (format!("M_{}{}", a + 1, b + 1), equations.mass[a][b])).collect());
+    section(
+        "Mass matrix [kg m^2] (symmetric)",
+        mass.map(|(a, b)| (format!("M_{}{}", a + 1, b + 1), equations.mass[a][b])).collect(),
+    );
     section("Rate terms [N m]", numbered("B", &equations.bias));
     section("Gravity and ground motion [N m]", numbered("Q", &equations.forcing));
     let _ = writeln!(out, "\nEquations of motion: sum over b of M_ab alpha_b + B_a + Q_a = 0");
@@ -46,9 +51,21 @@ fn title(pattern: &Pattern) -> String {
     let name = pattern.mode().map_or("at rest".to_string(), |(label, mirrored)| {
         format!("mode {label}{}", if mirrored { ", mirrored" } else { "" })
     });
-    let signs: Vec<String> =
-        pattern.0.iter().enumerate().map(|(i, s)| format!("pivot_{} = {}", i + 1, ["-c_", "0 (closed)", "+c_"][(s.sign() + 1) as usize]) + &if s.is_open() { (i + 1).to_string() } else { String::new() }).collect();
-    format!("{name} of {} block(s), pattern {pattern}, {} free angle(s)\n{}\n", pattern.0.len(), pattern.dof(), signs.join(", "))
+    let signs: Vec<String> = pattern
+        .0
+        .iter()
+        .enumerate()
+        .map(|(i, s)| {
+            format!("pivot_{} = {}", i + 1, ["-c_", "0 (closed)", "+c_"][(s.sign() + 1) as usize])
+                + &if s.is_open() { (i + 1).to_string() } else { String::new() }
+        })
+        .collect();
+    format!(
+        "{name} of {} block(s), pattern {pattern}, {} free angle(s)\n{}\n",
+        pattern.0.len(),
+        pattern.dof(),
+        signs.join(", ")
+    )
 }
 
 fn numbered(name: &str, values: &[Expr]) -> Vec<(String, Expr)> {

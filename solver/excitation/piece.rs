@@ -66,7 +66,9 @@ impl Piece {
         match *self {
             Piece::Zero => 0.0,
             Piece::Linear { slope, .. } => slope,
-            Piece::Sine { amplitude, omega, start, phase } => amplitude * omega * libm::cos(omega * (t - start) + phase),
+            Piece::Sine { amplitude, omega, start, phase } => {
+                amplitude * omega * libm::cos(omega * (t - start) + phase)
+            }
             Piece::Cosine { amplitude, omega, start } => -amplitude * omega * libm::sin(omega * (t - start)),
             Piece::Ricker { amplitude, omega, centre } => {
                 let u = omega * (t - centre);
@@ -79,7 +81,9 @@ impl Piece {
     pub fn curvature_bound(&self) -> f64 {
         match *self {
             Piece::Zero | Piece::Linear { .. } => 0.0,
-            Piece::Sine { amplitude, omega, .. } | Piece::Cosine { amplitude, omega, .. } => amplitude.abs() * omega * omega,
+            Piece::Sine { amplitude, omega, .. } | Piece::Cosine { amplitude, omega, .. } => {
+                amplitude.abs() * omega * omega
+            }
             // |d²/du² (1-u²) exp(-u²/2)| = |(-u⁴ + 6u² - 3) exp(-u²/2)| is largest at u = 0, where it is 3.
             Piece::Ricker { amplitude, omega, .. } => 3.0 * amplitude.abs() * omega * omega,
         }

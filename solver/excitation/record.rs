@@ -72,7 +72,9 @@ pub enum RecordError {
         remedy: &'static str,
     },
     /// A row has another number of columns than the first.
-    #[error("line {line}: {found} column(s) where the first row has {expected}; use one column, or time and acceleration")]
+    #[error(
+        "line {line}: {found} column(s) where the first row has {expected}; use one column, or time and acceleration"
+    )]
     Columns {
         /// Line of the file.
         line: usize,

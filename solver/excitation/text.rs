@@ -229,8 +229,14 @@ mod tests {
 
     #[test]
     fn plain_text_has_one_column_or_two() {
-        let one = Record::from_text("# made up\n0.1\n-0.2\n\n0.3\n", plain(Some(AccelerationUnit::MetrePerSecondSquared), Some(0.5)));
-        let two = Record::from_text("0, 0.1\n0.5; -0.2\n1.0\t0.3\n", plain(Some(AccelerationUnit::MetrePerSecondSquared), None));
+        let one = Record::from_text(
+            "# made up\n0.1\n-0.2\n\n0.3\n",
+            plain(Some(AccelerationUnit::MetrePerSecondSquared), Some(0.5)),
+        );
+        let two = Record::from_text(
+            "0, 0.1\n0.5; -0.2\n1.0\t0.3\n",
+            plain(Some(AccelerationUnit::MetrePerSecondSquared), None),
+        );
         assert_eq!(one, two);
         assert_eq!(
             Record::from_text("0.1\n0.2\n", plain(None, Some(0.1))),

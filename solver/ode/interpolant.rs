@@ -38,7 +38,13 @@ pub struct Bernstein {
 impl<V: StateVector> Interpolant<V> {
     /// Storage for states like `zero`.
     pub fn new(zero: &V) -> Interpolant<V> {
-        Interpolant { start: 0.0, length: 0.0, x: zero.clone(), nested: std::array::from_fn(|_| zero.clone()), terms: 1 }
+        Interpolant {
+            start: 0.0,
+            length: 0.0,
+            x: zero.clone(),
+            nested: std::array::from_fn(|_| zero.clone()),
+            terms: 1,
+        }
     }
 
     /// The first three terms, which meet values and slopes at both ends.

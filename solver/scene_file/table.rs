@@ -70,7 +70,12 @@ impl Table {
             let line = text[line_start..].lines().next().unwrap_or("");
             let key = line.split('=').next().unwrap_or("").trim().to_string();
             let problem = format!("this is not TOML: {}", error.message().lines().collect::<Vec<_>>().join(", "));
-            return Err(Wrong { place, key, problem, remedy: "correct the line; text stands in quotes, lists in brackets".into() });
+            return Err(Wrong {
+                place,
+                key,
+                problem,
+                remedy: "correct the line; text stands in quotes, lists in brackets".into(),
+            });
         }
         let place = tree.span();
         Ok(Table::from_tree(String::new(), place, tree.into_inner()))
@@ -194,7 +199,9 @@ impl Table {
             found = Some((key, convert(value)));
         }
         let names: Vec<String> = keys.iter().map(|(key, _)| format!("`{key}`")).collect();
-        found.map(|(_, value)| value).ok_or_else(|| self.missing(keys[0].0, &format!("give one of {}", names.join(", "))))
+        found
+            .map(|(_, value)| value)
+            .ok_or_else(|| self.missing(keys[0].0, &format!("give one of {}", names.join(", "))))
     }
 
     /// A table within.
@@ -251,9 +258,8 @@ fn dot(name: &str, key: &str) -> String {
 fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
     match value {
         DeValue::String(text) => Value::Text(text.into_owned()),
-        DeValue::Integer(integer) => {
-            i64::from_str_radix(integer.as_str(), integer.radix()).map_or(Value::Other("too large a number"), |n| Value::Number(n as f64))
-        }
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+            .map_or(Value::Other("too large a number"), |n| Value::Number(n as f64)),
         DeValue::Float(float) => {
             let text = float.as_str().replace("inf", "infinity");
             text.parse().map_or(Value::Other("no number"), Value::Number)

@@ -59,7 +59,8 @@ impl<'a> Writer<'a> {
             Node::Product(factors) => self.product(&factors),
             Node::Sum(terms) => self.sum(&terms),
         };
-        let is_shared = self.uses.get(&expr).is_some_and(|uses| *uses > 1) && !matches!(self.arena.node(expr), Node::Number(_));
+        let is_shared =
+            self.uses.get(&expr).is_some_and(|uses| *uses > 1) && !matches!(self.arena.node(expr), Node::Number(_));
         if is_shared && !outermost {
             self.shared += 1;
             let name = format_ident!("shared_{}", self.shared);
@@ -75,14 +76,26 @@ impl<'a> Writer<'a> {
         for &(factor, power) in factors {
             let base = self.tokens(factor, false);
             let is_compound = !self.names.contains_key(&factor) && matches!(self.arena.node(factor), Node::Sum(_));
-            let base = if is_compound { quote! { (#base) } } else { base };
+            let base = if is_compound {
+                quote! { (#base) }
+            } else {
+                base
+            };
             for _ in 0..power.unsigned_abs() {
-                parts.push(if power < 0 { quote! { #base.recip() } } else { base.clone() });
+                parts.push(if power < 0 {
+                    quote! { #base.recip() }
+                } else {
+                    base.clone()
+                });
             }
         }
         let mut product = TokenStream::new();
         for (position, part) in parts.iter().enumerate() {
-            product.extend(if position == 0 { quote! { #part } } else { quote! { * #part } });
+            product.extend(if position == 0 {
+                quote! { #part }
+            } else {
+                quote! { * #part }
+            });
         }
         product
     }

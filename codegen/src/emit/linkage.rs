@@ -85,7 +85,9 @@ pub fn table(catalogue: &Catalogue) -> TokenStream {
             (#blocks, #mask) => LinkageEquations { dof: #dof, constants: #step, interfaces: vec![#(#interfaces),*] },
         }
     });
-    let doc = doc("The equations of a linkage: `blocks` of the column, bit `i` of `mask` set where interface `i + 1` is open.\nWhat the build has not got is `None`.");
+    let doc = doc(
+        "The equations of a linkage: `blocks` of the column, bit `i` of `mask` set where interface `i + 1` is open.\nWhat the build has not got is `None`.",
+    );
     quote! {
         #doc
         pub fn linkage<S: Scalar>(blocks: usize, mask: usize) -> Option<LinkageEquations<S>> {

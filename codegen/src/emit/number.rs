@@ -10,7 +10,11 @@ use quote::quote;
 pub fn number(value: f64) -> TokenStream {
     assert!(value.is_finite(), "a generated constant must be finite, not {value}");
     let literal = Literal::f64_unsuffixed(value.abs());
-    if value.is_sign_negative() { quote! { (-#literal) } } else { quote! { #literal } }
+    if value.is_sign_negative() {
+        quote! { (-#literal) }
+    } else {
+        quote! { #literal }
+    }
 }
 
 #[cfg(test)]

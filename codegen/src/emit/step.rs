@@ -121,7 +121,11 @@ fn destructure(array: &str, names: &[String], words: &std::collections::HashSet<
     }
     let names = names.iter().map(|name| {
         let ident = format_ident!("{name}");
-        if words.contains(name.as_str()) { quote! { #ident } } else { quote! { _ } }
+        if words.contains(name.as_str()) {
+            quote! { #ident }
+        } else {
+            quote! { _ }
+        }
     });
     quote! { let [#(#names),*] = *#array; }
 }
@@ -137,7 +141,11 @@ pub fn force_program(index: usize, program: &Program) -> TokenStream {
     let what = if results == 3 { "closed interface: `[N, T, M]`" } else { "open interface: `[N, T]`" };
     let doc = doc(&format!("Contact forces at one {what}, {dof} free angle(s); {operations}."));
     let values = (0..3).map(|index| {
-        if index < results { quote! { forces[#index] } } else { quote! { S::from_f64(0.0) } }
+        if index < results {
+            quote! { forces[#index] }
+        } else {
+            quote! { S::from_f64(0.0) }
+        }
     });
     let mismatch = "the caller passes as many angles and constants as the linkage has";
     quote! {

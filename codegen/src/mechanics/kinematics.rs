@@ -111,7 +111,9 @@ pub fn dot(arena: &mut Arena, a: Vector, b: Vector) -> Expr {
 pub(super) fn time_derivative(arena: &mut Arena, symbols: &Symbols, expr: Expr) -> Expr {
     let mut terms = Vec::new();
     for link in 0..symbols.theta.len() {
-        for (coordinate, rate) in [(symbols.theta[link], symbols.omega[link]), (symbols.omega[link], symbols.alpha[link])] {
+        for (coordinate, rate) in
+            [(symbols.theta[link], symbols.omega[link]), (symbols.omega[link], symbols.alpha[link])]
+        {
             let slope = arena.differentiate(expr, coordinate);
             terms.push(arena.mul(slope, rate));
         }

@@ -82,7 +82,8 @@ fn merge_coefficients(arena: &mut Arena, expr: Expr) -> Expr {
     let mut scene: HashMap<Expr, Vec<(Rational, Expr)>> = HashMap::new();
     for (coefficient, term) in arena.terms(expr) {
         let factors = arena.factors(term);
-        let (state, constant): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(f, _)| arena.level(*f) == Level::State);
+        let (state, constant): (Vec<_>, Vec<_>) =
+            factors.into_iter().partition(|(f, _)| arena.level(*f) == Level::State);
         let (state, constant) = (arena.product(state), arena.product(constant));
         if !scene.contains_key(&state) {
             order.push(state);

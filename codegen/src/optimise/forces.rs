@@ -13,8 +13,10 @@ pub fn force_program(arena: &mut Arena, symbols: &Symbols, forces: &InterfaceFor
     let force = forces.force.map(|component| collect(arena, component, &drivers));
     let moment = forces.moment.map(|moment| collect(arena, moment, &drivers));
 
-    let names = [arena.symbol("force_x", crate::symbolic::Level::State, arena.unit(force[0])),
-        arena.symbol("force_y", crate::symbolic::Level::State, arena.unit(force[1]))];
+    let names = [
+        arena.symbol("force_x", crate::symbolic::Level::State, arena.unit(force[0])),
+        arena.symbol("force_y", crate::symbolic::Level::State, arena.unit(force[1])),
+    ];
     let [normal, tangent] = normal_and_tangent(arena, symbols, names, forces.lower_link);
     let mut builder = ProgramBuilder::new(arena, symbols);
     for (axis, (name, value)) in ["force_x", "force_y"].iter().zip(force).enumerate() {

@@ -20,7 +20,8 @@ pub fn step_program(arena: &mut Arena, symbols: &Symbols, equations: &Equations)
 
     condensed.name_parts(&mut builder);
     let outputs = (0..dof).flat_map(|row| (0..dof).map(move |column| (row, column)));
-    let outputs = outputs.map(|(row, column)| builder.translate(condensed.mass[row.max(column)][row.min(column)])).collect();
+    let outputs =
+        outputs.map(|(row, column)| builder.translate(condensed.mass[row.max(column)][row.min(column)])).collect();
     builder.finish_routine("mass_matrix", outputs);
 
     condensed.name_parts(&mut builder);
@@ -140,7 +141,11 @@ impl Condensed {
                     terms.push((minus, builder.arena().mul(scaled[inner], factor[column][inner])));
                 }
                 let value = builder.arena().sum(terms);
-                let value = if column == 0 { value } else { builder.define(format!("scaled_{}{}", row + 1, column + 1), value) };
+                let value = if column == 0 {
+                    value
+                } else {
+                    builder.define(format!("scaled_{}{}", row + 1, column + 1), value)
+                };
                 let quotient = builder.arena().mul(value, inverse[column]);
                 scaled.push(value);
                 own.push(builder.define(format!("factor_{}{}", row + 1, column + 1), quotient));

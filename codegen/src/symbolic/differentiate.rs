@@ -28,7 +28,8 @@ impl Arena {
                 self.neg(product)
             }
             Node::Sum(terms) => {
-                let terms: Vec<_> = terms.into_iter().map(|(c, term)| (c, self.derivative(term, symbol, known))).collect();
+                let terms: Vec<_> =
+                    terms.into_iter().map(|(c, term)| (c, self.derivative(term, symbol, known))).collect();
                 self.sum(terms)
             }
             Node::Product(factors) => {

@@ -24,9 +24,9 @@ impl Arena {
             Node::Symbol(rank) => return Err(self.symbol_data(*rank).name.clone()),
             Node::Sin(angle) => self.value(*angle, values, known)?.sin(),
             Node::Cos(angle) => self.value(*angle, values, known)?.cos(),
-            Node::Sum(terms) => terms
-                .iter()
-                .try_fold(0.0, |sum, (c, term)| Ok::<f64, String>(sum + c.to_f64() * self.value(*term, values, known)?))?,
+            Node::Sum(terms) => terms.iter().try_fold(0.0, |sum, (c, term)| {
+                Ok::<f64, String>(sum + c.to_f64() * self.value(*term, values, known)?)
+            })?,
             Node::Product(factors) => factors.iter().try_fold(1.0, |product, (factor, exponent)| {
                 Ok::<f64, String>(product * self.value(*factor, values, known)?.powi(*exponent))
             })?,

@@ -13,7 +13,8 @@ impl Arena {
         }
         match self.node(expr).clone() {
             Node::Sum(terms) => {
-                let expanded: Vec<_> = terms.into_iter().map(|(coefficient, term)| (coefficient, self.expand(term))).collect();
+                let expanded: Vec<_> =
+                    terms.into_iter().map(|(coefficient, term)| (coefficient, self.expand(term))).collect();
                 self.sum(expanded)
             }
             Node::Product(factors) => {

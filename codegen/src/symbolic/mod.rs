@@ -280,9 +280,7 @@ impl Arena {
         self.level(b).cmp(&self.level(a)).then(kind(left).cmp(&kind(right))).then_with(|| match (left, right) {
             (Node::Cos(x), Node::Cos(y)) | (Node::Sin(x), Node::Sin(y)) => self.order(*x, *y),
             (Node::Symbol(x), Node::Symbol(y)) => x.cmp(y),
-            (Node::Number(x), Node::Number(y)) => {
-                (x.numerator * y.denominator).cmp(&(y.numerator * x.denominator))
-            }
+            (Node::Number(x), Node::Number(y)) => (x.numerator * y.denominator).cmp(&(y.numerator * x.denominator)),
             (Node::Product(x), Node::Product(y)) => {
                 let pairs = x.iter().zip(y);
                 pairs
@@ -379,12 +377,34 @@ mod tests {
             ("zero coefficients vanish", arena.sum([(Rational::ZERO, x), (Rational::ONE, y)]), "y"),
             ("equal factors join", arena.product([(x, 1), (y, 1), (x, 2)]), "x^3*y"),
             ("exponents cancel", arena.product([(x, 2), (x, -2)]), "1"),
-            ("numbers leave a product", { let half = arena.number(Rational::new(1, 2)); arena.mul(half, xy) }, "1/2*x*y"),
+            (
+                "numbers leave a product",
+                {
+                    let half = arena.number(Rational::new(1, 2));
+                    arena.mul(half, xy)
+                },
+                "1/2*x*y",
+            ),
             ("the sign leaves a factor", arena.mul(difference, z), "-z*(x - y)"),
             ("an even power has no sign", arena.square(difference), "(x - y)^2"),
             ("products stay factored", arena.mul(sum, z), "z*(x + y)"),
-            ("expand multiplies state sums out", { let s = arena.add(sine, x); let p = arena.mul(s, y); arena.expand(p) }, "sin(theta)*y + x*y"),
-            ("expand keeps scene sums", { let p = arena.mul(sum, sine); arena.expand(p) }, "sin(theta)*(x + y)"),
+            (
+                "expand multiplies state sums out",
+                {
+                    let s = arena.add(sine, x);
+                    let p = arena.mul(s, y);
+                    arena.expand(p)
+                },
+                "sin(theta)*y + x*y",
+            ),
+            (
+                "expand keeps scene sums",
+                {
+                    let p = arena.mul(sum, sine);
+                    arena.expand(p)
+                },
+                "sin(theta)*(x + y)",
+            ),
             ("expand knows Pythagoras", arena.expand(pythagoras), "1"),
         ];
         for (rule, built, text) in rules {

@@ -28,7 +28,8 @@ impl Arena {
                 self.sum(terms)
             }
             Node::Product(factors) => {
-                let factors: Vec<_> = factors.into_iter().map(|(f, power)| (self.replaced(f, by, known), power)).collect();
+                let factors: Vec<_> =
+                    factors.into_iter().map(|(f, power)| (self.replaced(f, by, known), power)).collect();
                 self.product(factors)
             }
         };

@@ -1,0 +1,154 @@
+//! Bad input ends with status 2 and names file, line, key and remedy; nothing is written.
+
+mod common;
+
+use std::path::Path;
+
+const SCENE: &str = "[[block]]
+half_width = 0.4
+half_height = 1.6
+[excitation.horizontal]
+kind = \"sine-pulse\"
+amplitude = 3.0
+omega = 10.0
+[solver]
+t_end = 1.0
+";
+
+const AT2: &str = "OWN NUMBERS\nNOWHERE\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n";
+
+/// Runs a scene that must be refused; the message must hold all of `named`.
+fn refused(scene: &str, named: &[&str]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+    std::fs::write(folder.path().join("word.AT2"), format!("{AT2} .1 .2 x3 .4\n")).expect("written");
+    std::fs::write(folder.path().join("short.AT2"), format!("{AT2} .1 .2 .3\n")).expect("written");
+    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{scene}\n{message}");
+    assert!(message.contains("scene.toml"), "{message}");
+    for part in named {
+        assert!(message.contains(part), "`{part}` is missing in\n{message}\nof\n{scene}");
+    }
+    assert!(!message.contains("panicked"), "{message}");
+    assert!(!folder.path().join("out").exists(), "something was written for\n{scene}");
+}
+
+/// The scene with one line replaced.
+fn with(line: &str, by: &str) -> String {
+    assert!(SCENE.contains(line));
+    SCENE.replace(line, by)
+}
+
+fn record(keys: &str) -> String {
+    with("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", &format!("kind = \"record\"\n{keys}"))
+}
+
+#[test]
+fn no_blocks() {
+    let (_, rest) = SCENE.split_once("half_height = 1.6\n").expect("the block comes first");
+    refused(rest, &["line 1", "`block`", "[[block]]"]);
+}
+
+#[test]
+fn sizes_that_no_block_has() {
+    for (value, problem) in
+        [("0.0", "out of range"), ("-0.4", "out of range"), ("inf", "not finite"), ("nan", "not finite")]
+    {
+        let scene = with("half_width = 0.4", &format!("half_width = {value}"));
+        refused(&scene, &["line 2", "`block[1].half_width`", problem, "give a finite number"]);
+    }
+    refused(&with("half_width = 0.4\n", ""), &["line 1", "half_width", "missing", "give it in m"]);
+    refused(&with("half_height = 1.6", "half_height = 1.6\nmass = -1"), &["line 4", "mass", "above zero"]);
+}
+
+#[test]
+fn unknown_keys_and_kinds() {
+    refused(&with("t_end = 1.0", "t_ned = 1.0"), &["line 9", "`solver.t_ned`", "unknown", "did you mean `t_end`?"]);
+    refused(&with("omega = 10.0", "omga = 10.0"), &["line 7", "omga", "unknown", "did you mean `omega`?"]);
+    refused(&with("[solver]", "[zzz]"), &["line 8", "`zzz`", "unknown", "known here are"]);
+    refused(&with("sine-pulse", "sinus"), &["line 5", "kind", "`sinus`", "choose one of sine-pulse"]);
+}
+
+#[test]
+fn contradictory_keys() {
+    let both = with("amplitude = 3.0", "amplitude = 3.0\namplitude_g = 0.3");
+    refused(&both, &["line 7", "amplitude_g", "`amplitude` is given as well", "remove one"]);
+    let both = with("omega = 10.0", "omega = 10.0\nperiod = 1.0");
+    refused(&both, &["line 8", "period", "`omega` is given as well", "remove one"]);
+    refused(&format!("{SCENE}[column]\nblocks = 2\n"), &["line 10", "column", "one way"]);
+}
+
+#[test]
+fn records() {
+    refused(&record("file = \"no.AT2\""), &["no.AT2", "line 6", "file", "relative to the scene"]);
+    refused(&record("file = \"word.AT2\""), &["word.AT2", "line 5, column 8", "`x3`", "mend or remove"]);
+    refused(&record("file = \"short.AT2\""), &["short.AT2", "line 4", "declares 4", "has 3", "NPTS"]);
+    refused(&record("accel = [0.1, 0.2]"), &["`excitation.horizontal.dt`", "missing", "sampling interval"]);
+    refused(&record("accel = [0.1, \"x\"]\ndt = 0.1"), &["line 6", "accel", "number 2", "finite numbers"]);
+}
+
+#[test]
+fn options_out_of_range() {
+    refused(&with("t_end = 1.0", "t_end = -1.0"), &["line 9", "`solver.t_end`", "-1", "above zero"]);
+    refused(&with("t_end = 1.0", "t_end = 1.0\nrtol = 0.0"), &["line 10", "`solver.rtol`", "above zero"]);
+    refused(&with("t_end = 1.0", "t_end = 1.0\natol = -1e-9"), &["line 10", "`solver.atol`", "above zero"]);
+    refused(&with("t_end = 1.0", "t_end = 1.0\nmethod = \"euler\""), &["line 10", "method", "choose one of dop853"]);
+}
+
+#[test]
+fn restitution_and_initial_state() {
+    refused(
+        &format!("{SCENE}[restitution]\nfactors = [1.0, 1.0]\n"),
+        &["line 11", "`restitution.factors`", "one per interface"],
+    );
+    for eta in ["-0.1", "1.1"] {
+        refused(&format!("{SCENE}[restitution]\neta = {eta}\n"), &["line 11", "`restitution.eta`", eta, "from 0 to 1"]);
+    }
+    refused(&format!("{SCENE}[initial]\ntheta = [0.1, 0.2]\n"), &["line 11", "`initial.theta`", "one per block"]);
+}
+
+#[test]
+fn types_and_syntax() {
+    refused(&with("omega = 10.0", "omega = \"ten\""), &["line 7", "omega", "text stands here", "give a number"]);
+    refused(&with("omega = 10.0", "omega = true"), &["line 7", "omega", "give a number"]);
+    refused(&with("omega = 10.0", "omega = "), &["line 7", "omega", "not TOML", "correct the line"]);
+    refused(&with("omega = 10.0", "omega = 10.0\nomega = 11.0"), &["line 8", "omega", "duplicate"]);
+}
+
+#[test]
+fn a_scene_that_is_not_there_or_not_text() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("scene.toml"));
+    std::fs::write(folder.path().join("scene.toml"), b"title = \"\xff\"\n").expect("written");
+    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("line 1 is not UTF-8"));
+}
+
+/// Nobody, root included, can make a folder below a file.
+#[test]
+fn an_output_folder_that_cannot_be_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");
+    std::fs::write(folder.path().join("file"), "").expect("written");
+    let out = Path::new("file").join("out");
+    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", &out.to_string_lossy()]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("file") && message.contains("--out"), "{message}");
+}
+
+#[test]
+fn an_earlier_result_survives_a_refused_scene() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");
+    common::succeeds(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    let before = std::fs::read(folder.path().join("out/response.csv")).expect("written");
+    std::fs::write(folder.path().join("scene.toml"), with("omega = 10.0", "omega = -1")).expect("written");
+    assert_eq!(common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]).status.code(), Some(2));
+    assert_eq!(std::fs::read(folder.path().join("out/response.csv")).expect("still there"), before);
+    assert_eq!(std::fs::read_dir(folder.path().join("out")).expect("a folder").count(), 3, "no temporary file is left");
+}

@@ -1,0 +1,125 @@
+//! What the commands print and write.
+
+mod common;
+
+use serde_json::Value;
+
+#[test]
+fn thresholds_are_the_papers_tables_1_and_2() {
+    let root = common::root();
+    for (scene, expected) in [
+        ("paper-1-block-3.00", vec!["1.02"]),
+        ("paper-2-blocks-3.00", vec!["1.02", "2.04"]),
+        ("paper-3-blocks-3.00", vec!["1.02", "1.53", "3.06"]),
+    ] {
+        let text = common::succeeds(&root, &["thresholds", &format!("scenes/{scene}.toml")]);
+        let ratios: Vec<&str> = text.lines().skip(2).filter_map(|line| line.split_whitespace().nth(4)).collect();
+        assert_eq!(ratios, expected, "{text}");
+    }
+}
+
+#[test]
+fn modes_are_listed_by_label() {
+    let text = common::succeeds(&common::root(), &["modes", "--blocks", "3"]);
+    let labels: Vec<&str> = text.lines().skip(1).take(13).filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(labels, ["1.1", "1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "2.1", "2.2", "2.3", "3.1"]);
+    assert!(text.contains("(0,+,0)") && text.contains("13 independent mode(s)"), "{text}");
+}
+
+#[test]
+fn derivations_are_printed_as_text_and_as_code() {
+    let root = common::root();
+    let text = common::succeeds(&root, &["derive", "--blocks", "3", "--mode", "1.5"]);
+    for part in ["mode 1.5", "(+,0,0)", "T = ", "V = ", "M_11 = ", "Equations of motion", "10 flops"] {
+        assert!(text.contains(part), "`{part}` is missing in\n{text}");
+    }
+    let code = common::succeeds(&root, &["derive", "--blocks", "2", "--mode", "1.1", "--format", "rust"]);
+    assert!(code.contains("impl<S: Scalar> StepProgram<S> for Dof2") && code.contains("fn scene_constants"), "{code}");
+    let output = common::rocking(&root, &["derive", "--blocks", "3", "--mode", "3.2"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("rocking modes --blocks 3"));
+}
+
+#[test]
+fn a_run_writes_its_three_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = common::root().join("scenes/three-drums-pulse.toml");
+    let text = common::succeeds(folder.path(), &["run", &scene.to_string_lossy(), "--out", "out"]);
+    assert!(text.contains("stands at t = 10"), "{text}");
+
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).expect("written");
+    let response = read("response.csv");
+    let mut lines = response.lines();
+    let header = "t,theta_1,theta_2,theta_3,omega_1,omega_2,omega_3,ground_x,ground_y,pattern";
+    assert_eq!(lines.next(), Some(header));
+    assert_eq!(lines.clone().count(), 1001);
+    assert_eq!(lines.next(), Some("0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,\"(0,0,0)\""));
+    assert!(lines.last().is_some_and(|line| line.starts_with("10.0,")));
+
+    let summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");
+    for key in [
+        "status",
+        "t_final",
+        "overturned_at",
+        "overturned_block",
+        "peak_theta",
+        "impacts",
+        "time_in_mode",
+        "friction_demand",
+        "min_normal_force",
+        "separations",
+        "work",
+        "wall_seconds",
+        "warnings",
+    ] {
+        assert!(summary.get(key).is_some(), "{key}");
+    }
+    for key in ["steps", "rejected", "rhs_calls", "modes_entered"] {
+        assert!(summary["work"][key].as_u64().is_some_and(|count| count > 0), "{key}");
+    }
+    let time: f64 = summary["time_in_mode"].as_object().expect("modes").values().filter_map(Value::as_f64).sum();
+    assert!((time - 10.0).abs() < 1e-12, "all time is in some mode: {time}");
+    let events: Value = serde_json::from_str(&read("events.json")).expect("JSON");
+    let events = events.as_array().expect("a list");
+    assert_eq!(events[0]["kind"], "start");
+    assert_eq!(events[0]["mode"], "1.5");
+    let impacts = events.iter().filter(|event| event["kind"] == "impact").count();
+    assert_eq!(Some(impacts as u64), summary["impacts"].as_u64());
+}
+
+#[test]
+fn a_larger_column_than_the_build_runs_on_generic_equations_and_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let blocks = rocking::generated::MAX_BLOCKS + 1;
+    let scene = format!(
+        "[column]\nblocks = {blocks}\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [{}]\n[solver]\nt_end = 1.0\n",
+        vec!["0.05"; blocks].join(", ")
+    );
+    std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert!(output.status.success());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("ROCKING_MAX_BLOCKS"));
+}
+
+#[test]
+fn rows_go_on_after_rest_and_end_at_overturning() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |theta: f64| {
+        let scene = format!(
+            "[[block]]\nhalf_width = 0.4\nhalf_height = 0.8\n[initial]\ntheta = [{theta}]\n[solver]\nt_end = 20.0\n[output]\ndt = 0.5\n"
+        );
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+        common::succeeds(folder.path(), &["run", "scene.toml", "--out", "out", "--quiet"]);
+        let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).expect("written");
+        let rows =
+            std::fs::read_to_string(folder.path().join("out/response.csv")).expect("written").lines().count() - 1;
+        (serde_json::from_str::<Value>(&summary).expect("JSON"), rows)
+    };
+    let (summary, rows) = run(0.1);
+    assert_eq!((summary["status"].as_str(), rows), (Some("at-rest"), 41));
+    let (summary, rows) = run(0.5);
+    assert_eq!(summary["status"], "overturned");
+    let end = summary["overturned_at"].as_f64().expect("a time");
+    assert_eq!(rows, (end / 0.5) as usize + 1);
+    assert_eq!(summary["overturned_block"], 1);
+}

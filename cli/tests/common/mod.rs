@@ -1,0 +1,26 @@
+//! Running the command line in a folder of its own.
+#![allow(dead_code, reason = "each test file takes what it needs")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The folder of the project.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Runs `rocking` with these arguments in `folder`.
+pub fn rocking(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the binary is built with the tests")
+}
+
+/// Standard output of a command that must succeed.
+pub fn succeeds(folder: &Path, arguments: &[&str]) -> String {
+    let output = rocking(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}

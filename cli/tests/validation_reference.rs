@@ -1,0 +1,129 @@
+//! Every run of an independent program beside this project is reproduced by the command line at `rtol = 1e-11`: angles at all
+//! sample times within 1e-8 rad (a hundred times the file's own error where that is larger), impacts further than 1e-6 s from
+//! the next one at the right interface within 1e-7 s, the same outcome; on generated and on generic equations.
+
+mod common;
+
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Angles `[rad]`.
+const ANGLE_TOLERANCE: f64 = 1e-8;
+/// Times of impacts `[s]`.
+const TIME_TOLERANCE: f64 = 1e-7;
+/// Impacts closer than this to another are left out `[s]`.
+const ISOLATED: f64 = 1e-6;
+
+fn floats(value: &Value) -> Vec<f64> {
+    value.as_array().map(|list| list.iter().filter_map(Value::as_f64).collect()).unwrap_or_default()
+}
+
+fn scene(run: &Value) -> String {
+    let mut text = format!("gravity = {:?}\n", run["gravity"].as_f64().expect("gravity"));
+    let column = ["half_width", "half_height", "mass", "inertia"].map(|key| (key, floats(&run["column"][key])));
+    for block in 0..column[0].1.len() {
+        text.push_str("[[block]]\n");
+        for (key, values) in &column {
+            let _ = writeln!(text, "{key} = {:?}", values[block]);
+        }
+    }
+    if let Some(eta) = run["restitution"]["eta"].as_f64() {
+        let _ = writeln!(text, "[restitution]\neta = {eta:?}");
+    }
+    for (component, motion) in run["excitation"].as_object().expect("an excitation") {
+        let _ = writeln!(text, "[excitation.{component}]");
+        for (key, value) in motion.as_object().expect("a motion") {
+            let _ = writeln!(text, "{key} = {value}");
+        }
+    }
+    if run["initial_theta"].is_array() {
+        let _ = writeln!(text, "[initial]\ntheta = {}", run["initial_theta"]);
+    }
+    let _ = writeln!(
+        text,
+        "[solver]\nt_end = {}\nstick_angle = {}\nrtol = 1e-11\natol = 1e-13\n[output]\ndt = 0.05",
+        run["t_end"], run["stick_angle"]
+    );
+    text
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).expect("readable")).expect("JSON")
+}
+
+/// Time and angles per row of `response.csv`.
+fn rows(path: &Path, blocks: usize) -> Vec<(f64, Vec<f64>)> {
+    let mut csv = csv::Reader::from_path(path).expect("readable");
+    let number = |field: &str| field.parse::<f64>().expect("a number");
+    let row = |row: csv::StringRecord| (number(&row[0]), (1..=blocks).map(|i| number(&row[i])).collect());
+    csv.records().map(|record| row(record.expect("a row"))).collect()
+}
+
+fn compare(name: &str, run: &Value, dynamics: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.toml"), scene(run)).expect("written");
+    common::succeeds(folder.path(), &["run", "scene.toml", "--out", "out", "--dynamics", dynamics, "--quiet"]);
+    let out = folder.path().join("out");
+
+    let times = floats(&run["samples"]["t"]);
+    let angles = run["samples"]["theta"].as_array().expect("samples");
+    let own_error = run["estimated_error"]["theta"].as_f64().expect("an error");
+    let tolerance = ANGLE_TOLERANCE.max(100.0 * own_error);
+    let rows = rows(&out.join("response.csv"), floats(&angles[0]).len());
+    let mut worst = 0.0f64;
+    for (t, theta) in times.iter().zip(angles) {
+        let (_, ours) = rows.iter().find(|row| (row.0 - t).abs() < 1e-9).expect("a row for each sample");
+        for (a, b) in ours.iter().zip(floats(theta)) {
+            worst = worst.max((a - b).abs());
+            assert!((a - b).abs() <= tolerance, "{name}, {dynamics}: {a} for {b} at t = {t}");
+        }
+    }
+
+    let summary = json(&out.join("summary.json"));
+    assert_eq!(run["status"] == "overturned", summary["status"] == "overturned", "{name}, {dynamics}");
+    if let Some(at) = run["overturned_at"].as_f64() {
+        assert!((at - summary["overturned_at"].as_f64().expect("a time")).abs() < TIME_TOLERANCE, "{name}");
+    }
+    let ours = json(&out.join("events.json"));
+    let impacts = |events: &Value| -> Vec<(f64, Value)> {
+        let events = events.as_array().expect("events").iter().filter(|event| event["kind"] == "impact");
+        events.map(|event| (event["t"].as_f64().expect("a time"), event["interface"].clone())).collect()
+    };
+    let times: Vec<f64> = run["events"].as_array().expect("events").iter().filter_map(|e| e["t"].as_f64()).collect();
+    let (theirs, ours) = (impacts(&run["events"]), impacts(&ours));
+    let mut compared = 0;
+    for (t, interface) in &theirs {
+        if times.iter().filter(|other| (*other - t).abs() <= ISOLATED).count() > 1 {
+            continue;
+        }
+        let near = ours.iter().filter(|event| event.1 == *interface);
+        let nearest = near.map(|event| (event.0 - t).abs()).fold(f64::INFINITY, f64::min);
+        assert!(
+            nearest <= TIME_TOLERANCE,
+            "{name}, {dynamics}: impact of {interface} at {t}, nearest {nearest:e} s off"
+        );
+        compared += 1;
+    }
+    println!("{name}, {dynamics}: angles within {worst:.1e} rad, {compared} of {} impacts compared", theirs.len());
+}
+
+#[test]
+fn reference_runs_are_reproduced() {
+    let folder = common::root().join("../shared/reference");
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        println!("skipped: {} is not there", folder.display());
+        return;
+    };
+    let mut files: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    files.sort();
+    assert!(!files.is_empty(), "{} has no runs", folder.display());
+    for path in files {
+        let run = json(&path);
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        for dynamics in ["generated", "generic"] {
+            compare(&name, &run, dynamics);
+        }
+    }
+}

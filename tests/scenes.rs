@@ -1,0 +1,112 @@
+//! The scenes that ship with the project run as they stand and show what the README says of them; real records run too.
+
+use rocking::{Column, EventKind, Excitation, Motion, Record, Response, Scene, StopReason, simulate};
+use std::path::{Path, PathBuf};
+
+#[path = "../examples/synthetic_record.rs"]
+mod synthetic_record;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn run(name: &str) -> Response {
+    let scene = Scene::from_file(&root().join("scenes").join(name)).expect("a shipped scene is valid");
+    simulate(&scene).expect("a shipped scene runs")
+}
+
+#[test]
+fn the_shipped_record_is_what_its_program_writes() {
+    let shipped = std::fs::read_to_string(root().join("scenes/records/synthetic.AT2")).expect("it ships");
+    assert_eq!(shipped, synthetic_record::text());
+}
+
+#[test]
+fn every_shipped_scene_runs_without_separation() {
+    let mut count = 0;
+    for entry in std::fs::read_dir(root().join("scenes")).expect("the folder ships") {
+        let path = entry.expect("readable").path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let response = run(&path.file_name().expect("a file").to_string_lossy());
+            assert_eq!(response.separations, [], "{}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count >= 20, "{count} scenes");
+}
+
+#[test]
+fn the_shipped_record_rocks_two_drums() {
+    let response = run("two-drums-record.toml");
+    assert!(response.impacts() > 10);
+    assert!(response.samples.iter().any(|sample| sample.ground[0].abs() > 3.0));
+}
+
+/// The paper: one and two blocks behave alike; three equal blocks do not overturn in any of the four cases, and at low
+/// amplitude they move as one. Thresholds of the nonlinear block are its own.
+#[test]
+fn three_blocks_of_the_paper_never_overturn() {
+    for amplitude in ["3.00", "3.01", "6.32", "6.33"] {
+        let [one, two, three] =
+            ["1-block", "2-blocks", "3-blocks"].map(|n| run(&format!("paper-{n}-{amplitude}.toml")));
+        assert_eq!(one.status, two.status, "{amplitude}");
+        assert_ne!(three.status, StopReason::Overturned, "{amplitude}");
+        let is_large = amplitude.starts_with('6');
+        assert_eq!(one.status == StopReason::Overturned, is_large, "{amplitude}");
+        let as_one = three.time_in_mode.get("1.5").copied().unwrap_or(0.0);
+        assert!(as_one > if is_large { 8.0 } else { 9.5 }, "{amplitude}: {as_one} s as one");
+    }
+}
+
+#[test]
+fn real_records_run_with_impacts_and_without_separation() {
+    let folder = root().join("../shared/records");
+    if !folder.is_dir() {
+        println!("skipped: {} is not there", folder.display());
+        return;
+    }
+    for (name, samples, peak) in
+        [("RSN125_FRIULI.A_A-TMZ000.AT2", 7277, 0.3571), ("NORTHR_1994_Rinaldi228.AT2", 1991, 0.8741)]
+    {
+        let text = std::fs::read_to_string(folder.join(name)).expect("readable");
+        let record = Record::from_text(&text, Default::default()).expect("valid");
+        assert_eq!(record.accel().len(), samples, "{name}");
+        assert!((record.peak() / 9.81 - peak).abs() < 5e-5, "{name}");
+        for blocks in [2, 3] {
+            let column = Column::equal_blocks(blocks, 0.45, 2.0, 2700.0, 9.81).expect("valid");
+            let mut scene = Scene::new(column);
+            scene.excitation = Excitation { horizontal: Some(Motion::Record(record.clone())), vertical: None };
+            scene.options.t_end = record.duration() + 5.0;
+            let response = simulate(&scene).expect("a run");
+            assert!(response.impacts() > 10, "{name}, {blocks} blocks: {} impacts", response.impacts());
+            assert_eq!(response.separations, [], "{name}, {blocks} blocks");
+            let events = response.events.windows(2);
+            assert!(events.clone().all(|pair| pair[0].t <= pair[1].t && pair[0].after == pair[1].before));
+            assert_eq!(response.events[0].kind, EventKind::Start);
+        }
+    }
+}
+
+#[test]
+fn every_record_beside_the_project_has_its_peak() {
+    let folder: PathBuf = root().join("../shared/records");
+    if !folder.is_dir() {
+        println!("skipped: {} is not there", folder.display());
+        return;
+    }
+    let peaks = [
+        ("RSN125_FRIULI.A_A-TMZ000.AT2", 0.3571),
+        ("RSN125_FRIULI.A_A-TMZ270.AT2", 0.3151),
+        ("RSN6_IMPVALL.I_I-ELC180.AT2", 0.2808),
+        ("RSN77_SFERN_PUL164.AT2", 1.2190),
+        ("NORTHR_1994_Rinaldi228.AT2", 0.8741),
+        ("FEMA_P695_120711_KOBE_NIS000.txt", 0.5093),
+    ];
+    for (name, peak) in peaks {
+        let text = std::fs::read_to_string(folder.join(name)).expect("readable");
+        let units = name.ends_with(".txt").then_some(rocking::excitation::AccelerationUnit::G);
+        let options = rocking::excitation::TextOptions { units, ..Default::default() };
+        let record = Record::from_text(&text, options).expect("valid");
+        assert!((record.peak() / 9.81 - peak).abs() < 5e-5, "{name}: {}", record.peak() / 9.81);
+    }
+}
