@@ -16,7 +16,7 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Ground};
-use crate::generic::{forces, link_acceleration};
+use crate::generic::{imposed_acceleration, link_acceleration};
 use crate::kinematics::{Posture, Vec2};
 use rocking_codegen::pattern::{Interface, Pattern};
 
@@ -27,6 +27,14 @@ const MOST_ENUMERATED: usize = 9;
 /// Resultants may leave a contact by this share: it is the rounding of a sum over a dozen blocks, a thousand times over. Smaller,
 /// and contacts on the verge are thrown open by rounding; larger, and they open visibly late.
 const VERGE: f64 = 1e-12;
+
+/// Share of the fastest rate that a solve over a dozen blocks may leave of a relative rate that is zero. Rates below it are no
+/// motion apart: an interface thrown open with one would land in the same instant, for ever.
+const RATE_ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Share of the largest acceleration, at least that of a falling column, by which a released interface may seem to be driven
+/// back: its instant is known to the integration's tolerance only. Beyond it, something else has changed, and it is examined like the others.
+const RELEASE_TOLERANCE: f64 = 1e-6;
 
 /// What a contact problem has decided.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,15 +66,15 @@ struct Problem<'a, F> {
     column: &'a Column,
     /// Interfaces at `φ = 0` that choose their state.
     free: Vec<usize>,
-    /// Whether an open interface may have no relative motion (accelerations) or must part (impacts).
-    at_rest_may_open: bool,
+    /// Relative motion above which an open interface parts: zero of accelerations, rounding of rates.
+    least_parting: f64,
     answer: F,
 }
 
 impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
     fn parts(&self, answer: &Answer, interface: usize) -> bool {
         let apart = f64::from(answer.pattern.0[interface].sign()) * relative(&answer.motion, interface);
-        if self.at_rest_may_open { apart >= 0.0 } else { apart > 0.0 }
+        apart >= self.least_parting
     }
 
     /// What interface would rather be, if it is not content.
@@ -207,9 +215,12 @@ pub fn impact(
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
     let mut guess = pattern.clone();
     closing.iter().for_each(|&interface| guess.0[interface] = pattern.0[interface].mirror());
-    let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
+    // Closed ones, closing ones, and those that an earlier impact of the same instant has just opened.
+    let free = (0..column.len()).filter(|&interface| relative(theta, interface) == 0.0).collect();
     let answer = |candidate: &Pattern| project(column, theta, &before, candidate);
-    let mut problem = Problem { column, free, at_rest_may_open: false, answer };
+    let fastest = omega.iter().fold(0.0f64, |fastest, rate| fastest.max(rate.abs()));
+    let least_parting = f64::MIN_POSITIVE.max(RATE_ROUNDING * fastest);
+    let mut problem = Problem { column, free, least_parting, answer };
     let (plastic, separation) = problem.solve(guess)?;
     let free = problem.free;
 
@@ -305,9 +316,9 @@ fn settle(
     }
 }
 
-/// Examines every closed interface at the level of forces (MODEL.md section 4): the pattern that the blocks' angles `theta`,
-/// rates `omega` and the ground's motion call for. `released` is an interface, with the side, whose resultant has just reached
-/// a corner: it opens, whatever rounding says of its acceleration.
+/// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (MODEL.md section 4): the
+/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion call for. `released` is an interface, with the
+/// side, whose resultant has just reached a corner: it opens, whatever rounding says of its acceleration.
 ///
 /// # Errors
 /// [`SingularMass`]
@@ -319,27 +330,39 @@ pub fn open(
     ground: Ground,
     released: Option<(usize, Interface)>,
 ) -> Result<Decision, SingularMass> {
+    let is_motionless = |i: &usize| relative(theta, *i) == 0.0 && relative(omega, *i) == 0.0;
     let mut guess = pattern.clone();
+    let mut free: Vec<usize> = (0..column.len()).filter(is_motionless).collect();
     if let Some((interface, side)) = released {
         guess.0[interface] = side;
+        free.retain(|other| *other != interface);
     }
-    let free: Vec<usize> = (0..column.len()).filter(|&i| !guess.0[i].is_open()).collect();
     let answer = |candidate: &Pattern| {
         let posture = Posture::new(column, candidate, theta);
         let rates = link_rates(&posture, omega);
         let alpha = link_acceleration(&posture, &rates, ground)?;
-        let mut total = crate::generic::imposed_acceleration(&posture, &rates, ground);
+        let mut total = imposed_acceleration(&posture, &rates, ground);
         total.iter_mut().zip(posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
         let motion = posture.angular(&alpha);
         let distance = posture.kinetic_energy(&total, &motion);
-        let resultants = forces(&posture, &rates, &alpha, ground);
+        let resultants = posture.resultants(&total, &motion);
         Some(Answer { pattern: candidate.clone(), motion, resultants, distance })
     };
-    let mut problem = Problem { column, free, at_rest_may_open: true, answer };
-    if problem.free.is_empty() {
+    let mut problem = Problem { column, free, least_parting: 0.0, answer };
+    let (mut answer, mut separation) = if problem.free.is_empty() && released.is_none() {
         return Ok(Decision { pattern: guess, omega: omega.to_vec(), separation: false });
+    } else {
+        problem.solve(guess)?
+    };
+    if let Some((interface, side)) = released {
+        let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
+        let fall = ground.gravity.abs().max(column.gravity()) / height;
+        let scale = answer.motion.iter().fold(fall, |largest, alpha| largest.max(alpha.abs()));
+        if f64::from(side.sign()) * relative(&answer.motion, interface) < -RELEASE_TOLERANCE * scale {
+            problem.free.push(interface);
+            (answer, separation) = problem.solve(answer.pattern)?;
+        }
     }
-    let (answer, separation) = problem.solve(guess)?;
     Ok(Decision { pattern: answer.pattern, omega: omega.to_vec(), separation })
 }
 
@@ -395,7 +418,8 @@ mod tests {
         let config = Config { cases: 3000, failure_persistence: None, ..Config::default() };
         let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
         let (unique, total) = (Cell::new(0), Cell::new(0));
-        let check = |(blocks, states): (Vec<Block>, Vec<(i8, bool, f64, f64)>)| {
+        type State = (i8, bool, f64, f64);
+        let check = |(blocks, states): (Vec<Block>, Vec<State>)| {
             let column = Column::new(blocks, 9.81).expect("valid");
             let pattern = Pattern(states.iter().map(|state| Interface::from_sign(state.0)).collect());
             let (mut angle, mut rate) = (0.0, 0.0);
@@ -418,7 +442,7 @@ mod tests {
             let before = Motion { linear: posture.linear(&link_rates(&posture, &omega)), angular: omega };
             let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
             let answer = |candidate: &Pattern| project(&column, &theta, &before, candidate);
-            let mut problem = Problem { column: &column, free, at_rest_may_open: false, answer };
+            let mut problem = Problem { column: &column, free, least_parting: f64::MIN_POSITIVE, answer };
             let mut admissible = Vec::new();
             for candidate in problem.all(&pattern) {
                 let answer = (problem.answer)(&candidate).expect("solvable");

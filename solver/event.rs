@@ -47,6 +47,16 @@ impl Bernstein {
         b[0]
     }
 
+    /// Gives the polynomial this value and these derivatives at 0, which are known better than dense output has them: just after
+    /// a reset they decide on which side of zero a guard is.
+    pub fn start_with(&mut self, value: f64, first: f64, second: f64) {
+        let degree = self.degree as f64;
+        let b = &mut self.coefficients;
+        b[0] = value;
+        b[1] = b[0] + first / degree;
+        b[2] = 2.0 * b[1] - b[0] + second / (degree * (degree - 1.0));
+    }
+
     /// The polynomial divided by `s^order`, its roots at the start taken out.
     fn deflated(&self, order: usize) -> Bernstein {
         let degree = self.degree - order;

@@ -52,15 +52,6 @@ pub(crate) fn link_acceleration(posture: &Posture, rates: &[f64], ground: Ground
     Some(posture.factorised_mass()?.solve(&load).as_slice().to_vec())
 }
 
-/// Contact forces at link accelerations.
-pub(crate) fn forces(posture: &Posture, rates: &[f64], alpha: &[f64], ground: Ground) -> Vec<ContactForce> {
-    let mut total = imposed_acceleration(posture, rates, ground);
-    for (a, own) in total.iter_mut().zip(posture.linear(alpha)) {
-        *a = [a[0] + own[0], a[1] + own[1]];
-    }
-    posture.resultants(&total, &posture.angular(alpha))
-}
-
 impl Dynamics for GenericMode {
     type State = Vec<f64>;
 
@@ -94,6 +85,11 @@ impl Dynamics for GenericMode {
 
     fn contact_forces(&self, state: &Vec<f64>, derivative: &Vec<f64>, ground: Ground, result: &mut [ContactForce]) {
         let posture = self.posture(state);
-        result.copy_from_slice(&forces(&posture, &state[self.dof..], &derivative[self.dof..], ground));
+        let alpha = &derivative[self.dof..];
+        let mut total = imposed_acceleration(&posture, &state[self.dof..], ground);
+        for (a, own) in total.iter_mut().zip(posture.linear(alpha)) {
+            *a = [a[0] + own[0], a[1] + own[1]];
+        }
+        result.copy_from_slice(&posture.resultants(&total, &posture.angular(alpha)));
     }
 }

@@ -159,9 +159,8 @@ impl<'a> Posture<'a> {
     /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> Vec<ContactForce> {
         let blocks = self.column.blocks();
-        let mut resultants = vec![ContactForce::default(); blocks.len()];
-        for interface in 0..blocks.len() {
-            let centre = self.contact_centre[interface];
+        let contacts = self.contact_centre.iter().zip(&self.lower_angle).enumerate();
+        let resultant = |(interface, (&centre, &angle)): (usize, (&Vec2, &f64))| {
             let (mut force, mut moment) = ([0.0, 0.0], 0.0);
             for (index, block) in blocks.iter().enumerate().skip(interface) {
                 let r = minus(self.centroid[index], centre);
@@ -169,14 +168,11 @@ impl<'a> Posture<'a> {
                 force = plus(force, load);
                 moment += block.inertia * angular[index] + (r[1] * load[0] - r[0] * load[1]);
             }
-            let (sin, cos) = libm::sincos(self.lower_angle[interface]);
-            resultants[interface] = ContactForce {
-                normal: force[0] * sin + force[1] * cos,
-                tangential: force[0] * cos - force[1] * sin,
-                moment,
-            };
-        }
-        resultants
+            let (sin, cos) = libm::sincos(angle);
+            let (normal, tangential) = (force[0] * sin + force[1] * cos, force[0] * cos - force[1] * sin);
+            ContactForce { normal, tangential, moment }
+        };
+        contacts.map(resultant).collect()
     }
 
     /// `½ Σ m v² + I ω²` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.

@@ -180,8 +180,8 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         loop {
             let t = self.run.t;
             let left = self.system.segment.end - t;
-            // A step that would leave a crumb takes half of it, one that almost reaches takes all.
-            let h = if wanted >= left { left } else { wanted.min(0.6 * left).max(wanted.min(left)) };
+            // A step that would leave a crumb leaves a part.
+            let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
             let error = self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
             if error.is_nan() || error > 1.0 {
                 self.run.work.rejected += 1;
@@ -200,8 +200,13 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             self.interpolated = false;
             let found = self.search(t, h);
             if let Some((found, s)) = found {
-                self.run.suggested_step = Some(wanted);
-                return Ok(self.stop_at(found, t, h, s));
+                match self.stop_at(found, t, h, s) {
+                    Some(ended) => {
+                        self.run.suggested_step = Some(wanted);
+                        return Ok(self.leave(ended));
+                    }
+                    None => continue,
+                }
             }
             self.output_until(t, h, t + h);
             let reached_end = h == left;
@@ -289,7 +294,12 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             if gap.start_roots > 0 || self.may_close(gap, h) {
                 self.interpolate();
                 let dof = self.dof;
-                let polynomial = self.interpolant.bernstein(|x| gap.of(&x[..dof]));
+                let mut polynomial = self.interpolant.bernstein(|x| gap.of(&x[..dof]));
+                if gap.start_roots > 0 {
+                    let (rate, acceleration) =
+                        (gap.of(&self.x.as_slice()[dof..]), gap.of(&self.slope.as_slice()[dof..]));
+                    polynomial.start_with(0.0, h * rate, h * h * acceleration);
+                }
                 offer(Found::Gap(gap), first_root(&polynomial, gap.start_roots));
             }
         }
@@ -330,9 +340,8 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         self.weigh(t + h, &end, &end_slope);
         let ends: Vec<f64> = self.closed.iter().map(|&i| self.margin(i)).collect();
         let mut first: Option<(Found, f64)> = None;
-        for index in 0..self.closed.len() {
-            let interface = self.closed[index];
-            let (start, end) = (self.margins[index], ends[index]);
+        for (index, &end) in ends.iter().enumerate() {
+            let (interface, start) = (self.closed[index], self.margins[index]);
             let reach = first.map_or(reach, |(_, s)| s);
             let crossing = first_crossing(|s| self.margin_inside(interface, t, h, s), start, end, reach);
             if let Some(s) = crossing {
@@ -393,10 +402,12 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         }
     }
 
-    /// Repeats the step so that it ends where the guard is zero, and hands the state over.
-    fn stop_at(mut self, found: Found, t: f64, whole: f64, s: f64) -> Ended {
+    /// Repeats the step so that it ends where the guard is zero, and takes it. `None` if the step, taken in earnest, shows that
+    /// the dense output was mistaken about a touch: the phase goes on from there.
+    fn stop_at(&mut self, found: Found, t: f64, whole: f64, s: f64) -> Option<Ended> {
         self.output_until(t, whole, t + s * whole);
         let mut h = s * whole;
+        let mut has_touched = true;
         for _ in 0..REPEATS {
             self.run.work.repeated += 1;
             self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
@@ -408,6 +419,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
                 }
                 Found::Contact { .. } => break,
             };
+            has_touched = rate < 0.0 || value <= self.resolution();
             let correction = -value / rate;
             let next = h + correction;
             if !(rate < 0.0 && next > 0.0 && next <= whole) || correction.abs() <= f64::EPSILON * h {
@@ -415,36 +427,42 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             }
             h = next;
         }
+        let is_mistaken = !has_touched && h > 0.0;
         self.pair.accept(&mut self.system);
         self.advance(if h == self.system.segment.end - t { self.system.segment.end } else { t + h });
         let (x, slope) = (self.x.clone(), self.slope.clone());
         self.weigh(self.run.t, &x, &slope);
         self.run.history.note_forces(&self.forces);
-        match found {
+        if is_mistaken {
+            self.margins = self.closed.iter().map(|&i| self.margin(i)).collect();
+            return None;
+        }
+        Some(match found {
             Found::Contact { interface } => {
                 let side = if self.forces[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
-                self.leave(Ended::Opening(interface, side))
+                Ended::Opening(interface, side)
             }
             Found::Tilt { link, .. } => {
-                let block = self.links.iter().position(|own| *own == link + 1).unwrap_or(0);
-                self.leave(Ended::Overturned(block))
+                Ended::Overturned(self.links.iter().position(|own| *own == link + 1).unwrap_or(0))
             }
-            Found::Gap(gap) => {
-                let closing = self.closing_with(gap);
-                self.leave(Ended::Closing(closing.iter().map(|gap| gap.interface).collect()))
-            }
-        }
+            Found::Gap(gap) => Ended::Closing(self.closing_with(gap).iter().map(|gap| gap.interface).collect()),
+        })
+    }
+
+    /// What a difference of the present angles can tell `[rad]`.
+    fn resolution(&self) -> f64 {
+        let angles = &self.x.as_slice()[..self.dof];
+        4.0 * f64::EPSILON * angles.iter().fold(0.0f64, |size, angle| size.max(angle.abs()))
     }
 
     /// The gaps that close in the instant in which `first` does, and their angles made equal.
     fn closing_with(&mut self, first: Gap) -> Vec<Gap> {
         let dof = self.dof;
-        let (resolution, t) = (4.0 * f64::EPSILON, self.run.t);
+        let (resolution, instant) = (self.resolution(), 4.0 * f64::EPSILON * self.run.t);
         let x = self.x.as_mut_slice();
-        let size = x[..dof].iter().fold(0.0f64, |size, angle| size.max(angle.abs()));
         let is_closing = |gap: &&Gap, x: &[f64]| {
             let (value, rate) = (gap.of(&x[..dof]), gap.of(&x[dof..]));
-            gap.interface == first.interface || (rate < 0.0 && value <= resolution * size + rate.abs() * resolution * t)
+            gap.interface == first.interface || (rate < 0.0 && value <= resolution + rate.abs() * instant)
         };
         let closing: Vec<Gap> = self.gaps.iter().filter(|gap| is_closing(gap, x)).copied().collect();
         for gap in &closing {

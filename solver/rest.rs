@@ -54,10 +54,9 @@ fn earliest_start(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface
         for side in [Interface::Right, Interface::Left] {
             let until = earliest.map_or(segment.end, |(t, _, _)| t);
             let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
+            // It looks no further than what is known already.
             if let Some(t) = first_zero(segment, column.gravity(), arm, side, run.t, until) {
-                if earliest.is_none_or(|(known, _, _)| t < known) {
-                    earliest = Some((t, interface, side));
-                }
+                earliest = Some((t, interface, side));
             }
         }
     }

@@ -216,7 +216,8 @@ impl<'a> Run<'a> {
             self.adopt(decision, EventKind::Start);
             self.released = Some(interface);
             self.record(EventKind::Start, &[], before, self.omega.clone(), None);
-            return self.move_on();
+            self.guard_against_stall()?;
+            return if self.pattern.dof() > 0 { self.move_on() } else { self.rest() };
         }
         Ok(ended)
     }

@@ -9,13 +9,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// The scene or its record must be corrected.
-    #[error("{error}")]
-    Scene {
-        /// What the library says.
-        error: SceneFileError,
-        /// The scene's text, to show the place in.
-        source_text: Option<NamedSource<String>>,
-    },
+    #[error("{}", .0.error)]
+    Scene(Box<SceneFailure>),
     /// A file or folder cannot be written.
     #[error("{}: {problem}; choose a folder that can be written to with --out", path.display())]
     Output {
@@ -50,6 +45,14 @@ pub enum Failure {
     },
 }
 
+/// A refused scene with its text.
+#[derive(Debug)]
+pub struct SceneFailure {
+    error: SceneFileError,
+    /// To show the place in.
+    source_text: Option<NamedSource<String>>,
+}
+
 impl Failure {
     /// The failure of reading a scene, with its text if it can be shown.
     pub fn scene(error: SceneFileError) -> Failure {
@@ -59,7 +62,7 @@ impl Failure {
                 .map(|text| NamedSource::new(file.display().to_string(), text).with_language("toml")),
             _ => None,
         };
-        Failure::Scene { error, source_text }
+        Failure::Scene(Box::new(SceneFailure { error, source_text }))
     }
 
     /// A file or folder that cannot be written.
@@ -69,25 +72,22 @@ impl Failure {
 
     /// Whether the user can mend it by other input.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Failure::Scene { .. } | Failure::Output { .. } | Failure::Mode { .. })
+        matches!(self, Failure::Scene(_) | Failure::Output { .. } | Failure::Mode { .. })
     }
 }
 
 impl Diagnostic for Failure {
     fn source_code(&self) -> Option<&dyn SourceCode> {
         match self {
-            Failure::Scene { source_text, .. } => source_text.as_ref().map(|text| text as &dyn SourceCode),
+            Failure::Scene(scene) => scene.source_text.as_ref().map(|text| text as &dyn SourceCode),
             _ => None,
         }
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        match self {
-            Failure::Scene { error: SceneFileError::Scene { span, .. }, source_text: Some(_) } => {
-                Some(Box::new(std::iter::once(LabeledSpan::new(Some("here".into()), span.0, span.1))))
-            }
-            _ => None,
-        }
+        let Failure::Scene(scene) = self else { return None };
+        let (SceneFileError::Scene { span, .. }, Some(_)) = (&scene.error, &scene.source_text) else { return None };
+        Some(Box::new(std::iter::once(LabeledSpan::new(Some("here".into()), span.0, span.1))))
     }
 }
 
