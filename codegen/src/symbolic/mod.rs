@@ -100,6 +100,12 @@ impl Arena {
         &self.symbols[rank as usize]
     }
 
+    /// All symbols with their names, in order of declaration.
+    pub fn symbols(&self) -> impl Iterator<Item = (Expr, &str)> {
+        let names = self.symbols.iter().enumerate();
+        names.filter_map(|(rank, symbol)| Some((*self.index.get(&Node::Symbol(rank as u32))?, symbol.name.as_str())))
+    }
+
     /// Declares a symbol. State symbols are to be declared before scene symbols: the order of declaration is the
     /// order of terms.
     pub fn symbol(&mut self, name: impl Into<String>, level: Level, unit: Unit) -> Expr {
