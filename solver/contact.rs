@@ -28,9 +28,9 @@ const MOST_ENUMERATED: usize = 9;
 /// and contacts on the verge are thrown open by rounding; larger, and they open visibly late.
 const VERGE: f64 = 1e-12;
 
-/// Share of the fastest rate that a solve over a dozen blocks may leave of a relative rate that is zero. Rates below it are no
-/// motion apart: an interface thrown open with one would land in the same instant, for ever.
-const RATE_ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Share of the largest angle or rate that sums and solves over a dozen blocks may leave of a difference that is zero. Rates
+/// below it are no motion apart: an interface thrown open with one would land in the same instant, for ever.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Share of the largest acceleration, at least that of a falling column, by which a released interface may seem to be driven
 /// back: its instant is known to the integration's tolerance only. Beyond it, something else has changed, and it is examined like the others.
@@ -158,6 +158,28 @@ fn relative(motion: &[f64], interface: usize) -> f64 {
     motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
 }
 
+/// The largest size.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+/// Whether the gap of angles, or of rates, at an interface is no more than rounding.
+fn is_rounding(values: &[f64], interface: usize) -> bool {
+    relative(values, interface).abs() <= ROUNDING * largest(values)
+}
+
+/// Whether an interface, open or not, has no gap yet and no rate.
+pub(crate) fn is_motionless(theta: &[f64], omega: &[f64], interface: usize) -> bool {
+    is_rounding(theta, interface) && is_rounding(omega, interface)
+}
+
+/// Relative acceleration `[rad/s²]` below which an interface that has just opened is taken to be on the verge, where it is zero.
+pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
+    let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
+    let fall = ground.gravity.abs().max(column.gravity()) / height;
+    RELEASE_TOLERANCE * fall.max(largest(accelerations))
+}
+
 /// Rates of the moving links among the rates of the blocks.
 fn link_rates(posture: &Posture, block: &[f64]) -> Vec<f64> {
     let mut rates = vec![0.0; posture.dof];
@@ -194,8 +216,8 @@ pub struct ImpactLaw<'a> {
 
 /// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (MODEL.md section 5).
 ///
-/// `pattern` is the one before, `theta` and `omega` are the blocks' angles and rates before, length N; angles at closed and
-/// closing interfaces are equal.
+/// `pattern` is the one before, `theta` and `omega` are the blocks' angles and rates before, length N. Angles at closed and
+/// closing interfaces are equal, to rounding; so are angles and rates at the closed ones of the decision.
 ///
 /// # Errors
 /// [`SingularMass`]
@@ -216,10 +238,9 @@ pub fn impact(
     let mut guess = pattern.clone();
     closing.iter().for_each(|&interface| guess.0[interface] = pattern.0[interface].mirror());
     // Closed ones, closing ones, and those that an earlier impact of the same instant has just opened.
-    let free = (0..column.len()).filter(|&interface| relative(theta, interface) == 0.0).collect();
+    let free = (0..column.len()).filter(|&interface| is_rounding(theta, interface)).collect();
     let answer = |candidate: &Pattern| project(column, theta, &before, candidate);
-    let fastest = omega.iter().fold(0.0f64, |fastest, rate| fastest.max(rate.abs()));
-    let least_parting = f64::MIN_POSITIVE.max(RATE_ROUNDING * fastest);
+    let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
     let mut problem = Problem { column, free, least_parting, answer };
     let (plastic, separation) = problem.solve(guess)?;
     let free = problem.free;
@@ -227,7 +248,7 @@ pub fn impact(
     let rebound = restitute(column, theta, &plastic, closing, &free, law.kappa, energy_before);
     let mut decision = Decision { pattern: plastic.pattern, omega: rebound.unwrap_or(plastic.motion), separation };
     settle(column, theta, &mut decision, &free, ground, law.stick_angle)?;
-    let examined = open(column, &decision.pattern, theta, &decision.omega, ground, None)?;
+    let examined = open(column, &decision.pattern, theta, &decision.omega, ground, &[])?;
     decision.separation |= examined.separation;
     decision.pattern = examined.pattern;
     Ok(decision)
@@ -317,8 +338,8 @@ fn settle(
 }
 
 /// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (MODEL.md section 4): the
-/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion call for. `released` is an interface, with the
-/// side, whose resultant has just reached a corner: it opens, whatever rounding says of its acceleration.
+/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion call for. `released` are interfaces, with their
+/// sides, whose resultants have reached a corner in this instant: they open, whatever rounding says of their acceleration.
 ///
 /// # Errors
 /// [`SingularMass`]
@@ -328,12 +349,12 @@ pub fn open(
     theta: &[f64],
     omega: &[f64],
     ground: Ground,
-    released: Option<(usize, Interface)>,
+    released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
-    let is_motionless = |i: &usize| relative(theta, *i) == 0.0 && relative(omega, *i) == 0.0;
+    let is_motionless = |i: &usize| !pattern.0[*i].is_open() || is_motionless(theta, omega, *i);
     let mut guess = pattern.clone();
     let mut free: Vec<usize> = (0..column.len()).filter(is_motionless).collect();
-    if let Some((interface, side)) = released {
+    for &(interface, side) in released {
         guess.0[interface] = side;
         free.retain(|other| *other != interface);
     }
@@ -349,19 +370,14 @@ pub fn open(
         Some(Answer { pattern: candidate.clone(), motion, resultants, distance })
     };
     let mut problem = Problem { column, free, least_parting: 0.0, answer };
-    let (mut answer, mut separation) = if problem.free.is_empty() && released.is_none() {
-        return Ok(Decision { pattern: guess, omega: omega.to_vec(), separation: false });
-    } else {
-        problem.solve(guess)?
-    };
-    if let Some((interface, side)) = released {
-        let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
-        let fall = ground.gravity.abs().max(column.gravity()) / height;
-        let scale = answer.motion.iter().fold(fall, |largest, alpha| largest.max(alpha.abs()));
-        if f64::from(side.sign()) * relative(&answer.motion, interface) < -RELEASE_TOLERANCE * scale {
-            problem.free.push(interface);
-            (answer, separation) = problem.solve(answer.pattern)?;
-        }
+    let (mut answer, mut separation) = problem.solve(guess)?;
+    let tolerance = verge_acceleration(column, &answer.motion, ground);
+    let is_driven_back =
+        |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
+    let driven_back: Vec<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
+    if !driven_back.is_empty() {
+        problem.free.extend(driven_back);
+        (answer, separation) = problem.solve(answer.pattern)?;
     }
     Ok(Decision { pattern: answer.pattern, omega: omega.to_vec(), separation })
 }
@@ -400,7 +416,7 @@ mod tests {
         let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
         let at = |share: f64| {
             let ground = Ground { x: share * column.uplift_acceleration(0), gravity: 9.81 };
-            open(&column, &Pattern::rest(3), &[0.0; 3], &[0.0; 3], ground, None).expect("solvable").pattern
+            open(&column, &Pattern::rest(3), &[0.0; 3], &[0.0; 3], ground, &[]).expect("solvable").pattern
         };
         assert_eq!(at(0.999), Pattern::rest(3));
         assert_eq!(at(1.001), Pattern::from_signs(&[-1, 0, 0]));

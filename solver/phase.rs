@@ -12,6 +12,7 @@
 //! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
 //! | `c_i N_i - abs(M_i)` | closed interface `i` opens | samples and parabolas |
 
+use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
 use crate::event::{first_crossing, first_root};
 use crate::excitation::Segment;
@@ -228,14 +229,15 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
     /// Decides how many roots of each gap lie at the start, by how it came to be open.
     fn arm(&mut self) {
         let (x, slope) = (self.x.as_slice(), self.slope.as_slice());
+        let accelerations = &slope[self.dof..];
+        let verge = verge_acceleration(&self.run.scene.column, accelerations, self.system.ground(self.run.t));
         for gap in &mut self.gaps {
             let is_closed = gap.of(&x[..self.dof]) == 0.0;
             let has_no_rate = gap.of(&x[self.dof..]) == 0.0;
             gap.start_roots = match (is_closed, has_no_rate) {
                 (false, _) => 0,
                 (true, false) => 1,
-                (true, true) if self.run.released == Some(gap.interface) => 3,
-                (true, true) if gap.of(&slope[self.dof..]) == 0.0 => 3,
+                (true, true) if gap.of(accelerations).abs() <= verge => 3,
                 (true, true) => 2,
             };
         }

@@ -98,7 +98,7 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
         let ended = if run.pattern.dof() == 0 { run.rest()? } else { run.move_on()? };
         match ended {
             Ended::Closing(interfaces) => run.impact(&interfaces)?,
-            Ended::Opening(interface, side) => run.release(interface, side)?,
+            Ended::Opening(interface, side) => run.release(interface, side, EventKind::Opening)?,
             Ended::Jump => run.jump()?,
             Ended::Overturned(block) => return Ok(run.finish(StopReason::Overturned, Some(block))),
             Ended::AtRest => return Ok(run.finish(StopReason::AtRest, None)),
@@ -118,8 +118,9 @@ pub(crate) struct Run<'a> {
     pub theta: Vec<f64>,
     pub omega: Vec<f64>,
     pub pattern: Pattern,
-    /// The interface that opened last because its resultant reached a corner: gap, rate and acceleration are zero there.
-    pub released: Option<usize>,
+    /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides:
+    /// gap, rate and acceleration are zero there.
+    pub released: Vec<(usize, Interface)>,
     /// Step size suggested by what came before `[s]`.
     pub suggested_step: Option<f64>,
     pub work: Work,
@@ -165,7 +166,7 @@ impl<'a> Run<'a> {
             theta: or_zero(&scene.initial.theta),
             omega: or_zero(&scene.initial.omega),
             pattern: Pattern::rest(blocks),
-            released: None,
+            released: Vec::new(),
             suggested_step: None,
             work: Work::default(),
             history,
@@ -193,7 +194,7 @@ impl<'a> Run<'a> {
         self.note_peaks();
         let at_rest = self.pattern.dof() == 0;
         let before = self.pattern.clone();
-        let decision = self.decide_forces(None)?;
+        let decision = self.decide_forces(&[])?;
         self.adopt(decision, EventKind::Start);
         if at_rest && self.pattern != before {
             self.record(EventKind::Start, &[], before, self.omega.clone(), None);
@@ -211,12 +212,7 @@ impl<'a> Run<'a> {
         let ended = rest::wait(self);
         self.spend(start);
         if let Ended::Opening(interface, side) = ended {
-            let before = self.pattern.clone();
-            let decision = self.decide_forces(Some((interface, side)))?;
-            self.adopt(decision, EventKind::Start);
-            self.released = Some(interface);
-            self.record(EventKind::Start, &[], before, self.omega.clone(), None);
-            self.guard_against_stall()?;
+            self.release(interface, side, EventKind::Start)?;
             return if self.pattern.dof() > 0 { self.move_on() } else { self.rest() };
         }
         Ok(ended)
@@ -265,7 +261,11 @@ impl<'a> Run<'a> {
         mode
     }
 
+    /// Interfaces that have reached `φ = 0` close.
     fn impact(&mut self, closing: &[usize]) -> Result<(), SolveError> {
+        if closing.iter().all(|&interface| contact::is_motionless(&self.theta, &self.omega, interface)) {
+            return self.withdraw(closing);
+        }
         let law = ImpactLaw { kappa: &self.kappa, stick_angle: self.scene.options.stick_angle };
         let column = &self.scene.column;
         let decision = contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
@@ -280,19 +280,40 @@ impl<'a> Run<'a> {
         self.guard_against_stall()
     }
 
-    fn release(&mut self, interface: usize, side: Interface) -> Result<(), SolveError> {
+    /// Interfaces that had opened on the verge are driven back before they have moved: no impact, they are closed again, and those
+    /// that opened in the same instant stay open.
+    fn withdraw(&mut self, closing: &[usize]) -> Result<(), SolveError> {
         let before = self.pattern.clone();
-        let decision = self.decide_forces(Some((interface, side)))?;
-        self.adopt(decision, EventKind::Opening);
-        self.released = Some(interface);
-        self.record(EventKind::Opening, &[interface], before, self.omega.clone(), None);
+        let mut pattern = before.clone();
+        closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
+        let released: Vec<_> = self.released.iter().copied().filter(|(i, _)| !closing.contains(i)).collect();
+        self.adopt(Decision { pattern, omega: self.omega.clone(), separation: false }, EventKind::Impact);
+        self.released = released;
+        self.record(EventKind::Impact, closing, before, self.omega.clone(), Some(0.0));
+        self.guard_against_stall()
+    }
+
+    /// An interface opens because its resultant has reached a corner, with those that have done so in the same instant.
+    fn release(&mut self, interface: usize, side: Interface, kind: EventKind) -> Result<(), SolveError> {
+        let before = self.pattern.clone();
+        let mut released = std::mem::take(&mut self.released);
+        if self.history.events.last().is_none_or(|event| event.t != self.t) {
+            released.clear();
+        }
+        released.retain(|(other, _)| *other != interface);
+        released.push((interface, side));
+        let decision = self.decide_forces(&released)?;
+        self.adopt(decision, kind);
+        self.released = released;
+        let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
+        self.record(kind, opened, before, self.omega.clone(), None);
         self.guard_against_stall()
     }
 
     /// The ground acceleration has jumped: every closed interface is examined anew.
     fn jump(&mut self) -> Result<(), SolveError> {
         let before = self.pattern.clone();
-        let decision = self.decide_forces(None)?;
+        let decision = self.decide_forces(&[])?;
         let kind = if before.dof() == 0 { EventKind::Start } else { EventKind::Jump };
         self.adopt(decision, kind);
         if self.pattern != before {
@@ -301,7 +322,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn decide_forces(&self, released: Option<(usize, Interface)>) -> Result<Decision, SolveError> {
+    fn decide_forces(&self, released: &[(usize, Interface)]) -> Result<Decision, SolveError> {
         let decision =
             contact::open(&self.scene.column, &self.pattern, &self.theta, &self.omega, self.ground(), released);
         self.solved(decision)
@@ -317,7 +338,16 @@ impl<'a> Run<'a> {
         }
         self.pattern = decision.pattern;
         self.omega = decision.omega;
-        self.released = None;
+        self.released.clear();
+        // What is closed, or has only just opened, is so to the last bit.
+        for interface in 0..self.theta.len() {
+            let is_open = self.pattern.0[interface].is_open();
+            if !is_open || contact::is_motionless(&self.theta, &self.omega, interface) {
+                let below = interface.checked_sub(1);
+                self.theta[interface] = below.map_or(0.0, |below| self.theta[below]);
+                self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
+            }
+        }
     }
 
     fn kinetic_energy(&self, pattern: &Pattern, omega: &[f64]) -> f64 {

@@ -69,7 +69,9 @@ fn each(blocks: usize, cases: u32, check: impl Fn(&Derivation, &Environment) -> 
         let config = Config { cases, failure_persistence: None, ..Config::default() };
         let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
         runner
-            .run(&prop::collection::vec(0.0f64..1.0, 31..60), |random| check(&derivation, &values(&derivation, &random)))
+            .run(&prop::collection::vec(0.0f64..1.0, 31..60), |random| {
+                check(&derivation, &values(&derivation, &random))
+            })
             .unwrap_or_else(|error| panic!("{linkage:?}: {error}"));
     }
 }

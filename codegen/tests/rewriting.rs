@@ -63,7 +63,10 @@ fn build(world: &mut World, tree: &Tree) -> (Expr, f64) {
         }
         Tree::Product(factors) => {
             let built: Vec<_> = factors.iter().map(|factor| build(world, factor)).collect();
-            (world.arena.product(built.iter().map(|factor| (factor.0, 1))), built.iter().map(|factor| factor.1).product())
+            (
+                world.arena.product(built.iter().map(|factor| (factor.0, 1))),
+                built.iter().map(|factor| factor.1).product(),
+            )
         }
         Tree::Square(inner) => {
             let (expr, value) = build(world, inner);
