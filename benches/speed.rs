@@ -1,0 +1,133 @@
+//! `cargo bench`: one right-hand side for 1 to 4 degrees of freedom, and one whole run, generated against generic.
+//!
+//! Both codes must give the same answer before anything is timed. Criterion measures; the medians are written with commit,
+//! compiler and machine to `target/bench/speed.csv`, and their ratios printed. What biases the figures: the right-hand side is
+//! called with the same state over and over (sines of one argument, warm caches); the whole run includes setting up modes and
+//! recording events but no rows; the generic code allocates.
+
+use criterion::{BenchmarkId, Criterion};
+use rocking::dynamics::{Dynamics, Ground};
+use rocking::generated::{GeneratedMode, equations};
+use rocking::generic::GenericMode;
+use rocking::pattern::Pattern;
+use rocking::{Column, DynamicsSource, Motion, Restitution, Scene, simulate};
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Duration;
+
+const GROUND: Ground = Ground { x: 1.3, gravity: 9.81 };
+
+/// Alternating pivots: every lever matters.
+fn pattern(dof: usize) -> Pattern {
+    Pattern::from_signs(&(0..dof).map(|i| if i % 2 == 0 { 1 } else { -1 }).collect::<Vec<i8>>())
+}
+
+fn state(dof: usize) -> Vec<f64> {
+    let angles = (0..dof).map(|i| 0.03 + 0.02 * (i % 2) as f64);
+    angles.chain((0..dof).map(|i| 0.4 - 0.3 * i as f64)).collect()
+}
+
+/// One right-hand side of `dof` degrees of freedom, generated (known size) and generic.
+fn right_hand_side<P>(criterion: &mut Criterion, dof: usize)
+where
+    GeneratedMode<P>: Dynamics,
+    P: rocking::dynamics::StepProgram<f64>,
+{
+    let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
+    let generated = GeneratedMode::<P>::new(&column, &pattern(dof)).expect("the build has it");
+    let generic = GenericMode::new(&column, &pattern(dof));
+    let values = state(dof);
+    let mut x = generated.zero_state();
+    rocking::dynamics::StateVector::as_mut_slice(&mut x).copy_from_slice(&values);
+    let (mut slope, mut other) = (generated.zero_state(), generic.zero_state());
+
+    generated.derivative(&x, GROUND, &mut slope);
+    generic.derivative(&values, GROUND, &mut other);
+    for (a, b) in rocking::dynamics::StateVector::as_slice(&slope).iter().zip(&other) {
+        assert!((a - b).abs() <= 1e-11 * b.abs().max(1.0), "both codes must agree before they are timed: {a} {b}");
+    }
+    let mut group = criterion.benchmark_group("right-hand-side");
+    group.bench_function(BenchmarkId::new("generated", dof), |bencher| {
+        bencher.iter(|| generated.derivative(black_box(&x), black_box(GROUND), &mut slope));
+    });
+    group.bench_function(BenchmarkId::new("generic", dof), |bencher| {
+        bencher.iter(|| generic.derivative(black_box(&values), black_box(GROUND), &mut other));
+    });
+    group.finish();
+}
+
+fn whole_run(criterion: &mut Criterion) {
+    let mut scene =
+        Scene::new(Column::equal_blocks(3, 0.3974745895307783, 1.5566366369849045, 1.0, 9.81).expect("valid"));
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 7.3575, omega: 10.7, start: 0.0 });
+    scene.restitution = Restitution::Eta(0.9);
+    let mut generic = scene.clone();
+    generic.options.dynamics = DynamicsSource::Generic;
+    let (a, b) = (simulate(&scene).expect("a run"), simulate(&generic).expect("a run"));
+    assert_eq!((a.status, a.impacts()), (b.status, b.impacts()), "both codes must agree before they are timed");
+    for (a, b) in a.peak_theta.iter().zip(&b.peak_theta) {
+        assert!((a - b).abs() < 1e-7, "{a} {b}");
+    }
+    let mut group = criterion.benchmark_group("three-blocks-pulse-10-s");
+    for (name, scene) in [("generated", &scene), ("generic", &generic)] {
+        group.bench_function(BenchmarkId::new(name, 3), |bencher| bencher.iter(|| simulate(black_box(scene))));
+    }
+    group.finish();
+}
+
+/// First line of what a command prints, or `unknown`.
+fn output_of(command: &str, arguments: &[&str]) -> String {
+    let output = Command::new(command).args(arguments).output().ok();
+    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
+    text.lines().next().unwrap_or("unknown").replace(',', " ")
+}
+
+fn machine() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find(|line| line.starts_with("model name")).and_then(|line| line.split(':').nth(1));
+    format!("{} {}", std::env::consts::ARCH, model.unwrap_or("unknown").trim()).replace(',', " ")
+}
+
+fn target() -> PathBuf {
+    let default = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target");
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(default, PathBuf::from)
+}
+
+/// Median in nanoseconds that criterion has just stored.
+fn median(group: &str, name: &str, dof: usize) -> Option<f64> {
+    let path = target().join("criterion").join(group).join(name).join(dof.to_string()).join("new/estimates.json");
+    let estimates: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()?;
+    estimates["median"]["point_estimate"].as_f64()
+}
+
+fn report() -> std::io::Result<()> {
+    let (commit, compiler, machine) =
+        (output_of("git", &["rev-parse", "--short", "HEAD"]), output_of("rustc", &["--version"]), machine());
+    let mut csv = String::from("benchmark,dof,generated_ns,generic_ns,ratio,commit,compiler,machine\n");
+    let rows = (1..=4).map(|dof| ("right-hand-side", dof)).chain([("three-blocks-pulse-10-s", 3)]);
+    for (group, dof) in rows {
+        let (Some(a), Some(b)) = (median(group, "generated", dof), median(group, "generic", dof)) else { continue };
+        println!("{group}, {dof} free angle(s): generated {a:.1} ns, generic {b:.1} ns, ratio {:.1}", b / a);
+        csv.push_str(&format!("{group},{dof},{a:.2},{b:.2},{:.2},{commit},{compiler},{machine}\n", b / a));
+    }
+    let folder = target().join("bench");
+    std::fs::create_dir_all(&folder)?;
+    std::fs::write(folder.join("speed.csv"), csv)?;
+    println!("wrote {}", folder.join("speed.csv").display());
+    Ok(())
+}
+
+fn main() -> std::io::Result<()> {
+    let mut criterion = Criterion::default()
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2))
+        .configure_from_args();
+    right_hand_side::<equations::Dof1>(&mut criterion, 1);
+    right_hand_side::<equations::Dof2>(&mut criterion, 2);
+    right_hand_side::<equations::Dof3>(&mut criterion, 3);
+    right_hand_side::<equations::Dof4>(&mut criterion, 4);
+    whole_run(&mut criterion);
+    criterion.final_summary();
+    report()
+}
