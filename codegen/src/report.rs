@@ -1,7 +1,7 @@
 //! What `rocking derive` prints: a mode's derivation as text, and its code.
 
 use crate::optimise::{Constant, Program};
-use crate::pattern::Pattern;
+use crate::pattern::{Interface, Pattern};
 use crate::symbolic::{Arena, Expr};
 use crate::{Derivation, derive, emit};
 use std::fmt::Write;
@@ -48,24 +48,22 @@ pub fn rust(pattern: &Pattern) -> String {
 }
 
 fn title(pattern: &Pattern) -> String {
-    let name = pattern.mode().map_or("at rest".to_string(), |(label, mirrored)| {
-        format!("mode {label}{}", if mirrored { ", mirrored" } else { "" })
+    let name = match pattern.mode() {
+        None => "at rest".into(),
+        Some((label, false)) => format!("mode {label}"),
+        Some((label, true)) => format!("mode {label}, mirrored"),
+    };
+    let pivots = pattern.0.iter().enumerate().map(|(index, state)| {
+        let number = index + 1;
+        match state {
+            Interface::Right => format!("pivot_{number} = c_{number}"),
+            Interface::Left => format!("pivot_{number} = -c_{number}"),
+            Interface::Closed => format!("interface {number} closed"),
+        }
     });
-    let signs: Vec<String> = pattern
-        .0
-        .iter()
-        .enumerate()
-        .map(|(i, s)| {
-            format!("pivot_{} = {}", i + 1, ["-c_", "0 (closed)", "+c_"][(s.sign() + 1) as usize])
-                + &if s.is_open() { (i + 1).to_string() } else { String::new() }
-        })
-        .collect();
-    format!(
-        "{name} of {} block(s), pattern {pattern}, {} free angle(s)\n{}\n",
-        pattern.0.len(),
-        pattern.dof(),
-        signs.join(", ")
-    )
+    let pivots: Vec<String> = pivots.collect();
+    let (blocks, dof) = (pattern.0.len(), pattern.dof());
+    format!("{name} of {blocks} block(s), pattern {pattern}, {dof} free angle(s)\n{}\n", pivots.join(", "))
 }
 
 fn numbered(name: &str, values: &[Expr]) -> Vec<(String, Expr)> {

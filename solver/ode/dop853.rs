@@ -3,7 +3,7 @@
 //!
 //! Coefficients: Hairer's `dop853.f`, as in Solving Ordinary Differential Equations I, section II.5 and appendix.
 
-use super::{Interpolant, Pair, System, Term, Tolerance, combine, weighted};
+use super::{Interpolant, Pair, Stages, System, Term, Tolerance};
 use crate::dynamics::StateVector;
 
 const A2: [Term; 1] = [(0, 0.05260015195876773)];
@@ -195,24 +195,9 @@ const D7: [Term; 12] = [
     (15, -149.72683625798564),
 ];
 
-/// The pair and its stages.
+/// The pair and its stages; `k[12]` is the slope at the step's end.
 #[derive(Clone, Debug)]
-pub struct Dop853<V> {
-    t: f64,
-    h: f64,
-    x: V,
-    end: V,
-    inner: V,
-    k: [V; 16],
-}
-
-impl<V: StateVector> Dop853<V> {
-    #[inline(always)]
-    fn stage<S: System<State = V>, const M: usize>(&mut self, system: &mut S, index: usize, a: &[Term; M]) {
-        combine(&self.x, self.h, &self.k, a, &mut self.inner);
-        system.slope(self.t + C[index] * self.h, &self.inner, &mut self.k[index]);
-    }
-}
+pub struct Dop853<V>(Stages<V, 16>);
 
 impl<V: StateVector> Pair<V> for Dop853<V> {
     const ORDER: usize = 8;
@@ -220,14 +205,7 @@ impl<V: StateVector> Pair<V> for Dop853<V> {
     const STAGES: usize = 11;
 
     fn new(zero: &V) -> Self {
-        Dop853 {
-            t: 0.0,
-            h: 0.0,
-            x: zero.clone(),
-            end: zero.clone(),
-            inner: zero.clone(),
-            k: std::array::from_fn(|_| zero.clone()),
-        }
+        Dop853(Stages::new(zero))
     }
 
     fn attempt<S: System<State = V>>(
@@ -239,26 +217,25 @@ impl<V: StateVector> Pair<V> for Dop853<V> {
         h: f64,
         tolerance: Tolerance,
     ) -> f64 {
-        (self.t, self.h) = (t, h);
-        self.x.clone_from(x);
-        self.k[0].clone_from(slope);
-        self.stage(system, 1, &A2);
-        self.stage(system, 2, &A3);
-        self.stage(system, 3, &A4);
-        self.stage(system, 4, &A5);
-        self.stage(system, 5, &A6);
-        self.stage(system, 6, &A7);
-        self.stage(system, 7, &A8);
-        self.stage(system, 8, &A9);
-        self.stage(system, 9, &A10);
-        self.stage(system, 10, &A11);
-        self.stage(system, 11, &A12);
-        combine(&self.x, h, &self.k, &B, &mut self.end);
+        let step = &mut self.0;
+        step.begin(t, x, slope, h);
+        step.stage(system, 1, C[1], &A2);
+        step.stage(system, 2, C[2], &A3);
+        step.stage(system, 3, C[3], &A4);
+        step.stage(system, 4, C[4], &A5);
+        step.stage(system, 5, C[5], &A6);
+        step.stage(system, 6, C[6], &A7);
+        step.stage(system, 7, C[7], &A8);
+        step.stage(system, 8, C[8], &A9);
+        step.stage(system, 9, C[9], &A10);
+        step.stage(system, 10, C[10], &A11);
+        step.stage(system, 11, C[11], &A12);
+        step.finish(&B);
         let (mut fifth, mut third) = (0.0, 0.0);
-        let count = self.x.as_slice().len();
+        let count = step.x.as_slice().len();
         for i in 0..count {
-            let scale = tolerance.scale(self.x.as_slice()[i], self.end.as_slice()[i]);
-            let (e5, e3) = (weighted(h, &self.k, &E5, i) / scale, weighted(h, &self.k, &E3, i) / scale);
+            let scale = step.scale(tolerance, i);
+            let (e5, e3) = (step.weighted(&E5, i) / scale, step.weighted(&E3, i) / scale);
             fifth += e5 * e5;
             third += e3 * e3;
         }
@@ -267,27 +244,28 @@ impl<V: StateVector> Pair<V> for Dop853<V> {
     }
 
     fn end(&self) -> &V {
-        &self.end
+        &self.0.end
     }
 
     fn accept<S: System<State = V>>(&mut self, system: &mut S) {
-        system.slope(self.t + self.h, &self.end, &mut self.k[12]);
+        self.0.end_slope(system, 12);
     }
 
     fn end_slope(&self) -> &V {
-        &self.k[12]
+        &self.0.k[12]
     }
 
     fn interpolate<S: System<State = V>>(&mut self, system: &mut S, interpolant: &mut Interpolant<V>) {
-        self.stage(system, 13, &A14);
-        self.stage(system, 14, &A15);
-        self.stage(system, 15, &A16);
-        interpolant.hermite(self.t, self.h, &self.x, &self.end, &self.k[0], &self.k[12]);
-        for i in 0..self.x.as_slice().len() {
-            interpolant.nested[3].as_mut_slice()[i] = weighted(self.h, &self.k, &D4, i);
-            interpolant.nested[4].as_mut_slice()[i] = weighted(self.h, &self.k, &D5, i);
-            interpolant.nested[5].as_mut_slice()[i] = weighted(self.h, &self.k, &D6, i);
-            interpolant.nested[6].as_mut_slice()[i] = weighted(self.h, &self.k, &D7, i);
+        let step = &mut self.0;
+        step.stage(system, 13, C[13], &A14);
+        step.stage(system, 14, C[14], &A15);
+        step.stage(system, 15, C[15], &A16);
+        interpolant.hermite(step.t, step.h, &step.x, &step.end, &step.k[0], &step.k[12]);
+        for i in 0..step.x.as_slice().len() {
+            interpolant.nested[3].as_mut_slice()[i] = step.weighted(&D4, i);
+            interpolant.nested[4].as_mut_slice()[i] = step.weighted(&D5, i);
+            interpolant.nested[5].as_mut_slice()[i] = step.weighted(&D6, i);
+            interpolant.nested[6].as_mut_slice()[i] = step.weighted(&D7, i);
         }
         interpolant.terms = 7;
     }

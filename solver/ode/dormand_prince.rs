@@ -2,7 +2,7 @@
 //!
 //! Coefficients: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, table II.5.2 and section II.6.
 
-use super::{Interpolant, Pair, System, Term, Tolerance, combine, weighted};
+use super::{Interpolant, Pair, Stages, System, Term, Tolerance};
 use crate::dynamics::StateVector;
 
 const A2: [Term; 1] = [(0, 1.0 / 5.0)];
@@ -32,24 +32,9 @@ const D: [Term; 6] = [
     (6, 69997945.0 / 29380423.0),
 ];
 
-/// The pair and its stages.
+/// The pair and its stages; `k[6]` is the slope at the step's end.
 #[derive(Clone, Debug)]
-pub struct DormandPrince54<V> {
-    t: f64,
-    h: f64,
-    x: V,
-    end: V,
-    inner: V,
-    k: [V; 7],
-}
-
-impl<V: StateVector> DormandPrince54<V> {
-    #[inline(always)]
-    fn stage<S: System<State = V>, const M: usize>(&mut self, system: &mut S, index: usize, node: f64, a: &[Term; M]) {
-        combine(&self.x, self.h, &self.k, a, &mut self.inner);
-        system.slope(self.t + node * self.h, &self.inner, &mut self.k[index]);
-    }
-}
+pub struct DormandPrince54<V>(Stages<V, 7>);
 
 impl<V: StateVector> Pair<V> for DormandPrince54<V> {
     const ORDER: usize = 5;
@@ -57,14 +42,7 @@ impl<V: StateVector> Pair<V> for DormandPrince54<V> {
     const STAGES: usize = 6;
 
     fn new(zero: &V) -> Self {
-        DormandPrince54 {
-            t: 0.0,
-            h: 0.0,
-            x: zero.clone(),
-            end: zero.clone(),
-            inner: zero.clone(),
-            k: std::array::from_fn(|_| zero.clone()),
-        }
+        DormandPrince54(Stages::new(zero))
     }
 
     fn attempt<S: System<State = V>>(
@@ -76,42 +54,42 @@ impl<V: StateVector> Pair<V> for DormandPrince54<V> {
         h: f64,
         tolerance: Tolerance,
     ) -> f64 {
-        (self.t, self.h) = (t, h);
-        self.x.clone_from(x);
-        self.k[0].clone_from(slope);
-        self.stage(system, 1, 1.0 / 5.0, &A2);
-        self.stage(system, 2, 3.0 / 10.0, &A3);
-        self.stage(system, 3, 4.0 / 5.0, &A4);
-        self.stage(system, 4, 8.0 / 9.0, &A5);
-        self.stage(system, 5, 1.0, &A6);
-        combine(&self.x, h, &self.k, &B, &mut self.end);
+        let step = &mut self.0;
+        step.begin(t, x, slope, h);
+        step.stage(system, 1, 1.0 / 5.0, &A2);
+        step.stage(system, 2, 3.0 / 10.0, &A3);
+        step.stage(system, 3, 4.0 / 5.0, &A4);
+        step.stage(system, 4, 8.0 / 9.0, &A5);
+        step.stage(system, 5, 1.0, &A6);
+        step.finish(&B);
         // The error estimate needs the slope at the end, which an accepted step needs anyway.
-        system.slope(t + h, &self.end, &mut self.k[6]);
+        step.end_slope(system, 6);
         let mut sum = 0.0;
-        let count = self.x.as_slice().len();
+        let count = step.x.as_slice().len();
         for i in 0..count {
-            let scale = tolerance.scale(self.x.as_slice()[i], self.end.as_slice()[i]);
-            let error = weighted(h, &self.k, &E, i) / scale;
+            let scale = step.scale(tolerance, i);
+            let error = step.weighted(&E, i) / scale;
             sum += error * error;
         }
         (sum / count as f64).sqrt()
     }
 
     fn end(&self) -> &V {
-        &self.end
+        &self.0.end
     }
 
     /// Nothing to do: the error estimate has evaluated it.
     fn accept<S: System<State = V>>(&mut self, _: &mut S) {}
 
     fn end_slope(&self) -> &V {
-        &self.k[6]
+        &self.0.k[6]
     }
 
     fn interpolate<S: System<State = V>>(&mut self, _: &mut S, interpolant: &mut Interpolant<V>) {
-        interpolant.hermite(self.t, self.h, &self.x, &self.end, &self.k[0], &self.k[6]);
+        let step = &self.0;
+        interpolant.hermite(step.t, step.h, &step.x, &step.end, &step.k[0], &step.k[6]);
         for (i, value) in interpolant.nested[3].as_mut_slice().iter_mut().enumerate() {
-            *value = weighted(self.h, &self.k, &D, i);
+            *value = step.weighted(&D, i);
         }
         interpolant.terms = 4;
     }

@@ -106,6 +106,70 @@ pub fn solve<V: StateVector, S: System<State = V>, P: Pair<V>>(
     Some(states)
 }
 
+/// An attempted step: its start, its end and the slopes of its stages.
+#[derive(Clone, Debug)]
+struct Stages<V, const N: usize> {
+    t: f64,
+    h: f64,
+    x: V,
+    end: V,
+    inner: V,
+    k: [V; N],
+}
+
+impl<V: StateVector, const N: usize> Stages<V, N> {
+    fn new(zero: &V) -> Self {
+        Stages {
+            t: 0.0,
+            h: 0.0,
+            x: zero.clone(),
+            end: zero.clone(),
+            inner: zero.clone(),
+            k: std::array::from_fn(|_| zero.clone()),
+        }
+    }
+
+    fn begin(&mut self, t: f64, x: &V, slope: &V, h: f64) {
+        (self.t, self.h) = (t, h);
+        self.x.clone_from(x);
+        self.k[0].clone_from(slope);
+    }
+
+    /// `k[index] = f(t + node h, x + h Σ a k)`
+    #[inline(always)]
+    fn stage<S: System<State = V>, const M: usize>(&mut self, system: &mut S, index: usize, node: f64, a: &[Term; M]) {
+        combine(&self.x, self.h, &self.k, a, &mut self.inner);
+        system.slope(self.t + node * self.h, &self.inner, &mut self.k[index]);
+    }
+
+    /// `end = x + h Σ b k`
+    #[inline(always)]
+    fn finish<const M: usize>(&mut self, b: &[Term; M]) {
+        combine(&self.x, self.h, &self.k, b, &mut self.end);
+    }
+
+    /// `k[index] = f(t + h, end)`
+    fn end_slope<S: System<State = V>>(&mut self, system: &mut S, index: usize) {
+        system.slope(self.t + self.h, &self.end, &mut self.k[index]);
+    }
+
+    /// `h Σ weight · k[stage]` of one component.
+    #[inline(always)]
+    fn weighted<const M: usize>(&self, terms: &[Term; M], i: usize) -> f64 {
+        let mut sum = 0.0;
+        for &(stage, weight) in terms {
+            sum += weight * self.k[stage].as_slice()[i];
+        }
+        self.h * sum
+    }
+
+    /// What component `i` may err by in this step.
+    #[inline(always)]
+    fn scale(&self, tolerance: Tolerance, i: usize) -> f64 {
+        tolerance.scale(self.x.as_slice()[i], self.end.as_slice()[i])
+    }
+}
+
 /// Stage index and weight.
 type Term = (usize, f64);
 
@@ -120,16 +184,6 @@ fn combine<V: StateVector, const M: usize>(x: &V, h: f64, k: &[V], terms: &[Term
         }
         *out = x[i] + h * sum;
     }
-}
-
-/// `h Σ weight · k[stage]` of one component.
-#[inline(always)]
-fn weighted<V: StateVector, const M: usize>(h: f64, k: &[V], terms: &[Term; M], i: usize) -> f64 {
-    let mut sum = 0.0;
-    for &(stage, weight) in terms {
-        sum += weight * k[stage].as_slice()[i];
-    }
-    h * sum
 }
 
 #[cfg(test)]

@@ -41,7 +41,7 @@ pub fn functions(record: &LinkageRecord) -> TokenStream {
 pub fn scene_constants(name: &Ident, title: &str, arena: &Arena, constants: &[Constant]) -> TokenStream {
     let mut text = format!("{title}\n");
     for constant in constants {
-        text.push_str(&format!("\n- `{}` [{}] = `{}`", constant.name, constant.unit, arena.text(constant.source)));
+        text.push_str(&format!("\n- `{}` ({}) = `{}`", constant.name, constant.unit, arena.text(constant.source)));
     }
     let doc = doc(&text);
     let mut writer = Writer::new(arena, constants.iter().map(|constant| constant.source), column_field);

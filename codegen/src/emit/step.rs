@@ -29,7 +29,7 @@ pub fn step_program(program: &Program) -> TokenStream {
     }
     text.push_str("\n\nScene constants, in order:\n");
     for constant in &program.constants {
-        text.push_str(&format!("\n- `{}` [{}]", constant.name, constant.unit));
+        text.push_str(&format!("\n- `{}` ({})", constant.name, constant.unit));
     }
     let doc = doc(&text);
     let state = 2 * dof;
