@@ -195,6 +195,13 @@ impl Scene {
             let problem = format!("more than {MOST_ROWS:e} rows up to t_end");
             return error("output.dt", problem, "give a larger interval");
         }
+        let components = [("horizontal", &self.excitation.horizontal), ("vertical", &self.excitation.vertical)];
+        for (component, motion) in components {
+            if let Some((name, value)) = motion.as_ref().and_then(|motion| motion.invalid()) {
+                let key = format!("excitation.{component}.{name}");
+                return error(&key, format!("{value} is out of range"), "give a finite number, above zero for omega");
+            }
+        }
         match &self.restitution {
             Restitution::Plastic => {}
             Restitution::Eta(eta) if !(0.0..=1.0).contains(eta) => {

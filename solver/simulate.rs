@@ -10,7 +10,7 @@ use crate::ode::{Dop853, DormandPrince54};
 use crate::phase::{self, Ended, Phase};
 use crate::response::{Event, EventKind, Response, Sample, Separation, StopReason, Work, mode_name};
 use crate::rest;
-use crate::scene::{DynamicsSource, Method, Scene};
+use crate::scene::{DynamicsSource, Method, Scene, SceneError};
 use rocking_codegen::pattern::{Interface, Pattern};
 use std::any::Any;
 use std::collections::{BTreeMap, HashMap};
@@ -26,6 +26,9 @@ const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
 /// Why a run could not be finished.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
+    /// The scene is not valid. Scenes from files have been checked.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The error demanded cannot be met with steps that still advance the time.
     #[error("at t = {time} s in mode {mode}: the step has fallen to {step:e} s; loosen rtol and atol")]
     StepTooSmall {
@@ -95,6 +98,7 @@ pub fn simulate(scene: &Scene) -> Result<Response, SolveError> {
 /// # Errors
 /// As [`simulate`].
 pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Response, SolveError> {
+    scene.check()?;
     let mut run = Run::new(scene, Box::new(progress));
     run.begin()?;
     loop {

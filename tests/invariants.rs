@@ -173,3 +173,13 @@ fn impact_never_adds_energy() {
     println!("{admissible} of 300000 impacts could be followed");
     assert!(admissible > 150_000, "{admissible}");
 }
+
+#[test]
+fn a_scene_that_is_not_valid_is_refused_by_the_solver() {
+    let mut scene = Scene::new(Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81).expect("valid"));
+    scene.initial.theta = vec![0.1];
+    assert!(simulate(&scene).expect_err("one angle for two blocks").to_string().contains("initial.theta"));
+    scene.initial.theta.clear();
+    scene.excitation.vertical = Some(Motion::SinePulse { amplitude: f64::NAN, omega: 1.0, start: 0.0 });
+    assert!(simulate(&scene).expect_err("no number").to_string().contains("excitation.vertical.amplitude"));
+}

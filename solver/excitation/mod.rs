@@ -85,6 +85,21 @@ impl Motion {
         }
     }
 
+    /// The first parameter that is not finite, or not above zero where it must be, with its value.
+    pub fn invalid(&self) -> Option<(&'static str, f64)> {
+        let (amplitude, omega, start, phase) = match *self {
+            Motion::SinePulse { amplitude, omega, start }
+            | Motion::CosinePulse { amplitude, omega, start }
+            | Motion::Ricker { amplitude, omega, start } => (amplitude, omega, start, 0.0),
+            Motion::Harmonic { amplitude, omega, start, phase } => (amplitude, omega, start, phase),
+            // Checked when it was made.
+            Motion::Record(_) => return None,
+        };
+        let finite = [("amplitude", amplitude), ("omega", omega), ("start", start), ("phase", phase)];
+        let bad = finite.into_iter().find(|(_, value)| !value.is_finite());
+        bad.or((omega <= 0.0).then_some(("omega", omega)))
+    }
+
     /// Acceleration at `t` `[m/s²]`; where it jumps, the value after the jump.
     pub fn value(&self, t: f64) -> f64 {
         if let Motion::Record(record) = self {
