@@ -265,9 +265,8 @@ fn restitute(
     energy_before: f64,
 ) -> Option<Vec<f64>> {
     let pattern = &plastic.pattern;
-    let rebounding: Vec<usize> =
-        closing.iter().copied().filter(|&i| pattern.0[i].is_open() && kappa[i] != 1.0).collect();
-    if rebounding.is_empty() {
+    let rebounding: Vec<usize> = closing.iter().copied().filter(|&i| pattern.0[i].is_open()).collect();
+    if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
         return None;
     }
     let posture = Posture::new(column, pattern, theta);

@@ -88,6 +88,11 @@ impl Bernstein {
         signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count()
     }
 
+    /// Largest coefficient by size: a bound of the polynomial's size.
+    pub fn size(&self) -> f64 {
+        self.coefficients[..=self.degree].iter().fold(0.0, |most, c| most.max(c.abs()))
+    }
+
     /// Smallest coefficient: a lower bound of the polynomial.
     pub fn lower_bound(&self) -> f64 {
         self.coefficients[..=self.degree].iter().fold(f64::INFINITY, |least, c| least.min(*c))

@@ -181,8 +181,19 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         loop {
             let t = self.run.t;
             let left = self.system.segment.end - t;
+            if t + left <= t {
+                match self.next_segment() {
+                    Some(ended) => {
+                        self.run.suggested_step = Some(wanted);
+                        return Ok(self.leave(ended));
+                    }
+                    None => continue,
+                }
+            }
             // A step that would leave a crumb leaves a part.
             let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
+            let held = self.run.hold.until - t;
+            let h = if held > 0.0 { h.min(held) } else { h };
             let error = self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
             if error.is_nan() || error > 1.0 {
                 self.run.work.rejected += 1;
@@ -210,20 +221,20 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
                 }
             }
             self.output_until(t, h, t + h);
-            let reached_end = h == left;
-            self.advance(if reached_end { self.system.segment.end } else { t + h });
-            if reached_end {
-                if self.run.segment + 1 == self.run.segments.len() {
-                    return Ok(self.leave(Ended::EndOfTime));
-                }
-                self.run.segment += 1;
-                self.system.segment = self.run.segments[self.run.segment];
-                if self.system.segment.jumps {
-                    self.run.suggested_step = Some(wanted);
-                    return Ok(self.leave(Ended::Jump));
-                }
-            }
+            self.note_peaks();
+            self.advance(if h == left { self.system.segment.end } else { t + h });
         }
+    }
+
+    /// Goes over to the next stretch of ground motion; what ends the phase there, if anything.
+    fn next_segment(&mut self) -> Option<Ended> {
+        self.run.t = self.system.segment.end;
+        if self.run.segment + 1 == self.run.segments.len() {
+            return Some(Ended::EndOfTime);
+        }
+        self.run.segment += 1;
+        self.system.segment = self.run.segments[self.run.segment];
+        self.system.segment.jumps.then_some(Ended::Jump)
     }
 
     /// Decides how many roots of each gap lie at the start, by how it came to be open.
@@ -301,6 +312,9 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
                     let (rate, acceleration) =
                         (gap.of(&self.x.as_slice()[dof..]), gap.of(&self.slope.as_slice()[dof..]));
                     polynomial.start_with(0.0, h * rate, h * h * acceleration);
+                    if polynomial.size() <= self.resolution() {
+                        continue;
+                    }
                 }
                 offer(Found::Gap(gap), first_root(&polynomial, gap.start_roots));
             }
@@ -344,6 +358,9 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let mut first: Option<(Found, f64)> = None;
         for (index, &end) in ends.iter().enumerate() {
             let (interface, start) = (self.closed[index], self.margins[index]);
+            if start <= 0.0 && t < self.run.hold.until {
+                continue;
+            }
             let reach = first.map_or(reach, |(_, s)| s);
             let crossing = first_crossing(|s| self.margin_inside(interface, t, h, s), start, end, reach);
             if let Some(s) = crossing {
@@ -395,11 +412,30 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         self.x.clone_from(self.pair.end());
         self.slope.clone_from(self.pair.end_slope());
         self.run.t = t;
-        self.gaps.iter_mut().for_each(|gap| gap.start_roots = 0);
-        for (block, &link) in self.links.iter().enumerate() {
-            if link > 0 {
-                let peak = &mut self.run.history.peak_theta[block];
-                *peak = peak.max(self.x.as_slice()[link - 1].abs());
+        // A gap that is still below the resolution of angles has not left its start.
+        let (resolution, x) = (self.resolution(), self.x.as_slice());
+        for gap in self.gaps.iter_mut().filter(|gap| gap.of(&x[..self.dof]).abs() > resolution) {
+            gap.start_roots = 0;
+        }
+    }
+
+    /// Notes the largest angles of the step just taken, the turning points inside it among them.
+    fn note_peaks(&mut self) {
+        for link in 0..self.dof {
+            let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
+            let (rate, end_rate) = (x[self.dof + link], end[self.dof + link]);
+            let mut peak = x[link].abs().max(end[link].abs());
+            if rate * end_rate < 0.0 {
+                self.interpolate();
+                let (dof, sign) = (self.dof, if rate < 0.0 { -1.0 } else { 1.0 });
+                let turning = first_root(&self.interpolant.bernstein(|x| sign * x[dof + link]), 0);
+                let mut x = self.scratch.0.clone();
+                self.interpolant.evaluate(turning.unwrap_or(1.0), &mut x);
+                peak = peak.max(x.as_slice()[link].abs());
+            }
+            for (block, _) in self.links.iter().enumerate().filter(|(_, own)| **own == link + 1) {
+                let noted = &mut self.run.history.peak_theta[block];
+                *noted = noted.max(peak);
             }
         }
     }
@@ -431,6 +467,8 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         }
         let is_mistaken = !has_touched && h > 0.0;
         self.pair.accept(&mut self.system);
+        self.interpolated = false;
+        self.note_peaks();
         self.advance(if h == self.system.segment.end - t { self.system.segment.end } else { t + h });
         let (x, slope) = (self.x.clone(), self.slope.clone());
         self.weigh(self.run.t, &x, &slope);

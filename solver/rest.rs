@@ -23,6 +23,11 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
     let first = run.segment;
     loop {
         let segment = run.segments[run.segment];
+        if run.t < run.hold.until {
+            let until = run.hold.until.min(segment.end);
+            output_until(run, until);
+            run.t = until;
+        }
         let start = earliest_start(run, &segment);
         let until = start.map_or(segment.end, |(t, _, _)| t);
         note_forces(run, &segment, until);

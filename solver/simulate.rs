@@ -16,9 +16,16 @@ use std::any::Any;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-/// Events in one instant beyond which a run is stuck. A column of N blocks may need a few per interface; chatter ends by
-/// `stick_angle` with time going on.
-const MOST_EVENTS_AT_ONCE: usize = 200;
+/// Events per block in one instant beyond which the laws of contact go in circles: the instant is then decided by closing what
+/// has not moved, as a separation. Fewer, and instants at which several interfaces are on the verge are cut short.
+const EVENTS_AT_ONCE: usize = 8;
+
+/// Shortest time for which guards that are below zero after a separation are left alone `[s]`; it doubles while separations
+/// follow each other. Shorter, and a column in flight costs thousands of contact problems; longer, and contact is regained late.
+const SHORTEST_HOLD: f64 = 1e-6;
+
+/// Longest such time `[s]`.
+const LONGEST_HOLD: f64 = 1e-2;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
 const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
@@ -49,7 +56,7 @@ pub enum SolveError {
         /// Label.
         mode: String,
     },
-    /// Events follow each other without time going on.
+    /// Events follow each other without time going on, and closing what has not moved does not help.
     #[error("at t = {time} s: {events} events in one instant, the last pattern {pattern}; increase stick_angle")]
     Stalled {
         /// `[s]`
@@ -128,6 +135,8 @@ pub(crate) struct Run<'a> {
     /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides:
     /// gap, rate and acceleration are zero there.
     pub released: Vec<(usize, Interface)>,
+    /// After a separation: until when closed interfaces that cannot stay closed are left alone.
+    pub hold: Hold,
     /// Step size suggested by what came before `[s]`.
     pub suggested_step: Option<f64>,
     pub work: Work,
@@ -137,6 +146,14 @@ pub(crate) struct Run<'a> {
     modes: HashMap<Pattern, Rc<dyn Any>>,
     events_at_once: usize,
     used_generic: bool,
+}
+
+/// A time for which a separation is not examined again.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    /// `[s]`
+    pub until: f64,
+    span: f64,
 }
 
 /// What is recorded of a run.
@@ -174,6 +191,7 @@ impl<'a> Run<'a> {
             omega: or_zero(&scene.initial.omega),
             pattern: Pattern::rest(blocks),
             released: Vec::new(),
+            hold: Hold { until: f64::NEG_INFINITY, span: SHORTEST_HOLD },
             suggested_step: None,
             work: Work::default(),
             history,
@@ -342,6 +360,9 @@ impl<'a> Run<'a> {
     fn adopt(&mut self, decision: Decision, during: EventKind) {
         if decision.separation {
             self.history.separations.push(Separation { t: self.t, during });
+            let is_repeated = self.t - self.hold.until <= 100.0 * self.hold.span;
+            self.hold.span = if is_repeated { (2.0 * self.hold.span).min(LONGEST_HOLD) } else { SHORTEST_HOLD };
+            self.hold.until = self.t + self.hold.span;
         }
         self.pattern = decision.pattern;
         self.omega = decision.omega;
@@ -392,11 +413,22 @@ impl<'a> Run<'a> {
         });
     }
 
+    /// Breaks circles of events in one instant.
     fn guard_against_stall(&mut self) -> Result<(), SolveError> {
         let events = &self.history.events;
         let is_same_instant = events.len() > 1 && events[events.len() - 2].t == self.t;
         self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
-        if self.events_at_once > MOST_EVENTS_AT_ONCE {
+        let most = EVENTS_AT_ONCE * (self.theta.len() + 1);
+        if self.events_at_once == most {
+            let mut pattern = self.pattern.clone();
+            for (interface, state) in pattern.0.iter_mut().enumerate() {
+                if contact::is_motionless(&self.theta, &self.omega, interface) {
+                    *state = Interface::Closed;
+                }
+            }
+            self.adopt(Decision { pattern, omega: self.omega.clone(), separation: true }, EventKind::Opening);
+        }
+        if self.events_at_once > 2 * most {
             let pattern = self.pattern.to_string();
             return Err(SolveError::Stalled { time: self.t, events: self.events_at_once, pattern });
         }
@@ -431,6 +463,10 @@ impl<'a> Run<'a> {
 
     fn finish(mut self, status: StopReason, overturned_block: Option<usize>) -> Response {
         let t_final = self.t;
+        if status == StopReason::AtRest {
+            self.t = self.scene.options.t_end;
+            self.spend(t_final);
+        }
         if status != StopReason::Overturned {
             let zero = vec![0.0; self.theta.len()];
             while let Some(t) = self.next_output() {
