@@ -99,6 +99,17 @@ impl Bernstein {
     }
 }
 
+/// The largest size of the polynomial on `[0, 1]`, if it is above `known` by more than a share of 1e-9; else `known`.
+pub fn largest_size(polynomial: &Bernstein, known: f64) -> f64 {
+    let ends = polynomial.coefficients[0].abs().max(polynomial.coefficients[polynomial.degree].abs());
+    let best = known.max(ends);
+    if polynomial.size() <= best * (1.0 + 1e-9) {
+        return best;
+    }
+    let (left, right) = polynomial.halves();
+    largest_size(&right, largest_size(&left, best))
+}
+
 /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `start_roots` known roots at `s = 0` left out.
 pub fn first_root(polynomial: &Bernstein, start_roots: usize) -> Option<f64> {
     let polynomial = if start_roots > 0 { polynomial.deflated(start_roots) } else { *polynomial };
@@ -278,6 +289,14 @@ mod tests {
     fn double_and_triple_starts_are_divided_out() {
         assert_root(first_root(&polynomial(&[0.0, 0.0, 0.5, -1.0]), 2), 0.5);
         assert_root(first_root(&polynomial(&[0.0, 0.0, 0.0, 0.25, -1.0]), 3), 0.25);
+    }
+
+    #[test]
+    fn the_largest_size_is_inside_or_at_an_end() {
+        // s (1 - s): 1/4 in the middle.
+        assert!((largest_size(&polynomial(&[0.0, 1.0, -1.0]), 0.0) - 0.25).abs() < 1e-9);
+        assert_eq!(largest_size(&polynomial(&[0.0, -3.0]), 1.0), 3.0);
+        assert_eq!(largest_size(&polynomial(&[0.0, 1.0, -1.0]), 0.5), 0.5);
     }
 
     #[test]

@@ -14,7 +14,7 @@
 
 use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
-use crate::event::{first_crossing, first_root};
+use crate::event::{first_crossing, first_root, largest_size};
 use crate::excitation::Segment;
 use crate::ode::{Interpolant, Pair, StepControl, System, Tolerance};
 use crate::response::mode_name;
@@ -36,12 +36,6 @@ pub enum Ended {
     AtRest,
     /// The time is over.
     EndOfTime,
-}
-
-/// Where contact forces are noted.
-pub(crate) trait Tally {
-    /// Notes the forces of an instant, base first.
-    fn note_forces(&mut self, forces: &[ContactForce]);
 }
 
 /// A mode under the ground motion of one segment, as a right-hand side.
@@ -88,6 +82,11 @@ impl Gap {
     }
 }
 
+/// Bernstein coefficients of the cubic with value and rate `a, u` at the start and `b, v` at the end of a step `h`.
+fn hermite_control([a, u, b, v]: [f64; 4], h: f64) -> [f64; 4] {
+    [a, a + h * u / 3.0, b - h * v / 3.0, b]
+}
+
 /// What a guard found inside a step.
 #[derive(Clone, Copy, Debug)]
 enum Found {
@@ -118,6 +117,8 @@ pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
     x: D::State,
     slope: D::State,
     forces: Vec<ContactForce>,
+    /// Contact forces at the start of the step.
+    start_forces: Vec<ContactForce>,
     /// Values of the contact guards at the start of the step, per closed interface.
     margins: Vec<f64>,
     scratch: (D::State, D::State),
@@ -161,6 +162,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             x,
             slope: zero.clone(),
             forces: vec![ContactForce::default(); column.len()],
+            start_forces: vec![ContactForce::default(); column.len()],
             margins: vec![0.0; closed.len()],
             closed,
             scratch: (zero.clone(), zero),
@@ -221,7 +223,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
                 }
             }
             self.output_until(t, h, t + h);
-            self.note_peaks();
+            self.note_peaks(h);
             self.advance(if h == left { self.system.segment.end } else { t + h });
         }
     }
@@ -260,6 +262,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         self.weigh(t, &x, &slope);
         let margins = self.closed.iter().map(|&i| self.margin(i)).collect();
         self.run.history.note_forces(&self.forces);
+        self.start_forces.clone_from(&self.forces);
         margins
     }
 
@@ -343,7 +346,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
         let (a, b) = (gap.of(&x[..self.dof]), gap.of(&end[..self.dof]));
         let (u, v) = (gap.of(&x[self.dof..]), gap.of(&end[self.dof..]));
-        let control = [a, a + h * u / 3.0, b - h * v / 3.0, b];
+        let control = hermite_control([a, u, b, v], h);
         let least = control.iter().fold(f64::INFINITY, |m, c| m.min(*c));
         let most = control.iter().fold(f64::NEG_INFINITY, |m, c| m.max(*c));
         // The quartic part that the cubic lacks is a fraction of the cubic's own range in any step that passed its error test.
@@ -369,9 +372,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         }
         if first.is_none() && reach >= 1.0 {
             self.margins = ends;
-            self.note_inside(t, h);
-            self.weigh(t + h, &end, &end_slope);
-            self.run.history.note_forces(&self.forces);
+            self.note_step(t, h);
         }
         first
     }
@@ -390,10 +391,14 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         self.weigh(t + s * h, &x, &slope);
     }
 
-    /// Notes the forces in the middle of the step: with both ends, enough to see a peak between them.
-    fn note_inside(&mut self, t: f64, h: f64) {
+    /// Notes the forces in the step, from its start, middle and end; the end becomes the next start.
+    fn note_step(&mut self, t: f64, h: f64) {
         self.weigh_inside(t, h, 0.5);
-        self.run.history.note_forces(&self.forces);
+        let middle = self.forces.clone();
+        let (end, end_slope) = (self.pair.end().clone(), self.pair.end_slope().clone());
+        self.weigh(t + h, &end, &end_slope);
+        self.run.history.note_step([&self.start_forces, &middle, &self.forces]);
+        self.start_forces.clone_from(&self.forces);
     }
 
     /// Rows with times in the half-open interval from the step's start to `until`.
@@ -419,20 +424,18 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         }
     }
 
-    /// Notes the largest angles of the step just taken, the turning points inside it among them.
-    fn note_peaks(&mut self) {
+    /// Notes the largest angles of the step just taken, those inside it among them.
+    fn note_peaks(&mut self, h: f64) {
         for link in 0..self.dof {
+            let blocks = self.links.iter().zip(&self.run.history.peak_theta).filter(|(own, _)| **own == link + 1);
+            let known = blocks.fold(f64::INFINITY, |least, (_, peak)| least.min(*peak));
             let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
-            let (rate, end_rate) = (x[self.dof + link], end[self.dof + link]);
-            let mut peak = x[link].abs().max(end[link].abs());
-            if rate * end_rate < 0.0 {
-                self.interpolate();
-                let (dof, sign) = (self.dof, if rate < 0.0 { -1.0 } else { 1.0 });
-                let turning = first_root(&self.interpolant.bernstein(|x| sign * x[dof + link]), 0);
-                let mut x = self.scratch.0.clone();
-                self.interpolant.evaluate(turning.unwrap_or(1.0), &mut x);
-                peak = peak.max(x.as_slice()[link].abs());
+            let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);
+            if control.iter().all(|c| c.abs() <= known) {
+                continue;
             }
+            self.interpolate();
+            let peak = largest_size(&self.interpolant.bernstein(|x| x[link]), known);
             for (block, _) in self.links.iter().enumerate().filter(|(_, own)| **own == link + 1) {
                 let noted = &mut self.run.history.peak_theta[block];
                 *noted = noted.max(peak);
@@ -468,12 +471,13 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let is_mistaken = !has_touched && h > 0.0;
         self.pair.accept(&mut self.system);
         self.interpolated = false;
-        self.note_peaks();
+        self.note_peaks(h);
         self.advance(if h == self.system.segment.end - t { self.system.segment.end } else { t + h });
         let (x, slope) = (self.x.clone(), self.slope.clone());
         self.weigh(self.run.t, &x, &slope);
         self.run.history.note_forces(&self.forces);
         if is_mistaken {
+            self.start_forces.clone_from(&self.forces);
             self.margins = self.closed.iter().map(|&i| self.margin(i)).collect();
             return None;
         }

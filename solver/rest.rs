@@ -6,15 +6,18 @@
 
 use crate::dynamics::ContactForce;
 use crate::excitation::Segment;
-use crate::phase::{Ended, Tally};
+use crate::phase::Ended;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
 
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const ZERO: f64 = 16.0 * f64::EPSILON;
 
-/// Places per segment at which contact forces at rest are noted.
-const NOTED: usize = 16;
+/// Places per radian of the ground motion at which contact forces at rest are noted: a crest is met to one in five hundred.
+const NOTED_PER_RADIAN: f64 = 8.0;
+
+/// Least and most places per segment.
+const NOTED: (f64, f64) = (16.0, 4096.0);
 
 /// Waits from the run's present time for the start, a jump of the ground acceleration that starts it, or the end; in the end
 /// the run's time is again that from which on nothing happened.
@@ -116,7 +119,9 @@ fn first_zero(
 /// At rest the whole weight stands on each interface, and the ground drags it along.
 fn note_forces(run: &mut Run, segment: &Segment, until: f64) {
     let column = &run.scene.column;
-    let count = if segment.is_quiet() { 1 } else { NOTED };
+    let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - run.t);
+    let count = (NOTED_PER_RADIAN * radians).clamp(NOTED.0, NOTED.1) as usize;
+    let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
     for place in 0..=count {
         let t = run.t + (until - run.t) * place as f64 / count as f64;
         let ground = segment.ground(t, column.gravity());

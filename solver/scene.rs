@@ -115,6 +115,15 @@ impl Default for SolveOptions {
 /// Tightest relative tolerance: below it, rounding alone exceeds the error asked for.
 pub const TIGHTEST_RTOL: f64 = 1e-14;
 
+/// Loosest tolerances: beyond, a step may err by more than a block turns.
+const LOOSEST: f64 = 1e-2;
+
+/// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
+const SHORTEST_RUN: f64 = 1e-9;
+
+/// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
+const LARGEST: f64 = 1e6;
+
 /// What is simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
@@ -180,26 +189,45 @@ impl Scene {
             ("solver.stick_angle", options.stick_angle),
             ("solver.overturn_angle", options.overturn_angle),
             ("output.dt", self.output_dt.unwrap_or(1.0)),
-            ("friction", self.friction.unwrap_or(1.0)),
         ];
         for (key, value) in positive {
             if !(value.is_finite() && value > 0.0) {
                 return error(key, format!("{value} is out of range"), "give a finite number above zero");
             }
         }
+        if self.friction.is_some_and(|friction| !(friction.is_finite() && friction >= 0.0)) {
+            let problem = format!("{} is out of range", self.friction.unwrap_or_default());
+            return error("friction", problem, "give a finite number, zero or above");
+        }
+        if options.t_end < SHORTEST_RUN {
+            return error("solver.t_end", format!("{:e} s is too short", options.t_end), "give at least 1e-9 s");
+        }
+        let loosest =
+            [("solver.rtol", options.rtol), ("solver.atol", options.atol), ("solver.stick_angle", options.stick_angle)];
+        if let Some((key, value)) = loosest.into_iter().find(|(_, value)| *value > LOOSEST) {
+            return error(key, format!("{value} is too loose for an answer"), "give at most 0.01");
+        }
+        if options.overturn_angle > std::f64::consts::PI {
+            let problem = format!("{} rad is beyond upside down", options.overturn_angle);
+            return error("solver.overturn_angle", problem, "give at most pi");
+        }
         if options.rtol < TIGHTEST_RTOL {
             let problem = format!("{:e} is below what double precision can keep", options.rtol);
             return error("solver.rtol", problem, "give at least 1e-14");
         }
         if self.output_dt.is_some_and(|dt| options.t_end / dt > MOST_ROWS) {
-            let problem = format!("more than {MOST_ROWS:e} rows up to t_end");
-            return error("output.dt", problem, "give a larger interval");
+            let problem = format!("{:e} rows up to t_end are too many", options.t_end / self.output_dt.unwrap_or(1.0));
+            return error("output.dt", problem, "give output.dt a larger value, or lower solver.t_end");
         }
         let components = [("horizontal", &self.excitation.horizontal), ("vertical", &self.excitation.vertical)];
         for (component, motion) in components {
-            if let Some((name, value)) = motion.as_ref().and_then(|motion| motion.invalid()) {
+            if let Some((name, value)) = motion.as_ref().and_then(|motion| motion.invalid(LARGEST)) {
                 let key = format!("excitation.{component}.{name}");
-                return error(&key, format!("{value} is out of range"), "give a finite number, above zero for omega");
+                return error(
+                    &key,
+                    format!("{value} is out of range"),
+                    "give a size up to 1e6, above zero for omega and dt",
+                );
             }
         }
         match &self.restitution {
@@ -231,8 +259,8 @@ impl Scene {
                 let problem = format!("{} number(s) for {blocks} block(s)", values.len());
                 return error(key, problem, "give one per block, base first");
             }
-            if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-                return error(key, format!("{value} is not finite"), "give finite numbers");
+            if let Some(value) = values.iter().find(|value| !(value.abs() <= LARGEST)) {
+                return error(key, format!("{value} is out of range"), "give sizes up to 1e6");
             }
         }
         if let Some(angle) = self.initial.theta.iter().find(|angle| angle.abs() >= options.overturn_angle) {
@@ -244,4 +272,4 @@ impl Scene {
 }
 
 /// Rows of a response beyond which an output interval is taken for a mistake.
-const MOST_ROWS: f64 = 1e8;
+const MOST_ROWS: f64 = 1e7;

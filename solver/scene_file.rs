@@ -143,8 +143,13 @@ impl Reader<'_> {
         scene.restitution = restitution(root).map_err(own)?;
         scene.excitation = self.excitation(root, gravity)?;
         if let Some(mut initial) = root.table("initial").map_err(own)? {
-            scene.initial.theta = initial.numbers("theta").map_err(own)?.unwrap_or_default();
-            scene.initial.omega = initial.numbers("omega").map_err(own)?.unwrap_or_default();
+            for (key, values) in [("theta", &mut scene.initial.theta), ("omega", &mut scene.initial.omega)] {
+                *values = initial.numbers(key).map_err(own)?.unwrap_or_default();
+                if initial.has(key) && values.is_empty() {
+                    let problem = format!("0 number(s) for {} block(s)", scene.column.len());
+                    return Err(own(initial.wrong(key, problem, "give one per block, base first, or leave it out")));
+                }
+            }
             initial.close().map_err(own)?;
         }
         solver(root, &mut scene).map_err(own)?;
@@ -240,13 +245,15 @@ impl Reader<'_> {
             (Some(_), Some(_)) => {
                 return Err(own(table.wrong("pga_g", "`scale` is given as well".into(), "remove one of the two")));
             }
-            (Some((factor, _)), None) => record.scaled(factor),
+            (Some((factor, _)), None) => record
+                .scaled(factor)
+                .map_err(|error| own(table.wrong("scale", error.to_string(), "give a smaller factor")))?,
             (None, Some((peak, _))) if peak <= 0.0 => {
                 return Err(own(table.wrong("pga_g", format!("{peak} is out of range"), "give a number above zero")));
             }
             (None, Some((peak, _))) => record
                 .scaled_to_peak(peak * gravity)
-                .map_err(|error| own(table.wrong(key, error.to_string(), "use another record")))?,
+                .map_err(|error| own(table.wrong(key, error.to_string(), "use another record or another peak")))?,
             (None, None) => record,
         };
         Ok(record.starting_at(start))

@@ -1,13 +1,13 @@
 //! The event-driven loop: rest, smooth phase, contact problem, next mode (see the pseudo-code in the crate's documentation).
 
 use crate::contact::{self, Decision, ImpactLaw};
-use crate::dynamics::Ground;
+use crate::dynamics::{ContactForce, Ground};
 use crate::excitation::{Excitation, Segment};
 use crate::generated::{self, GeneratedMode, with_step_program};
 use crate::generic::GenericMode;
 use crate::kinematics::Posture;
 use crate::ode::{Dop853, DormandPrince54};
-use crate::phase::{self, Ended, Phase};
+use crate::phase::{Ended, Phase};
 use crate::response::{Event, EventKind, Response, Sample, Separation, StopReason, Work, mode_name};
 use crate::rest;
 use crate::scene::{DynamicsSource, Method, Scene, SceneError};
@@ -160,6 +160,8 @@ pub(crate) struct Hold {
 pub(crate) struct History {
     pub samples: Vec<Sample>,
     pub next_sample: usize,
+    /// Segment of the row recorded last.
+    sample_segment: usize,
     pub peak_theta: Vec<f64>,
     pub friction_demand: Vec<f64>,
     pub min_normal_force: Vec<f64>,
@@ -175,6 +177,7 @@ impl<'a> Run<'a> {
         let history = History {
             samples: Vec::new(),
             next_sample: 0,
+            sample_segment: 0,
             peak_theta: vec![0.0; blocks],
             friction_demand: vec![0.0; blocks],
             min_normal_force: vec![f64::INFINITY; blocks],
@@ -455,8 +458,12 @@ impl<'a> Run<'a> {
 
     /// Records a row.
     pub fn sample(&mut self, t: f64, theta: Vec<f64>, omega: Vec<f64>) {
-        let value = |motion: &Option<crate::excitation::Motion>| motion.as_ref().map_or(0.0, |motion| motion.value(t));
-        let ground = [value(&self.scene.excitation.horizontal), value(&self.scene.excitation.vertical)];
+        let cursor = &mut self.history.sample_segment;
+        while *cursor + 1 < self.segments.len() && self.segments[*cursor].end <= t {
+            *cursor += 1;
+        }
+        let Segment { horizontal, vertical, .. } = &self.segments[*cursor];
+        let ground = [horizontal.value(t), vertical.value(t)];
         self.history.samples.push(Sample { t, theta, omega, ground, pattern: self.pattern.clone() });
         self.history.next_sample += 1;
     }
@@ -497,15 +504,45 @@ impl<'a> Run<'a> {
     }
 }
 
-impl phase::Tally for History {
-    fn note_forces(&mut self, forces: &[crate::dynamics::ContactForce]) {
+impl History {
+    /// Notes contact forces of an instant, base first.
+    pub fn note_forces(&mut self, forces: &[ContactForce]) {
         for (interface, force) in forces.iter().enumerate() {
-            let least = &mut self.min_normal_force[interface];
-            *least = least.min(force.normal);
-            if force.normal > 0.0 {
-                let demand = &mut self.friction_demand[interface];
-                *demand = demand.max(force.tangential.abs() / force.normal);
+            self.note_normal(interface, force.normal);
+            self.note_friction(interface, friction(force));
+        }
+    }
+
+    /// Notes the extremes within a step from its contact forces at start, middle and end: those of the parabolas through them.
+    pub fn note_step(&mut self, forces: [&[ContactForce]; 3]) {
+        for interface in 0..self.friction_demand.len() {
+            let [a, b, c] = forces.map(|forces| forces[interface]);
+            self.note_normal(interface, -crest([a, b, c].map(|force| -force.normal)));
+            if [a, b, c].iter().all(|force| force.normal > 0.0) {
+                self.note_friction(interface, crest([a, b, c].map(|force| friction(&force))));
             }
         }
     }
+
+    fn note_normal(&mut self, interface: usize, normal: f64) {
+        let least = &mut self.min_normal_force[interface];
+        *least = least.min(normal);
+    }
+
+    fn note_friction(&mut self, interface: usize, demand: f64) {
+        let most = &mut self.friction_demand[interface];
+        *most = most.max(demand);
+    }
+}
+
+/// `|T| / N` under compression, else zero.
+fn friction(force: &ContactForce) -> f64 {
+    if force.normal > 0.0 { force.tangential.abs() / force.normal } else { 0.0 }
+}
+
+/// The largest value of the parabola through three equally spaced values, between the outer two.
+fn crest([a, b, c]: [f64; 3]) -> f64 {
+    let largest = a.max(b).max(c);
+    let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
+    if bend < 0.0 && slope.abs() < -bend { largest.max(b - 0.5 * slope * slope / bend) } else { largest }
 }

@@ -29,6 +29,9 @@ struct Summary<'a> {
     options: &'a rocking::SolveOptions,
 }
 
+/// The files of a run, in the order in which they are put in place: the summary last, it tells that the others are there.
+const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
+
 /// The folder of a run's results, proved to be writable.
 #[derive(Debug)]
 pub struct Folder<'a> {
@@ -43,10 +46,14 @@ impl<'a> Folder<'a> {
     pub fn open(path: &'a Path) -> Result<Folder<'a>, Failure> {
         std::fs::create_dir_all(path).map_err(|error| Failure::output(path, error))?;
         NamedTempFile::new_in(path).map_err(|error| Failure::output(path, error))?;
+        let taken = FILES.iter().map(|name| path.join(name)).find(|file| file.is_dir());
+        if let Some(file) = taken {
+            return Err(Failure::output(&file, "a folder has this name"));
+        }
         Ok(Folder { path })
     }
 
-    /// Writes all files of a run, or none.
+    /// Writes the files of a run: none is put in place before all are written.
     ///
     /// # Errors
     /// [`Failure::Output`]
@@ -76,11 +83,11 @@ impl<'a> Folder<'a> {
             options: &scene.options,
         };
         let files = [
-            ("summary.json", self.fill(|file| serde_json::to_writer_pretty(file, &summary).map_err(Into::into))?),
-            ("response.csv", self.fill(|file| history(file, scene, response))?),
-            ("events.json", self.fill(|file| events(file, response))?),
+            self.fill(|file| history(file, scene, response))?,
+            self.fill(|file| events(file, response))?,
+            self.fill(|file| serde_json::to_writer_pretty(file, &summary).map_err(Into::into))?,
         ];
-        for (name, file) in files {
+        for (name, file) in FILES.into_iter().zip(files) {
             let path = self.path.join(name);
             file.persist(&path).map_err(|error| Failure::output(&path, error))?;
         }

@@ -85,18 +85,21 @@ impl Motion {
         }
     }
 
-    /// The first parameter that is not finite, or not above zero where it must be, with its value.
-    pub fn invalid(&self) -> Option<(&'static str, f64)> {
+    /// The first parameter that is not finite, larger than `largest` in size, or not above zero where it must be.
+    pub fn invalid(&self, largest: f64) -> Option<(&'static str, f64)> {
         let (amplitude, omega, start, phase) = match *self {
             Motion::SinePulse { amplitude, omega, start }
             | Motion::CosinePulse { amplitude, omega, start }
             | Motion::Ricker { amplitude, omega, start } => (amplitude, omega, start, 0.0),
             Motion::Harmonic { amplitude, omega, start, phase } => (amplitude, omega, start, phase),
-            // Checked when it was made.
-            Motion::Record(_) => return None,
+            Motion::Record(ref record) => {
+                let values = [("file", record.peak()), ("start", record.start())];
+                let short = (record.dt() < SHORTEST_INTERVAL).then_some(("dt", record.dt()));
+                return values.into_iter().find(|(_, value)| !(value.abs() <= largest)).or(short);
+            }
         };
-        let finite = [("amplitude", amplitude), ("omega", omega), ("start", start), ("phase", phase)];
-        let bad = finite.into_iter().find(|(_, value)| !value.is_finite());
+        let values = [("amplitude", amplitude), ("omega", omega), ("start", start), ("phase", phase)];
+        let bad = values.into_iter().find(|(_, value)| !(value.abs() <= largest));
         bad.or((omega <= 0.0).then_some(("omega", omega)))
     }
 
@@ -145,6 +148,9 @@ impl Segment {
         self.horizontal == Piece::Zero && self.vertical == Piece::Zero
     }
 }
+
+/// Shortest sampling interval `[s]`: below, samples of a long record fall on the same time.
+const SHORTEST_INTERVAL: f64 = 1e-9;
 
 /// Break points closer than this, relative to the time, are one: the sum of start and period of two components that end
 /// together rounds differently. A step across such a gap would be shorter than the resolution of time.

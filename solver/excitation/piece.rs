@@ -77,6 +77,14 @@ impl Piece {
         }
     }
 
+    /// Angular frequency `[rad/s]`, zero where nothing oscillates.
+    pub fn omega(&self) -> f64 {
+        match *self {
+            Piece::Zero | Piece::Linear { .. } => 0.0,
+            Piece::Sine { omega, .. } | Piece::Cosine { omega, .. } | Piece::Ricker { omega, .. } => omega,
+        }
+    }
+
     /// A bound of the second derivative's size `[m/s⁴]`.
     pub fn curvature_bound(&self) -> f64 {
         match *self {

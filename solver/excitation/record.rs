@@ -90,7 +90,7 @@ pub enum RecordError {
         line: usize,
         /// Time in that line.
         time: f64,
-        /// Interval of the first two rows.
+        /// Mean interval of the rows.
         dt: f64,
     },
     /// Plain text does not say what it is; the scene must.
@@ -204,6 +204,11 @@ impl Record {
         self.dt
     }
 
+    /// Time of the first sample `[s]`.
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
     /// From the first sample to the last `[s]`.
     pub fn duration(&self) -> f64 {
         (self.accel.len() - 1) as f64 * self.dt
@@ -215,19 +220,20 @@ impl Record {
     }
 
     /// The record with every sample multiplied.
-    #[must_use]
-    pub fn scaled(mut self, factor: f64) -> Record {
-        self.accel.iter_mut().for_each(|a| *a *= factor);
-        self
+    ///
+    /// # Errors
+    /// [`RecordError::NotFinite`] if a product is not finite.
+    pub fn scaled(self, factor: f64) -> Result<Record, RecordError> {
+        Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)
     }
 
     /// The record scaled to this peak `[m/s²]`.
     ///
     /// # Errors
-    /// [`RecordError::Silent`] if it is zero throughout.
+    /// [`RecordError::Silent`] if it is zero throughout, [`RecordError::NotFinite`] if a product is not finite.
     pub fn scaled_to_peak(self, peak: f64) -> Result<Record, RecordError> {
         let own = self.peak();
-        if own == 0.0 { Err(RecordError::Silent) } else { Ok(self.scaled(peak / own)) }
+        if own == 0.0 { Err(RecordError::Silent) } else { self.scaled(peak / own) }
     }
 
     /// The record with its first sample at `start [s]`.
@@ -260,7 +266,7 @@ impl Record {
     pub(super) fn value(&self, t: f64) -> f64 {
         let place = (t - self.start) / self.dt;
         let last = (self.accel.len() - 1) as f64;
-        if place < 0.0 || place > last {
+        if !(0.0..last).contains(&place) {
             return 0.0;
         }
         let index = (place as usize).min(self.accel.len() - 2);
@@ -276,8 +282,8 @@ mod tests {
     #[test]
     fn a_record_is_linear_between_samples_and_zero_outside() {
         let record = Record::new(vec![1.0, 3.0, -1.0], 0.5, 2.0).expect("valid");
-        let values: Vec<f64> = [1.9, 2.0, 2.25, 2.5, 2.75, 3.0, 3.1].iter().map(|t| record.value(*t)).collect();
-        assert_eq!(values, [0.0, 1.0, 2.0, 3.0, 1.0, -1.0, 0.0]);
+        let values: Vec<f64> = [1.9, 2.0, 2.25, 2.5, 2.75, 2.875, 3.0].iter().map(|t| record.value(*t)).collect();
+        assert_eq!(values, [0.0, 1.0, 2.0, 3.0, 1.0, 0.0, 0.0]);
         assert_eq!(record.pieces().len(), 2);
         assert_eq!(record.clone().scaled_to_peak(1.5).expect("moves").peak(), 1.5);
         assert_eq!(record.duration(), 1.0);

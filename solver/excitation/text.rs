@@ -36,15 +36,14 @@ fn peer(lines: &[&str], header: usize, options: TextOptions) -> Result<Series, R
         remedy: "write it as `NPTS= 4000, DT= .01000 SEC` or `4000 .01000 NPTS, DT`",
     };
     let upper = lines[header].to_ascii_uppercase();
-    let (count, dt) = match (labelled(&upper, "NPTS"), labelled(&upper, "DT")) {
-        (Some(count), Some(dt)) => (count, dt),
-        _ => {
-            let mut numbers = upper.split(separator).filter(|word| !word.is_empty());
-            let mut next = || numbers.next().and_then(number);
-            let count = next().ok_or_else(|| broken("no number of samples"))?;
-            (count, next().ok_or_else(|| broken("no sampling interval"))?)
-        }
+    let (count, dt) = if upper.contains('=') {
+        (labelled(&upper, "NPTS"), labelled(&upper, "DT"))
+    } else {
+        let mut numbers = upper.split(separator).filter_map(number);
+        (numbers.next(), numbers.next())
     };
+    let count = count.ok_or_else(|| broken("no number of samples (NPTS)"))?;
+    let dt = dt.ok_or_else(|| broken("no sampling interval (DT)"))?;
     if !(count >= 1.0 && count.fract() == 0.0) {
         return Err(broken("no whole number of samples"));
     }
@@ -79,10 +78,12 @@ fn peer(lines: &[&str], header: usize, options: TextOptions) -> Result<Series, R
     Ok(Series { accel, dt })
 }
 
-/// The number after `KEY=`.
+/// The number after `KEY =`, with or without blanks; a unit may touch it (`.01SEC`).
 fn labelled(upper: &str, key: &str) -> Option<f64> {
-    let start = upper.find(&format!("{key}="))? + key.len() + 1;
-    upper[start..].split(separator).find(|word| !word.is_empty()).and_then(number)
+    let (_, rest) = upper.split_once(key)?;
+    let rest = rest.trim_start().strip_prefix('=')?.trim_start();
+    let word = rest.split(separator).next()?;
+    number(word).or_else(|| number(word.trim_end_matches(|c: char| c.is_ascii_alphabetic())))
 }
 
 /// The unit named in the line above the header: `ACCELERATION TIME SERIES IN UNITS OF G`.
@@ -96,14 +97,22 @@ fn unit_above(lines: &[&str], header: usize) -> Result<Option<(usize, Accelerati
             remedy: "use the acceleration file (.AT2) of the same record",
         });
     }
-    let unit = upper.rsplit("UNITS OF").next().unwrap_or(&upper).trim().trim_end_matches('.').to_string();
-    let unit = match unit.as_str() {
-        "G" | "G'S" | "(G)" => Some(AccelerationUnit::G),
-        unit if unit.contains("CM/S") || unit.contains("GAL") => Some(AccelerationUnit::CentimetrePerSecondSquared),
-        unit if unit.contains("M/S") => Some(AccelerationUnit::MetrePerSecondSquared),
-        _ => None,
+    let Some((_, unit)) = upper.split_once("UNITS OF") else { return Ok(None) };
+    // Old headers go on after the unit: `UNITS OF G. FILTER POINTS: ...`.
+    let name = unit.split([' ', ',', ';', ':']).find(|word| !word.is_empty()).unwrap_or("").trim_end_matches('.');
+    let unit = match name.replace("**", "").replace('^', "").as_str() {
+        "G" | "G'S" | "(G)" => AccelerationUnit::G,
+        "CM/S2" | "CM/SEC2" | "CM/S/S" | "CM/SEC/SEC" | "GAL" => AccelerationUnit::CentimetrePerSecondSquared,
+        "M/S2" | "M/SEC2" | "M/S/S" | "M/SEC/SEC" => AccelerationUnit::MetrePerSecondSquared,
+        _ => {
+            return Err(RecordError::Header {
+                line: index + 1,
+                problem: format!("the unit `{name}` is not known"),
+                remedy: "convert the record to g, m/s/s or cm/s/s and name that unit",
+            });
+        }
     };
-    Ok(unit.map(|unit| (index + 1, unit)))
+    Ok(Some((index + 1, unit)))
 }
 
 /// Plain text: one column of accelerations, or time and acceleration; `#` and `%` begin comments.
@@ -192,6 +201,12 @@ mod tests {
         let counts = EQUALS.replace("NPTS=     7, DT=   .0200 SEC", "    7    0.0200    NPTS, DT");
         assert_eq!(Record::from_text(&counts, TextOptions::default()), Ok(first.clone()));
         assert_eq!(Record::from_text(&EQUALS.replace('\n', "\r\n"), TextOptions::default()), Ok(first.clone()));
+        for header in ["NPTS = 7 , DT = .02", "NPTS=7,DT=.02SEC", "7 0.02 NPTS, DT, FILTER 3"] {
+            let other = EQUALS.replace("NPTS=     7, DT=   .0200 SEC", header);
+            assert_eq!(Record::from_text(&other, TextOptions::default()), Ok(first.clone()), "{header}");
+        }
+        let error = Record::from_text(&EQUALS.replace(", DT=   .0200 SEC", ""), TextOptions::default());
+        assert!(error.expect_err("no interval").to_string().contains("no sampling interval"));
         assert_eq!(first.dt(), 0.02);
         assert_eq!(first.accel().len(), 7);
         assert_eq!(first.accel()[3], -0.0064 * 9.81);
@@ -202,6 +217,13 @@ mod tests {
     fn the_unit_stands_above_the_header() {
         let gal = EQUALS.replace("UNITS OF G", "UNITS OF CM/S**2");
         assert_eq!(Record::from_text(&gal, TextOptions::default()).expect("valid").peak(), 0.005);
+        let points = EQUALS.replace("UNITS OF G", "UNITS OF G. FILTER POINTS: HP=0.1 Hz");
+        assert_eq!(Record::from_text(&points, TextOptions::default()).expect("valid").peak(), 0.5 * 9.81);
+        for unit in ["MM/S**2", "IN/S**2"] {
+            let error =
+                Record::from_text(&EQUALS.replace("UNITS OF G", &format!("UNITS OF {unit}")), TextOptions::default());
+            assert!(matches!(error, Err(RecordError::Header { line: 3, .. })), "{error:?}");
+        }
         let velocity = EQUALS.replace("ACCELERATION", "VELOCITY");
         let error = Record::from_text(&velocity, TextOptions::default()).expect_err("no acceleration");
         assert!(matches!(error, RecordError::Header { line: 3, .. }), "{error}");
