@@ -259,8 +259,8 @@ impl Scene {
                 let problem = format!("{} number(s) for {blocks} block(s)", values.len());
                 return error(key, problem, "give one per block, base first");
             }
-            if let Some(value) = values.iter().find(|value| !(value.abs() <= LARGEST)) {
-                return error(key, format!("{value} is out of range"), "give sizes up to 1e6");
+            if let Some(value) = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST) {
+                return error(key, format!("{value:?} is out of range"), "give sizes up to 1e6");
             }
         }
         if let Some(angle) = self.initial.theta.iter().find(|angle| angle.abs() >= options.overturn_angle) {

@@ -152,3 +152,26 @@ fn an_earlier_result_survives_a_refused_scene() {
     assert_eq!(std::fs::read(folder.path().join("out/response.csv")).expect("still there"), before);
     assert_eq!(std::fs::read_dir(folder.path().join("out")).expect("a folder").count(), 3, "no temporary file is left");
 }
+
+#[test]
+fn numbers_out_of_all_range() {
+    refused(&with("amplitude = 3.0", "amplitude = 1e300"), &["line 6", "amplitude", "1e300", "out of range"]);
+    refused(&with("amplitude = 3.0", "amplitude_g = 1e308"), &["excitation.horizontal.amplitude", "out of range"]);
+    refused(&with("t_end = 1.0", "t_end = 1e-14"), &["line 9", "`solver.t_end`", "too short"]);
+    refused(&with("t_end = 1.0", "t_end = 1e9"), &["output.dt", "too many", "larger value"]);
+    refused(&with("t_end = 1.0", "t_end = 1.0\nrtol = 10.0"), &["line 10", "`solver.rtol`", "too loose"]);
+    refused(&record("accel = [0.0, 10.0, 0.0]\ndt = 0.1\nscale = 1e308"), &["line 8", "scale", "finite"]);
+    refused(&record("accel = [0.0, 1.0]\ndt = 1e-15"), &["line 7", "dt", "out of range"]);
+    refused(&format!("{SCENE}[initial]\ntheta = []\n"), &["line 11", "`initial.theta`", "one per block"]);
+}
+
+#[test]
+fn results_that_cannot_be_put_in_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");
+    std::fs::create_dir_all(folder.path().join("out/response.csv")).expect("made");
+    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("response.csv"));
+    assert_eq!(std::fs::read_dir(folder.path().join("out")).expect("a folder").count(), 1, "nothing is put beside it");
+}

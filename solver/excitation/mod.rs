@@ -87,6 +87,7 @@ impl Motion {
 
     /// The first parameter that is not finite, larger than `largest` in size, or not above zero where it must be.
     pub fn invalid(&self, largest: f64) -> Option<(&'static str, f64)> {
+        let is_bad = |(_, value): &(&'static str, f64)| value.is_nan() || value.abs() > largest;
         let (amplitude, omega, start, phase) = match *self {
             Motion::SinePulse { amplitude, omega, start }
             | Motion::CosinePulse { amplitude, omega, start }
@@ -95,12 +96,11 @@ impl Motion {
             Motion::Record(ref record) => {
                 let values = [("file", record.peak()), ("start", record.start())];
                 let short = (record.dt() < SHORTEST_INTERVAL).then_some(("dt", record.dt()));
-                return values.into_iter().find(|(_, value)| !(value.abs() <= largest)).or(short);
+                return values.into_iter().find(is_bad).or(short);
             }
         };
         let values = [("amplitude", amplitude), ("omega", omega), ("start", start), ("phase", phase)];
-        let bad = values.into_iter().find(|(_, value)| !(value.abs() <= largest));
-        bad.or((omega <= 0.0).then_some(("omega", omega)))
+        values.into_iter().find(is_bad).or((omega <= 0.0).then_some(("omega", omega)))
     }
 
     /// Acceleration at `t` `[m/s²]`; where it jumps, the value after the jump.
