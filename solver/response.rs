@@ -128,7 +128,7 @@ pub struct Response {
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here.
     pub time_in_mode: BTreeMap<String, f64>,
-    /// Largest `|T| / N` per interface, dimensionless, while `N > 0`.
+    /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
     pub friction_demand: Vec<f64>,
     /// Smallest normal force per interface `[N]`.
     pub min_normal_force: Vec<f64>,
@@ -171,7 +171,13 @@ impl Response {
             }
         }
         for (index, demand) in self.friction_demand.iter().enumerate() {
-            if friction.is_some_and(|available| *demand > available) {
+            if friction.is_some() && demand.is_infinite() {
+                warnings.push(format!(
+                    "interface {}: no friction coefficient is enough, as the contact parts: the blocks would slide, which the \
+                     model excludes",
+                    index + 1
+                ));
+            } else if friction.is_some_and(|available| *demand > available) {
                 warnings.push(format!(
                     "interface {}: the run needs a friction coefficient of {demand:.3}, the scene has {}: the blocks would \
                      slide, which the model excludes",

@@ -518,9 +518,9 @@ impl History {
         for interface in 0..self.friction_demand.len() {
             let [a, b, c] = forces.map(|forces| forces[interface]);
             self.note_normal(interface, -crest([a, b, c].map(|force| -force.normal)));
-            if [a, b, c].iter().all(|force| force.normal > 0.0) {
-                self.note_friction(interface, crest([a, b, c].map(|force| friction(&force))));
-            }
+            let demand = [a, b, c].map(|force| friction(&force));
+            let is_finite = demand.iter().all(|demand| demand.is_finite());
+            self.note_friction(interface, if is_finite { crest(demand) } else { f64::INFINITY });
         }
     }
 
@@ -535,9 +535,13 @@ impl History {
     }
 }
 
-/// `|T| / N` under compression, else zero.
+/// `|T| / N`; infinite where the contact parts and something is still to be held.
 fn friction(force: &ContactForce) -> f64 {
-    if force.normal > 0.0 { force.tangential.abs() / force.normal } else { 0.0 }
+    match (force.normal > 0.0, force.tangential == 0.0) {
+        (true, _) => force.tangential.abs() / force.normal,
+        (false, true) => 0.0,
+        (false, false) => f64::INFINITY,
+    }
 }
 
 /// The largest value of the parabola through three equally spaced values, between the outer two.

@@ -109,14 +109,14 @@ fn holds(scene: &Scene, tally: &Tally) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Columns of blocks that differ by ten thousand in size and by 10^8 in mass are among the scenes; one in a thousand may end with
-/// an error that says where.
+/// Columns of blocks that differ by ten thousand in size and by 10^8 in mass are among the scenes, and vertical motion beyond -g; one
+/// in ten thousand may end with an error that says where (measured: none in 63,000).
 fn check(small: u32, large: u32) {
     let tally = Tally::default();
     common::runner(small).run(&scene(1..=5), |scene| holds(&scene, &tally)).expect("every scene holds");
     common::runner(large).run(&scene(6..=8), |scene| holds(&scene, &tally)).expect("every scene holds");
     println!("{tally:?}");
-    assert!(tally.given_up.get() * 1000 <= tally.run.get(), "{tally:?}");
+    assert!(tally.given_up.get() * 10_000 <= tally.run.get(), "{tally:?}");
 }
 
 #[test]
