@@ -110,3 +110,12 @@ fn every_record_beside_the_project_has_its_peak() {
         assert!((record.peak() / 9.81 - peak).abs() < 5e-5, "{name}: {}", record.peak() / 9.81);
     }
 }
+
+#[test]
+fn the_scene_in_the_readme_is_valid() {
+    let readme = include_str!("../README.md");
+    let (_, scene) = readme.split_once("```toml\n").expect("the README shows a scene");
+    let (scene, _) = scene.split_once("```").expect("a closed block");
+    let scene = Scene::from_toml(scene, "README.md".as_ref()).expect("a valid scene");
+    assert!(simulate(&scene).expect("a run").impacts() > 10);
+}
