@@ -12,9 +12,10 @@
 //! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
 //! | `c_i N_i - abs(M_i)` | closed interface `i` opens | samples and parabolas |
 
+mod inside;
+
 use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
-use crate::event::{first_crossing, first_root, largest_size};
 use crate::excitation::Segment;
 use crate::ode::{Interpolant, Pair, StepControl, System, Tolerance};
 use crate::response::mode_name;
@@ -82,11 +83,6 @@ impl Gap {
     }
 }
 
-/// Bernstein coefficients of the cubic with value and rate `a, u` at the start and `b, v` at the end of a step `h`.
-fn hermite_control([a, u, b, v]: [f64; 4], h: f64) -> [f64; 4] {
-    [a, a + h * u / 3.0, b - h * v / 3.0, b]
-}
-
 /// What a guard found inside a step.
 #[derive(Clone, Copy, Debug)]
 enum Found {
@@ -119,8 +115,10 @@ pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
     forces: Vec<ContactForce>,
     /// Contact forces at the start of the step.
     start_forces: Vec<ContactForce>,
-    /// Values of the contact guards at the start of the step, per closed interface.
+    middle_forces: Vec<ContactForce>,
+    /// Values of the contact guards at the start and the end of the step, per closed interface.
     margins: Vec<f64>,
+    end_margins: Vec<f64>,
     scratch: (D::State, D::State),
 }
 
@@ -163,7 +161,9 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             slope: zero.clone(),
             forces: vec![ContactForce::default(); column.len()],
             start_forces: vec![ContactForce::default(); column.len()],
+            middle_forces: vec![ContactForce::default(); column.len()],
             margins: vec![0.0; closed.len()],
+            end_margins: vec![0.0; closed.len()],
             closed,
             scratch: (zero.clone(), zero),
             run,
@@ -297,121 +297,6 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         }
     }
 
-    /// The first event inside the step just accepted, and where it is in it, 0 to 1.
-    fn search(&mut self, t: f64, h: f64) -> Option<(Found, f64)> {
-        let mut first: Option<(Found, f64)> = None;
-        let mut offer = |found: Found, s: Option<f64>| {
-            if let Some(s) = s.filter(|s| first.is_none_or(|(_, earliest)| *s < earliest)) {
-                first = Some((found, s));
-            }
-        };
-        for index in 0..self.gaps.len() {
-            let gap = self.gaps[index];
-            if gap.start_roots > 0 || self.may_close(gap, h) {
-                self.interpolate();
-                let dof = self.dof;
-                let mut polynomial = self.interpolant.bernstein(|x| gap.of(&x[..dof]));
-                if gap.start_roots > 0 {
-                    let (rate, acceleration) =
-                        (gap.of(&self.x.as_slice()[dof..]), gap.of(&self.slope.as_slice()[dof..]));
-                    polynomial.start_with(0.0, h * rate, h * h * acceleration);
-                    if polynomial.size() <= self.resolution() {
-                        continue;
-                    }
-                }
-                offer(Found::Gap(gap), first_root(&polynomial, gap.start_roots));
-            }
-        }
-        let limit = self.run.scene.options.overturn_angle;
-        for link in 0..self.dof {
-            let (before, after) = (self.x.as_slice()[link], self.pair.end().as_slice()[link]);
-            let rates = self.x.as_slice()[self.dof + link].abs().max(self.pair.end().as_slice()[self.dof + link].abs());
-            if before.abs().max(after.abs()) + h * rates >= limit {
-                self.interpolate();
-                let sign = if after < 0.0 { -1.0 } else { 1.0 };
-                let mut polynomial = self.interpolant.bernstein(|x| -sign * x[link]);
-                polynomial.coefficients[..=polynomial.degree].iter_mut().for_each(|b| *b += limit);
-                offer(Found::Tilt { link, sign }, first_root(&polynomial, 0));
-            }
-        }
-        let reach = first.map_or(1.0, |(_, s)| s);
-        match self.search_contacts(t, h, reach) {
-            Some(earlier) => Some(earlier),
-            None => first,
-        }
-    }
-
-    /// Whether a gap's cubic through values and rates at both ends comes near zero: a bound that spares the dense output.
-    fn may_close(&self, gap: Gap, h: f64) -> bool {
-        let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
-        let (a, b) = (gap.of(&x[..self.dof]), gap.of(&end[..self.dof]));
-        let (u, v) = (gap.of(&x[self.dof..]), gap.of(&end[self.dof..]));
-        let control = hermite_control([a, u, b, v], h);
-        let least = control.iter().fold(f64::INFINITY, |m, c| m.min(*c));
-        let most = control.iter().fold(f64::NEG_INFINITY, |m, c| m.max(*c));
-        // The quartic part that the cubic lacks is a fraction of the cubic's own range in any step that passed its error test.
-        least <= 0.5 * (most - least)
-    }
-
-    /// The first opening of a closed interface before `reach`; margins move on to the step's end.
-    fn search_contacts(&mut self, t: f64, h: f64, reach: f64) -> Option<(Found, f64)> {
-        let (end, end_slope) = (self.pair.end().clone(), self.pair.end_slope().clone());
-        self.weigh(t + h, &end, &end_slope);
-        let ends: Vec<f64> = self.closed.iter().map(|&i| self.margin(i)).collect();
-        let mut first: Option<(Found, f64)> = None;
-        for (index, &end) in ends.iter().enumerate() {
-            let (interface, start) = (self.closed[index], self.margins[index]);
-            if start <= 0.0 && t < self.run.hold.until {
-                continue;
-            }
-            let reach = first.map_or(reach, |(_, s)| s);
-            let crossing = first_crossing(|s| self.margin_inside(interface, t, h, s), start, end, reach);
-            if let Some(s) = crossing {
-                first = Some((Found::Contact { interface }, s));
-            }
-        }
-        if first.is_none() && reach >= 1.0 {
-            self.margins = ends;
-            self.note_step(t, h);
-        }
-        first
-    }
-
-    fn margin_inside(&mut self, interface: usize, t: f64, h: f64, s: f64) -> f64 {
-        self.weigh_inside(t, h, s);
-        self.margin(interface)
-    }
-
-    /// Contact forces inside the step.
-    fn weigh_inside(&mut self, t: f64, h: f64, s: f64) {
-        self.interpolate();
-        let (mut x, mut slope) = (self.scratch.0.clone(), self.scratch.1.clone());
-        self.interpolant.evaluate(s, &mut x);
-        self.system.slope(t + s * h, &x, &mut slope);
-        self.weigh(t + s * h, &x, &slope);
-    }
-
-    /// Notes the forces in the step, from its start, middle and end; the end becomes the next start.
-    fn note_step(&mut self, t: f64, h: f64) {
-        self.weigh_inside(t, h, 0.5);
-        let middle = self.forces.clone();
-        let (end, end_slope) = (self.pair.end().clone(), self.pair.end_slope().clone());
-        self.weigh(t + h, &end, &end_slope);
-        self.run.history.note_step([&self.start_forces, &middle, &self.forces]);
-        self.start_forces.clone_from(&self.forces);
-    }
-
-    /// Rows with times in the half-open interval from the step's start to `until`.
-    fn output_until(&mut self, t: f64, h: f64, until: f64) {
-        while let Some(time) = self.run.next_output().filter(|time| *time < until) {
-            self.interpolate();
-            let mut x = self.scratch.0.clone();
-            self.interpolant.evaluate(((time - t) / h).clamp(0.0, 1.0), &mut x);
-            let (theta, omega) = self.per_block(&x);
-            self.run.sample(time, theta, omega);
-        }
-    }
-
     /// Takes the step: its end is the present state.
     fn advance(&mut self, t: f64) {
         self.x.clone_from(self.pair.end());
@@ -421,25 +306,6 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let (resolution, x) = (self.resolution(), self.x.as_slice());
         for gap in self.gaps.iter_mut().filter(|gap| gap.of(&x[..self.dof]).abs() > resolution) {
             gap.start_roots = 0;
-        }
-    }
-
-    /// Notes the largest angles of the step just taken, those inside it among them.
-    fn note_peaks(&mut self, h: f64) {
-        for link in 0..self.dof {
-            let blocks = self.links.iter().zip(&self.run.history.peak_theta).filter(|(own, _)| **own == link + 1);
-            let known = blocks.fold(f64::INFINITY, |least, (_, peak)| least.min(*peak));
-            let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
-            let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);
-            if control.iter().all(|c| c.abs() <= known) {
-                continue;
-            }
-            self.interpolate();
-            let peak = largest_size(&self.interpolant.bernstein(|x| x[link]), known);
-            for (block, _) in self.links.iter().enumerate().filter(|(_, own)| **own == link + 1) {
-                let noted = &mut self.run.history.peak_theta[block];
-                *noted = noted.max(peak);
-            }
         }
     }
 
