@@ -423,13 +423,14 @@ impl<'a> Run<'a> {
         self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
         let most = EVENTS_AT_ONCE * (self.theta.len() + 1);
         if self.events_at_once == most {
-            let mut pattern = self.pattern.clone();
-            for (interface, state) in pattern.0.iter_mut().enumerate() {
-                if contact::is_motionless(&self.theta, &self.omega, interface) {
-                    *state = Interface::Closed;
-                }
-            }
-            self.adopt(Decision { pattern, omega: self.omega.clone(), separation: true }, EventKind::Opening);
+            let before = self.pattern.clone();
+            let is_still = |i: &usize| before.0[*i].is_open() && contact::is_motionless(&self.theta, &self.omega, *i);
+            let closing: Vec<usize> = (0..self.theta.len()).filter(is_still).collect();
+            let mut pattern = before.clone();
+            closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
+            let omega = self.omega.clone();
+            self.adopt(Decision { pattern, omega: omega.clone(), separation: true }, EventKind::Impact);
+            self.record(EventKind::Impact, &closing, before, omega, Some(0.0));
         }
         if self.events_at_once > 2 * most {
             let pattern = self.pattern.to_string();

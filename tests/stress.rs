@@ -96,7 +96,14 @@ fn holds(scene: &Scene, tally: &Tally) -> Result<(), TestCaseError> {
         // Rows before an event come from the dense output of the longer step that found it.
         prop_assert!(largest <= peak + 1e-6, "block {block}: a row has {largest}, the peak is {peak}");
     }
+    let mut pattern: Option<&rocking::pattern::Pattern> = None;
     for event in &response.events {
+        prop_assert!(
+            pattern.is_none_or(|before| *before == event.before),
+            "the events tell every change: t = {}",
+            event.t
+        );
+        pattern = Some(&event.after);
         if event.kind == EventKind::Impact {
             let lost = event.energy_lost.expect("impacts tell");
             prop_assert!(lost >= -1e-9, "energy gained: {lost} at t = {}", event.t);
