@@ -99,18 +99,25 @@ fn first_zero(
         if value <= ZERO * scale && slope < 0.0 {
             return Some(t);
         }
-        // The longest step for which value + slope h - bend h²/2 stays at or above zero.
+        // The longest step for which value + slope h - bend h²/2 stays at or above zero, without cancellation for either slope.
         let value = value.max(0.0);
-        let step = if bend > 0.0 {
-            (slope + (slope * slope + 2.0 * bend * value).sqrt()) / bend
-        } else if slope < 0.0 {
-            -value / slope
-        } else {
-            return None;
+        let root = (slope * slope + 2.0 * bend * value).sqrt();
+        let step = match (slope < 0.0, bend > 0.0) {
+            (true, _) => 2.0 * value / (root - slope),
+            (false, true) => (slope + root) / bend,
+            (false, false) => return None,
         };
-        let next = t + step.max(2.0 * f64::EPSILON * t.abs());
-        if next >= until || next == t {
+        let next = t + step;
+        if next >= until {
             return None;
+        }
+        if next == t {
+            // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
+            if slope < 0.0 {
+                return Some(t);
+            }
+            t += 2.0 * f64::EPSILON * t.abs().max(1e-12);
+            continue;
         }
         t = next;
     }
@@ -140,5 +147,37 @@ fn output_until(run: &mut Run, until: f64) {
     let blocks = run.theta.len();
     while let Some(t) = run.next_output().filter(|t| *t < until) {
         run.sample(t, vec![0.0; blocks], vec![0.0; blocks]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::excitation::Piece;
+
+    fn segment(amplitude: f64) -> Segment {
+        let horizontal = Piece::Sine { amplitude, omega: 10.0, start: 0.0, phase: 0.0 };
+        Segment { start: 0.0, end: 0.6, horizontal, vertical: Piece::Zero, jumps: false }
+    }
+
+    #[test]
+    fn the_start_is_where_the_sine_reaches_the_threshold() {
+        // sin(10 t) = c g / (h A) = 0.5, tipping to the left.
+        let arm = [0.2, 0.8];
+        let amplitude = 0.2 * 9.81 / (0.8 * 0.5);
+        let t = first_zero(&segment(amplitude), 9.81, arm, Interface::Left, 0.0, 0.6).expect("it starts");
+        assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
+        let later = first_zero(&segment(amplitude), 9.81, arm, Interface::Right, 0.0, 0.6).expect("it starts");
+        assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_needle_starts_at_once_and_a_threshold_above_the_crest_is_never_reached() {
+        let t = first_zero(&segment(3.0), 9.81, [1e-200, 1.6], Interface::Left, 0.0, 0.6).expect("it starts");
+        assert!(t < 1e-199);
+        let arm = [0.2, 0.8];
+        let crest = 0.2 * 9.81 / 0.8;
+        assert_eq!(first_zero(&segment(crest * (1.0 - 1e-12)), 9.81, arm, Interface::Left, 0.0, 0.6), None);
+        assert!(first_zero(&segment(crest * (1.0 + 1e-9)), 9.81, arm, Interface::Left, 0.0, 0.6).is_some());
     }
 }

@@ -338,6 +338,12 @@ fn block(table: &mut Table, count: f64) -> Result<Block, Wrong> {
     if count == 1.0 {
         block.inertia = positive(table, "inertia")?.unwrap_or(block.inertia);
     }
+    let is_sound = |value: f64| value.is_finite() && value > 0.0;
+    if !(is_sound(block.mass) && is_sound(block.inertia)) {
+        let problem =
+            format!("mass {:e} kg and inertia {:e} kg m² leave the range of doubles", block.mass, block.inertia);
+        return Err(table.wrong("half_width", problem, "give sizes, density or mass nearer to those of blocks"));
+    }
     table.close()?;
     Ok(block)
 }

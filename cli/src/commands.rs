@@ -46,8 +46,11 @@ fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(), F
     let folder = Folder::open(out)?;
     let bar = Progress::new(scene.options.t_end, quiet);
     let start = Instant::now();
-    let response =
-        simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve { scene: path.into(), error })?;
+    let response = simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve {
+        scene: path.into(),
+        out: out.into(),
+        error,
+    })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
     let warnings = response.warnings(scene.friction);

@@ -30,10 +30,12 @@ pub enum Failure {
         blocks: usize,
     },
     /// The run could not be finished.
-    #[error("{}: {error}", scene.display())]
+    #[error("{}: {error} ({} is left as it was)", scene.display(), out.display())]
     Solve {
         /// The scene file.
         scene: PathBuf,
+        /// The folder of the results.
+        out: PathBuf,
         /// What the library says.
         error: SolveError,
     },

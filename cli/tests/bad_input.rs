@@ -157,6 +157,10 @@ fn an_earlier_result_survives_a_refused_scene() {
 fn numbers_out_of_all_range() {
     refused(&with("amplitude = 3.0", "amplitude = 1e300"), &["line 6", "amplitude", "1e300", "out of range"]);
     refused(&with("amplitude = 3.0", "amplitude_g = 1e308"), &["excitation.horizontal.amplitude", "out of range"]);
+    refused(
+        &with("half_width = 0.4\nhalf_height = 1.6", "half_width = 1e-200\nhalf_height = 1e-200"),
+        &["line 2", "`block[1].half_width`", "range of doubles"],
+    );
     refused(&with("t_end = 1.0", "t_end = 1e-14"), &["line 9", "`solver.t_end`", "too short"]);
     refused(&with("t_end = 1.0", "t_end = 1e9"), &["output.dt", "too many", "larger value"]);
     refused(&with("t_end = 1.0", "t_end = 1.0\nrtol = 10.0"), &["line 10", "`solver.rtol`", "too loose"]);
