@@ -180,13 +180,6 @@ pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground:
     RELEASE_TOLERANCE * fall.max(largest(accelerations))
 }
 
-/// Rates of the moving links among the rates of the blocks.
-fn link_rates(posture: &Posture, block: &[f64]) -> Vec<f64> {
-    let mut rates = vec![0.0; posture.dof];
-    posture.link.iter().zip(block).filter(|(link, _)| **link > 0).for_each(|(link, rate)| rates[*link - 1] = *rate);
-    rates
-}
-
 /// Motion before an impact: velocities of the centroids and the blocks' rates.
 struct Motion {
     linear: Vec<Vec2>,
@@ -231,7 +224,7 @@ pub fn impact(
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
     let posture = Posture::new(column, pattern, theta);
-    let before = Motion { linear: posture.linear(&link_rates(&posture, omega)), angular: omega.to_vec() };
+    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: omega.to_vec() };
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
 
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
@@ -283,7 +276,7 @@ fn restitute(
     let spread = mass.solve(&rows.transpose());
     let impulse = (&rows * &spread).cholesky()?.solve(&gain);
     let change = spread * impulse;
-    let rates: Vec<f64> = link_rates(&posture, &plastic.motion).iter().zip(change.iter()).map(|(a, b)| a + b).collect();
+    let rates: Vec<f64> = posture.link_rates(&plastic.motion).iter().zip(change.iter()).map(|(a, b)| a + b).collect();
     let rebound = posture.angular(&rates);
 
     let flips = |&i: &usize| {
@@ -316,7 +309,7 @@ fn settle(
     let mut height = stick_angle;
     loop {
         let posture = Posture::new(column, &decision.pattern, theta);
-        let rates = link_rates(&posture, &decision.omega);
+        let rates = posture.link_rates(&decision.omega);
         let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
         let mut closed = decision.pattern.clone();
         for &interface in free {
@@ -359,7 +352,7 @@ pub fn open(
     }
     let answer = |candidate: &Pattern| {
         let posture = Posture::new(column, candidate, theta);
-        let rates = link_rates(&posture, omega);
+        let rates = posture.link_rates(omega);
         let alpha = link_acceleration(&posture, &rates, ground)?;
         let mut total = imposed_acceleration(&posture, &rates, ground);
         total.iter_mut().zip(posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
@@ -454,7 +447,7 @@ mod tests {
                 return Ok(());
             }
             let posture = Posture::new(&column, &pattern, &theta);
-            let before = Motion { linear: posture.linear(&link_rates(&posture, &omega)), angular: omega };
+            let before = Motion { linear: posture.linear(&posture.link_rates(&omega)), angular: omega };
             let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
             let answer = |candidate: &Pattern| project(&column, &theta, &before, candidate);
             let mut problem = Problem { column: &column, free, least_parting: f64::MIN_POSITIVE, answer };

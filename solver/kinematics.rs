@@ -85,6 +85,13 @@ impl<'a> Posture<'a> {
         Posture { column, link, dof, lower_angle, contact_centre, centroid, lever }
     }
 
+    /// Rates of the moving links, length dof, among the rates of the blocks, length N.
+    pub fn link_rates(&self, block: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; self.dof];
+        self.link.iter().zip(block).filter(|(link, _)| **link > 0).for_each(|(link, rate)| rates[*link - 1] = *rate);
+        rates
+    }
+
     /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, or the part of accelerations due to link accelerations.
     pub fn linear(&self, rates: &[f64]) -> Vec<Vec2> {
         let row = |block: usize| {

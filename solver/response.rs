@@ -126,7 +126,8 @@ pub struct Response {
     pub events: Vec<Event>,
     /// Largest size of each block's angle `[rad]`.
     pub peak_theta: Vec<f64>,
-    /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here.
+    /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
+    /// rest for good is in it until `t_end`.
     pub time_in_mode: BTreeMap<String, f64>,
     /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
     pub friction_demand: Vec<f64>,

@@ -209,19 +209,13 @@ impl Reader<'_> {
 
     fn record(&self, table: &mut Table, start: f64, gravity: f64) -> Result<Record, SceneFileError> {
         let own = |wrong| self.error(wrong);
-        let positive = |table: &mut Table, key: &str| match table.number(key)? {
-            Some((value, _)) if value <= 0.0 => {
-                Err(table.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
-            }
-            found => Ok(found.map(|(value, _)| value)),
-        };
         let units = match table.text("units").map_err(own)? {
             None => None,
             Some((name, _)) => Some(AccelerationUnit::parse(&name).ok_or_else(|| {
                 own(table.wrong("units", format!("there is no unit `{name}`"), "choose g, m/s2, cm/s2 or gal"))
             })?),
         };
-        let dt = positive(table, "dt").map_err(own)?;
+        let dt = table.positive("dt").map_err(own)?;
         let options = TextOptions { gravity, dt, units };
         let accel = table.numbers("accel").map_err(own)?;
         let (record, key) = match (table.text("file").map_err(own)?, accel) {
@@ -314,19 +308,13 @@ const MOST_BLOCKS: f64 = 100.0;
 
 /// A block, or one of `count` equal parts of a column whose half-height is given as a whole.
 fn block(table: &mut Table, count: f64) -> Result<Block, Wrong> {
-    let positive = |table: &mut Table, key: &str| match table.number(key)? {
-        Some((value, _)) if value <= 0.0 => {
-            Err(table.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
-        }
-        found => Ok(found.map(|(value, _)| value)),
-    };
-    let size = |table: &mut Table, key: &str| match positive(table, key)? {
+    let size = |table: &mut Table, key: &str| match table.positive(key)? {
         Some(value) => Ok(value),
         None => Err(table.missing(key, "give it in m")),
     };
     let half_width = size(table, "half_width")?;
     let half_height = size(table, "half_height")? / count;
-    let (density, mass) = (positive(table, "density")?, positive(table, "mass")?);
+    let (density, mass) = (table.positive("density")?, table.positive("mass")?);
     let mut block = match (density, mass) {
         (Some(_), Some(_)) => {
             return Err(table.wrong("mass", "`density` is given as well".into(), "remove one of the two"));
@@ -336,7 +324,7 @@ fn block(table: &mut Table, count: f64) -> Result<Block, Wrong> {
     };
     // A column's inertia as a whole is no block's.
     if count == 1.0 {
-        block.inertia = positive(table, "inertia")?.unwrap_or(block.inertia);
+        block.inertia = table.positive("inertia")?.unwrap_or(block.inertia);
     }
     let is_sound = |value: f64| value.is_finite() && value > 0.0;
     if !(is_sound(block.mass) && is_sound(block.inertia)) {

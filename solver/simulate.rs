@@ -383,9 +383,7 @@ impl<'a> Run<'a> {
 
     fn kinetic_energy(&self, pattern: &Pattern, omega: &[f64]) -> f64 {
         let posture = Posture::new(&self.scene.column, pattern, &self.theta);
-        let mut rates = vec![0.0; posture.dof];
-        posture.link.iter().zip(omega).filter(|(link, _)| **link > 0).for_each(|(link, w)| rates[*link - 1] = *w);
-        posture.kinetic_energy(&posture.linear(&rates), omega)
+        posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega)
     }
 
     fn record(

@@ -134,13 +134,7 @@ fn landing(blocks: usize) -> impl Strategy<Value = (Column, Pattern, Vec<usize>,
 
 fn kinetic_energy(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> f64 {
     let posture = Posture::new(column, pattern, theta);
-    let mut rates = vec![0.0; posture.dof];
-    for (link, rate) in posture.link.iter().zip(omega) {
-        if *link > 0 {
-            rates[*link - 1] = *rate;
-        }
-    }
-    posture.kinetic_energy(&posture.linear(&rates), omega)
+    posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega)
 }
 
 #[test]

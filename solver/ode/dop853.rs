@@ -202,7 +202,6 @@ pub struct Dop853<V>(Stages<V, 16>);
 impl<V: StateVector> Pair<V> for Dop853<V> {
     const ORDER: usize = 8;
     const ERROR_ORDER: usize = 8;
-    const STAGES: usize = 11;
 
     fn new(zero: &V) -> Self {
         Dop853(Stages::new(zero))

@@ -39,7 +39,6 @@ pub struct DormandPrince54<V>(Stages<V, 7>);
 impl<V: StateVector> Pair<V> for DormandPrince54<V> {
     const ORDER: usize = 5;
     const ERROR_ORDER: usize = 5;
-    const STAGES: usize = 6;
 
     fn new(zero: &V) -> Self {
         DormandPrince54(Stages::new(zero))

@@ -166,6 +166,16 @@ impl Table {
         }
     }
 
+    /// A finite number above zero.
+    pub fn positive(&mut self, key: &str) -> Result<Option<f64>, Wrong> {
+        match self.number(key)? {
+            Some((value, _)) if value <= 0.0 => {
+                Err(self.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
+            }
+            found => Ok(found.map(|(value, _)| value)),
+        }
+    }
+
     /// A list of finite numbers.
     pub fn numbers(&mut self, key: &str) -> Result<Option<Vec<f64>>, Wrong> {
         let items = match self.ask(key).cloned() {
