@@ -10,7 +10,7 @@ use rocking::dynamics::{Dynamics, Ground};
 use rocking::generated::{GeneratedMode, equations};
 use rocking::generic::GenericMode;
 use rocking::pattern::Pattern;
-use rocking::{Column, DynamicsSource, Motion, Restitution, Scene, simulate};
+use rocking::{Column, DynamicsSource, GroundMotion, Motion, Restitution, Scene, simulate};
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::process::Command;
@@ -32,10 +32,12 @@ fn state(dof: usize) -> Vec<f64> {
 fn right_hand_side<P>(criterion: &mut Criterion, dof: usize)
 where
     GeneratedMode<P>: Dynamics,
-    P: rocking::dynamics::StepProgram<f64>,
+    P: rocking::program::StepProgram<f64>,
 {
     let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
-    let generated = GeneratedMode::<P>::new(&column, &pattern(dof)).expect("the build has it");
+    let generated =
+        GeneratedMode::<P>::new(&column, &pattern(dof), GroundMotion::Horizontal, equations::linkage::<f64>)
+            .expect("the build has it");
     let generic = GenericMode::new(&column, &pattern(dof));
     let values = state(dof);
     let mut x = generated.zero_state();
@@ -123,10 +125,10 @@ fn main() -> std::io::Result<()> {
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(2))
         .configure_from_args();
-    right_hand_side::<equations::Dof1>(&mut criterion, 1);
-    right_hand_side::<equations::Dof2>(&mut criterion, 2);
-    right_hand_side::<equations::Dof3>(&mut criterion, 3);
-    right_hand_side::<equations::Dof4>(&mut criterion, 4);
+    right_hand_side::<equations::HorizontalDof1>(&mut criterion, 1);
+    right_hand_side::<equations::HorizontalDof2>(&mut criterion, 2);
+    right_hand_side::<equations::HorizontalDof3>(&mut criterion, 3);
+    right_hand_side::<equations::HorizontalDof4>(&mut criterion, 4);
     whole_run(&mut criterion);
     criterion.final_summary();
     report()

@@ -1,32 +1,79 @@
-//! The generated equations, and a mode that runs on them.
+//! Modes that run on generated equations: this build's, or those of a program that has called the generator itself.
 //!
-//! The one place that includes what `build.rs` wrote. Scene constants are computed here once per mode that a run enters.
+//! The one place that includes what `build.rs` wrote. Scene constants are computed here, once per mode that a run enters.
 
 use crate::column::Column;
-use crate::dynamics::{
-    ContactForce, ContactForces, Dynamics, Energy, Geometry, Ground, Scalar, StateVector, StepProgram,
-};
+use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
+use crate::mode::Mode;
+use crate::program::{ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, StepProgram};
+use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
 
 /// Code written by `rocking_codegen` for this build.
 #[allow(clippy::all, clippy::pedantic, unused_variables, reason = "generated code is laid out for reading")]
 pub mod equations {
-    use crate::dynamics::{Geometry, InterfaceEquations, LinkageEquations, Scalar, StepProgram};
     include!(concat!(env!("OUT_DIR"), "/equations.rs"));
 }
 
-pub use equations::MAX_BLOCKS;
-pub(crate) use equations::with_step_program;
+pub use equations::{EQUATIONS, MAX_BLOCKS};
+
+/// Equations that the solver can run on: what a generated module offers as `EQUATIONS`.
+#[derive(Clone, Copy)]
+pub struct Equations {
+    /// What they are, for people.
+    pub name: &'static str,
+    /// The mode of a pattern of a column, `None` where there are no equations for it.
+    pub mode: fn(&Column, &Pattern, GroundMotion) -> Option<Mode>,
+}
+
+impl std::fmt::Debug for Equations {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Equations({})", self.name)
+    }
+}
+
+impl serde::Serialize for Equations {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+/// The same equations are those of the same name.
+impl PartialEq for Equations {
+    fn eq(&self, other: &Equations) -> bool {
+        self.name == other.name
+    }
+}
+
+/// The linkages of a generated module: by number of blocks and mask of open interfaces.
+pub type Linkages = fn(usize, usize) -> Option<LinkageEquations<f64>>;
 
 /// The pattern's bits: bit `i` is set where interface `i + 1` is open.
 fn mask(pattern: &Pattern) -> usize {
     pattern.0.iter().rev().fold(0, |mask, interface| 2 * mask + usize::from(interface.is_open()))
 }
 
+/// The mode of a pattern on a step program and the scene constants of its linkage; `None` if there are no equations for it,
+/// or `P` has another number of free angles. Called by generated modules.
+pub fn generated_mode<P: StepProgram<f64> + 'static>(
+    column: &Column,
+    pattern: &Pattern,
+    ground: GroundMotion,
+    linkages: Linkages,
+) -> Option<Mode>
+where
+    P::State: StateVector,
+{
+    let dynamics = GeneratedMode::<P>::new(column, pattern, ground, linkages)?;
+    Some(Mode::from_dynamics(pattern.clone(), dynamics))
+}
+
 /// A mode of a column on generated equations.
 #[derive(Clone, Debug)]
 pub struct GeneratedMode<P: StepProgram<f64>> {
     constants: P::Constants,
+    geometry: Geometry<f64>,
+    energies: SceneConstants<f64>,
     interfaces: Vec<InterfaceForces>,
 }
 
@@ -39,20 +86,34 @@ struct InterfaceForces {
 }
 
 impl<P: StepProgram<f64>> GeneratedMode<P> {
-    /// The mode of a pattern; `None` if this build has no equations for it, or `P` has another number of free angles.
-    pub fn new(column: &Column, pattern: &Pattern) -> Option<GeneratedMode<P>> {
-        let equations = equations::linkage::<f64>(column.len(), mask(pattern))?;
+    /// As [`generated_mode`], with the program's type known: for callers that want no dispatch at all.
+    pub fn new(
+        column: &Column,
+        pattern: &Pattern,
+        ground: GroundMotion,
+        linkages: Linkages,
+    ) -> Option<GeneratedMode<P>> {
+        let equations = linkages(column.len(), mask(pattern))?;
         if equations.dof != P::DOF {
             return None;
         }
         let geometry = geometry(column, pattern);
-        let constants = (equations.constants)(&geometry);
+        let constants = (equations.accelerations[ground as usize])(&geometry);
         let interfaces = equations.interfaces.iter().zip(&geometry.pivot).map(|(interface, &pivot)| InterfaceForces {
             constants: (interface.constants)(&geometry),
             forces: interface.forces,
             pivot,
         });
-        Some(GeneratedMode { constants: P::Constants::try_from(&constants).ok()?, interfaces: interfaces.collect() })
+        let interfaces = interfaces.collect();
+        let constants = P::Constants::try_from(&constants).ok()?;
+        Some(GeneratedMode { constants, geometry, energies: equations.energies, interfaces })
+    }
+
+    /// Scene constants of mass matrix and energies: computed where they are read.
+    fn energy_constants(&self) -> <P::Energies as EnergyProgram<f64>>::Constants {
+        let constants = (self.energies)(&self.geometry);
+        let constants = <P::Energies as EnergyProgram<f64>>::Constants::try_from(&constants);
+        constants.ok().expect("a linkage and its energy program come from one generator")
     }
 }
 
@@ -88,13 +149,13 @@ where
 
     fn energy(&self, state: &P::State, gravity: f64) -> Energy {
         let (cos, sin, omega) = split::<P>(state.as_slice());
-        let [kinetic, potential] = P::energies(&self.constants, &cos, &sin, &omega, gravity);
+        let [kinetic, potential] = P::Energies::energies(&self.energy_constants(), &cos, &sin, &omega, gravity);
         Energy { kinetic, potential }
     }
 
     fn mass_matrix(&self, state: &P::State) -> Vec<f64> {
         let (cos, sin, _) = split::<P>(state.as_slice());
-        let matrix = P::mass_matrix(&self.constants, &cos, &sin);
+        let matrix = P::Energies::mass_matrix(&self.energy_constants(), &cos, &sin);
         matrix.as_ref().iter().flat_map(|row| row.as_ref().iter().copied()).collect()
     }
 
@@ -115,6 +176,7 @@ where
 pub fn geometry(column: &Column, pattern: &Pattern) -> Geometry<f64> {
     let blocks = column.blocks();
     Geometry {
+        gravity: column.gravity(),
         pivot: pattern.0.iter().enumerate().map(|(i, s)| f64::from(s.sign()) * column.contact_half_width(i)).collect(),
         half_height: blocks.iter().map(|block| block.half_height).collect(),
         mass: blocks.iter().map(|block| block.mass).collect(),

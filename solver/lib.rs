@@ -34,6 +34,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Generated code names the library as its users do.
+extern crate self as rocking;
+
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
@@ -49,8 +52,10 @@ pub mod kinematics;
 pub mod mode;
 pub mod ode;
 mod phase;
+pub mod program;
 pub mod response;
 mod rest;
+pub mod scalar;
 pub mod scene;
 pub mod scene_file;
 pub mod simulate;
@@ -59,7 +64,7 @@ pub use column::{Block, Column, ColumnError};
 pub use excitation::{Excitation, Motion, Record, RecordError};
 pub use mode::Mode;
 pub use response::{Event, EventKind, Response, Sample, StopReason, Work};
-pub use rocking_codegen::pattern;
+pub use rocking_codegen::{GroundMotion, pattern};
 pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions};
 
 pub use scene_file::SceneFileError;

@@ -1,13 +1,17 @@
 //! One mode by itself: its right-hand side, energies and forces, and its integration without events.
 //!
 //! For programs that bring their own event logic, and for comparing generated with generic equations. The event-driven solver
-//! ([`crate::simulate`]) uses the same equations through types that know the number of free angles.
+//! ([`crate::simulate()`]) uses the same equations through types that know the number of free angles.
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
-use crate::generated::{self, GeneratedMode, with_step_program};
+use crate::generated;
 use crate::generic::GenericMode;
-use crate::ode::{self, Dop853, Pair, System, Tolerance};
+use crate::ode::{self, Dop853, DormandPrince54, Pair, System, Tolerance};
+use crate::phase::{Ended, Phase, RungeKutta, Stepper};
+use crate::scene::Method;
+use crate::simulate::{Run, SolveError};
+use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
 
 /// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
@@ -16,8 +20,9 @@ pub struct Mode {
     equations: Box<dyn Equations>,
 }
 
-/// [`Dynamics`] over slices.
+/// [`Dynamics`] over slices, and a smooth phase of a run on it.
 trait Equations {
+    fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError>;
     fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64>;
     fn energy(&self, x: &[f64], gravity: f64) -> Energy;
     fn mass_matrix(&self, x: &[f64]) -> Vec<f64>;
@@ -51,6 +56,15 @@ fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
 }
 
 impl<D: Dynamics> Equations for D {
+    fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError> {
+        let gravity = run.scene.column.gravity();
+        let mut stepper: Box<dyn Stepper<D::State> + '_> = match run.scene.options.method {
+            Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity)),
+            Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity)),
+        };
+        Phase::new(run, &mut *stepper).run()
+    }
+
     fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {
         let mut slope = self.zero_state();
         Dynamics::derivative(self, &state(self, x), ground, &mut slope);
@@ -87,18 +101,20 @@ impl<D: Dynamics> Equations for D {
 }
 
 impl Mode {
-    /// The mode of a pattern on generated equations; `None` at rest and for columns larger than this build has.
+    /// A mode on equations of one's own: dynamics that belong to the pattern.
+    pub fn from_dynamics(pattern: Pattern, dynamics: impl Dynamics + 'static) -> Mode {
+        Mode { pattern, equations: Box::new(dynamics) }
+    }
+
+    /// The mode of a pattern on generated equations, for any ground motion; `None` at rest and for columns larger than this
+    /// build has.
     pub fn generated(column: &Column, pattern: &Pattern) -> Option<Mode> {
-        let equations: Box<dyn Equations> = with_step_program!(pattern.dof(), Program => {
-            Box::new(GeneratedMode::<Program>::new(column, pattern)?)
-        }, _ => return None);
-        Some(Mode { pattern: pattern.clone(), equations })
+        generated::equations::mode(column, pattern, GroundMotion::WithVertical)
     }
 
     /// The mode of a pattern on hand-written equations, for any number of blocks; `None` at rest.
     pub fn generic(column: &Column, pattern: &Pattern) -> Option<Mode> {
-        let equations = Box::new(GenericMode::new(column, pattern));
-        (pattern.dof() > 0).then(|| Mode { pattern: pattern.clone(), equations })
+        (pattern.dof() > 0).then(|| Mode::from_dynamics(pattern.clone(), GenericMode::new(column, pattern)))
     }
 
     /// The mode on generated equations if this build has them, on generic ones otherwise; `None` at rest.
@@ -115,11 +131,12 @@ impl Mode {
     /// # Ok::<(), rocking::ColumnError>(())
     /// ```
     pub fn new(column: &Column, pattern: &Pattern) -> Option<Mode> {
-        if column.len() <= generated::MAX_BLOCKS {
-            Mode::generated(column, pattern)
-        } else {
-            Mode::generic(column, pattern)
-        }
+        Mode::generated(column, pattern).or_else(|| Mode::generic(column, pattern))
+    }
+
+    /// Integrates a run that is in this mode to its next event.
+    pub(crate) fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError> {
+        self.equations.run_phase(run)
     }
 
     /// The pattern.

@@ -1,6 +1,6 @@
 //! One smooth phase: a mode integrated from one event to the next.
 //!
-//! Compiled once per number of degrees of freedom and method. A step is attempted, its inside searched for the first zero
+//! Compiled once per number of degrees of freedom; a [`Stepper`] takes the steps. A step is attempted, its inside searched for the first zero
 //! of a guard, and, if there is one, taken again so that it ends there: the state at an event is a full step of the method, not
 //! an interpolated value.
 //!
@@ -13,14 +13,16 @@
 //! | `c_i N_i - abs(M_i)` | closed interface `i` opens | samples and parabolas |
 
 mod inside;
+mod stepper;
 
 use crate::contact::verge_acceleration;
-use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
+use crate::dynamics::{ContactForce, StateVector};
 use crate::excitation::Segment;
-use crate::ode::{Interpolant, Pair, StepControl, System, Tolerance};
+use crate::ode::{Interpolant, StepControl, Tolerance};
 use crate::response::mode_name;
 use crate::simulate::{Run, SolveError};
 use rocking_codegen::pattern::Interface;
+pub(crate) use stepper::{RungeKutta, Stepper};
 
 /// How a stretch of time ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,30 +39,6 @@ pub enum Ended {
     AtRest,
     /// The time is over.
     EndOfTime,
-}
-
-/// A mode under the ground motion of one segment, as a right-hand side.
-struct Driven<'m, D> {
-    mode: &'m D,
-    segment: Segment,
-    gravity: f64,
-    calls: usize,
-}
-
-impl<D: Dynamics> System for Driven<'_, D> {
-    type State = D::State;
-
-    #[inline(always)]
-    fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
-        self.calls += 1;
-        self.mode.derivative(x, self.segment.ground(t, self.gravity), slope);
-    }
-}
-
-impl<D: Dynamics> Driven<'_, D> {
-    fn ground(&self, t: f64) -> Ground {
-        self.segment.ground(t, self.gravity)
-    }
 }
 
 /// An open interface and its link.
@@ -98,11 +76,10 @@ const REPEATS: usize = 4;
 const STEPS_BETWEEN_REPORTS: usize = 1024;
 
 /// A smooth phase.
-pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
+pub(crate) struct Phase<'p, 'a, V> {
     run: &'p mut Run<'a>,
-    system: Driven<'m, D>,
-    pair: P,
-    interpolant: Interpolant<D::State>,
+    stepper: &'p mut dyn Stepper<V>,
+    interpolant: Interpolant<V>,
     interpolated: bool,
     dof: usize,
     links: Vec<usize>,
@@ -110,8 +87,8 @@ pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
     closed: Vec<usize>,
     half_width: Vec<f64>,
     tolerance: Tolerance,
-    x: D::State,
-    slope: D::State,
+    x: V,
+    slope: V,
     forces: Vec<ContactForce>,
     /// Contact forces at the start of the step.
     start_forces: Vec<ContactForce>,
@@ -119,15 +96,16 @@ pub(crate) struct Phase<'p, 'a, 'm, D: Dynamics, P> {
     /// Values of the contact guards at the start and the end of the step, per closed interface.
     margins: Vec<f64>,
     end_margins: Vec<f64>,
-    scratch: (D::State, D::State),
+    scratch: (V, V),
 }
 
-impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
+impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
     /// The phase that begins with the run's present state.
-    pub fn new(run: &'p mut Run<'a>, mode: &'m D) -> Self {
+    pub fn new(run: &'p mut Run<'a>, stepper: &'p mut dyn Stepper<V>) -> Self {
         let column = &run.scene.column;
         let pattern = &run.pattern;
-        let zero = mode.zero_state();
+        let zero = stepper.zero();
+        stepper.enter(run.segments[run.segment]);
         let links = pattern.linkage().link_of_block();
         let dof = pattern.dof();
         let mut x = zero.clone();
@@ -148,8 +126,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let closed: Vec<usize> = (0..column.len()).filter(|i| !pattern.0[*i].is_open()).collect();
         let options = &run.scene.options;
         Phase {
-            system: Driven { mode, segment: run.segments[run.segment], gravity: column.gravity(), calls: 0 },
-            pair: P::new(&zero),
+            stepper,
             interpolant: Interpolant::new(&zero),
             interpolated: false,
             dof,
@@ -172,8 +149,8 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
 
     /// Integrates to the next event; the run's state is then that at the event, before what it brings about.
     pub fn run(mut self) -> Result<Ended, SolveError> {
-        let control = StepControl::new(P::ERROR_ORDER);
-        self.system.slope(self.run.t, &self.x, &mut self.slope);
+        let control = StepControl::new(self.stepper.error_order());
+        self.stepper.slope(self.run.t, &self.x, &mut self.slope);
         self.arm();
         self.margins = self.weigh_start();
         let mut wanted = match self.run.suggested_step {
@@ -182,7 +159,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         };
         loop {
             let t = self.run.t;
-            let left = self.system.segment.end - t;
+            let left = self.segment().end - t;
             if t + left <= t {
                 match self.next_segment() {
                     Some(ended) => {
@@ -196,14 +173,14 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
             let held = self.run.hold.until - t;
             let h = if held > 0.0 { h.min(held) } else { h };
-            let error = self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
+            let error = self.stepper.attempt(t, &self.x, &self.slope, h, self.tolerance);
             if error.is_nan() || error > 1.0 {
                 self.run.work.rejected += 1;
                 wanted = h * if error.is_nan() { 0.1 } else { control.factor(error).min(1.0) };
                 self.check_step(t, wanted, error)?;
                 continue;
             }
-            self.pair.accept(&mut self.system);
+            self.stepper.accept();
             self.run.work.steps += 1;
             if self.run.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
                 (self.run.progress)(t);
@@ -224,26 +201,31 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             }
             self.output_until(t, h, t + h);
             self.note_peaks(h);
-            self.advance(if h == left { self.system.segment.end } else { t + h });
+            self.advance(if h == left { self.segment().end } else { t + h });
         }
+    }
+
+    /// The stretch of ground motion that the present time is in.
+    fn segment(&self) -> &Segment {
+        &self.run.segments[self.run.segment]
     }
 
     /// Goes over to the next stretch of ground motion; what ends the phase there, if anything.
     fn next_segment(&mut self) -> Option<Ended> {
-        self.run.t = self.system.segment.end;
+        self.run.t = self.segment().end;
         if self.run.segment + 1 == self.run.segments.len() {
             return Some(Ended::EndOfTime);
         }
         self.run.segment += 1;
-        self.system.segment = self.run.segments[self.run.segment];
-        self.system.segment.jumps.then_some(Ended::Jump)
+        self.stepper.enter(self.run.segments[self.run.segment]);
+        self.segment().jumps.then_some(Ended::Jump)
     }
 
     /// Decides how many roots of each gap lie at the start, by how it came to be open.
     fn arm(&mut self) {
         let (x, slope) = (self.x.as_slice(), self.slope.as_slice());
         let accelerations = &slope[self.dof..];
-        let verge = verge_acceleration(&self.run.scene.column, accelerations, self.system.ground(self.run.t));
+        let verge = verge_acceleration(&self.run.scene.column, accelerations, self.stepper.ground(self.run.t));
         for gap in &mut self.gaps {
             let is_closed = gap.of(&x[..self.dof]) == 0.0;
             let has_no_rate = gap.of(&x[self.dof..]) == 0.0;
@@ -266,8 +248,8 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         margins
     }
 
-    fn weigh(&mut self, t: f64, x: &D::State, slope: &D::State) {
-        self.system.mode.contact_forces(x, slope, self.system.ground(t), &mut self.forces);
+    fn weigh(&mut self, t: f64, x: &V, slope: &V) {
+        self.stepper.contact_forces(t, x, slope, &mut self.forces);
     }
 
     /// `c N - |M|` of a closed interface, from the forces weighed last.
@@ -292,15 +274,15 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
 
     fn interpolate(&mut self) {
         if !self.interpolated {
-            self.pair.interpolate(&mut self.system, &mut self.interpolant);
+            self.stepper.interpolate(&mut self.interpolant);
             self.interpolated = true;
         }
     }
 
     /// Takes the step: its end is the present state.
     fn advance(&mut self, t: f64) {
-        self.x.clone_from(self.pair.end());
-        self.slope.clone_from(self.pair.end_slope());
+        self.x.clone_from(self.stepper.end());
+        self.slope.clone_from(self.stepper.end_slope());
         self.run.t = t;
         // A gap that is still below the resolution of angles has not left its start.
         let (resolution, x) = (self.resolution(), self.x.as_slice());
@@ -317,8 +299,8 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let mut has_touched = true;
         for _ in 0..REPEATS {
             self.run.work.repeated += 1;
-            self.pair.attempt(&mut self.system, t, &self.x, &self.slope, h, self.tolerance);
-            let end = self.pair.end().as_slice();
+            self.stepper.attempt(t, &self.x, &self.slope, h, self.tolerance);
+            let end = self.stepper.end().as_slice();
             let (value, rate) = match found {
                 Found::Gap(gap) => (gap.of(&end[..self.dof]), gap.of(&end[self.dof..])),
                 Found::Tilt { link, sign } => {
@@ -335,10 +317,10 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
             h = next;
         }
         let is_mistaken = !has_touched && h > 0.0;
-        self.pair.accept(&mut self.system);
+        self.stepper.accept();
         self.interpolated = false;
         self.note_peaks(h);
-        self.advance(if h == self.system.segment.end - t { self.system.segment.end } else { t + h });
+        self.advance(if h == self.segment().end - t { self.segment().end } else { t + h });
         let (x, slope) = (self.x.clone(), self.slope.clone());
         self.weigh(self.run.t, &x, &slope);
         self.run.history.note_forces(&self.forces);
@@ -381,7 +363,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         closing
     }
 
-    fn per_block(&self, x: &D::State) -> (Vec<f64>, Vec<f64>) {
+    fn per_block(&self, x: &V) -> (Vec<f64>, Vec<f64>) {
         let x = x.as_slice();
         let pick = |offset: usize| {
             let of = |link: &usize| if *link == 0 { 0.0 } else { x[offset + link - 1] };
@@ -395,7 +377,7 @@ impl<'p, 'a, 'm, D: Dynamics, P: Pair<D::State>> Phase<'p, 'a, 'm, D, P> {
         let (theta, omega) = self.per_block(&self.x);
         self.run.theta = theta;
         self.run.omega = omega;
-        self.run.work.rhs_calls += self.system.calls;
+        self.run.work.rhs_calls += self.stepper.calls();
         self.run.note_peaks();
         ended
     }

@@ -2,6 +2,7 @@
 
 use crate::column::Column;
 use crate::excitation::Excitation;
+use crate::generated::Equations;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
@@ -69,7 +70,7 @@ impl Method {
 }
 
 /// Whose right-hand sides are used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DynamicsSource {
     /// Generated equations, generic ones for what the build has not got.
@@ -77,6 +78,10 @@ pub enum DynamicsSource {
     Generated,
     /// Hand-written equations for any N.
     Generic,
+    /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones for
+    /// what they have not got.
+    #[serde(untagged)]
+    Supplied(Equations),
 }
 
 /// How a scene is solved.

@@ -3,16 +3,15 @@
 use crate::contact::{self, Decision, ImpactLaw};
 use crate::dynamics::{ContactForce, Ground};
 use crate::excitation::{Excitation, Segment};
-use crate::generated::{self, GeneratedMode, with_step_program};
-use crate::generic::GenericMode;
+use crate::generated;
 use crate::kinematics::Posture;
-use crate::ode::{Dop853, DormandPrince54};
-use crate::phase::{Ended, Phase};
+use crate::mode::Mode;
+use crate::phase::Ended;
 use crate::response::{Event, EventKind, Response, Sample, Separation, StopReason, Work, mode_name};
 use crate::rest;
-use crate::scene::{DynamicsSource, Method, Scene, SceneError};
+use crate::scene::{DynamicsSource, Scene, SceneError};
+use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::{Interface, Pattern};
-use std::any::Any;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
@@ -143,7 +142,7 @@ pub(crate) struct Run<'a> {
     pub history: History,
     pub progress: Box<dyn FnMut(f64) + 'a>,
     kappa: Vec<f64>,
-    modes: HashMap<Pattern, Rc<dyn Any>>,
+    modes: HashMap<Pattern, Rc<Mode>>,
     events_at_once: usize,
     used_generic: bool,
 }
@@ -250,42 +249,33 @@ impl<'a> Run<'a> {
     fn move_on(&mut self) -> Result<Ended, SolveError> {
         let start = self.t;
         self.work.phases += 1;
-        let dof = self.pattern.dof();
-        let column = &self.scene.column;
-        let is_generated =
-            self.scene.options.dynamics == DynamicsSource::Generated && column.len() <= generated::MAX_BLOCKS;
-        let pattern = self.pattern.clone();
-        let ended = if is_generated {
-            with_step_program!(dof, Program => {
-                let build = || GeneratedMode::<Program>::new(column, &pattern).expect("the build has this column's linkages");
-                let mode = self.mode(build);
-                self.integrate(&*mode)?
-            }, _ => unreachable!("a build with equations for N blocks has programs for up to N free angles"))
-        } else {
-            self.used_generic |= self.scene.options.dynamics == DynamicsSource::Generated;
-            let mode = self.mode(|| GenericMode::new(column, &pattern));
-            self.integrate(&*mode)?
-        };
+        let mode = self.mode();
+        let ended = mode.run_phase(self)?;
         self.spend(start);
         (self.progress)(self.t);
         Ok(ended)
     }
 
-    fn integrate<D: crate::dynamics::Dynamics>(&mut self, mode: &D) -> Result<Ended, SolveError> {
-        match self.scene.options.method {
-            Method::Dop853 => Phase::<D, Dop853<D::State>>::new(self, mode).run(),
-            Method::DormandPrince54 => Phase::<D, DormandPrince54<D::State>>::new(self, mode).run(),
-        }
-    }
-
     /// The present pattern's mode; its scene constants are computed when it is entered first.
-    fn mode<D: 'static>(&mut self, build: impl FnOnce() -> D) -> Rc<D> {
-        if let Some(Ok(known)) = self.modes.get(&self.pattern).map(|mode| Rc::clone(mode).downcast::<D>()) {
-            return known;
+    fn mode(&mut self) -> Rc<Mode> {
+        if let Some(known) = self.modes.get(&self.pattern) {
+            return Rc::clone(known);
         }
         self.work.modes_entered += 1;
-        let mode = Rc::new(build());
-        self.modes.insert(self.pattern.clone(), Rc::clone(&mode) as Rc<dyn Any>);
+        let (column, pattern) = (&self.scene.column, &self.pattern);
+        let ground = match self.scene.excitation.vertical {
+            None => GroundMotion::Horizontal,
+            Some(_) => GroundMotion::WithVertical,
+        };
+        let generated = match self.scene.options.dynamics {
+            DynamicsSource::Generated => (generated::EQUATIONS.mode)(column, pattern, ground),
+            DynamicsSource::Supplied(equations) => (equations.mode)(column, pattern, ground),
+            DynamicsSource::Generic => None,
+        };
+        self.used_generic |= generated.is_none() && self.scene.options.dynamics != DynamicsSource::Generic;
+        let mode = generated.or_else(|| Mode::generic(column, pattern)).expect("the column is not at rest");
+        let mode = Rc::new(mode);
+        self.modes.insert(self.pattern.clone(), Rc::clone(&mode));
         mode
     }
 

@@ -1,11 +1,12 @@
 //! A right-hand side and a step do not allocate.
 #![allow(unsafe_code, reason = "counting allocations takes a global allocator, whose trait is unsafe")]
 
-use rocking::Column;
 use rocking::dynamics::{Dynamics, Ground};
-use rocking::generated::{GeneratedMode, equations::Dof3};
+use rocking::generated::GeneratedMode;
+use rocking::generated::equations::{Dof3, linkage};
 use rocking::ode::{Dop853, DormandPrince54, Interpolant, Pair, System, Tolerance};
 use rocking::pattern::Pattern;
+use rocking::{Column, GroundMotion};
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -57,7 +58,9 @@ fn step<P: Pair<[f64; 6]>>(system: &mut Mode) -> f64 {
 #[test]
 fn a_step_does_not_allocate() {
     let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
-    let mode = GeneratedMode::<Dof3>::new(&column, &Pattern::from_signs(&[1, 1, 1])).expect("three free angles");
+    let mode =
+        GeneratedMode::<Dof3>::new(&column, &Pattern::from_signs(&[1, 1, 1]), GroundMotion::WithVertical, linkage)
+            .expect("three free angles");
     let mut system = Mode(mode);
     let before = ALLOCATIONS.load(Ordering::SeqCst);
     let results = [step::<Dop853<[f64; 6]>>(&mut system), step::<DormandPrince54<[f64; 6]>>(&mut system)];

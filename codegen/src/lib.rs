@@ -1,6 +1,6 @@
 //! Derives the equations of motion of every rocking mode of a multi-block column and writes them as Rust.
 //!
-//! The pipeline is [`derive`] and [`generate`]: a pattern's linkage -> positions of the centroids -> energies ->
+//! The pipeline is [`derive()`] and [`generate`]: a pattern's linkage -> positions of the centroids -> energies ->
 //! Euler-Lagrange -> step-time programs with scene constants hoisted -> Rust text. The same pipeline answers
 //! `rocking derive` ([`report`]). Nothing here knows time stepping or scenes.
 //!
@@ -19,13 +19,60 @@ pub mod report;
 pub mod symbolic;
 
 use mechanics::{Equations, Symbols};
-use optimise::{Constant, Program};
+use optimise::{Constant, Form, Operations, Parts, Program};
 use pattern::Linkage;
 use std::collections::HashMap;
 use symbolic::Arena;
 
 /// The largest column that can be asked for: beyond it the listing of linkages alone outgrows a build.
 pub const LARGEST: usize = 12;
+
+/// How the ground moves: what a right-hand side need not know costs nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GroundMotion {
+    /// Horizontally only: gravity is a scene constant.
+    Horizontal,
+    /// Horizontally and vertically: gravity changes with time.
+    WithVertical,
+}
+
+impl GroundMotion {
+    /// Both.
+    pub const ALL: [GroundMotion; 2] = [GroundMotion::Horizontal, GroundMotion::WithVertical];
+}
+
+/// The forms of the step programs of one number of degrees of freedom, and what the others would have cost.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Per ground motion as in [`GroundMotion::ALL`]: the form kept.
+    pub forms: [Form; 2],
+    /// Per ground motion: all forms that give the same equations, with their operations.
+    pub candidates: [Vec<(Form, Operations)>; 2],
+}
+
+impl Plan {
+    /// Writes and counts all forms for links of one block each.
+    ///
+    /// # Panics
+    /// If `dof` is zero: nothing moves.
+    pub fn new(dof: usize) -> Plan {
+        let linkage = Linkage { open: vec![true; dof] };
+        let mut arena = Arena::new();
+        let symbols = Symbols::declare(&mut arena, dof, dof);
+        let equations = mechanics::equations_of_motion(&mut arena, &symbols, &linkage);
+        let parts = Parts::new(&mut arena, &symbols, &equations);
+        let candidates = GroundMotion::ALL.map(|ground| optimise::admitted(&mut arena, &symbols, &parts, ground));
+        let forms = [0, 1].map(|index: usize| {
+            optimise::cheapest(&candidates[index]).expect("turned vectors with rates by pairs are always the equations")
+        });
+        Plan { forms, candidates }
+    }
+
+    /// The form kept for a ground motion.
+    pub fn form(&self, ground: GroundMotion) -> Form {
+        self.forms[ground as usize]
+    }
+}
 
 /// Everything derived for one linkage.
 #[derive(Debug)]
@@ -38,25 +85,63 @@ pub struct Derivation {
     pub symbols: Symbols,
     /// Positions, energies, equations of motion.
     pub equations: Equations,
-    /// Accelerations, mass matrix and energies at step time.
-    pub step: Program,
+    /// The equations' terms, each in its cheapest form.
+    pub parts: Parts,
+    /// The forms of the accelerations, per ground motion as in [`GroundMotion::ALL`].
+    pub forms: [Form; 2],
+    /// Accelerations at step time, per ground motion as in [`GroundMotion::ALL`].
+    pub accelerations: [Program; 2],
+    /// Mass matrix and energies.
+    pub energies: Program,
     /// Contact forces per interface, base first.
     pub forces: Vec<Program>,
 }
 
+impl Derivation {
+    /// The accelerations for a ground motion.
+    pub fn acceleration(&self, ground: GroundMotion) -> &Program {
+        &self.accelerations[ground as usize]
+    }
+}
+
 /// From a linkage to its programs.
+///
+/// ```
+/// use rocking_codegen::{GroundMotion, derive, pattern::Linkage};
+/// let two_blocks_apart = derive(&Linkage { open: vec![true, true] });
+/// let cost = two_blocks_apart.acceleration(GroundMotion::Horizontal).operations("acceleration").unwrap();
+/// assert!(cost.flops() <= 43 && cost.divisions == 1);
+/// ```
+///
+/// # Panics
+/// If nothing is open: a column at rest has no equations of motion.
 pub fn derive(linkage: &Linkage) -> Derivation {
+    derive_in_form(linkage, &Plan::new(linkage.dof()))
+}
+
+/// From a linkage to its programs, in forms that have been chosen.
+fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
     let mut arena = Arena::new();
     let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof());
     let equations = mechanics::equations_of_motion(&mut arena, &symbols, linkage);
-    let step = optimise::step_program(&mut arena, &symbols, &equations);
+    let parts = Parts::new(&mut arena, &symbols, &equations);
+    let accelerations = GroundMotion::ALL.map(|ground| {
+        let form = plan.form(ground);
+        assert!(
+            parts.admit(&mut arena, &symbols, form.coupling, form.rates),
+            "{linkage:?}: the form chosen for single blocks is not these equations"
+        );
+        optimise::acceleration_program(&mut arena, &symbols, &parts, ground, form)
+    });
+    let energies = optimise::energy_program(&mut arena, &symbols, &parts);
     let forces = (0..linkage.blocks())
         .map(|interface| {
             let forces = mechanics::interface_forces(&mut arena, &symbols, linkage, &equations.centroids, interface);
             optimise::force_program(&mut arena, &symbols, &forces)
         })
         .collect();
-    Derivation { linkage: linkage.clone(), arena, symbols, equations, step, forces }
+    let forms = plan.forms;
+    Derivation { linkage: linkage.clone(), arena, symbols, equations, parts, forms, accelerations, energies, forces }
 }
 
 /// One linkage in a [`Catalogue`].
@@ -66,8 +151,10 @@ pub struct LinkageRecord {
     pub linkage: Linkage,
     /// Owner of the constants' formulas.
     pub arena: Arena,
-    /// Scene constants of the step program.
-    pub step_constants: Vec<Constant>,
+    /// Scene constants of the accelerations, per ground motion as in [`GroundMotion::ALL`].
+    pub accelerations: [Vec<Constant>; 2],
+    /// Scene constants of mass matrix and energies.
+    pub energies: Vec<Constant>,
     /// Per interface: index of its program in [`Catalogue::forces`], and its scene constants.
     pub interfaces: Vec<(usize, Vec<Constant>)>,
 }
@@ -79,8 +166,10 @@ pub struct Catalogue {
     pub max_blocks: usize,
     /// All linkages, small columns first.
     pub linkages: Vec<LinkageRecord>,
-    /// Distinct step programs, by degrees of freedom: found by comparison, not assumed.
-    pub steps: Vec<Program>,
+    /// Distinct acceleration programs per ground motion, by degrees of freedom: found by comparison, not assumed.
+    pub accelerations: [Vec<Program>; 2],
+    /// Distinct programs of mass matrix and energies, by degrees of freedom.
+    pub energies: Vec<Program>,
     /// Distinct contact-force programs.
     pub forces: Vec<Program>,
 }
@@ -89,6 +178,32 @@ impl Catalogue {
     /// Number of independent modes of the columns covered.
     pub fn mode_count(&self) -> usize {
         (1..=self.max_blocks).map(|blocks| (3usize.pow(blocks as u32) - 1) / 2).sum()
+    }
+}
+
+/// Distinct programs and where each text stands among them.
+#[derive(Default)]
+struct Distinct {
+    programs: Vec<Program>,
+    known: HashMap<String, usize>,
+}
+
+impl Distinct {
+    /// The index of a program among the distinct ones, to which it is added if it is new, and its own constants.
+    fn enlist(&mut self, program: Program) -> (usize, Vec<Constant>) {
+        let constants = program.constants.clone();
+        let index = *self.known.entry(program.fingerprint()).or_insert_with(|| {
+            self.programs.push(program);
+            self.programs.len() - 1
+        });
+        (index, constants)
+    }
+
+    /// The programs, one for each number of degrees of freedom.
+    fn by_degrees_of_freedom(mut self, expected: usize) -> Result<Vec<Program>, GenerateError> {
+        self.programs.sort_by_key(|program| program.dof);
+        let found = self.programs.len();
+        if found == expected { Ok(self.programs) } else { Err(GenerateError::Programs { found, expected }) }
     }
 }
 
@@ -101,34 +216,31 @@ pub fn catalogue(max_blocks: usize) -> Result<Catalogue, GenerateError> {
     if !(1..=LARGEST).contains(&max_blocks) {
         return Err(GenerateError::Size { max_blocks });
     }
-    let mut result = Catalogue { max_blocks, linkages: Vec::new(), steps: Vec::new(), forces: Vec::new() };
-    let (mut known_steps, mut known_forces) = (HashMap::new(), HashMap::new());
+    let plans: Vec<Plan> = (1..=max_blocks).map(Plan::new).collect();
+    let mut accelerations = [Distinct::default(), Distinct::default()];
+    let (mut energies, mut forces) = (Distinct::default(), Distinct::default());
+    let mut linkages = Vec::new();
     for linkage in (1..=max_blocks).flat_map(pattern::linkages) {
-        let Derivation { linkage, arena, mut step, forces, .. } = derive(&linkage);
-        let step_constants = std::mem::take(&mut step.constants);
-        step.constants.clone_from(&step_constants);
-        enlist(step, &mut known_steps, &mut result.steps);
-        let interfaces = forces
-            .into_iter()
-            .map(|program| {
-                let constants = program.constants.clone();
-                (enlist(program, &mut known_forces, &mut result.forces), constants)
-            })
-            .collect();
-        result.linkages.push(LinkageRecord { linkage, arena, step_constants, interfaces });
+        let derivation = derive_in_form(&linkage, &plans[linkage.dof() - 1]);
+        let mut own = derivation.accelerations.into_iter().zip(&mut accelerations);
+        let mut enlisted = || own.next().map(|(program, distinct)| distinct.enlist(program).1).unwrap_or_default();
+        let step_constants = [enlisted(), enlisted()];
+        let interfaces = derivation.forces.into_iter().map(|program| forces.enlist(program)).collect();
+        linkages.push(LinkageRecord {
+            linkage,
+            arena: derivation.arena,
+            accelerations: step_constants,
+            energies: energies.enlist(derivation.energies).1,
+            interfaces,
+        });
     }
-    result.steps.sort_by_key(|program| program.dof);
-    if result.steps.len() != max_blocks {
-        return Err(GenerateError::Programs { found: result.steps.len(), expected: max_blocks });
-    }
-    Ok(result)
-}
-
-/// The index of a program among the distinct ones, to which it is added if it is new.
-fn enlist(program: Program, known: &mut HashMap<String, usize>, distinct: &mut Vec<Program>) -> usize {
-    *known.entry(program.fingerprint()).or_insert_with(|| {
-        distinct.push(program);
-        distinct.len() - 1
+    let [horizontal, vertical] = accelerations;
+    Ok(Catalogue {
+        max_blocks,
+        linkages,
+        accelerations: [horizontal.by_degrees_of_freedom(max_blocks)?, vertical.by_degrees_of_freedom(max_blocks)?],
+        energies: energies.by_degrees_of_freedom(max_blocks)?,
+        forces: forces.programs,
     })
 }
 

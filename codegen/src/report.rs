@@ -3,13 +3,13 @@
 use crate::optimise::{Constant, Program};
 use crate::pattern::{Interface, Pattern};
 use crate::symbolic::{Arena, Expr};
-use crate::{Derivation, derive, emit};
+use crate::{Derivation, GroundMotion, derive, emit};
 use std::fmt::Write;
 
 /// The derivation of a pattern, from positions to the step-time program, as plain text.
 pub fn text(pattern: &Pattern) -> String {
     let derivation = derive(&pattern.linkage());
-    let Derivation { arena, symbols, equations, step, .. } = &derivation;
+    let Derivation { arena, symbols, equations, .. } = &derivation;
     let mut out = title(pattern);
     let mut section = |name: &str, lines: Vec<(String, Expr)>| {
         let _ = writeln!(out, "\n{name}");
@@ -36,8 +36,18 @@ pub fn text(pattern: &Pattern) -> String {
     section("Rate terms [N m]", numbered("B", &equations.bias));
     section("Gravity and ground motion [N m]", numbered("Q", &equations.forcing));
     let _ = writeln!(out, "\nEquations of motion: sum over b of M_ab alpha_b + B_a + Q_a = 0");
-    out.push_str(&constants_text("Scene constants of the step-time program", arena, &step.constants));
-    out.push_str(&program_text(step));
+    for ground in GroundMotion::ALL {
+        let program = derivation.acceleration(ground);
+        let (what, form) = match ground {
+            GroundMotion::Horizontal => ("horizontal ground motion only", derivation.forms[0]),
+            GroundMotion::WithVertical => ("horizontal and vertical ground motion", derivation.forms[1]),
+        };
+        let title = format!("Scene constants of the accelerations, {what} ({form})");
+        out.push_str(&constants_text(&title, arena, &program.constants));
+        out.push_str(&program_text(program));
+    }
+    out.push_str(&constants_text("Scene constants of mass matrix and energies", arena, &derivation.energies.constants));
+    out.push_str(&program_text(&derivation.energies));
     out
 }
 

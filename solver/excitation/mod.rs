@@ -137,6 +137,10 @@ pub struct Segment {
 }
 
 impl Segment {
+    /// A ground that does not move, at no particular time.
+    pub const QUIET: Segment =
+        Segment { start: 0.0, end: 0.0, horizontal: Piece::Zero, vertical: Piece::Zero, jumps: false };
+
     /// Ground motion at `t` with gravity `[m/s²]` added.
     #[inline(always)]
     pub fn ground(&self, t: f64, gravity: f64) -> Ground {

@@ -1,11 +1,10 @@
 //! What lies inside a step: the first zero of a guard, contact forces, peaks, rows.
 
 use super::{Found, Phase};
-use crate::dynamics::{Dynamics, StateVector};
+use crate::dynamics::StateVector;
 use crate::event::{first_crossing, first_root, largest_size};
-use crate::ode::{Pair, System};
 
-impl<D: Dynamics, P: Pair<D::State>> Phase<'_, '_, '_, D, P> {
+impl<V: StateVector> Phase<'_, '_, V> {
     /// The first event inside the step just accepted, and where it is in it, 0 to 1.
     pub(super) fn search(&mut self, t: f64, h: f64) -> Option<(Found, f64)> {
         self.interpolate();
@@ -31,7 +30,7 @@ impl<D: Dynamics, P: Pair<D::State>> Phase<'_, '_, '_, D, P> {
         for link in 0..self.dof {
             let angle = self.interpolant.bernstein(|x| x[link]);
             if angle.size() >= limit {
-                let sign = if self.pair.end().as_slice()[link] < 0.0 { -1.0 } else { 1.0 };
+                let sign = if self.stepper.end().as_slice()[link] < 0.0 { -1.0 } else { 1.0 };
                 let mut polynomial = self.interpolant.bernstein(|x| -sign * x[link]);
                 polynomial.coefficients[..=polynomial.degree].iter_mut().for_each(|b| *b += limit);
                 offer(Found::Tilt { link, sign }, first_root(&polynomial, 0));
@@ -46,7 +45,7 @@ impl<D: Dynamics, P: Pair<D::State>> Phase<'_, '_, '_, D, P> {
 
     /// The first opening of a closed interface before `reach`; margins move on to the step's end.
     fn search_contacts(&mut self, t: f64, h: f64, reach: f64) -> Option<(Found, f64)> {
-        let (end, end_slope) = (self.pair.end().clone(), self.pair.end_slope().clone());
+        let (end, end_slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
         self.weigh(t + h, &end, &end_slope);
         for index in 0..self.closed.len() {
             self.end_margins[index] = self.margin(self.closed[index]);
@@ -80,7 +79,7 @@ impl<D: Dynamics, P: Pair<D::State>> Phase<'_, '_, '_, D, P> {
         self.interpolate();
         let (mut x, mut slope) = (self.scratch.0.clone(), self.scratch.1.clone());
         self.interpolant.evaluate(s, &mut x);
-        self.system.slope(t + s * h, &x, &mut slope);
+        self.stepper.slope(t + s * h, &x, &mut slope);
         self.weigh(t + s * h, &x, &slope);
     }
 
@@ -88,7 +87,7 @@ impl<D: Dynamics, P: Pair<D::State>> Phase<'_, '_, '_, D, P> {
     fn note_step(&mut self, t: f64, h: f64) {
         self.weigh_inside(t, h, 0.5);
         self.middle_forces.clone_from(&self.forces);
-        let (end, end_slope) = (self.pair.end().clone(), self.pair.end_slope().clone());
+        let (end, end_slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
         self.weigh(t + h, &end, &end_slope);
         self.run.history.note_step([&self.start_forces, &self.middle_forces, &self.forces]);
         self.start_forces.clone_from(&self.forces);
@@ -110,7 +109,7 @@ impl<D: Dynamics, P: Pair<D::State>> Phase<'_, '_, '_, D, P> {
         for link in 0..self.dof {
             let blocks = self.links.iter().zip(&self.run.history.peak_theta).filter(|(own, _)| **own == link + 1);
             let known = blocks.fold(f64::INFINITY, |least, (_, peak)| least.min(*peak));
-            let (x, end) = (self.x.as_slice(), self.pair.end().as_slice());
+            let (x, end) = (self.x.as_slice(), self.stepper.end().as_slice());
             let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);
             if control.iter().all(|c| c.abs() <= known) {
                 continue;

@@ -2,11 +2,11 @@
 
 use super::doc;
 use super::expression::Writer;
-use super::step::force_name;
+use super::step::{force_name, step_type};
 use crate::optimise::Constant;
 use crate::pattern::Linkage;
 use crate::symbolic::Arena;
-use crate::{Catalogue, LinkageRecord};
+use crate::{Catalogue, GroundMotion, LinkageRecord};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -19,11 +19,19 @@ fn stem(linkage: &Linkage) -> String {
 /// All functions of one linkage.
 pub fn functions(record: &LinkageRecord) -> TokenStream {
     let stem = stem(&record.linkage);
-    let step = scene_constants(
-        &format_ident!("step_{stem}"),
-        &format!("Scene constants of the step program where {} move(s).", stem.replace('_', " ")),
+    let accelerations = GroundMotion::ALL.map(|ground| {
+        scene_constants(
+            &accelerations_name(&stem, ground),
+            &format!("Scene constants of the accelerations where {} move(s){}.", stem.replace('_', " "), words(ground)),
+            &record.arena,
+            &record.accelerations[ground as usize],
+        )
+    });
+    let energies = scene_constants(
+        &format_ident!("energies_{stem}"),
+        "Scene constants of mass matrix and energies.",
         &record.arena,
-        &record.step_constants,
+        &record.energies,
     );
     let interfaces = record.interfaces.iter().enumerate().map(|(interface, (_, constants))| {
         let number = interface + 1;
@@ -34,7 +42,22 @@ pub fn functions(record: &LinkageRecord) -> TokenStream {
             constants,
         )
     });
-    quote! { #step #(#interfaces)* }
+    quote! { #(#accelerations)* #energies #(#interfaces)* }
+}
+
+fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
+    match ground {
+        GroundMotion::Horizontal => format_ident!("horizontal_{stem}"),
+        GroundMotion::WithVertical => format_ident!("accelerations_{stem}"),
+    }
+}
+
+/// What is said of a ground motion in a doc line.
+pub fn words(ground: GroundMotion) -> &'static str {
+    match ground {
+        GroundMotion::Horizontal => ", the ground moving horizontally only",
+        GroundMotion::WithVertical => "",
+    }
 }
 
 /// A function from the column's sizes to scene constants, each with its formula and unit in the doc.
@@ -59,8 +82,11 @@ pub fn scene_constants(name: &Ident, title: &str, arena: &Arena, constants: &[Co
     }
 }
 
-/// How a block symbol is read: `half_height_2` is `column.half_height[1]`.
+/// How a symbol of the column is read: `half_height_2` is `column.half_height[1]`.
 fn column_field(symbol: &str) -> TokenStream {
+    if symbol == "gravity" {
+        return quote! { column.gravity };
+    }
     let (family, index) = symbol.rsplit_once('_').expect("block symbols are named family_index");
     let family = format_ident!("{family}");
     let index = index.parse::<usize>().expect("block symbols are numbered from one") - 1;
@@ -74,7 +100,8 @@ pub fn table(catalogue: &Catalogue) -> TokenStream {
         let blocks = record.linkage.blocks();
         let mask = record.linkage.open.iter().rev().fold(0usize, |mask, &open| 2 * mask + usize::from(open));
         let stem = stem(&record.linkage);
-        let step = format_ident!("step_{stem}");
+        let accelerations = GroundMotion::ALL.map(|ground| accelerations_name(&stem, ground));
+        let energies = format_ident!("energies_{stem}");
         let dof = record.linkage.dof();
         let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {
             let constants = format_ident!("forces_{}_{stem}", interface + 1);
@@ -82,7 +109,7 @@ pub fn table(catalogue: &Catalogue) -> TokenStream {
             quote! { InterfaceEquations { constants: #constants, forces: #forces } }
         });
         quote! {
-            (#blocks, #mask) => LinkageEquations { dof: #dof, constants: #step, interfaces: vec![#(#interfaces),*] },
+            (#blocks, #mask) => LinkageEquations { dof: #dof, accelerations: [#(#accelerations),*], energies: #energies, interfaces: vec![#(#interfaces),*] },
         }
     });
     let doc = doc(
@@ -93,5 +120,35 @@ pub fn table(catalogue: &Catalogue) -> TokenStream {
         pub fn linkage<S: Scalar>(blocks: usize, mask: usize) -> Option<LinkageEquations<S>> {
             Some(match (blocks, mask) { #(#arms)* _ => return None })
         }
+    }
+}
+
+/// `fn mode(column, pattern, ground)` and the constant by which the solver is given it.
+pub fn modes(catalogue: &Catalogue) -> TokenStream {
+    let max_blocks = catalogue.max_blocks;
+    let arms = (1..=max_blocks).flat_map(|dof| {
+        GroundMotion::ALL.map(|ground| {
+            let program = step_type(dof, ground);
+            let ground = ground_name(ground);
+            quote! { (#dof, GroundMotion::#ground) => generated_mode::<#program>(column, pattern, ground, linkage), }
+        })
+    });
+    let name = format!("generated for up to {max_blocks} block(s)");
+    quote! {
+        /// The mode of a pattern on these equations; `None` at rest and for larger columns.
+        pub fn mode(column: &Column, pattern: &Pattern, ground: GroundMotion) -> Option<Mode> {
+            match (pattern.dof(), ground) { #(#arms)* _ => None }
+        }
+
+        /// These equations, for the solver.
+        pub const EQUATIONS: Equations = Equations { name: #name, mode };
+    }
+}
+
+/// The variant's name.
+pub fn ground_name(ground: GroundMotion) -> Ident {
+    match ground {
+        GroundMotion::Horizontal => format_ident!("Horizontal"),
+        GroundMotion::WithVertical => format_ident!("WithVertical"),
     }
 }

@@ -1,14 +1,24 @@
 //! Step programs and contact-force programs as Rust items.
 
-use super::doc;
 use super::expression::Writer;
+use super::{doc, number};
+use crate::GroundMotion;
 use crate::optimise::{Program, Routine};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::HashMap;
 
-/// The type that stands for the step program of this many degrees of freedom.
-pub fn step_type(dof: usize) -> Ident {
-    format_ident!("Dof{dof}")
+/// The type that stands for the accelerations of this many degrees of freedom.
+pub fn step_type(dof: usize, ground: GroundMotion) -> Ident {
+    match ground {
+        GroundMotion::Horizontal => format_ident!("HorizontalDof{dof}"),
+        GroundMotion::WithVertical => format_ident!("Dof{dof}"),
+    }
+}
+
+/// The type that stands for mass matrix and energies of this many degrees of freedom.
+pub fn energy_type(dof: usize) -> Ident {
+    format_ident!("EnergiesDof{dof}")
 }
 
 /// The name of a contact-force program.
@@ -16,25 +26,31 @@ pub fn force_name(index: usize) -> Ident {
     format_ident!("contact_forces_{}", index + 1)
 }
 
-/// `struct DofN` and its `StepProgram`.
-pub fn step_program(program: &Program) -> TokenStream {
-    let dof = program.dof;
-    let name = step_type(dof);
-    let count = program.constants.len();
-    let mut text = format!("Step-time equations shared by all modes with {dof} free angle(s).\n");
+/// What of a program a reader wants to know: costs and constants.
+fn describe(title: &str, program: &Program) -> TokenStream {
+    let mut text = format!("{title}\n");
     for routine in &program.routines {
         if let Some(operations) = program.operations(routine.name) {
             text.push_str(&format!("\n- `{}`: {operations}", routine.name));
         }
     }
-    text.push_str("\n\nScene constants, in order:\n");
+    if !program.constants.is_empty() {
+        text.push_str("\n\nScene constants, in order:\n");
+    }
     for constant in &program.constants {
         text.push_str(&format!("\n- `{}` ({})", constant.name, constant.unit));
     }
-    let doc = doc(&text);
+    doc(&text)
+}
+
+/// A `struct` and its `StepProgram`. `literals` are the values of the constants of a baked column.
+pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Literals) -> TokenStream {
+    let dof = program.dof;
+    let count = literals.remaining(program);
+    let energies = energy_type(dof);
+    let doc = describe(title, program);
     let state = 2 * dof;
-    let body = |name: &str| routine_body(program, program.routines.iter().find(|r| r.name == name));
-    let (acceleration, mass_matrix, energies) = (body("acceleration"), body("mass_matrix"), body("energies"));
+    let acceleration = body(program, "acceleration", literals);
     quote! {
         #doc
         #[derive(Clone, Copy, Debug)]
@@ -44,8 +60,8 @@ pub fn step_program(program: &Program) -> TokenStream {
             const DOF: usize = #dof;
             type Vector = [S; #dof];
             type State = [S; #state];
-            type Matrix = [[S; #dof]; #dof];
             type Constants = [S; #count];
+            type Energies = #energies;
 
             #[inline(always)]
             fn vector(fill: S) -> [S; #dof] {
@@ -61,6 +77,28 @@ pub fn step_program(program: &Program) -> TokenStream {
             fn acceleration(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], ground_x: S, gravity: S) -> [S; #dof] {
                 #acceleration
             }
+        }
+    }
+}
+
+/// A `struct` and its `EnergyProgram`.
+pub fn energy_program(program: &Program) -> TokenStream {
+    let dof = program.dof;
+    let name = energy_type(dof);
+    let count = program.constants.len();
+    let title = format!("Mass matrix and energies shared by all modes with {dof} free angle(s).");
+    let doc = describe(&title, program);
+    let literals = Literals::default();
+    let (mass_matrix, energies) = (body(program, "mass_matrix", &literals), body(program, "energies", &literals));
+    quote! {
+        #doc
+        #[derive(Clone, Copy, Debug)]
+        pub struct #name;
+
+        impl<S: Scalar> EnergyProgram<S> for #name {
+            type Vector = [S; #dof];
+            type Matrix = [[S; #dof]; #dof];
+            type Constants = [S; #count];
 
             fn mass_matrix(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof]) -> [[S; #dof]; #dof] {
                 #mass_matrix
@@ -73,10 +111,29 @@ pub fn step_program(program: &Program) -> TokenStream {
     }
 }
 
-fn routine_body(program: &Program, routine: Option<&Routine>) -> TokenStream {
+fn body(program: &Program, name: &str, literals: &Literals) -> TokenStream {
+    routine_body(program, program.routines.iter().find(|routine| routine.name == name), literals)
+}
+
+/// Values of scene constants that are known when the code is written, by name.
+#[derive(Clone, Debug, Default)]
+pub struct Literals(pub HashMap<String, f64>);
+
+impl Literals {
+    /// How many constants a program is still to be given.
+    fn remaining(&self, program: &Program) -> usize {
+        program.constants.iter().filter(|constant| !self.0.contains_key(&constant.name)).count()
+    }
+}
+
+fn routine_body(program: &Program, routine: Option<&Routine>, literals: &Literals) -> TokenStream {
     let Some(routine) = routine else { return TokenStream::new() };
     let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
     let mut writer = Writer::new(&program.arena, values, |symbol| {
+        if let Some(value) = literals.0.get(symbol) {
+            let value = number(*value);
+            return quote! { S::from_f64(#value) };
+        }
         let name = format_ident!("{symbol}");
         quote! { #name }
     });
@@ -92,12 +149,12 @@ fn routine_body(program: &Program, routine: Option<&Routine>) -> TokenStream {
         quote! { [#(#outputs),*] }
     };
     let used = quote! { #(#lets)* #result }.to_string();
-    let inputs = inputs(program, routine, &used);
+    let inputs = inputs(program, routine, &used, literals);
     quote! { #inputs #(#lets)* #result }
 }
 
 /// `let [cos_1, …] = *cos;`, names that the body does not read left out.
-fn inputs(program: &Program, routine: &Routine, used: &str) -> TokenStream {
+fn inputs(program: &Program, routine: &Routine, used: &str, literals: &Literals) -> TokenStream {
     let words: std::collections::HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     let mut lets = TokenStream::new();
     let families: &[&str] = match routine.name {
@@ -109,7 +166,8 @@ fn inputs(program: &Program, routine: &Routine, used: &str) -> TokenStream {
         let names: Vec<String> = (1..=program.dof).map(|index| format!("{family}_{index}")).collect();
         lets.extend(destructure(family, &names, &words));
     }
-    let names: Vec<String> = program.constants.iter().map(|constant| constant.name.clone()).collect();
+    let given = program.constants.iter().filter(|constant| !literals.0.contains_key(&constant.name));
+    let names: Vec<String> = given.map(|constant| constant.name.clone()).collect();
     lets.extend(destructure("constants", &names, &words));
     lets
 }
@@ -135,7 +193,7 @@ pub fn force_program(index: usize, program: &Program) -> TokenStream {
     let name = force_name(index);
     let (dof, count) = (program.dof, program.constants.len());
     let Some(routine) = program.routines.first() else { return TokenStream::new() };
-    let body = routine_body(program, Some(routine));
+    let body = routine_body(program, Some(routine), &Literals::default());
     let results = routine.outputs.len();
     let operations = program.operations("contact_forces").unwrap_or_default();
     let what = if results == 3 { "closed interface: `[N, T, M]`" } else { "open interface: `[N, T]`" };
@@ -150,7 +208,7 @@ pub fn force_program(index: usize, program: &Program) -> TokenStream {
     let mismatch = "the caller passes as many angles and constants as the linkage has";
     quote! {
         #doc
-        fn #name<S: Scalar>(constants: &[S], cos: &[S], sin: &[S], omega: &[S], alpha: &[S], ground_x: S, gravity: S) -> [S; 3] {
+        pub fn #name<S: Scalar>(constants: &[S], cos: &[S], sin: &[S], omega: &[S], alpha: &[S], ground_x: S, gravity: S) -> [S; 3] {
             let constants: &[S; #count] = constants.try_into().expect(#mismatch);
             let cos: &[S; #dof] = cos.try_into().expect(#mismatch);
             let sin: &[S; #dof] = sin.try_into().expect(#mismatch);
@@ -159,22 +217,5 @@ pub fn force_program(index: usize, program: &Program) -> TokenStream {
             let forces: [S; #results] = { #body };
             [#(#values),*]
         }
-    }
-}
-
-/// A macro that runs a body with the step program of a number of degrees of freedom known at run time.
-pub fn dispatch(programs: &[Program]) -> TokenStream {
-    let arms = programs.iter().map(|program| {
-        let (dof, name) = (program.dof, step_type(program.dof));
-        quote! { #dof => { type $Program = $crate::generated::equations::#name; $body } }
-    });
-    quote! {
-        /// Runs `$body` with `$Program` the step program of `$dof` degrees of freedom, or `$other` where there is none.
-        macro_rules! with_step_program {
-            ($dof:expr, $Program:ident => $body:expr, _ => $other:expr) => {
-                match $dof { #(#arms)* _ => $other }
-            };
-        }
-        pub(crate) use with_step_program;
     }
 }

@@ -19,6 +19,8 @@ pub struct Symbols {
     pub ground_x: Expr,
     /// Effective gravity `g + ÿ_g [m/s²]`: vertical ground motion acts like a change of gravity.
     pub gravity: Expr,
+    /// Gravity `g [m/s²]` where the ground does not move vertically: fixed by the scene.
+    pub steady_gravity: Expr,
     /// Virtual angle of the part of a link above a closed interface `[rad]`; only contact forces use it.
     pub psi: Expr,
     /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
@@ -46,8 +48,9 @@ impl Symbols {
         let inertia = family("inertia", blocks, Level::Scene, Unit(2, 1, 0));
         let ground_x = arena.symbol("ground_x", Level::State, Unit(1, 0, -2));
         let gravity = arena.symbol("gravity", Level::State, Unit(1, 0, -2));
+        let steady_gravity = arena.symbol("gravity", Level::Scene, Unit(1, 0, -2));
         let psi = arena.symbol("psi", Level::State, Unit::default());
-        Symbols { theta, omega, alpha, ground_x, gravity, psi, pivot, half_height, mass, inertia }
+        Symbols { theta, omega, alpha, ground_x, gravity, steady_gravity, psi, pivot, half_height, mass, inertia }
     }
 }
 

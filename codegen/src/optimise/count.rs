@@ -36,11 +36,16 @@ impl fmt::Display for Operations {
     }
 }
 
-/// Counts one call of a routine; shared nodes count once, sines and cosines are its input.
+/// Counts one call of a routine; shared nodes count once, sines and cosines are its input, changes of sign are free.
 pub fn operations(arena: &Arena, routine: &Routine) -> Operations {
+    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
+    count_expressions(arena, values)
+}
+
+/// Counts the evaluation of some expressions together.
+pub fn count_expressions(arena: &Arena, values: impl IntoIterator<Item = Expr>) -> Operations {
     let mut count = Operations::default();
     let mut seen = HashSet::new();
-    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
     for value in values {
         visit(arena, value, &mut seen, &mut count);
     }

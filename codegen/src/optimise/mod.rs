@@ -8,8 +8,9 @@ mod count;
 mod forces;
 mod program;
 mod step;
+mod units;
 
-pub use count::Operations;
+pub use count::{Operations, count_expressions};
 pub use forces::force_program;
 pub use program::{Constant, Program, Routine, Statement};
-pub use step::step_program;
+pub use step::{Coupling, Form, Parts, Rates, Units, Weight, acceleration_program, admitted, cheapest, energy_program};

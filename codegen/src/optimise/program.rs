@@ -9,11 +9,16 @@ use crate::mechanics::{Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
 use std::collections::HashMap;
 
+/// How constants are called that have no name of their own: numbered by first use.
+const UNNAMED: &str = "constant_";
+
 /// A scene constant of a program.
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// Name in the emitted code.
     pub name: String,
+    /// Its symbol in the program's arena.
+    pub symbol: Expr,
     /// Unit of the constant.
     pub unit: Unit,
     /// What it is, in the arena of the derivation.
@@ -40,6 +45,28 @@ pub struct Routine {
     pub statements: Vec<Statement>,
     /// Results, in the program's arena.
     pub outputs: Vec<Expr>,
+}
+
+impl Routine {
+    /// Whether a symbol occurs in it.
+    fn reads(&self, arena: &Arena, symbol: Expr) -> bool {
+        let values = self.statements.iter().map(|statement| statement.value).chain(self.outputs.iter().copied());
+        values.into_iter().any(|value| occurs(arena, value, symbol))
+    }
+
+    /// Leaves out statements that the outputs do not need.
+    fn drop_unused(&mut self, arena: &Arena) {
+        let mut needed = self.outputs.clone();
+        let mut kept = Vec::with_capacity(self.statements.len());
+        for statement in self.statements.drain(..).rev() {
+            if needed.iter().any(|&value| occurs(arena, value, statement.symbol)) {
+                needed.push(statement.value);
+                kept.push(statement);
+            }
+        }
+        kept.reverse();
+        self.statements = kept;
+    }
 }
 
 /// Routines that share their scene constants.
@@ -70,6 +97,46 @@ impl Program {
             }
         }
         text
+    }
+
+    /// Replaces symbols by values throughout; names of what has become a symbol or a number vanish.
+    pub fn rewrite(&mut self, mut replacement: HashMap<Expr, Expr>) {
+        for routine in &mut self.routines {
+            let mut kept = Vec::with_capacity(routine.statements.len());
+            for mut statement in routine.statements.drain(..) {
+                statement.value = self.arena.substitute(statement.value, &replacement);
+                if is_plain(&self.arena, statement.value) {
+                    replacement.insert(statement.symbol, statement.value);
+                } else {
+                    kept.push(statement);
+                }
+            }
+            for output in &mut routine.outputs {
+                *output = self.arena.substitute(*output, &replacement);
+            }
+            routine.statements = kept;
+            routine.drop_unused(&self.arena);
+        }
+    }
+
+    /// Puts a statement before all others of the routines that use it.
+    pub fn prepend(&mut self, name: &str, symbol: Expr, value: Expr) {
+        for routine in &mut self.routines {
+            routine.statements.insert(0, Statement { name: name.into(), symbol, value });
+            routine.drop_unused(&self.arena);
+        }
+    }
+
+    /// Leaves out constants that no routine reads.
+    pub fn drop_unused_constants(&mut self) {
+        let is_read = |symbol: Expr| self.routines.iter().any(|routine| routine.reads(&self.arena, symbol));
+        let read: Vec<Expr> = self.constants.iter().map(|constant| constant.symbol).filter(|s| is_read(*s)).collect();
+        self.constants.retain(|constant| read.contains(&constant.symbol));
+        let unnamed = self.constants.iter_mut().filter(|constant| constant.name.starts_with(UNNAMED));
+        for (index, constant) in unnamed.enumerate() {
+            constant.name = format!("{UNNAMED}{}", index + 1);
+            self.arena.rename(constant.symbol, &constant.name);
+        }
     }
 
     /// Operations of one call of a routine.
@@ -131,7 +198,7 @@ impl<'a> ProgramBuilder<'a> {
         }
         let unit = self.source.unit(scene);
         let symbol = self.program.arena.symbol(name, Level::Scene, unit);
-        self.program.constants.push(Constant { name: name.into(), unit, source: scene });
+        self.program.constants.push(Constant { name: name.into(), symbol, unit, source: scene });
         self.known.insert(scene, symbol);
         symbol
     }
@@ -194,7 +261,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 
     fn next_constant_name(&self) -> String {
-        format!("constant_{}", self.program.constants.len() + 1)
+        format!("{UNNAMED}{}", self.program.constants.len() + 1)
     }
 
     /// Names a value: later uses of it, or of its opposite, read the name.
@@ -239,22 +306,31 @@ impl<'a> ProgramBuilder<'a> {
 
     /// Closes a routine: the statements since the last one, those that the outputs do not need left out.
     pub fn finish_routine(&mut self, name: &'static str, outputs: Vec<Expr>) {
-        let mut needed = outputs.clone();
-        let mut kept = Vec::new();
-        for statement in self.statements.drain(..).rev() {
-            if needed.iter().any(|&value| occurs(&self.program.arena, value, statement.symbol)) {
-                needed.push(statement.value);
-                kept.push(statement.clone());
-            }
+        let statements = std::mem::take(&mut self.statements);
+        for statement in &statements {
             self.known.retain(|_, symbol| *symbol != statement.symbol);
         }
-        kept.reverse();
-        self.program.routines.push(Routine { name, statements: kept, outputs });
+        let mut routine = Routine { name, statements, outputs };
+        routine.drop_unused(&self.program.arena);
+        self.program.routines.push(routine);
     }
 
     /// The finished program.
-    pub fn finish(self) -> Program {
+    pub fn finish(mut self) -> Program {
+        self.program.drop_unused_constants();
         self.program
+    }
+}
+
+/// A symbol, the opposite of one, or a number.
+fn is_plain(arena: &Arena, expr: Expr) -> bool {
+    match arena.node(expr) {
+        Node::Symbol(_) | Node::Number(_) => true,
+        Node::Sum(terms) => match terms.as_slice() {
+            [(coefficient, term)] => *coefficient == -Rational::ONE && is_plain(arena, *term),
+            _ => false,
+        },
+        _ => false,
     }
 }
 

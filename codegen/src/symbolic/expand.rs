@@ -2,45 +2,66 @@
 
 use super::{Arena, Expr, Level, Node, Rational};
 
+/// How deep [`Arena::expand`] goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Depth {
+    /// Sums that hold no state are coefficients and stay factored.
+    State,
+    /// Every sum is multiplied out.
+    All,
+}
+
 impl Arena {
     /// The expression as a sum of products of state atoms with scene coefficients; even powers of sines turned into
     /// cosines (`sin² = 1 - cos²`), so that what is equal by Pythagoras becomes equal.
     ///
     /// Sums that hold no state stay factored: they are coefficients, evaluated once per scene.
     pub fn expand(&mut self, expr: Expr) -> Expr {
-        if self.level(expr) != Level::State {
+        self.multiply_out(expr, Depth::State)
+    }
+
+    /// Whether the expression is zero for all values of its symbols: a proof by multiplying everything out.
+    pub fn is_identically_zero(&mut self, expr: Expr) -> bool {
+        let expanded = self.multiply_out(expr, Depth::All);
+        self.is_zero(expanded)
+    }
+
+    fn multiply_out(&mut self, expr: Expr, depth: Depth) -> Expr {
+        if depth == Depth::State && self.level(expr) != Level::State {
             return expr;
         }
         match self.node(expr).clone() {
             Node::Sum(terms) => {
-                let expanded: Vec<_> =
-                    terms.into_iter().map(|(coefficient, term)| (coefficient, self.expand(term))).collect();
+                let expanded: Vec<_> = terms
+                    .into_iter()
+                    .map(|(coefficient, term)| (coefficient, self.multiply_out(term, depth)))
+                    .collect();
                 self.sum(expanded)
             }
             Node::Product(factors) => {
                 let mut result = self.one();
                 for (factor, exponent) in factors {
-                    let power = self.expand_power(factor, exponent);
-                    result = self.distribute(result, power);
+                    let power = self.expand_power(factor, exponent, depth);
+                    result = self.distribute(result, power, depth);
                 }
-                self.reduce_sines(result)
+                self.reduce_sines(result, depth)
             }
             _ => expr,
         }
     }
 
-    fn expand_power(&mut self, factor: Expr, exponent: i32) -> Expr {
-        let sums_of_state = self.level(factor) == Level::State && matches!(self.node(factor), Node::Sum(_));
-        if !sums_of_state || exponent < 1 {
+    fn expand_power(&mut self, factor: Expr, exponent: i32, depth: Depth) -> Expr {
+        let is_open = depth == Depth::All || self.level(factor) == Level::State;
+        if !(is_open && matches!(self.node(factor), Node::Sum(_))) || exponent < 1 {
             return self.product([(factor, exponent)]);
         }
-        let base = self.expand(factor);
-        (1..exponent).fold(base, |power, _| self.distribute(power, base))
+        let base = self.multiply_out(factor, depth);
+        (1..exponent).fold(base, |power, _| self.distribute(power, base, depth))
     }
 
-    /// `a · b`, multiplied out over state sums.
-    fn distribute(&mut self, a: Expr, b: Expr) -> Expr {
-        let (left, right) = (self.addends(a), self.addends(b));
+    /// `a · b`, multiplied out over sums.
+    fn distribute(&mut self, a: Expr, b: Expr, depth: Depth) -> Expr {
+        let (left, right) = (self.addends(a, depth), self.addends(b, depth));
         let mut terms = Vec::with_capacity(left.len() * right.len());
         for &(p, x) in &left {
             for &(q, y) in &right {
@@ -50,17 +71,17 @@ impl Arena {
         self.sum(terms)
     }
 
-    /// Terms of a state sum; a sum without state counts as one term, which keeps it factored.
-    fn addends(&self, expr: Expr) -> Vec<(Rational, Expr)> {
-        match self.level(expr) {
-            Level::State => self.terms(expr),
+    /// Terms of a sum; one that stays factored counts as one term.
+    fn addends(&self, expr: Expr, depth: Depth) -> Vec<(Rational, Expr)> {
+        match (depth, self.level(expr)) {
+            (Depth::All, _) | (_, Level::State) => self.terms(expr),
             _ => vec![(Rational::ONE, expr)],
         }
     }
 
-    fn reduce_sines(&mut self, expr: Expr) -> Expr {
+    fn reduce_sines(&mut self, expr: Expr, depth: Depth) -> Expr {
         let mut terms = Vec::new();
-        for (coefficient, term) in self.addends(expr) {
+        for (coefficient, term) in self.addends(expr, depth) {
             let factors = self.factors(term);
             let sine = factors.iter().find(|(factor, power)| *power >= 2 && matches!(self.node(*factor), Node::Sin(_)));
             let Some(&(sine, _)) = sine else {
@@ -72,7 +93,7 @@ impl Arena {
             let rest = self.product(factors.iter().map(|&(f, power)| (f, if f == sine { power - 2 } else { power })));
             let shifted = self.product([(rest, 1), (cosine, 2)]);
             let reduced = self.sub(rest, shifted);
-            terms.push((coefficient, self.reduce_sines(reduced)));
+            terms.push((coefficient, self.reduce_sines(reduced, depth)));
         }
         self.sum(terms)
     }

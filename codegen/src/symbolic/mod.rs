@@ -106,6 +106,17 @@ impl Arena {
         names.filter_map(|(rank, symbol)| Some((*self.index.get(&Node::Symbol(rank as u32))?, symbol.name.as_str())))
     }
 
+    /// Gives a symbol another name; nothing else changes. A panic means that the expression is no symbol.
+    pub fn rename(&mut self, symbol: Expr, name: &str) {
+        let Node::Symbol(rank) = *self.node(symbol) else { panic!("only a symbol has a name") };
+        self.symbols[rank as usize].name = name.into();
+    }
+
+    /// The symbol declared first under this name.
+    pub fn symbol_named(&self, name: &str) -> Option<Expr> {
+        self.symbols().find(|(_, known)| *known == name).map(|(symbol, _)| symbol)
+    }
+
     /// Declares a symbol. State symbols are to be declared before scene symbols: the order of declaration is the
     /// order of terms.
     pub fn symbol(&mut self, name: impl Into<String>, level: Level, unit: Unit) -> Expr {

@@ -1,0 +1,102 @@
+//! The step-time programs of a linkage: accelerations in the cheapest of several forms, mass matrix and energies.
+//!
+//! Every form is written out, its operations are counted, and the cheapest is kept; forms that are not the same equations
+//! (proved by multiplying out) are not considered.
+
+mod acceleration;
+mod form;
+mod parts;
+
+pub use form::{Coupling, Form, Rates, Units, Weight};
+pub use parts::Parts;
+
+use super::condense::collect;
+use super::count::Operations;
+use super::program::{Program, ProgramBuilder};
+use super::units::in_units;
+use crate::GroundMotion;
+use crate::mechanics::Symbols;
+use crate::symbolic::{Arena, Expr, Level, Rational};
+
+/// The accelerations in a form that [`admitted`] has let through.
+pub fn acceleration_program(
+    arena: &mut Arena,
+    symbols: &Symbols,
+    parts: &Parts,
+    ground: GroundMotion,
+    form: Form,
+) -> Program {
+    let program = acceleration::acceleration_program(arena, symbols, parts, ground, form);
+    in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
+}
+
+/// The forms in which these equations can be written, with what one evaluation costs, in order of preference among equals.
+pub fn admitted(arena: &mut Arena, symbols: &Symbols, parts: &Parts, ground: GroundMotion) -> Vec<(Form, Operations)> {
+    let mut result = Vec::new();
+    for form in Form::all() {
+        let needs_steady_gravity = form.units == Units::UnitInertiaAndGravity;
+        if needs_steady_gravity && ground == GroundMotion::WithVertical
+            || !parts.admit(arena, symbols, form.coupling, form.rates)
+        {
+            continue;
+        }
+        let program = acceleration_program(arena, symbols, parts, ground, form);
+        result.push((form, program.operations("acceleration").unwrap_or_default()));
+    }
+    result
+}
+
+/// The cheapest of the admitted forms.
+pub fn cheapest(admitted: &[(Form, Operations)]) -> Option<Form> {
+    admitted.iter().min_by_key(|(_, operations)| (operations.divisions, operations.flops())).map(|(form, _)| *form)
+}
+
+/// Mass matrix and energies.
+pub fn energy_program(arena: &mut Arena, symbols: &Symbols, parts: &Parts) -> Program {
+    let dof = symbols.theta.len();
+    let mut builder = ProgramBuilder::new(arena, symbols);
+
+    parts.name_vectors(&mut builder);
+    let outputs = (0..dof).flat_map(|row| (0..dof).map(move |column| (row, column)));
+    let outputs =
+        outputs.map(|(row, column)| builder.translate(parts.mass[row.max(column)][row.min(column)])).collect();
+    builder.finish_routine("mass_matrix", outputs);
+
+    parts.name_vectors(&mut builder);
+    let outputs = energies(&mut builder, symbols, parts);
+    builder.finish_routine("energies", outputs);
+    builder.finish()
+}
+
+/// `[T, V]`
+fn energies(builder: &mut ProgramBuilder, symbols: &Symbols, parts: &Parts) -> Vec<Expr> {
+    let dof = parts.mass.len();
+    let mut kinetic = Vec::new();
+    for row in 0..dof {
+        for column in 0..=row {
+            let rates = builder.source.mul(symbols.omega[row], symbols.omega[column]);
+            let (entry, rates) = (builder.translate(parts.mass[row][column]), builder.translate(rates));
+            let weight = if row == column { Rational::new(1, 2) } else { Rational::ONE };
+            kinetic.push((weight, builder.arena().mul(entry, rates)));
+        }
+    }
+    let kinetic = builder.arena().sum(kinetic);
+    let fixed = builder.constant(parts.height.1, "ground_moment");
+    let turning = condense_per_angle(builder.source, parts.height.0);
+    let turning = builder.translate(turning);
+    let gravity = builder.translate(symbols.gravity);
+    let height = builder.arena().add(turning, fixed);
+    vec![kinetic, builder.arena().mul(gravity, height)]
+}
+
+/// Joins the coefficients of each sine and cosine of a sum.
+fn condense_per_angle(arena: &mut Arena, expr: Expr) -> Expr {
+    let mut seen: Vec<Expr> = Vec::new();
+    for (_, term) in arena.terms(expr) {
+        let state = arena.factors(term).into_iter().find(|(factor, _)| arena.level(*factor) == Level::State);
+        if let Some((factor, _)) = state.filter(|(factor, _)| !seen.contains(factor)) {
+            seen.push(factor);
+        }
+    }
+    collect(arena, expr, &seen)
+}

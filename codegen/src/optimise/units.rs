@@ -1,0 +1,49 @@
+//! Choosing units in which constants are one and vanish.
+//!
+//! A program's result is in rad/s² whatever its constants are measured in. With the lowest link's moment of inertia as
+//! the unit of mass (times length²) and gravity as the unit of acceleration, the seconds kept, both drop out of the code.
+
+use super::program::{Constant, Program};
+use super::step::Units;
+use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
+use std::collections::HashMap;
+
+/// The program with its constants in other units; `inertia` and `gravity` are scene expressions of `source`.
+pub fn in_units(mut program: Program, source: &mut Arena, units: Units, inertia: Expr, gravity: Expr) -> Program {
+    if units == Units::Si {
+        return program;
+    }
+    let (inertia_unit, gravity_power) = (source.unit(inertia), i32::from(units == Units::UnitInertiaAndGravity));
+    debug_assert_eq!(inertia_unit, Unit(2, 1, 0));
+    // One length is gravity · s² or a metre, one mass the inertia over length².
+    for constant in &mut program.constants {
+        let Unit(metres, kilograms, _) = constant.unit;
+        let lengths = gravity_power * (2 * kilograms - metres);
+        constant.source = source.product([(constant.source, 1), (inertia, -kilograms), (gravity, lengths)]);
+        constant.unit = source.unit(constant.source);
+    }
+    let mut rename = HashMap::new();
+    let mut ground = None;
+    if gravity_power > 0 {
+        let ground_x = program.arena.symbol_named("ground_x").expect("an input of every program");
+        let inverse = program.arena.symbol("inverse_gravity", Level::Scene, Unit(-1, 0, 2));
+        let unit = source.reciprocal(gravity);
+        let name = "inverse_gravity".into();
+        program.constants.push(Constant { name, symbol: inverse, unit: Unit(-1, 0, 2), source: unit });
+        let relative = program.arena.symbol("ground_over_gravity", Level::State, Unit::default());
+        let value = program.arena.mul(ground_x, inverse);
+        rename.insert(ground_x, relative);
+        ground = Some((relative, value));
+    }
+    for constant in &program.constants {
+        if *source.node(constant.source) == Node::Number(Rational::ONE) {
+            rename.insert(constant.symbol, program.arena.one());
+        }
+    }
+    program.rewrite(rename);
+    if let Some((symbol, value)) = ground {
+        program.prepend("ground_over_gravity", symbol, value);
+    }
+    program.drop_unused_constants();
+    program
+}

@@ -1,0 +1,126 @@
+//! What generated code is made of: the arithmetic it needs, the column it reads, the functions it gives.
+//!
+//! Generated functions are generic over the [`Scalar`]: doubles for a run, lanes for an ensemble, double-doubles for a
+//! reference, duals for derivatives. Implementations are in [`crate::scalar`]. This file depends on nothing.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// The arithmetic that generated equations need.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + 'static
+{
+    /// The nearest value.
+    fn from_f64(value: f64) -> Self;
+    /// `1 / self`
+    fn recip(self) -> Self;
+    /// Sine and cosine of an angle `[rad]`; odd and even to the last bit.
+    fn sin_cos(self) -> (Self, Self);
+}
+
+/// What a column is to the generated equations: sizes with the sides of the open interfaces in the signs of the pivots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry<S> {
+    /// Gravity `[m/s²]`.
+    pub gravity: S,
+    /// Pivot offsets `s_i c_i [m]`, zero at closed interfaces, length N.
+    pub pivot: Vec<S>,
+    /// Half-heights `[m]`, length N.
+    pub half_height: Vec<S>,
+    /// Masses `[kg]`, length N.
+    pub mass: Vec<S>,
+    /// Centroidal moments of inertia `[kg m²]`, length N.
+    pub inertia: Vec<S>,
+}
+
+impl<S: Scalar> Geometry<S> {
+    /// The same column in another scalar; `lift` is given each size in the order of the fields, base first.
+    pub fn lift<T>(&self, mut lift: impl FnMut(S) -> T) -> Geometry<T> {
+        let mut all = |values: &[S]| values.iter().map(|value| lift(*value)).collect();
+        let (pivot, half_height) = (all(&self.pivot), all(&self.half_height));
+        let (mass, inertia) = (all(&self.mass), all(&self.inertia));
+        Geometry { gravity: lift(self.gravity), pivot, half_height, mass, inertia }
+    }
+}
+
+/// The accelerations of all modes with one number of degrees of freedom. Implemented by generated code.
+pub trait StepProgram<S: Scalar> {
+    /// Free angles.
+    const DOF: usize;
+    /// One value per free angle.
+    type Vector: AsRef<[S]> + AsMut<[S]> + Copy;
+    /// `[θ, θ̇]`, length 2·dof.
+    type State: AsRef<[S]> + Clone;
+    /// Scene constants, in the order of the program's doc.
+    type Constants: for<'a> TryFrom<&'a [S]> + Clone;
+    /// Mass matrix and energies of the same modes.
+    type Energies: EnergyProgram<S, Vector = Self::Vector>;
+
+    /// A vector filled with one value.
+    fn vector(fill: S) -> Self::Vector;
+
+    /// A state filled with one value.
+    fn state(fill: S) -> Self::State;
+
+    /// `θ̈ [rad/s²]` from the cosines and sines of the angles, the rates `[rad/s]`, the horizontal ground acceleration and
+    /// the effective gravity `g + ÿ_g [m/s²]`. Programs for horizontal ground motion have gravity among their constants and
+    /// do not read the last one.
+    fn acceleration(
+        constants: &Self::Constants,
+        cos: &Self::Vector,
+        sin: &Self::Vector,
+        omega: &Self::Vector,
+        ground_x: S,
+        gravity: S,
+    ) -> Self::Vector;
+}
+
+/// Mass matrix and energies of all modes with one number of degrees of freedom. Implemented by generated code.
+pub trait EnergyProgram<S: Scalar> {
+    /// One value per free angle.
+    type Vector;
+    /// dof × dof.
+    type Matrix: AsRef<[Self::Vector]>;
+    /// Scene constants, in the order of the program's doc.
+    type Constants: for<'a> TryFrom<&'a [S]> + Clone;
+
+    /// Mass matrix `[kg m²]`.
+    fn mass_matrix(constants: &Self::Constants, cos: &Self::Vector, sin: &Self::Vector) -> Self::Matrix;
+
+    /// Kinetic and potential energy `[J]`.
+    fn energies(
+        constants: &Self::Constants,
+        cos: &Self::Vector,
+        sin: &Self::Vector,
+        omega: &Self::Vector,
+        gravity: S,
+    ) -> [S; 2];
+}
+
+/// From a column to the scene constants of one program, in the program's order.
+pub type SceneConstants<S> = fn(&Geometry<S>) -> Vec<S>;
+
+/// Contact forces `[N, T, M]` of one interface from
+/// `(constants, cos θ, sin θ, θ̇, θ̈, ground_x, gravity)`; `M` is zero where the interface is open.
+pub type ContactForces<S> = fn(&[S], &[S], &[S], &[S], &[S], S, S) -> [S; 3];
+
+/// Generated equations of the contact forces at one interface.
+#[derive(Clone, Copy, Debug)]
+pub struct InterfaceEquations<S> {
+    /// Scene constants of `forces`.
+    pub constants: SceneConstants<S>,
+    /// The forces.
+    pub forces: ContactForces<S>,
+}
+
+/// Generated equations of one linkage.
+#[derive(Clone, Debug)]
+pub struct LinkageEquations<S> {
+    /// Free angles.
+    pub dof: usize,
+    /// Scene constants of the accelerations: for horizontal ground motion, and for any.
+    pub accelerations: [SceneConstants<S>; 2],
+    /// Scene constants of mass matrix and energies.
+    pub energies: SceneConstants<S>,
+    /// Per interface, base first.
+    pub interfaces: Vec<InterfaceEquations<S>>,
+}

@@ -1,0 +1,151 @@
+//! Scalars for generated functions: doubles, lanes of doubles, dual numbers.
+//!
+//! | scalar | for |
+//! |---|---|
+//! | `f64` | a run |
+//! | `f64x4`, `f64x8` of `wide` | the same mode of several scenes at once, each lane bit for bit what `f64` gives |
+//! | [`Dual`] | derivatives by column parameters or by the state, exact to rounding |
+//!
+//! Neither doubles nor lanes use fused multiply-adds, so results do not depend on the machine. A scalar of one's own (a
+//! double-double, an interval) needs the operations of [`Scalar`] and nothing else.
+
+use crate::program::Scalar;
+use std::ops::{Add, Mul, Neg, Sub};
+use wide::{f64x4, f64x8};
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn from_f64(value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn recip(self) -> f64 {
+        1.0 / self
+    }
+
+    /// From `libm`, so that results do not depend on the machine's C library.
+    #[inline(always)]
+    fn sin_cos(self) -> (f64, f64) {
+        libm::sincos(self)
+    }
+}
+
+/// Lanes: what `f64` does, lane by lane.
+macro_rules! lanes {
+    ($lanes:ty) => {
+        impl Scalar for $lanes {
+            #[inline(always)]
+            fn from_f64(value: f64) -> $lanes {
+                <$lanes>::splat(value)
+            }
+
+            #[inline(always)]
+            fn recip(self) -> $lanes {
+                <$lanes>::splat(1.0) / self
+            }
+
+            fn sin_cos(self) -> ($lanes, $lanes) {
+                let (mut sin, mut cos) = (self.to_array(), self.to_array());
+                for (sin, cos) in sin.iter_mut().zip(&mut cos) {
+                    (*sin, *cos) = Scalar::sin_cos(*cos);
+                }
+                (<$lanes>::new(sin), <$lanes>::new(cos))
+            }
+        }
+    };
+}
+
+lanes!(f64x4);
+lanes!(f64x8);
+
+/// A value with its derivatives by `P` parameters: forward-mode differentiation.
+///
+/// ```
+/// use rocking::program::Scalar;
+/// use rocking::scalar::Dual;
+/// let x = Dual::<1>::variable(0.5, 0);
+/// let (sin, _) = (x * x).sin_cos();
+/// assert!((sin.derivative[0] - 2.0 * 0.5 * 0.25f64.cos()).abs() < 1e-16);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<const P: usize> {
+    /// The value.
+    pub value: f64,
+    /// Its derivatives.
+    pub derivative: [f64; P],
+}
+
+impl<const P: usize> Dual<P> {
+    /// A constant.
+    pub fn constant(value: f64) -> Dual<P> {
+        Dual { value, derivative: [0.0; P] }
+    }
+
+    /// The parameter with this index. A panic means that there are not so many.
+    pub fn variable(value: f64, index: usize) -> Dual<P> {
+        let mut derivative = [0.0; P];
+        derivative[index] = 1.0;
+        Dual { value, derivative }
+    }
+
+    /// `value`, with the derivatives of `self` times `slope`.
+    #[inline(always)]
+    fn chain(self, value: f64, slope: f64) -> Dual<P> {
+        Dual { value, derivative: self.derivative.map(|d| slope * d) }
+    }
+
+    #[inline(always)]
+    fn join(self, other: Dual<P>, value: f64, a: f64, b: f64) -> Dual<P> {
+        let derivative = std::array::from_fn(|p| a * self.derivative[p] + b * other.derivative[p]);
+        Dual { value, derivative }
+    }
+}
+
+impl<const P: usize> Add for Dual<P> {
+    type Output = Dual<P>;
+    #[inline(always)]
+    fn add(self, other: Dual<P>) -> Dual<P> {
+        self.join(other, self.value + other.value, 1.0, 1.0)
+    }
+}
+
+impl<const P: usize> Sub for Dual<P> {
+    type Output = Dual<P>;
+    #[inline(always)]
+    fn sub(self, other: Dual<P>) -> Dual<P> {
+        self.join(other, self.value - other.value, 1.0, -1.0)
+    }
+}
+
+impl<const P: usize> Mul for Dual<P> {
+    type Output = Dual<P>;
+    #[inline(always)]
+    fn mul(self, other: Dual<P>) -> Dual<P> {
+        self.join(other, self.value * other.value, other.value, self.value)
+    }
+}
+
+impl<const P: usize> Neg for Dual<P> {
+    type Output = Dual<P>;
+    #[inline(always)]
+    fn neg(self) -> Dual<P> {
+        self.chain(-self.value, -1.0)
+    }
+}
+
+impl<const P: usize> Scalar for Dual<P> {
+    fn from_f64(value: f64) -> Dual<P> {
+        Dual::constant(value)
+    }
+
+    fn recip(self) -> Dual<P> {
+        let value = 1.0 / self.value;
+        self.chain(value, -value * value)
+    }
+
+    fn sin_cos(self) -> (Dual<P>, Dual<P>) {
+        let (sin, cos) = Scalar::sin_cos(self.value);
+        (self.chain(sin, cos), self.chain(cos, -sin))
+    }
+}
