@@ -6,7 +6,7 @@
 //! Notation: link 0 moves with the ground, link `a >= 1` turns by the free angle `a`. Clockwise is positive, so a rate ω
 //! about a pivot moves a point at `r` with `ω (r_y, -r_x)` and a rate alone accelerates it by `-ω² r`.
 
-use crate::column::Column;
+use crate::column::{Block, Column};
 use crate::dynamics::ContactForce;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rocking_codegen::pattern::Pattern;
@@ -192,5 +192,89 @@ impl<'a> Posture<'a> {
     pub fn potential_energy(&self, gravity: f64) -> f64 {
         let blocks = self.column.blocks().iter().zip(&self.centroid);
         blocks.map(|(block, position)| block.mass * gravity * position[1]).sum()
+    }
+}
+
+/// A block seen from the side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outline {
+    /// Corners `[m]`: bottom left, bottom right, top right, top left.
+    pub corners: [Vec2; 4],
+    /// The corner of the contact below on which the block pivots `[m]`; `None` where it is joined to what is below.
+    pub pivot: Option<Vec2>,
+}
+
+/// Outlines of the blocks, base first, length N, with the origin at the centre of the base on the ground; angles as in
+/// [`Posture::new`]. For pictures: no equation of motion uses them.
+///
+/// ```
+/// use rocking::{Column, kinematics::outlines, pattern::Pattern};
+///
+/// let column = Column::equal_blocks(1, 0.4, 1.0, 1.0, 9.81)?;
+/// let block = outlines(&column, &Pattern::from_signs(&[1]), &[0.1])[0];
+/// assert_eq!(block.pivot, Some([0.4, 0.0]));
+/// assert!((block.corners[0][1] - 0.8 * 0.1f64.sin()).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outline> {
+    let posture = Posture::new(column, pattern, theta);
+    let outline = |(index, block): (usize, &Block)| {
+        let (b, h) = (block.half_width, block.half_height);
+        let corner = |offset: Vec2| plus(posture.centroid[index], rotate(theta[index], offset));
+        let state = pattern.0[index];
+        let offset = f64::from(state.sign()) * column.contact_half_width(index);
+        let pivot = plus(posture.contact_centre[index], rotate(posture.lower_angle[index], [offset, 0.0]));
+        Outline { corners: [[-b, -h], [b, -h], [b, h], [-b, h]].map(corner), pivot: state.is_open().then_some(pivot) }
+    };
+    column.blocks().iter().enumerate().map(outline).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking_codegen::pattern::modes;
+
+    /// In every mode of four unequal blocks and its mirror image, seen from the face below, the base of each block is where a turn
+    /// about its pivot puts it; where the interface is closed, on the face.
+    #[test]
+    fn outlines_touch_the_face_below_at_the_pivot() {
+        let sizes = [(0.5, 0.4), (0.4, 0.6), (0.4, 0.3), (0.6, 0.2)];
+        let column = Column::new(sizes.map(|(b, h)| Block::rectangle(b, h, 1.0)).to_vec(), 9.81).expect("valid");
+        for (label, pattern) in modes(4).flat_map(|(label, pattern)| [(label, pattern.mirror()), (label, pattern)]) {
+            let mut theta = [0.0; 4];
+            for (index, state) in pattern.0.iter().enumerate() {
+                let below = if index == 0 { 0.0 } else { theta[index - 1] };
+                theta[index] = below + 0.1 * f64::from(state.sign());
+            }
+            let blocks = outlines(&column, &pattern, &theta);
+            for (index, state) in pattern.0.iter().enumerate() {
+                let (centre, angle) = match index {
+                    0 => ([0.0, 0.0], 0.0),
+                    _ => {
+                        let [_, _, right, left] = blocks[index - 1].corners;
+                        ([0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])], theta[index - 1])
+                    }
+                };
+                let along_face = |point: Vec2| rotate(-angle, minus(point, centre));
+                let (half_width, contact) = (sizes[index].0, column.contact_half_width(index));
+                let [left, right] = [blocks[index].corners[0], blocks[index].corners[1]].map(along_face);
+                let sign = f64::from(state.sign());
+                let expected = |side: f64| {
+                    let lever = side * half_width - sign * contact;
+                    [sign * contact + lever * libm::cos(0.1 * sign), -lever * libm::sin(0.1 * sign)]
+                };
+                for (corner, expected) in [(left, expected(-1.0)), (right, expected(1.0))] {
+                    let off = minus(corner, expected);
+                    // A dozen sums and products of numbers below 4.
+                    assert!(off[0].abs() + off[1].abs() < 1e-14, "{label}, block {index}: {corner:?}, {expected:?}");
+                }
+                match blocks[index].pivot.map(along_face) {
+                    Some(pivot) => {
+                        assert!((pivot[0] - sign * contact).abs() + pivot[1].abs() < 1e-14, "{label}, block {index}");
+                    }
+                    None => assert_eq!(sign, 0.0, "{label}, block {index}"),
+                }
+            }
+        }
     }
 }

@@ -29,11 +29,14 @@ pub enum Command {
         #[arg(long, short)]
         quiet: bool,
     },
-    /// List the independent rocking modes of a column.
+    /// List the independent rocking modes of a column, or draw them.
     Modes {
         /// Number of blocks.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
+        /// Draw the modes into this file (SVG) instead of listing them; up to 5 blocks.
+        #[arg(long, value_name = "FILE")]
+        svg: Option<PathBuf>,
     },
     /// Print the derivation or the generated code of a mode.
     Derive {

@@ -2,9 +2,10 @@
 
 use crate::arguments::{Arguments, Command, Dynamics, Format};
 use crate::error::Failure;
-use crate::output::Folder;
+use crate::figure;
+use crate::output::{self, Folder};
 use indicatif::{ProgressBar, ProgressStyle};
-use rocking::pattern::{ModeLabel, modes};
+use rocking::pattern::{Linkage, ModeLabel, modes};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write as _};
@@ -18,7 +19,8 @@ use std::time::{Duration, Instant};
 pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Run { scene, out, dynamics, quiet } => run(&scene, &out, dynamics, quiet),
-        Command::Modes { blocks } => print(&list_modes(usize::from(blocks))),
+        Command::Modes { blocks, svg: None } => print(&list_modes(usize::from(blocks))),
+        Command::Modes { blocks, svg: Some(file) } => draw_modes(usize::from(blocks), &file),
         Command::Derive { blocks, mode, format } => print(&derive(usize::from(blocks), &mode, format)?),
         Command::Thresholds { scene } => print(&thresholds(&read(&scene)?)),
     }
@@ -84,25 +86,53 @@ fn account(scene: &Scene, response: &Response, out: &Path) -> String {
     text
 }
 
+/// One line per mode. The drawing comes last: it alone has blanks, and a line is often split at them.
 fn list_modes(blocks: usize) -> String {
-    let mut text = format!("{:<8} {:<width$} free angles\n", "mode", "pattern", width = 2 * blocks + 2);
+    // One step-time program per number of free angles: all modes that have as many share its operations.
+    let operations: Vec<_> = (1..=blocks)
+        .map(|dof| {
+            let step = rocking_codegen::derive(&Linkage { open: vec![true; dof] }).step;
+            step.operations("acceleration").expect("every step program has accelerations")
+        })
+        .collect();
+    let width = (2 * blocks + 1).max("pattern".len());
+    let mut text = format!("{:<9} {:<width$}  dof  program  flops  divisions  drawing\n", "mode", "pattern");
     for (label, pattern) in modes(blocks) {
+        let dof = pattern.dof();
+        let operations = &operations[dof - 1];
         let _ = writeln!(
             text,
-            "{:<8} {:<width$} {}",
+            "{:<9} {:<width$}  {dof:<3}  {:<7}  {:<5}  {:<9}  {}",
             label.to_string(),
             pattern.to_string(),
-            pattern.dof(),
-            width = 2 * blocks + 2
+            format!("Dof{dof}"),
+            operations.flops(),
+            operations.divisions,
+            figure::line(&pattern)
         );
     }
-    let count = (3u64.pow(blocks as u32) - 1) / 2;
-    let _ = writeln!(
+    let _ = write!(
         text,
-        "{count} independent mode(s) of {blocks} block(s), interfaces base first; mirror images are the same modes. \
-         One step-time program per number of free angles: {blocks}."
+        "{} independent mode(s) of {blocks} block(s), interfaces base first; mirror images are the same modes.\n\
+         dof: free angles; program: the step-time program of all modes with as many; flops, divisions: of one call of its accelerations.\n\
+         drawing: {}\n",
+        mode_count(blocks),
+        figure::LINE_KEY
     );
     text
+}
+
+fn mode_count(blocks: usize) -> u64 {
+    (3u64.pow(blocks as u32) - 1) / 2
+}
+
+fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
+    let modes = mode_count(blocks);
+    if blocks > figure::LARGEST {
+        return Err(Failure::CrowdedFigure { blocks, modes, largest: figure::LARGEST });
+    }
+    output::figure(file, &figure::svg(blocks))?;
+    print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", file.display()))
 }
 
 fn derive(blocks: usize, mode: &str, format: Format) -> Result<String, Failure> {

@@ -19,6 +19,27 @@ pub enum Failure {
         /// What the system says.
         problem: String,
     },
+    /// The file of a figure cannot be written.
+    #[error("{}: {problem}; choose a file that can be written with --svg", path.display())]
+    Figure {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        problem: String,
+    },
+    /// A figure of so many modes would not be read.
+    #[error(
+        "--svg: a column of {blocks} blocks has {modes} modes, too many for a figure; draw up to {largest} blocks, \
+         or list the modes without --svg"
+    )]
+    CrowdedFigure {
+        /// Number of blocks.
+        blocks: usize,
+        /// Number of independent modes.
+        modes: u64,
+        /// The largest column that is drawn.
+        largest: usize,
+    },
     /// There is no such mode.
     #[error(
         "--mode {mode}: a column of {blocks} block(s) has no such mode; `rocking modes --blocks {blocks}` lists them"
@@ -74,7 +95,14 @@ impl Failure {
 
     /// Whether the user can mend it by other input.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Failure::Scene(_) | Failure::Output { .. } | Failure::Mode { .. })
+        matches!(
+            self,
+            Failure::Scene(_)
+                | Failure::Output { .. }
+                | Failure::Figure { .. }
+                | Failure::CrowdedFigure { .. }
+                | Failure::Mode { .. }
+        )
     }
 }
 

@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod error;
+mod figure;
 mod output;
 
 use clap::Parser;

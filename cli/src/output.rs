@@ -1,4 +1,4 @@
-//! The files of a run: written beside their places, then renamed, so that nothing is ever half there.
+//! The files of a run, and figures: written beside their places, then renamed, so that nothing is ever half there.
 
 use crate::error::Failure;
 use rocking::{Response, Scene};
@@ -98,14 +98,35 @@ impl<'a> Folder<'a> {
         &self,
         write: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> std::io::Result<()>,
     ) -> Result<NamedTempFile, Failure> {
-        let failed = |error: std::io::Error| Failure::output(self.path, error);
-        let mut file = NamedTempFile::new_in(self.path).map_err(failed)?;
-        let mut writer = BufWriter::new(file.as_file_mut());
-        write(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
-        drop(writer);
-        share(&file).map_err(failed)?;
-        Ok(file)
+        fill(self.path, write).map_err(|error| Failure::output(self.path, error))
     }
+}
+
+/// Writes a figure.
+///
+/// # Errors
+/// [`Failure::Figure`]
+pub fn figure(path: &Path, text: &str) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| Failure::Figure { path: path.into(), problem: error.to_string() };
+    // A bare file name has the empty path above it.
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = fill(folder, |file| file.write_all(text.as_bytes())).map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// A temporary file in `folder`, with all that `write` writes.
+fn fill(
+    folder: &Path,
+    write: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> std::io::Result<()>,
+) -> std::io::Result<NamedTempFile> {
+    let mut file = NamedTempFile::new_in(folder)?;
+    let mut writer = BufWriter::new(file.as_file_mut());
+    write(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    share(&file)?;
+    Ok(file)
 }
 
 /// Temporary files are private; results are for whoever may read the folder.

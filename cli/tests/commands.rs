@@ -19,14 +19,6 @@ fn thresholds_are_the_papers_tables_1_and_2() {
 }
 
 #[test]
-fn modes_are_listed_by_label() {
-    let text = common::succeeds(&common::root(), &["modes", "--blocks", "3"]);
-    let labels: Vec<&str> = text.lines().skip(1).take(13).filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(labels, ["1.1", "1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "2.1", "2.2", "2.3", "3.1"]);
-    assert!(text.contains("(0,+,0)") && text.contains("13 independent mode(s)"), "{text}");
-}
-
-#[test]
 fn derivations_are_printed_as_text_and_as_code() {
     let root = common::root();
     let text = common::succeeds(&root, &["derive", "--blocks", "3", "--mode", "1.5"]);

@@ -1,0 +1,144 @@
+//! `rocking modes`: the table, the drawings in it, and the figure.
+
+mod common;
+
+use std::collections::HashMap;
+
+/// Lines of the table without its heading, for a column of this many blocks.
+fn table(blocks: usize) -> Vec<String> {
+    let text = common::succeeds(&common::root(), &["modes", "--blocks", &blocks.to_string()]);
+    let rows = (3usize.pow(blocks as u32) - 1) / 2;
+    let lines: Vec<String> = text.lines().map(String::from).collect();
+    assert!(lines[rows + 1].starts_with(&format!("{rows} independent mode(s) of {blocks} block(s)")), "{text}");
+    lines[1..=rows].to_vec()
+}
+
+/// Pattern to drawing.
+fn drawings(blocks: usize) -> HashMap<String, String> {
+    let row = |line: String| {
+        let fields: Vec<&str> = line.split_whitespace().collect();
+        (fields[1].to_string(), fields[6..].join(" "))
+    };
+    table(blocks).into_iter().map(row).collect()
+}
+
+#[test]
+fn the_table_has_every_independent_mode_once_in_the_order_of_labels() {
+    for blocks in 1..=4 {
+        let mut labels = Vec::new();
+        for lowest in 1..=blocks {
+            labels.extend((1..=3usize.pow((blocks - lowest) as u32)).map(|number| format!("{lowest}.{number}")));
+        }
+        let rows = table(blocks);
+        let listed: Vec<&str> = rows.iter().filter_map(|row| row.split_whitespace().next()).collect();
+        assert_eq!(listed, labels);
+    }
+}
+
+#[test]
+fn columns_of_the_table_tell_pattern_free_angles_program_and_operations() {
+    let expected = [
+        (["2.2", "(0,+,0)", "1", "Dof1"], "| /=/."),
+        (["1.6", "(+,0,-)", "2", "Dof2"], "/=/. .|"),
+        (["1.9", "(+,-,-)", "3", "Dof3"], "/. .| .\\"),
+    ];
+    for (columns, drawing) in expected {
+        let row = table(3).into_iter().find(|row| row.starts_with(columns[0])).expect("the mode is listed");
+        let fields: Vec<&str> = row.split_whitespace().collect();
+        assert_eq!(fields[..4], columns, "{row}");
+        assert!(row.ends_with(&format!("  {drawing}")), "{row}");
+        let derivation = common::succeeds(&common::root(), &["derive", "--blocks", "3", "--mode", columns[0]]);
+        let acceleration = derivation.lines().find(|line| line.contains("`acceleration`")).expect("in the program");
+        assert!(acceleration.contains(&format!("{} flops", fields[4])), "{row}\n{acceleration}");
+        assert!(acceleration.contains(&format!("{} divisions", fields[5])), "{row}\n{acceleration}");
+    }
+}
+
+/// By hand: blocks of one rigid group are joined, the dot is at the right of a group that pivots on its right corner and at the
+/// left of one that pivots on its left, and a group leans as the signs below it and its own add up.
+#[test]
+fn drawings_show_groups_leans_and_pivots() {
+    let by_hand = [
+        ("(+)", "/."),
+        ("(+,-)", "/. .|"),
+        ("(+,+)", "/. /."),
+        ("(+,0)", "/=/."),
+        ("(0,+)", "| /."),
+        ("(+,0,0)", "/=/=/."),
+        ("(+,0,-)", "/=/. .|"),
+        ("(+,-,0)", "/. .|=|"),
+        ("(+,-,+)", "/. .| /."),
+        ("(+,+,-)", "/. /. ./"),
+        ("(0,0,+)", "|=| /."),
+        ("(+,-,-,0)", "/. .| .\\=\\"),
+        ("(+,-,-,+)", "/. .| .\\ |."),
+        ("(0,+,-,-)", "| /. .| .\\"),
+    ];
+    for (pattern, drawing) in by_hand {
+        let blocks = pattern.matches(['+', '0', '-']).count();
+        assert_eq!(drawings(blocks)[pattern], drawing, "{pattern}");
+    }
+}
+
+#[test]
+fn no_two_modes_have_the_same_drawing() {
+    for blocks in 1..=5 {
+        let drawings = drawings(blocks);
+        let distinct: std::collections::BTreeSet<&String> = drawings.values().collect();
+        assert_eq!(distinct.len(), drawings.len());
+    }
+}
+
+#[test]
+fn the_figure_of_the_readme_is_what_its_command_writes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = common::succeeds(folder.path(), &["modes", "--blocks", "3", "--svg", "modes-3.svg"]);
+    assert_eq!(text, "wrote 13 mode(s) of 3 block(s) to modes-3.svg\n");
+    let written = std::fs::read_to_string(folder.path().join("modes-3.svg")).expect("written");
+    let committed = std::fs::read_to_string(common::root().join("docs/modes-3.svg")).expect("readable");
+    assert!(written == committed, "renew it: rocking modes --blocks 3 --svg docs/modes-3.svg");
+}
+
+/// Pivots are the figure's only circles, one of them in the legend; a rigid group is a polygon.
+#[test]
+fn a_figure_has_every_mode_with_its_groups_and_pivots() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for blocks in 1..=5 {
+        common::succeeds(folder.path(), &["modes", "--blocks", &blocks.to_string(), "--svg", "modes.svg"]);
+        let figure = std::fs::read_to_string(folder.path().join("modes.svg")).expect("written");
+        for (label, pattern) in rocking::pattern::modes(blocks) {
+            let title = format!("<title>mode {label} {pattern}, {} free angle(s)</title>", pattern.dof());
+            let (_, rest) = figure.split_once(&title).unwrap_or_else(|| panic!("no `{title}`"));
+            let (mode, _) = rest.split_once("</g>").expect("closed");
+            let on_the_ground = usize::from(pattern.lowest_open() != Some(0));
+            assert_eq!(mode.matches("<circle").count(), pattern.dof(), "{title}");
+            assert_eq!(mode.matches("<polygon").count(), pattern.dof() + on_the_ground, "{title}");
+            assert!(mode.contains(&format!(">{label}<")), "{title}");
+        }
+        assert_eq!(figure.matches("<g>").count(), (3usize.pow(blocks as u32) - 1) / 2);
+        assert!(!figure.contains("NaN") && !figure.contains("inf"));
+    }
+}
+
+#[test]
+fn a_figure_that_nobody_could_read_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = common::rocking(folder.path(), &["modes", "--blocks", "6", "--svg", "modes.svg"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("364 modes") && message.contains("up to 5 blocks"), "{message}");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0, "nothing is written");
+}
+
+#[test]
+fn a_figure_that_cannot_be_put_in_place_leaves_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("taken.svg")).expect("made");
+    for file in ["taken.svg", "no/such/folder.svg"] {
+        let output = common::rocking(folder.path(), &["modes", "--blocks", "2", "--svg", file]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(file) && message.contains("--svg"), "{message}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1, "no temporary file is left");
+}
