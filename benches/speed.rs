@@ -59,6 +59,45 @@ where
     group.finish();
 }
 
+/// Generic, generated and baked side by side: one mode of the example's column with three free angles.
+fn baked_column(criterion: &mut Criterion) {
+    let column = baked_column::scene().expect("a valid column").column;
+    let pattern = pattern(3);
+    let ground = GroundMotion::Horizontal;
+    let baked = GeneratedMode::<baked_column::column::HorizontalMode1_8>::new(
+        &column,
+        &pattern,
+        ground,
+        baked_column::column::linkage::<f64>,
+    );
+    let baked = baked.expect("it is this column");
+    let generated =
+        GeneratedMode::<equations::HorizontalDof3>::new(&column, &pattern, ground, equations::linkage::<f64>);
+    let generated = generated.expect("the build has it");
+    let generic = GenericMode::new(&column, &pattern);
+    let values = state(3);
+    let x: [f64; 6] = values.clone().try_into().expect("three angles and rates");
+    let (mut a, mut b, mut c) = ([0.0; 6], [0.0; 6], generic.zero_state());
+    baked.derivative(&x, GROUND, &mut a);
+    generated.derivative(&x, GROUND, &mut b);
+    generic.derivative(&values, GROUND, &mut c);
+    for i in 0..6 {
+        let size = 1e-11 * c[i].abs().max(1.0);
+        assert!((a[i] - c[i]).abs() <= size && (b[i] - c[i]).abs() <= size, "{a:?} {b:?} {c:?}");
+    }
+    let mut group = criterion.benchmark_group("baked-column");
+    group.bench_function("baked", |bencher| {
+        bencher.iter(|| baked.derivative(black_box(&x), black_box(GROUND), &mut a));
+    });
+    group.bench_function("generated", |bencher| {
+        bencher.iter(|| generated.derivative(black_box(&x), black_box(GROUND), &mut b));
+    });
+    group.bench_function("generic", |bencher| {
+        bencher.iter(|| generic.derivative(black_box(&values), black_box(GROUND), &mut c));
+    });
+    group.finish();
+}
+
 fn whole_run(criterion: &mut Criterion) {
     let mut scene =
         Scene::new(Column::equal_blocks(3, 0.3974745895307783, 1.5566366369849045, 1.0, 9.81).expect("valid"));
@@ -129,6 +168,7 @@ fn main() -> std::io::Result<()> {
     right_hand_side::<equations::HorizontalDof2>(&mut criterion, 2);
     right_hand_side::<equations::HorizontalDof3>(&mut criterion, 3);
     right_hand_side::<equations::HorizontalDof4>(&mut criterion, 4);
+    baked_column(&mut criterion);
     whole_run(&mut criterion);
     criterion.final_summary();
     report()

@@ -2,12 +2,13 @@
 //!
 //! The one place that includes what `build.rs` wrote. Scene constants are computed here, once per mode that a run enters.
 
-use crate::column::Column;
+use crate::column::{Block, Column};
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
 use crate::mode::Mode;
 use crate::program::{ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, StepProgram};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
+use std::marker::PhantomData;
 
 /// Code written by `rocking_codegen` for this build.
 #[allow(clippy::all, clippy::pedantic, unused_variables, reason = "generated code is laid out for reading")]
@@ -114,6 +115,60 @@ impl<P: StepProgram<f64>> GeneratedMode<P> {
         let constants = (self.energies)(&self.geometry);
         let constants = <P::Energies as EnergyProgram<f64>>::Constants::try_from(&constants);
         constants.ok().expect("a linkage and its energy program come from one generator")
+    }
+}
+
+/// Sizes that differ by no more than this, relative, are the same: masses and inertias come from sizes by a few roundings.
+const SAME_SIZE: f64 = 8.0 * f64::EPSILON;
+
+/// Whether a column has these sizes: what its baked equations hold for.
+pub fn is_column(column: &Column, gravity: f64, sizes: &[[f64; 4]]) -> bool {
+    let blocks = column.blocks();
+    let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_SIZE * b.abs();
+    let is_block = |(block, size): (&Block, &[f64; 4])| {
+        let own = [block.half_width, block.half_height, block.mass, block.inertia];
+        own.iter().zip(size).all(|(a, b)| is_same(*a, *b))
+    };
+    is_same(column.gravity(), gravity) && blocks.len() == sizes.len() && blocks.iter().zip(sizes).all(is_block)
+}
+
+/// The mirror image of a program: angles, rates and horizontal ground acceleration negated. Baked modes need it, whose sides
+/// are in their literals; elsewhere the sides are signs of scene constants.
+#[derive(Clone, Copy, Debug)]
+pub struct Mirrored<P>(PhantomData<P>);
+
+impl<S: Scalar, P: StepProgram<S>> StepProgram<S> for Mirrored<P> {
+    const DOF: usize = P::DOF;
+    type Vector = P::Vector;
+    type State = P::State;
+    type Constants = P::Constants;
+    type Energies = P::Energies;
+
+    #[inline(always)]
+    fn vector(fill: S) -> P::Vector {
+        P::vector(fill)
+    }
+
+    #[inline(always)]
+    fn state(fill: S) -> P::State {
+        P::state(fill)
+    }
+
+    #[inline(always)]
+    fn acceleration(
+        constants: &P::Constants,
+        cos: &P::Vector,
+        sin: &P::Vector,
+        omega: &P::Vector,
+        ground_x: S,
+        gravity: S,
+    ) -> P::Vector {
+        let opposite = |vector: &P::Vector| {
+            let mut opposite = *vector;
+            opposite.as_mut().iter_mut().for_each(|value| *value = -*value);
+            opposite
+        };
+        opposite(&P::acceleration(constants, cos, &opposite(sin), &opposite(omega), -ground_x, gravity))
     }
 }
 

@@ -39,11 +39,7 @@ fn lacks(name: &str, code: &str, words: &[&str]) {
 #[test]
 fn the_generator_knows_no_time_stepping_and_no_scene() {
     for (path, text) in sources("codegen/src") {
-        lacks(
-            &path.display().to_string(),
-            &code(&text),
-            &["rtol", "t_end", "dense_output", "restitution", "toml"],
-        );
+        lacks(&path.display().to_string(), &code(&text), &["rtol", "t_end", "dense_output", "restitution", "toml"]);
     }
 }
 

@@ -5,8 +5,10 @@ use crate::error::Failure;
 use crate::figure;
 use crate::output::{self, Folder};
 use indicatif::{ProgressBar, ProgressStyle};
-use rocking::pattern::{Linkage, ModeLabel, modes};
+use rocking::GroundMotion;
+use rocking::pattern::{ModeLabel, modes};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
+use rocking_codegen::Plan;
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write as _};
 use std::path::Path;
@@ -89,12 +91,7 @@ fn account(scene: &Scene, response: &Response, out: &Path) -> String {
 /// One line per mode. The drawing comes last: it alone has blanks, and a line is often split at them.
 fn list_modes(blocks: usize) -> String {
     // One step-time program per number of free angles: all modes that have as many share its operations.
-    let operations: Vec<_> = (1..=blocks)
-        .map(|dof| {
-            let step = rocking_codegen::derive(&Linkage { open: vec![true; dof] }).step;
-            step.operations("acceleration").expect("every step program has accelerations")
-        })
-        .collect();
+    let operations: Vec<_> = (1..=blocks).map(|dof| Plan::new(dof).operations(GroundMotion::Horizontal)).collect();
     let width = (2 * blocks + 1).max("pattern".len());
     let mut text = format!("{:<9} {:<width$}  dof  program  flops  divisions  drawing\n", "mode", "pattern");
     for (label, pattern) in modes(blocks) {
@@ -114,7 +111,7 @@ fn list_modes(blocks: usize) -> String {
     let _ = write!(
         text,
         "{} independent mode(s) of {blocks} block(s), interfaces base first; mirror images are the same modes.\n\
-         dof: free angles; program: the step-time program of all modes with as many; flops, divisions: of one call of its accelerations.\n\
+         dof: free angles; program: the step-time program of all modes with as many; flops, divisions: of one call of its accelerations, ground moving horizontally.\n\
          drawing: {}\n",
         mode_count(blocks),
         figure::LINE_KEY

@@ -9,6 +9,7 @@
 //! assert!(text.contains("pub struct Dof2"));
 //! ```
 
+pub mod bake;
 #[cfg(feature = "emit")]
 pub mod emit;
 pub mod mechanics;
@@ -66,6 +67,13 @@ impl Plan {
             optimise::cheapest(&candidates[index]).expect("turned vectors with rates by pairs are always the equations")
         });
         Plan { forms, candidates }
+    }
+
+    /// What the form kept costs.
+    pub fn operations(&self, ground: GroundMotion) -> Operations {
+        let form = self.form(ground);
+        let candidates = &self.candidates[ground as usize];
+        candidates.iter().find(|(candidate, _)| *candidate == form).map(|(_, cost)| *cost).unwrap_or_default()
     }
 
     /// The form kept for a ground motion.
@@ -182,7 +190,7 @@ impl Catalogue {
 }
 
 /// Distinct programs and where each text stands among them.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Distinct {
     programs: Vec<Program>,
     known: HashMap<String, usize>,
@@ -217,31 +225,43 @@ pub fn catalogue(max_blocks: usize) -> Result<Catalogue, GenerateError> {
         return Err(GenerateError::Size { max_blocks });
     }
     let plans: Vec<Plan> = (1..=max_blocks).map(Plan::new).collect();
-    let mut accelerations = [Distinct::default(), Distinct::default()];
-    let (mut energies, mut forces) = (Distinct::default(), Distinct::default());
-    let mut linkages = Vec::new();
-    for linkage in (1..=max_blocks).flat_map(pattern::linkages) {
+    let shared = catalogue_of((1..=max_blocks).flat_map(pattern::linkages), &plans);
+    let [horizontal, vertical] = shared.accelerations;
+    Ok(Catalogue {
+        max_blocks,
+        linkages: shared.linkages,
+        accelerations: [horizontal.by_degrees_of_freedom(max_blocks)?, vertical.by_degrees_of_freedom(max_blocks)?],
+        energies: shared.energies.by_degrees_of_freedom(max_blocks)?,
+        forces: shared.forces.programs,
+    })
+}
+
+/// Linkages and the distinct programs that they share.
+#[derive(Debug, Default)]
+struct Shared {
+    linkages: Vec<LinkageRecord>,
+    accelerations: [Distinct; 2],
+    energies: Distinct,
+    forces: Distinct,
+}
+
+/// Derives linkages in the forms planned for their degrees of freedom.
+fn catalogue_of(linkages: impl Iterator<Item = Linkage>, plans: &[Plan]) -> Shared {
+    let mut shared = Shared::default();
+    for linkage in linkages {
         let derivation = derive_in_form(&linkage, &plans[linkage.dof() - 1]);
-        let mut own = derivation.accelerations.into_iter().zip(&mut accelerations);
-        let mut enlisted = || own.next().map(|(program, distinct)| distinct.enlist(program).1).unwrap_or_default();
-        let step_constants = [enlisted(), enlisted()];
-        let interfaces = derivation.forces.into_iter().map(|program| forces.enlist(program)).collect();
-        linkages.push(LinkageRecord {
+        let [horizontal, vertical] = derivation.accelerations;
+        let accelerations = [shared.accelerations[0].enlist(horizontal).1, shared.accelerations[1].enlist(vertical).1];
+        let interfaces = derivation.forces.into_iter().map(|program| shared.forces.enlist(program)).collect();
+        shared.linkages.push(LinkageRecord {
             linkage,
             arena: derivation.arena,
-            accelerations: step_constants,
-            energies: energies.enlist(derivation.energies).1,
+            accelerations,
+            energies: shared.energies.enlist(derivation.energies).1,
             interfaces,
         });
     }
-    let [horizontal, vertical] = accelerations;
-    Ok(Catalogue {
-        max_blocks,
-        linkages,
-        accelerations: [horizontal.by_degrees_of_freedom(max_blocks)?, vertical.by_degrees_of_freedom(max_blocks)?],
-        energies: energies.by_degrees_of_freedom(max_blocks)?,
-        forces: forces.programs,
-    })
+    shared
 }
 
 /// The generated module for columns of up to `max_blocks` blocks, as formatted Rust. The same text on every run.
@@ -253,13 +273,34 @@ pub fn generate(max_blocks: usize) -> Result<String, GenerateError> {
     Ok(emit::module(&catalogue(max_blocks)?))
 }
 
+/// The module of one column of given sizes, its scene constants literals, as formatted Rust.
+///
+/// # Errors
+/// As [`bake::baked_catalogue`].
+#[cfg(feature = "emit")]
+pub fn generate_baked(column: &bake::BakedColumn) -> Result<String, GenerateError> {
+    Ok(emit::baked_module(&bake::baked_catalogue(column)?))
+}
+
 /// Why nothing was generated.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum GenerateError {
     /// The number of blocks is out of range.
     Size {
         /// What was asked for.
         max_blocks: usize,
+    },
+    /// The number of blocks of a baked column is out of range.
+    BakedSize {
+        /// What was asked for.
+        blocks: usize,
+    },
+    /// A size of a baked column is not a positive number.
+    BakedValue {
+        /// Which.
+        name: String,
+        /// What was given.
+        value: f64,
     },
     /// Linkages with equal degrees of freedom did not turn out to share one step program.
     Programs {
@@ -275,6 +316,16 @@ impl std::fmt::Display for GenerateError {
         match self {
             GenerateError::Size { max_blocks } => {
                 write!(f, "ROCKING_MAX_BLOCKS = {max_blocks}: choose a whole number from 1 to {LARGEST}")
+            }
+            GenerateError::BakedSize { blocks } => {
+                write!(
+                    f,
+                    "a column of {blocks} block(s) is not baked: from 1 to {} are; use `generate`",
+                    bake::LARGEST_BAKED
+                )
+            }
+            GenerateError::BakedValue { name, value } => {
+                write!(f, "{name} is {value}: give a positive finite number")
             }
             GenerateError::Programs { found, expected } => {
                 write!(

@@ -73,6 +73,11 @@ impl Pattern {
         Pattern(signs.iter().map(|&sign| Interface::from_sign(sign)).collect())
     }
 
+    /// `+1`, `0`, `-1` per interface, base first.
+    pub fn signs(&self) -> Vec<i8> {
+        self.0.iter().map(|interface| interface.sign()).collect()
+    }
+
     /// The pattern seen in a mirror.
     pub fn mirror(&self) -> Pattern {
         Pattern(self.0.iter().map(|interface| interface.mirror()).collect())

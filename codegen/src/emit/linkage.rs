@@ -18,6 +18,11 @@ fn stem(linkage: &Linkage) -> String {
 
 /// All functions of one linkage.
 pub fn functions(record: &LinkageRecord) -> TokenStream {
+    let (accelerations, others) = (acceleration_functions(record), force_and_energy_functions(record));
+    quote! { #accelerations #others }
+}
+
+fn acceleration_functions(record: &LinkageRecord) -> TokenStream {
     let stem = stem(&record.linkage);
     let accelerations = GroundMotion::ALL.map(|ground| {
         scene_constants(
@@ -27,6 +32,12 @@ pub fn functions(record: &LinkageRecord) -> TokenStream {
             &record.accelerations[ground as usize],
         )
     });
+    quote! { #(#accelerations)* }
+}
+
+/// The functions of one linkage but those of the accelerations, which a baked column has as literals.
+pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
+    let stem = stem(&record.linkage);
     let energies = scene_constants(
         &format_ident!("energies_{stem}"),
         "Scene constants of mass matrix and energies.",
@@ -42,10 +53,11 @@ pub fn functions(record: &LinkageRecord) -> TokenStream {
             constants,
         )
     });
-    quote! { #(#accelerations)* #energies #(#interfaces)* }
+    quote! { #energies #(#interfaces)* }
 }
 
-fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
+/// The function of the accelerations' scene constants.
+pub fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
     match ground {
         GroundMotion::Horizontal => format_ident!("horizontal_{stem}"),
         GroundMotion::WithVertical => format_ident!("accelerations_{stem}"),
@@ -95,12 +107,12 @@ fn column_field(symbol: &str) -> TokenStream {
 }
 
 /// `fn linkage(blocks, mask)`: the equations of a linkage by the bits of its open interfaces.
-pub fn table(catalogue: &Catalogue) -> TokenStream {
-    let arms = catalogue.linkages.iter().map(|record| {
+pub fn table(linkages: &[LinkageRecord], accelerations: impl Fn(&str, GroundMotion) -> Ident) -> TokenStream {
+    let arms = linkages.iter().map(|record| {
         let blocks = record.linkage.blocks();
         let mask = record.linkage.open.iter().rev().fold(0usize, |mask, &open| 2 * mask + usize::from(open));
         let stem = stem(&record.linkage);
-        let accelerations = GroundMotion::ALL.map(|ground| accelerations_name(&stem, ground));
+        let accelerations = GroundMotion::ALL.map(|ground| accelerations(&stem, ground));
         let energies = format_ident!("energies_{stem}");
         let dof = record.linkage.dof();
         let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {

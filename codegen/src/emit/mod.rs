@@ -3,11 +3,13 @@
 //! The only place that prints numbers and powers. The text names what it needs of the library by `rocking::…`, so that it can
 //! be included by any crate that depends on it.
 
+mod baked;
 mod expression;
 mod linkage;
 mod number;
 mod step;
 
+pub use baked::baked_module;
 pub use number::number;
 
 use crate::{Catalogue, Derivation, GroundMotion};
@@ -36,7 +38,7 @@ pub fn module(catalogue: &Catalogue) -> String {
     let energies = catalogue.energies.iter().map(step::energy_program);
     let forces = catalogue.forces.iter().enumerate().map(|(index, program)| step::force_program(index, program));
     let linkages = catalogue.linkages.iter().map(linkage::functions);
-    let table = linkage::table(catalogue);
+    let table = linkage::table(&catalogue.linkages, linkage::accelerations_name);
     let modes = linkage::modes(catalogue);
     format(quote! {
         #uses

@@ -28,10 +28,16 @@ impl Arena {
                 Ok::<f64, String>(sum + c.to_f64() * self.value(*term, values, known)?)
             })?,
             Node::Product(factors) => factors.iter().try_fold(1.0, |product, (factor, exponent)| {
-                Ok::<f64, String>(product * self.value(*factor, values, known)?.powi(*exponent))
+                Ok::<f64, String>(product * power(self.value(*factor, values, known)?, *exponent))
             })?,
         };
         known.insert(expr, value);
         Ok(value)
     }
+}
+
+/// By repeated multiplication: `powi` may round differently elsewhere, and values become literals.
+fn power(base: f64, exponent: i32) -> f64 {
+    let power = (0..exponent.unsigned_abs()).fold(1.0, |power, _| power * base);
+    if exponent < 0 { 1.0 / power } else { power }
 }

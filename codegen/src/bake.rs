@@ -1,0 +1,176 @@
+//! A column of given sizes: scene constants become literals, and what vanishes with them leaves the code.
+//!
+//! Each independent mode gets accelerations of its own, since its constants are its own; mirrored patterns run the twin's.
+//! Meant for columns of a few blocks: the code grows with the number of modes.
+
+use crate::mechanics::Symbols;
+use crate::optimise::{Form, Program};
+use crate::pattern::{Linkage, ModeLabel, Pattern, linkages, modes};
+use crate::symbolic::{Arena, Environment, Expr};
+use crate::{GenerateError, GroundMotion, LinkageRecord, Plan};
+use std::collections::HashMap;
+
+/// The largest column that is baked: 1093 modes are more than a build bears.
+pub const LARGEST_BAKED: usize = 6;
+
+/// Sizes of a column, base first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BakedColumn {
+    /// `[m/s²]`
+    pub gravity: f64,
+    /// The blocks.
+    pub blocks: Vec<BakedBlock>,
+}
+
+/// Sizes of one block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BakedBlock {
+    /// `b [m]`
+    pub half_width: f64,
+    /// `h [m]`
+    pub half_height: f64,
+    /// `m [kg]`
+    pub mass: f64,
+    /// Centroidal moment of inertia `[kg m²]`
+    pub inertia: f64,
+}
+
+impl BakedBlock {
+    /// A homogeneous rectangle of this density `[kg/m²]`: `m = 4 b h density`, `I = m (b² + h²) / 3`.
+    pub fn rectangle(half_width: f64, half_height: f64, density: f64) -> BakedBlock {
+        let mass = 4.0 * half_width * half_height * density;
+        let inertia = mass * (half_width * half_width + half_height * half_height) / 3.0;
+        BakedBlock { half_width, half_height, mass, inertia }
+    }
+}
+
+impl BakedColumn {
+    fn check(&self) -> Result<(), GenerateError> {
+        let blocks = self.blocks.len();
+        if !(1..=LARGEST_BAKED).contains(&blocks) {
+            return Err(GenerateError::BakedSize { blocks });
+        }
+        let is_size = |value: f64| value > 0.0 && value.is_finite();
+        for (index, block) in self.blocks.iter().enumerate() {
+            for (name, value) in [
+                ("half_width", block.half_width),
+                ("half_height", block.half_height),
+                ("mass", block.mass),
+                ("inertia", block.inertia),
+            ] {
+                if !is_size(value) {
+                    return Err(GenerateError::BakedValue { name: format!("{name} of block {}", index + 1), value });
+                }
+            }
+        }
+        if !is_size(self.gravity) {
+            return Err(GenerateError::BakedValue { name: "gravity".into(), value: self.gravity });
+        }
+        Ok(())
+    }
+
+    /// `c_1 = b_1`, `c_i = min(b_{i-1}, b_i)` (MODEL.md section 1).
+    fn contact_half_width(&self, interface: usize) -> f64 {
+        let own = self.blocks[interface].half_width;
+        interface.checked_sub(1).map_or(own, |below| own.min(self.blocks[below].half_width))
+    }
+
+    /// Values of the scene symbols in a pattern.
+    fn values(&self, symbols: &Symbols, pattern: &Pattern) -> Environment {
+        let mut values = Environment::new();
+        values.insert(symbols.steady_gravity, self.gravity);
+        for (index, block) in self.blocks.iter().enumerate() {
+            let pivot = f64::from(pattern.0[index].sign()) * self.contact_half_width(index);
+            values.insert(symbols.pivot[index], pivot);
+            values.insert(symbols.half_height[index], block.half_height);
+            values.insert(symbols.mass[index], block.mass);
+            values.insert(symbols.inertia[index], block.inertia);
+        }
+        values
+    }
+}
+
+/// The accelerations of one mode of a baked column.
+#[derive(Debug)]
+pub struct BakedMode {
+    /// The mode's label.
+    pub label: ModeLabel,
+    /// Its pattern.
+    pub pattern: Pattern,
+    /// Per ground motion as in [`GroundMotion::ALL`]: the program without what vanishes, and its constants' values by name.
+    pub accelerations: [(Program, HashMap<String, f64>); 2],
+}
+
+/// All that a baked column's module is made of.
+#[derive(Debug)]
+pub struct BakedCatalogue {
+    /// The column.
+    pub column: BakedColumn,
+    /// The independent modes.
+    pub modes: Vec<BakedMode>,
+    /// The column's linkages, for energies and contact forces.
+    pub linkages: Vec<LinkageRecord>,
+    /// Programs of mass matrix and energies, by degrees of freedom.
+    pub energies: Vec<Program>,
+    /// Distinct contact-force programs.
+    pub forces: Vec<Program>,
+}
+
+/// Derives the modes of a column of given sizes.
+///
+/// # Errors
+/// [`GenerateError`] for too many blocks, or a size that is not positive.
+pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateError> {
+    column.check()?;
+    let blocks = column.blocks.len();
+    let plans: Vec<Plan> = (1..=blocks).map(Plan::new).collect();
+    let shared = crate::catalogue_of(linkages(blocks), &plans);
+    let energies = shared.energies.by_degrees_of_freedom(blocks)?;
+    let modes = modes(blocks).map(|(label, pattern)| {
+        let accelerations = GroundMotion::ALL.map(|ground| {
+            let form = plans[pattern.dof() - 1].form(ground);
+            bake(column, &pattern, ground, form)
+        });
+        BakedMode { label, pattern, accelerations }
+    });
+    let modes = modes.collect();
+    let forces = shared.forces.programs;
+    Ok(BakedCatalogue { column: column.clone(), modes, linkages: shared.linkages, energies, forces })
+}
+
+/// The accelerations of a pattern with the constants' values put in: zeros and ones vanish, equal values share a name.
+fn bake(column: &BakedColumn, pattern: &Pattern, ground: GroundMotion, form: Form) -> (Program, HashMap<String, f64>) {
+    let linkage: Linkage = pattern.linkage();
+    let mut arena = Arena::new();
+    let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof());
+    let equations = crate::mechanics::equations_of_motion(&mut arena, &symbols, &linkage);
+    let parts = crate::optimise::Parts::new(&mut arena, &symbols, &equations);
+    let mut program = crate::optimise::acceleration_program(&mut arena, &symbols, &parts, ground, form);
+    let environment = column.values(&symbols, pattern);
+
+    let mut known: Vec<(f64, Expr)> = vec![(1.0, program.arena.one())];
+    let mut replacement = HashMap::new();
+    for constant in &program.constants {
+        let value = arena.evaluate(constant.source, &environment).expect("every scene symbol has a value");
+        let by = if value == 0.0 {
+            Some(program.arena.zero())
+        } else if let Some((_, same)) = known.iter().find(|(other, _)| *other == value) {
+            Some(*same)
+        } else if let Some((_, opposite)) = known.iter().find(|(other, _)| *other == -value) {
+            Some(program.arena.neg(*opposite))
+        } else {
+            known.push((value, constant.symbol));
+            None
+        };
+        if let Some(by) = by {
+            replacement.insert(constant.symbol, by);
+        }
+    }
+    program.rewrite(replacement);
+    program.drop_unused_constants();
+    let value_of = |symbol: Expr| known.iter().find(|(_, known)| *known == symbol).map(|(value, _)| *value);
+    let named =
+        program.constants.iter().filter_map(|constant| Some((constant.name.clone(), value_of(constant.symbol)?)));
+    let literals = named.collect();
+    (program, literals)
+}
