@@ -5,7 +5,9 @@
 use crate::column::{Block, Column};
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
 use crate::mode::Mode;
-use crate::program::{ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, StepProgram};
+use crate::program::{
+    ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, StepProgram, slope, split,
+};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
 use std::marker::PhantomData;
@@ -172,17 +174,6 @@ impl<S: Scalar, P: StepProgram<S>> StepProgram<S> for Mirrored<P> {
     }
 }
 
-/// Cosines, sines and rates of a state.
-#[inline(always)]
-fn split<P: StepProgram<f64>>(state: &[f64]) -> (P::Vector, P::Vector, P::Vector) {
-    let (mut cos, mut sin, mut omega) = (P::vector(0.0), P::vector(0.0), P::vector(0.0));
-    for link in 0..P::DOF {
-        (sin.as_mut()[link], cos.as_mut()[link]) = Scalar::sin_cos(state[link]);
-        omega.as_mut()[link] = state[P::DOF + link];
-    }
-    (cos, sin, omega)
-}
-
 impl<P: StepProgram<f64>> Dynamics for GeneratedMode<P>
 where
     P::State: StateVector,
@@ -195,27 +186,23 @@ where
 
     #[inline(always)]
     fn derivative(&self, state: &P::State, ground: Ground, derivative: &mut P::State) {
-        let (cos, sin, omega) = split::<P>(state.as_slice());
-        let acceleration = P::acceleration(&self.constants, &cos, &sin, &omega, ground.x, ground.gravity);
-        let (rates, accelerations) = derivative.as_mut_slice().split_at_mut(P::DOF);
-        rates.copy_from_slice(omega.as_ref());
-        accelerations.copy_from_slice(acceleration.as_ref());
+        slope::<f64, P>(&self.constants, state, ground.x, ground.gravity, derivative.as_mut_slice());
     }
 
     fn energy(&self, state: &P::State, gravity: f64) -> Energy {
-        let (cos, sin, omega) = split::<P>(state.as_slice());
+        let (cos, sin, omega) = split::<f64, P>(state.as_slice());
         let [kinetic, potential] = P::Energies::energies(&self.energy_constants(), &cos, &sin, &omega, gravity);
         Energy { kinetic, potential }
     }
 
     fn mass_matrix(&self, state: &P::State) -> Vec<f64> {
-        let (cos, sin, _) = split::<P>(state.as_slice());
+        let (cos, sin, _) = split::<f64, P>(state.as_slice());
         let matrix = P::Energies::mass_matrix(&self.energy_constants(), &cos, &sin);
         matrix.as_ref().iter().flat_map(|row| row.as_ref().iter().copied()).collect()
     }
 
     fn contact_forces(&self, state: &P::State, derivative: &P::State, ground: Ground, forces: &mut [ContactForce]) {
-        let (cos, sin, omega) = split::<P>(state.as_slice());
+        let (cos, sin, omega) = split::<f64, P>(state.as_slice());
         let alpha = &derivative.as_slice()[P::DOF..];
         let (cos, sin, omega) = (cos.as_ref(), sin.as_ref(), omega.as_ref());
         for (interface, force) in self.interfaces.iter().zip(forces) {

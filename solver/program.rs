@@ -74,6 +74,36 @@ pub trait StepProgram<S: Scalar> {
     ) -> Self::Vector;
 }
 
+/// Cosines, sines and rates of a state `[θ, θ̇]`.
+#[inline(always)]
+pub fn split<S: Scalar, P: StepProgram<S>>(state: &[S]) -> (P::Vector, P::Vector, P::Vector) {
+    let zero = S::from_f64(0.0);
+    let (mut cos, mut sin, mut omega) = (P::vector(zero), P::vector(zero), P::vector(zero));
+    let (angles, rates) = state.split_at(P::DOF);
+    let of_links = cos.as_mut().iter_mut().zip(sin.as_mut()).zip(omega.as_mut());
+    for (((cos, sin), omega), (angle, rate)) in of_links.zip(angles.iter().zip(rates)) {
+        (*sin, *cos) = angle.sin_cos();
+        *omega = *rate;
+    }
+    (cos, sin, omega)
+}
+
+/// The right-hand side `[θ̇, θ̈]` of a state `[θ, θ̇]`: one sine and cosine per free angle, then straight-line code.
+#[inline(always)]
+pub fn slope<S: Scalar, P: StepProgram<S>>(
+    constants: &P::Constants,
+    state: &P::State,
+    ground_x: S,
+    gravity: S,
+    slope: &mut [S],
+) {
+    let (cos, sin, omega) = split::<S, P>(state.as_ref());
+    let acceleration = P::acceleration(constants, &cos, &sin, &omega, ground_x, gravity);
+    for (slope, value) in slope.iter_mut().zip(omega.as_ref().iter().chain(acceleration.as_ref())) {
+        *slope = *value;
+    }
+}
+
 /// Mass matrix and energies of all modes with one number of degrees of freedom. Implemented by generated code.
 pub trait EnergyProgram<S: Scalar> {
     /// One value per free angle.

@@ -127,8 +127,11 @@ pub fn derive(linkage: &Linkage) -> Derivation {
     derive_in_form(linkage, &Plan::new(linkage.dof()))
 }
 
-/// From a linkage to its programs, in forms that have been chosen.
-fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
+/// From a linkage to its programs, in the forms planned for its degrees of freedom.
+///
+/// # Panics
+/// If the linkage has other degrees of freedom than the plan, or the forms are not its equations.
+pub fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
     let mut arena = Arena::new();
     let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof());
     let equations = mechanics::equations_of_motion(&mut arena, &symbols, linkage);

@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
-use rocking_codegen::optimise::Program;
+use rocking_codegen::optimise::{Form, Program, acceleration_program};
 use rocking_codegen::pattern::{Linkage, linkages};
 use rocking_codegen::symbolic::{Arena, Environment, Expr};
-use rocking_codegen::{Derivation, GroundMotion, catalogue, derive};
+use rocking_codegen::{Derivation, GroundMotion, Plan, catalogue, derive};
 
 /// Random values for all symbols of a derivation: sizes and masses of order one, angles and rates of a rocking column.
 fn values(derivation: &Derivation, random: &[f64]) -> Environment {
@@ -173,4 +173,34 @@ fn operation_counts_of_the_acceleration() {
     assert_eq!(horizontal, [(7, 0), (41, 1), (92, 2), (158, 3), (238, 4)]);
     let with_vertical: Vec<_> = (1..=5).map(|dof| count(dof, GroundMotion::WithVertical)).collect();
     assert_eq!(with_vertical, [(9, 0), (43, 1), (95, 2), (160, 3), (240, 4)]);
+}
+
+/// Every form that the generator considers gives the same accelerations, not only the one it keeps.
+#[test]
+fn every_admitted_form_is_the_same_equations() {
+    for dof in 1..=4 {
+        let plan = Plan::new(dof);
+        let linkage = Linkage { open: vec![true; dof] };
+        for ground in GroundMotion::ALL {
+            for (form, _) in &plan.candidates[ground as usize] {
+                let ours = derive_as(&linkage, ground, *form);
+                let values = values(&ours.0, &[0.3, 0.8, 0.1, 0.55, 0.92, 0.41, 0.67]);
+                let reference = derive(&linkage);
+                let expected = run(&reference, reference.acceleration(ground), "acceleration", &values);
+                let size = expected.iter().fold(1.0f64, |size, a| size.max(a.abs()));
+                for (a, b) in run(&ours.0, &ours.1, "acceleration", &values).iter().zip(&expected) {
+                    // Condition of these matrices below 1e3, times some roundings.
+                    assert!((a - b).abs() < 1e-12 * size, "{form}: {a} {b}");
+                }
+            }
+        }
+    }
+}
+
+/// A derivation, and its accelerations in some form.
+fn derive_as(linkage: &Linkage, ground: GroundMotion, form: Form) -> (Derivation, Program) {
+    let mut derivation = derive(linkage);
+    let (symbols, parts) = (derivation.symbols.clone(), derivation.parts.clone());
+    let program = acceleration_program(&mut derivation.arena, &symbols, &parts, ground, form);
+    (derivation, program)
 }

@@ -1,0 +1,220 @@
+//! Generated functions over other scalars: lanes, dual numbers, double-doubles.
+
+mod common;
+
+use proptest::prelude::*;
+use rocking::generated::{equations, geometry};
+use rocking::pattern::Pattern;
+use rocking::program::{EnergyProgram, Geometry, Scalar, StepProgram};
+use rocking::scalar::Dual;
+use rocking::{Column, GroundMotion};
+use std::ops::{Add, Mul, Neg, Sub};
+use twofloat::TwoFloat;
+use wide::{f64x4, f64x8};
+
+/// Accelerations of a pattern with three free angles, in any scalar: constants from the column, then the program.
+fn accelerations<S: Scalar>(geometry: &Geometry<S>, mask: usize, x: [S; 6], ground_x: S, gravity: S) -> [S; 3] {
+    let linkage = equations::linkage::<S>(geometry.mass.len(), mask).expect("the build covers it");
+    let constants = (linkage.accelerations[GroundMotion::WithVertical as usize])(geometry);
+    let constants: <equations::Dof3 as StepProgram<S>>::Constants =
+        constants.as_slice().try_into().ok().expect("as many as the program has");
+    let (cos, sin, omega) = rocking::program::split::<S, equations::Dof3>(&x);
+    <equations::Dof3 as StepProgram<S>>::acceleration(&constants, &cos, &sin, &omega, ground_x, gravity)
+}
+
+/// Four blocks, the third interface closed.
+const SIGNS: [i8; 4] = [1, -1, 0, 1];
+const MASK: usize = 0b1011;
+
+fn strategy() -> impl Strategy<Value = (Column, Vec<f64>)> {
+    (common::column(4), prop::collection::vec(-1.0f64..1.0, 8))
+}
+
+fn inputs(random: &[f64]) -> ([f64; 6], f64, f64) {
+    let x = std::array::from_fn(|i| if i < 3 { 1.2 * random[i] } else { 5.0 * random[i] });
+    (x, 10.0 * random[6], 12.0 + 8.0 * random[7])
+}
+
+fn lanes_are_scalars<S: Scalar, const L: usize>(to: impl Fn([f64; L]) -> S, from: impl Fn(S) -> [f64; L]) {
+    let strategy = prop::collection::vec(strategy(), L);
+    let run = |cases: Vec<(Column, Vec<f64>)>| {
+        let pattern = Pattern::from_signs(&SIGNS);
+        let geometries: Vec<_> = cases.iter().map(|(column, _)| geometry(column, &pattern)).collect();
+        let inputs: Vec<_> = cases.iter().map(|(_, random)| inputs(random)).collect();
+        let pack = |value: &dyn Fn(usize) -> f64| to(std::array::from_fn(value));
+        let blocks = |pick: &dyn Fn(&Geometry<f64>) -> &Vec<f64>| -> Vec<S> {
+            (0..4).map(|block| pack(&|lane| pick(&geometries[lane])[block])).collect()
+        };
+        let packed = Geometry {
+            gravity: pack(&|lane| geometries[lane].gravity),
+            pivot: blocks(&|g| &g.pivot),
+            half_height: blocks(&|g| &g.half_height),
+            mass: blocks(&|g| &g.mass),
+            inertia: blocks(&|g| &g.inertia),
+        };
+        let x: [S; 6] = std::array::from_fn(|i| pack(&|lane| inputs[lane].0[i]));
+        let together =
+            accelerations(&packed, MASK, x, pack(&|lane| inputs[lane].1), pack(&|lane| inputs[lane].2)).map(&from);
+        for lane in 0..L {
+            let (x, ground_x, gravity) = inputs[lane];
+            let alone = accelerations(&geometries[lane], MASK, x, ground_x, gravity);
+            for link in 0..3 {
+                prop_assert_eq!(together[link][lane].to_bits(), alone[link].to_bits());
+            }
+        }
+        Ok(())
+    };
+    common::runner(200).run(&strategy, run).expect("lanes agree with scalars");
+}
+
+#[test]
+fn lanes_give_bit_for_bit_what_scalars_give() {
+    lanes_are_scalars::<f64x4, 4>(f64x4::new, |lanes| lanes.to_array());
+    lanes_are_scalars::<f64x8, 8>(f64x8::new, |lanes| lanes.to_array());
+}
+
+/// Derivatives by every column parameter (gravity, pivots, half-heights, masses, inertias), every angle and every rate.
+#[test]
+fn dual_numbers_give_the_derivatives_of_the_right_hand_side() {
+    const PARAMETERS: usize = 17 + 6;
+    let strategy = strategy();
+    let run = |(column, random): (Column, Vec<f64>)| {
+        let sizes = geometry(&column, &Pattern::from_signs(&SIGNS));
+        let (x, ground_x, gravity) = inputs(&random);
+        let mut index = 0;
+        let dual = sizes.lift(|value| {
+            index += 1;
+            Dual::<PARAMETERS>::variable(value, index - 1)
+        });
+        let state = std::array::from_fn(|i| Dual::variable(x[i], 17 + i));
+        let exact = accelerations(&dual, MASK, state, Dual::constant(ground_x), Dual::constant(gravity));
+        let value = accelerations(&sizes, MASK, x, ground_x, gravity);
+        for link in 0..3 {
+            prop_assert_eq!(exact[link].value, value[link]);
+        }
+        for parameter in 0..PARAMETERS {
+            let moved = |sign: f64, d: f64| {
+                let mut index = 0;
+                let sizes = sizes.lift(|value| {
+                    index += 1;
+                    if index - 1 == parameter { value + sign * d * value } else { value }
+                });
+                let mut x = x;
+                if parameter >= 17 {
+                    x[parameter - 17] += sign * d;
+                }
+                accelerations(&sizes, MASK, x, ground_x, gravity)
+            };
+            let mut index = 0;
+            let mut size = 1.0;
+            sizes.lift(|value| {
+                if index == parameter {
+                    size = value;
+                }
+                index += 1;
+            });
+            if size == 0.0 {
+                continue;
+            }
+            // Richardson's extrapolation of central differences: what is left is of fourth order.
+            let difference = |d: f64, link: usize| (moved(1.0, d)[link] - moved(-1.0, d)[link]) / (2.0 * d * size);
+            for link in 0..3 {
+                let d = 1e-3;
+                let extrapolated = (4.0 * difference(0.5 * d, link) - difference(d, link)) / 3.0;
+                let scale = exact.iter().fold(1.0f64, |s, a| s.max(a.value.abs())) / size.abs();
+                let error = (exact[link].derivative[parameter] - extrapolated).abs();
+                // Fifth derivatives of up to 1e4 times the size where the mass matrix is nearly singular, times d⁴.
+                prop_assert!(error < 1e-6 * scale, "parameter {parameter}: {error:e} of {scale:e}");
+            }
+        }
+        Ok(())
+    };
+    common::runner(100).run(&strategy, run).expect("duals agree with differences");
+}
+
+/// Some 32 digits, by the twofloat crate.
+#[derive(Clone, Copy)]
+struct Double(TwoFloat);
+
+impl Add for Double {
+    type Output = Double;
+    fn add(self, other: Double) -> Double {
+        Double(self.0 + other.0)
+    }
+}
+
+impl Sub for Double {
+    type Output = Double;
+    fn sub(self, other: Double) -> Double {
+        Double(self.0 - other.0)
+    }
+}
+
+impl Mul for Double {
+    type Output = Double;
+    fn mul(self, other: Double) -> Double {
+        Double(self.0 * other.0)
+    }
+}
+
+impl Neg for Double {
+    type Output = Double;
+    fn neg(self) -> Double {
+        Double(-self.0)
+    }
+}
+
+impl Scalar for Double {
+    fn from_f64(value: f64) -> Double {
+        Double(value.into())
+    }
+
+    fn recip(self) -> Double {
+        Double(TwoFloat::from(1.0) / self.0)
+    }
+
+    fn sin_cos(self) -> (Double, Double) {
+        (Double(self.0.sin()), Double(self.0.cos()))
+    }
+}
+
+/// The energy balance holds to the digits of the scalar: `d(T + V)/dt = 0` without ground motion, by the chain rule over the
+/// state, is a statement about accelerations and energies together.
+#[test]
+fn double_doubles_carry_twice_the_digits() {
+    let run = |(column, random): (Column, Vec<f64>)| {
+        let sizes = geometry(&column, &Pattern::from_signs(&SIGNS));
+        let (x, _, gravity) = inputs(&random);
+        let wide = sizes.lift(Double::from_f64);
+        let exact =
+            accelerations(&wide, MASK, x.map(Double::from_f64), Double::from_f64(0.0), Double::from_f64(gravity));
+        let plain = accelerations(&sizes, MASK, x, 0.0, gravity);
+        let size = plain.iter().fold(1.0f64, |size, a| size.max(a.abs()));
+        let error = (0..3).fold(0.0f64, |e, i| e.max((f64::from(exact[i].0) - plain[i]).abs()));
+        // Rounding times the condition of the mass matrix, up to some 1e5 for these columns.
+        prop_assert!(error < 1e-9 * size, "{error:e} of {size:e}");
+
+        // M θ̈ = load, row by row, is what the accelerations solve: the residual of the plain ones against the wide mass matrix
+        // is rounding, that of the wide ones nothing a double can hold.
+        let linkage = equations::linkage::<Double>(4, MASK).expect("the build covers it");
+        let constants = (linkage.energies)(&wide);
+        type Energies = equations::EnergiesDof3;
+        let constants: <Energies as EnergyProgram<Double>>::Constants =
+            constants.as_slice().try_into().ok().expect("as many as the program has");
+        let still = [x[0], x[1], x[2], 0.0, 0.0, 0.0].map(Double::from_f64);
+        let (cos, sin, _) = rocking::program::split::<Double, equations::Dof3>(&still);
+        let matrix = <Energies as EnergyProgram<Double>>::mass_matrix(&constants, &cos, &sin);
+        let at = |gravity: Double| accelerations(&wide, MASK, still, Double::from_f64(0.0), gravity);
+        // At rest the load is proportional to gravity: three times the gravity is three times the acceleration.
+        let (gravity, three) = (Double::from_f64(gravity), Double::from_f64(3.0));
+        let (once, thrice) = (at(gravity), at(three * gravity));
+        for row in 0..3 {
+            let push = |a: &[Double; 3]| (0..3).map(|k| matrix[row][k] * a[k]).fold(Double::from_f64(0.0), Add::add);
+            let residual = push(&thrice) - push(&once) * three;
+            let scale = f64::from(push(&thrice).0).abs() + 1.0;
+            prop_assert!(f64::from(residual.0).abs() < 1e-24 * scale, "{:e}", f64::from(residual.0));
+        }
+        Ok(())
+    };
+    common::runner(100).run(&strategy(), run).expect("double-doubles agree");
+}
