@@ -76,7 +76,18 @@ fn assembly(folder: &Path, equations: &str) -> String {
     std::fs::write(&source, text).expect("the temporary folder can be written");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let status = Command::new(rustc)
-        .args(["--edition", "2024", "--crate-type", "lib", "-C", "opt-level=3", "-C", "codegen-units=1"])
+        .args([
+            "--edition",
+            "2024",
+            "--crate-type",
+            "lib",
+            "-C",
+            "opt-level=3",
+            "-C",
+            "codegen-units=1",
+            "-C",
+            "relocation-model=static",
+        ])
         .args(["--emit", "asm", "-o"])
         .args([&output, &source])
         .status()
