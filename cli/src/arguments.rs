@@ -76,4 +76,6 @@ pub enum Format {
     Text,
     /// The emitted Rust.
     Rust,
+    /// The derivation as a LaTeX document, constants named and couplings in differences of angles.
+    Latex,
 }

@@ -138,6 +138,7 @@ fn derive(blocks: usize, mode: &str, format: Format) -> Result<String, Failure> 
     Ok(match format {
         Format::Text => rocking_codegen::report::text(&pattern),
         Format::Rust => rocking_codegen::report::rust(&pattern),
+        Format::Latex => rocking_codegen::report::latex(&pattern),
     })
 }
 

@@ -19,7 +19,7 @@ fn thresholds_are_the_papers_tables_1_and_2() {
 }
 
 #[test]
-fn derivations_are_printed_as_text_and_as_code() {
+fn derivations_are_printed_as_text_as_code_and_as_latex() {
     let root = common::root();
     let text = common::succeeds(&root, &["derive", "--blocks", "3", "--mode", "1.5"]);
     for part in ["mode 1.5", "(+,0,0)", "T = ", "V = ", "M_11 = ", "Equations of motion", "7 flops"] {
@@ -27,6 +27,10 @@ fn derivations_are_printed_as_text_and_as_code() {
     }
     let code = common::succeeds(&root, &["derive", "--blocks", "2", "--mode", "1.1", "--format", "rust"]);
     assert!(code.contains("impl<S: Scalar> StepProgram<S> for Dof2") && code.contains("fn scene_constants"), "{code}");
+    let latex = common::succeeds(&root, &["derive", "--blocks", "3", "--mode", "1.5", "--format", "latex"]);
+    for part in ["\\documentclass", "mode 1.5", "$(+,0,0)$", "J_{1} \\ddot\\theta_{1}", "\\end{document}\n"] {
+        assert!(latex.contains(part), "`{part}` is missing in\n{latex}");
+    }
     let output = common::rocking(&root, &["derive", "--blocks", "3", "--mode", "3.2"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("rocking modes --blocks 3"));

@@ -20,9 +20,14 @@ impl Arena {
         self.multiply_out(expr, Depth::State)
     }
 
+    /// As [`Arena::expand`], sums without state multiplied out too: equal polynomials become the same index.
+    pub fn expand_fully(&mut self, expr: Expr) -> Expr {
+        self.multiply_out(expr, Depth::All)
+    }
+
     /// Whether the expression is zero for all values of its symbols: a proof by multiplying everything out.
     pub fn is_identically_zero(&mut self, expr: Expr) -> bool {
-        let expanded = self.multiply_out(expr, Depth::All);
+        let expanded = self.expand_fully(expr);
         self.is_zero(expanded)
     }
 

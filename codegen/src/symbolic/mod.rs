@@ -10,9 +10,12 @@
 //! Products are not multiplied out unless asked ([`Arena::expand`]): the derivation keeps its structure.
 //! Every expression has a [`Level`]: what must be known before it can be evaluated (number < scene < state).
 
+mod collect;
+mod difference;
 mod differentiate;
 mod evaluate;
 mod expand;
+pub mod latex;
 mod print;
 mod rational;
 mod substitute;

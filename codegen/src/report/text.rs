@@ -1,4 +1,4 @@
-//! What `rocking derive` prints: a mode's derivation as text, and its code.
+//! A mode's derivation as plain text, and its code.
 
 use crate::optimise::{Constant, Program};
 use crate::pattern::{Interface, Pattern};
