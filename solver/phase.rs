@@ -92,7 +92,7 @@ pub(crate) struct Phase<'p, 'a, V> {
     forces: Vec<ContactForce>,
     /// Contact forces at the start of the step.
     start_forces: Vec<ContactForce>,
-    middle_forces: Vec<ContactForce>,
+    end_forces: Vec<ContactForce>,
     /// Values of the contact guards at the start and the end of the step, per closed interface.
     margins: Vec<f64>,
     end_margins: Vec<f64>,
@@ -138,7 +138,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             slope: zero.clone(),
             forces: vec![ContactForce::default(); column.len()],
             start_forces: vec![ContactForce::default(); column.len()],
-            middle_forces: vec![ContactForce::default(); column.len()],
+            end_forces: vec![ContactForce::default(); column.len()],
             margins: vec![0.0; closed.len()],
             end_margins: vec![0.0; closed.len()],
             closed,
@@ -241,11 +241,25 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
     /// Contact forces and margins of the contact guards at the start of the phase.
     fn weigh_start(&mut self) -> Vec<f64> {
         let (t, x, slope) = (self.run.t, self.x.clone(), self.slope.clone());
+        if !self.reads_forces() {
+            return Vec::new();
+        }
         self.weigh(t, &x, &slope);
         let margins = self.closed.iter().map(|&i| self.margin(i)).collect();
-        self.run.history.note_forces(&self.forces);
+        self.note_forces();
         self.start_forces.clone_from(&self.forces);
         margins
+    }
+
+    /// Whether contact forces are of use in this phase: for guards of closed interfaces, or for the record.
+    fn reads_forces(&self) -> bool {
+        !self.closed.is_empty() || self.run.scene.options.record_forces
+    }
+
+    fn note_forces(&mut self) {
+        if self.run.scene.options.record_forces {
+            self.run.history.note_forces(&self.forces);
+        }
     }
 
     fn weigh(&mut self, t: f64, x: &V, slope: &V) {
@@ -322,8 +336,10 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         self.note_peaks(h);
         self.advance(if h == self.segment().end - t { self.segment().end } else { t + h });
         let (x, slope) = (self.x.clone(), self.slope.clone());
-        self.weigh(self.run.t, &x, &slope);
-        self.run.history.note_forces(&self.forces);
+        if self.reads_forces() {
+            self.weigh(self.run.t, &x, &slope);
+            self.note_forces();
+        }
         if is_mistaken {
             self.start_forces.clone_from(&self.forces);
             self.margins = self.closed.iter().map(|&i| self.margin(i)).collect();

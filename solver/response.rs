@@ -130,8 +130,9 @@ pub struct Response {
     /// rest for good is in it until `t_end`.
     pub time_in_mode: BTreeMap<String, f64>,
     /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
+    /// Empty if the scene's options ask for no forces.
     pub friction_demand: Vec<f64>,
-    /// Smallest normal force per interface `[N]`.
+    /// Smallest normal force per interface `[N]`. Empty if the scene's options ask for no forces.
     pub min_normal_force: Vec<f64>,
     /// Contact problems without admissible pattern.
     pub separations: Vec<Separation>,

@@ -33,7 +33,9 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
         }
         let start = earliest_start(run, &segment);
         let until = start.map_or(segment.end, |(t, _, _)| t);
-        note_forces(run, &segment, until);
+        if run.scene.options.record_forces {
+            note_forces(run, &segment, until);
+        }
         output_until(run, until);
         run.t = until;
         if let Some((_, interface, side)) = start {

@@ -101,6 +101,9 @@ pub struct SolveOptions {
     pub overturn_angle: f64,
     /// Generated or generic equations.
     pub dynamics: DynamicsSource,
+    /// Whether friction demand and smallest normal forces are recorded: the default. Without, contact forces are evaluated
+    /// only where a closed interface may open.
+    pub record_forces: bool,
 }
 
 impl Default for SolveOptions {
@@ -113,6 +116,7 @@ impl Default for SolveOptions {
             stick_angle: 1e-9,
             overturn_angle: FRAC_PI_2,
             dynamics: DynamicsSource::default(),
+            record_forces: true,
         }
     }
 }

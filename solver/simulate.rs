@@ -473,6 +473,10 @@ impl<'a> Run<'a> {
                 self.sample(t, theta, omega);
             }
         }
+        if !self.scene.options.record_forces {
+            self.history.friction_demand.clear();
+            self.history.min_normal_force.clear();
+        }
         let History {
             samples, peak_theta, friction_demand, min_normal_force, events, separations, time_in_mode, ..
         } = self.history;

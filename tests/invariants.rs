@@ -177,3 +177,17 @@ fn a_scene_that_is_not_valid_is_refused_by_the_solver() {
     scene.excitation.vertical = Some(Motion::SinePulse { amplitude: f64::NAN, omega: 1.0, start: 0.0 });
     assert!(simulate(&scene).expect_err("no number").to_string().contains("excitation.vertical.amplitude"));
 }
+
+/// Contact forces are evaluated for the guards in any case; recording them changes neither events nor angles.
+#[test]
+fn a_run_without_recorded_forces_is_the_same_run() {
+    let mut scene = Scene::new(Column::equal_blocks(3, 0.4, 1.56, 2700.0, 9.81).expect("valid"));
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 7.3575, omega: 10.7, start: 0.0 });
+    let recorded = simulate(&scene).expect("solved");
+    scene.options.record_forces = false;
+    let bare = simulate(&scene).expect("solved");
+    assert_eq!(recorded.events, bare.events);
+    assert_eq!(recorded.samples, bare.samples);
+    assert!(bare.friction_demand.is_empty() && bare.min_normal_force.is_empty());
+    assert!(bare.work.rhs_calls < recorded.work.rhs_calls);
+}

@@ -46,6 +46,9 @@ pub enum Command {
         /// Mode K.J: lowest open interface, number among the states of those above.
         #[arg(long, value_name = "K.J")]
         mode: String,
+        /// Print operation counts before and after each pass instead.
+        #[arg(long, conflicts_with = "format")]
+        counts: bool,
         /// What to print.
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,

@@ -23,7 +23,10 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Run { scene, out, dynamics, quiet } => run(&scene, &out, dynamics, quiet),
         Command::Modes { blocks, svg: None } => print(&list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file) } => draw_modes(usize::from(blocks), &file),
-        Command::Derive { blocks, mode, format } => print(&derive(usize::from(blocks), &mode, format)?),
+        Command::Derive { blocks, mode, counts, format } => {
+            let printed = if counts { Printed::Counts } else { Printed::Derivation(format) };
+            print(&derive(usize::from(blocks), &mode, printed)?)
+        }
         Command::Thresholds { scene } => print(&thresholds(&read(&scene)?)),
     }
 }
@@ -132,13 +135,20 @@ fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
     print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", file.display()))
 }
 
-fn derive(blocks: usize, mode: &str, format: Format) -> Result<String, Failure> {
+/// What is printed of a mode.
+enum Printed {
+    Derivation(Format),
+    Counts,
+}
+
+fn derive(blocks: usize, mode: &str, printed: Printed) -> Result<String, Failure> {
     let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
     let pattern = pattern.ok_or_else(|| Failure::Mode { mode: mode.into(), blocks })?;
-    Ok(match format {
-        Format::Text => rocking_codegen::report::text(&pattern),
-        Format::Rust => rocking_codegen::report::rust(&pattern),
-        Format::Latex => rocking_codegen::report::latex(&pattern),
+    Ok(match printed {
+        Printed::Counts => rocking_codegen::report::counts(&pattern),
+        Printed::Derivation(Format::Text) => rocking_codegen::report::text(&pattern),
+        Printed::Derivation(Format::Rust) => rocking_codegen::report::rust(&pattern),
+        Printed::Derivation(Format::Latex) => rocking_codegen::report::latex(&pattern),
     })
 }
 

@@ -119,3 +119,22 @@ fn rows_go_on_after_rest_and_end_at_overturning() {
     assert_eq!(rows, (end / 0.5) as usize + 1);
     assert_eq!(summary["overturned_block"], 1);
 }
+
+/// Pinned: what each pass is worth for three drums rocking apart.
+#[test]
+fn operation_counts_are_printed_before_and_after_each_pass() {
+    let output = common::succeeds(&common::root(), &["derive", "--blocks", "3", "--mode", "1.1", "--counts"]);
+    let flops_of = |start: &str| {
+        let line = output.lines().find(|line| line.trim_start_matches([' ', '*']).starts_with(start));
+        let line = line.unwrap_or_else(|| panic!("`{start}` is missing in\n{output}"));
+        let fields: Vec<&str> = line.split_whitespace().rev().take(4).collect();
+        fields[3].parse::<usize>().expect("a count")
+    };
+    assert_eq!(flops_of("mass matrix, rate terms, weight: as differentiated"), 199);
+    assert_eq!(flops_of("each term in its cheapest form"), 119);
+    assert_eq!(flops_of("scene constants hoisted"), 51);
+    assert_eq!(flops_of("turned vectors, rates by pairs, weight by vector, SI"), 98);
+    let kept: Vec<&str> = output.lines().filter(|line| line.starts_with("* turned")).collect();
+    assert_eq!(kept.len(), 2);
+    assert!(kept[0].contains(" 92 ") && kept[1].contains(" 95 "), "{kept:?}");
+}

@@ -16,9 +16,34 @@ fn emitted_code_for_small_columns_is_as_reviewed() {
     }
 }
 
+/// Every hash map has a seed of its own, and each thread starts from another; the goldens compare between processes.
 #[test]
 fn output_is_the_same_on_every_run() {
-    assert_eq!(rocking_codegen::generate(4), rocking_codegen::generate(4));
+    let runs: Vec<_> = (0..3).map(|_| std::thread::spawn(|| rocking_codegen::generate(4))).collect();
+    let here = rocking_codegen::generate(4);
+    for run in runs {
+        assert_eq!(run.join().expect("no panic"), here);
+    }
+}
+
+/// From wherever the generator is called: a process in another folder writes the same bytes.
+#[test]
+fn output_does_not_depend_on_the_folder() {
+    const FILE: &str = "ROCKING_GENERATED_TEXT";
+    if let Some(path) = std::env::var_os(FILE) {
+        std::fs::write(path, rocking_codegen::generate(3).expect("a valid size")).expect("the folder can be written");
+        return;
+    }
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("from_another_folder.rs");
+    let status = std::process::Command::new(std::env::current_exe().expect("this test"))
+        .args(["--exact", "output_does_not_depend_on_the_folder"])
+        .env(FILE, &path)
+        .current_dir(std::env::temp_dir())
+        .status()
+        .expect("this test can be run again");
+    assert!(status.success());
+    let there = std::fs::read_to_string(&path).expect("the other process wrote it");
+    assert_eq!(Ok(there), rocking_codegen::generate(3));
 }
 
 #[test]

@@ -45,8 +45,12 @@ impl<V: StateVector> Phase<'_, '_, V> {
 
     /// The first opening of a closed interface before `reach`; margins move on to the step's end.
     fn search_contacts(&mut self, t: f64, h: f64, reach: f64) -> Option<(Found, f64)> {
+        if !self.reads_forces() {
+            return None;
+        }
         let (end, end_slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
         self.weigh(t + h, &end, &end_slope);
+        self.end_forces.clone_from(&self.forces);
         for index in 0..self.closed.len() {
             self.end_margins[index] = self.margin(self.closed[index]);
         }
@@ -85,12 +89,11 @@ impl<V: StateVector> Phase<'_, '_, V> {
 
     /// Notes the forces in the step, from its start, middle and end; the end becomes the next start.
     fn note_step(&mut self, t: f64, h: f64) {
-        self.weigh_inside(t, h, 0.5);
-        self.middle_forces.clone_from(&self.forces);
-        let (end, end_slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
-        self.weigh(t + h, &end, &end_slope);
-        self.run.history.note_step([&self.start_forces, &self.middle_forces, &self.forces]);
-        self.start_forces.clone_from(&self.forces);
+        if self.run.scene.options.record_forces {
+            self.weigh_inside(t, h, 0.5);
+            self.run.history.note_step([&self.start_forces, &self.forces, &self.end_forces]);
+            std::mem::swap(&mut self.start_forces, &mut self.end_forces);
+        }
     }
 
     /// Rows with times in the half-open interval from the step's start to `until`.

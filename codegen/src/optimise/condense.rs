@@ -4,8 +4,7 @@
 //! linear in the sine and cosine of one angle, with scene coefficients (a body vector turned into the ground's axes);
 //! factored by the state factor that most terms share (a lever common to all blocks above it).
 
-use crate::symbolic::{Arena, Expr, Level, Node, Rational};
-use std::collections::HashMap;
+use crate::symbolic::{Arena, Expr, Level, Node};
 
 /// `Σ driver · condensed coefficient + condensed rest`, for an expression linear in the drivers.
 pub fn collect(arena: &mut Arena, expr: Expr, drivers: &[Expr]) -> Expr {
@@ -78,23 +77,8 @@ fn is_turned_vector(arena: &Arena, expr: Expr) -> bool {
 
 /// Joins terms with equal state parts: `cos·m_1·h_1 + cos·m_2·h_2` becomes `cos·(m_1·h_1 + m_2·h_2)`.
 fn merge_coefficients(arena: &mut Arena, expr: Expr) -> Expr {
-    let mut order: Vec<Expr> = Vec::new();
-    let mut scene: HashMap<Expr, Vec<(Rational, Expr)>> = HashMap::new();
-    for (coefficient, term) in arena.terms(expr) {
-        let factors = arena.factors(term);
-        let (state, constant): (Vec<_>, Vec<_>) =
-            factors.into_iter().partition(|(f, _)| arena.level(*f) == Level::State);
-        let (state, constant) = (arena.product(state), arena.product(constant));
-        if !scene.contains_key(&state) {
-            order.push(state);
-        }
-        scene.entry(state).or_default().push((coefficient, constant));
-    }
-    let mut terms = Vec::with_capacity(order.len());
-    for state in order {
-        let constant = arena.sum(scene.remove(&state).unwrap_or_default());
-        terms.push(arena.mul(state, constant));
-    }
+    let terms: Vec<Expr> =
+        arena.by_state(expr).into_iter().map(|(state, constant)| arena.mul(state, constant)).collect();
     arena.total(terms)
 }
 

@@ -10,7 +10,7 @@ mod program;
 mod step;
 mod units;
 
-pub use count::{Operations, count_expressions};
+pub use count::{Operations, count_expressions, count_hoisted};
 pub use forces::force_program;
 pub use program::{Constant, Program, Routine, Statement};
 pub use step::{Coupling, Form, Parts, Rates, Units, Weight, acceleration_program, admitted, cheapest, energy_program};

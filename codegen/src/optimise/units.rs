@@ -35,9 +35,18 @@ pub fn in_units(mut program: Program, source: &mut Arena, units: Units, inertia:
         rename.insert(ground_x, relative);
         ground = Some((relative, value));
     }
+    // Constants that have become one vanish, and those that have become equal or opposite share a name.
+    let mut known: HashMap<Expr, Expr> = HashMap::new();
     for constant in &program.constants {
+        let opposite = source.neg(constant.source);
         if *source.node(constant.source) == Node::Number(Rational::ONE) {
             rename.insert(constant.symbol, program.arena.one());
+        } else if let Some(&same) = known.get(&constant.source) {
+            rename.insert(constant.symbol, same);
+        } else if let Some(&other) = known.get(&opposite) {
+            rename.insert(constant.symbol, program.arena.neg(other));
+        } else {
+            known.insert(constant.source, constant.symbol);
         }
     }
     program.rewrite(rename);

@@ -57,7 +57,7 @@ pub fn rust(pattern: &Pattern) -> String {
     format!("{heading}{}", emit::excerpt(&derive(&pattern.linkage())))
 }
 
-fn title(pattern: &Pattern) -> String {
+pub(super) fn title(pattern: &Pattern) -> String {
     let name = match pattern.mode() {
         None => "at rest".into(),
         Some((label, false)) => format!("mode {label}"),

@@ -150,30 +150,10 @@ impl Parts {
     }
 }
 
-/// `expr` as `even (c c' + s s') + odd (s' c - c' s)`, where `c, s` belong to the lower link and `c', s'` to the upper one.
+/// `expr` in terms of the difference of two links' angles.
 fn difference(arena: &mut Arena, symbols: &Symbols, expr: Expr, lower: usize, upper: usize) -> Option<Difference> {
-    let [c, s] = [arena.cos(symbols.theta[lower]), arena.sin(symbols.theta[lower])];
-    let [d, t] = [arena.cos(symbols.theta[upper]), arena.sin(symbols.theta[upper])];
-    let expanded = arena.expand(expr);
-    let part = |arena: &mut Arena, a: Expr, b: Expr| {
-        let mut terms = Vec::new();
-        for (coefficient, term) in arena.terms(expanded) {
-            let factors = arena.factors(term);
-            if factors.contains(&(a, 1)) && factors.contains(&(b, 1)) {
-                let rest = arena.product(factors.into_iter().filter(|(factor, _)| *factor != a && *factor != b));
-                terms.push((coefficient, rest));
-            }
-        }
-        arena.sum(terms)
-    };
-    let (even, odd) = (part(arena, c, d), part(arena, c, t));
-    let cosine = turned_cosine(arena, [c, s], [d, t]);
-    let sine = turned_sine(arena, [c, s], [d, t]);
-    let (a, b) = (arena.mul(even, cosine), arena.mul(odd, sine));
-    let form = arena.add(a, b);
-    let residual = arena.sub(expanded, form);
-    let is_constant = [even, odd].iter().all(|factor| arena.level(*factor) != Level::State);
-    (is_constant && arena.is_identically_zero(residual)).then_some(Difference { even, odd })
+    let [even, odd] = arena.as_difference(expr, symbols.theta[lower], symbols.theta[upper])?;
+    Some(Difference { even, odd })
 }
 
 /// `cos(upper - lower)` from `[cos, sin]` of both.
