@@ -64,7 +64,7 @@ fn baked_column(criterion: &mut Criterion) {
     let column = baked_column::scene().expect("a valid column").column;
     let pattern = pattern(3);
     let ground = GroundMotion::Horizontal;
-    let baked = GeneratedMode::<baked_column::column::HorizontalMode1_8>::new(
+    let baked = GeneratedMode::<baked_column::column::HorizontalMode1_7>::new(
         &column,
         &pattern,
         ground,

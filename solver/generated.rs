@@ -1,6 +1,28 @@
 //! Modes that run on generated equations: this build's, or those of a program that has called the generator itself.
 //!
 //! The one place that includes what `build.rs` wrote. Scene constants are computed here, once per mode that a run enters.
+//!
+//! # A generated function by hand
+//!
+//! Two drums, both open to the right, at rest and leaning by a tenth: scene constants first, then one call.
+//!
+//! ```
+//! use rocking::generated::{equations, geometry};
+//! use rocking::program::{StepProgram, split};
+//! use rocking::{Column, GroundMotion, pattern::Pattern};
+//!
+//! let column = Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81)?;
+//! let linkage = equations::linkage::<f64>(2, 0b11).expect("two blocks are in every build but the smallest");
+//! let geometry = geometry(&column, &Pattern::from_signs(&[1, 1]));
+//! let constants = (linkage.accelerations[GroundMotion::Horizontal as usize])(&geometry);
+//! type Program = equations::HorizontalDof2;
+//! let constants = <Program as StepProgram<f64>>::Constants::try_from(constants).expect("as many as the program has");
+//! let (cos, sin, omega) = split::<f64, Program>(&[0.1, 0.1, 0.0, 0.0]);
+//! let alpha = Program::acceleration(&constants, &cos, &sin, &omega, 0.0, 9.81);
+//! // Newton and Euler by hand, two bodies and two hinges: the lower drum is thrown on, the upper one falls back.
+//! assert!((alpha[0] - 1.04807049).abs() < 1e-8 && (alpha[1] + 4.18353180).abs() < 1e-8);
+//! # Ok::<(), rocking::ColumnError>(())
+//! ```
 
 use crate::column::{Block, Column};
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};

@@ -1,6 +1,6 @@
 //! Scene files: TOML in, a validated [`Scene`] out, or an error that names file, line, key and remedy.
 //!
-//! The file is read as a tree whose every key and value knows its place. [`Table`] hands out what a scene knows and, when it is
+//! The file is read as a tree whose every key and value knows its place. `Table` hands out what a scene knows and, when it is
 //! closed, refuses what nobody asked for. Units are converted here and nowhere else.
 
 mod table;

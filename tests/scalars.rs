@@ -16,8 +16,9 @@ use wide::{f64x4, f64x8};
 fn accelerations<S: Scalar>(geometry: &Geometry<S>, mask: usize, x: [S; 6], ground_x: S, gravity: S) -> [S; 3] {
     let linkage = equations::linkage::<S>(geometry.mass.len(), mask).expect("the build covers it");
     let constants = (linkage.accelerations[GroundMotion::WithVertical as usize])(geometry);
-    let constants: <equations::Dof3 as StepProgram<S>>::Constants =
-        constants.as_slice().try_into().ok().expect("as many as the program has");
+    let Ok(constants) = <<equations::Dof3 as StepProgram<S>>::Constants>::try_from(constants.as_slice()) else {
+        panic!("as many as the program has")
+    };
     let (cos, sin, omega) = rocking::program::split::<S, equations::Dof3>(&x);
     <equations::Dof3 as StepProgram<S>>::acceleration(&constants, &cos, &sin, &omega, ground_x, gravity)
 }
@@ -199,8 +200,9 @@ fn double_doubles_carry_twice_the_digits() {
         let linkage = equations::linkage::<Double>(4, MASK).expect("the build covers it");
         let constants = (linkage.energies)(&wide);
         type Energies = equations::EnergiesDof3;
-        let constants: <Energies as EnergyProgram<Double>>::Constants =
-            constants.as_slice().try_into().ok().expect("as many as the program has");
+        let Ok(constants) = <<Energies as EnergyProgram<Double>>::Constants>::try_from(constants.as_slice()) else {
+            panic!("as many as the program has")
+        };
         let still = [x[0], x[1], x[2], 0.0, 0.0, 0.0].map(Double::from_f64);
         let (cos, sin, _) = rocking::program::split::<Double, equations::Dof3>(&still);
         let matrix = <Energies as EnergyProgram<Double>>::mass_matrix(&constants, &cos, &sin);
@@ -208,8 +210,8 @@ fn double_doubles_carry_twice_the_digits() {
         // At rest the load is proportional to gravity: three times the gravity is three times the acceleration.
         let (gravity, three) = (Double::from_f64(gravity), Double::from_f64(3.0));
         let (once, thrice) = (at(gravity), at(three * gravity));
-        for row in 0..3 {
-            let push = |a: &[Double; 3]| (0..3).map(|k| matrix[row][k] * a[k]).fold(Double::from_f64(0.0), Add::add);
+        for row in matrix {
+            let push = |a: &[Double; 3]| (0..3).map(|k| row[k] * a[k]).fold(Double::from_f64(0.0), Add::add);
             let residual = push(&thrice) - push(&once) * three;
             let scale = f64::from(push(&thrice).0).abs() + 1.0;
             prop_assert!(f64::from(residual.0).abs() < 1e-24 * scale, "{:e}", f64::from(residual.0));

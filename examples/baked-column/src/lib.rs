@@ -33,7 +33,7 @@ pub fn scene() -> Result<Scene, rocking::ColumnError> {
 /// The scene's response on some equations.
 ///
 /// # Errors
-/// As [`simulate`].
+/// As [`simulate()`].
 pub fn run(scene: &Scene, dynamics: DynamicsSource) -> Result<Response, rocking::SolveError> {
     let mut scene = scene.clone();
     scene.options.dynamics = dynamics;

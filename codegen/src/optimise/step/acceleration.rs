@@ -192,11 +192,10 @@ impl Writer<'_, '_> {
     }
 
     fn loads_by_pairs(&mut self, couplings: &Couplings, weight: &[Expr]) -> Vec<Expr> {
-        let dof = self.dof();
         let squares = self.squares();
         let mut loads = Vec::new();
-        for row in 0..dof {
-            let own = self.builder.translate(weight[row]);
+        for (row, &weight) in weight.iter().enumerate() {
+            let own = self.builder.translate(weight);
             let mut terms = vec![(MINUS, own)];
             for (&coefficient, &square) in couplings.bias[row].iter().zip(&squares) {
                 terms.push((MINUS, self.builder.arena().mul(coefficient, square)));
