@@ -75,8 +75,14 @@ pub trait Dynamics {
     /// `[θ, θ̇]` of the free angles, length 2·dof, base first.
     type State: StateVector;
 
+    /// One value per free angle.
+    type Links: StateVector;
+
     /// A state of zeros.
     fn zero_state(&self) -> Self::State;
+
+    /// One zero per free angle.
+    fn zero_links(&self) -> Self::Links;
 
     /// Writes `[θ̇, θ̈]` into `derivative`.
     fn derivative(&self, state: &Self::State, ground: Ground, derivative: &mut Self::State);
@@ -86,6 +92,13 @@ pub trait Dynamics {
 
     /// Mass matrix `[kg m²]`, row by row, dof × dof.
     fn mass_matrix(&self, state: &Self::State) -> Vec<f64>;
+
+    /// Mass matrix `[kg m²]` into `matrix`, row by row, of a state whose cosines and sines are given too.
+    fn coupling(&self, state: &Self::State, cos: &Self::Links, sin: &Self::Links, matrix: &mut [f64]);
+
+    /// The weights `[C, S]` of the equations `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`, linear in the second derivatives of
+    /// cosines and sines and in the ground's acceleration; of Taylor coefficients, those of the weights.
+    fn weights(&self, cos_ddot: &Self::Links, sin_ddot: &Self::Links, ground: Ground) -> [Self::Links; 2];
 
     /// Contact forces at all interfaces, base first, into `forces` (length N); `derivative` belongs to `state` and `ground`.
     fn contact_forces(

@@ -14,16 +14,19 @@
 //!
 //! This file knows guards and polynomials, not what they mean.
 
-use crate::ode::Bernstein;
+use crate::ode::{Bernstein, MAX_TERMS};
 
 /// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
 const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
 
+/// Bernstein coefficients of the longest dense output.
+const COEFFICIENTS: usize = MAX_TERMS + 1;
+
 /// Binomial coefficients up to the degree of the longest dense output.
-const BINOMIAL: [[f64; 8]; 8] = {
-    let mut table = [[0.0; 8]; 8];
+const BINOMIAL: [[f64; COEFFICIENTS]; COEFFICIENTS] = {
+    let mut table = [[0.0; COEFFICIENTS]; COEFFICIENTS];
     let mut n = 0;
-    while n < 8 {
+    while n < COEFFICIENTS {
         table[n][0] = 1.0;
         let mut k = 1;
         while k <= n {
@@ -60,7 +63,7 @@ impl Bernstein {
     /// The polynomial divided by `s^order`, its roots at the start taken out.
     fn deflated(&self, order: usize) -> Bernstein {
         let degree = self.degree - order;
-        let mut coefficients = [0.0; 8];
+        let mut coefficients = [0.0; COEFFICIENTS];
         for (j, coefficient) in coefficients[..=degree].iter_mut().enumerate() {
             *coefficient = self.coefficients[j + order] * BINOMIAL[self.degree][j + order] / BINOMIAL[degree][j];
         }
@@ -252,8 +255,8 @@ mod tests {
     /// Bernstein coefficients of `Σ power[i] s^i`.
     fn polynomial(power: &[f64]) -> Bernstein {
         let degree = 7;
-        let mut coefficients = [0.0; 8];
-        for (j, coefficient) in coefficients.iter_mut().enumerate() {
+        let mut coefficients = [0.0; COEFFICIENTS];
+        for (j, coefficient) in coefficients[..=degree].iter_mut().enumerate() {
             *coefficient = (0..=j.min(power.len() - 1)).map(|i| power[i] * BINOMIAL[j][i] / BINOMIAL[degree][i]).sum();
         }
         Bernstein { coefficients, degree }

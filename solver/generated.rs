@@ -28,10 +28,12 @@ use crate::column::{Block, Column};
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
 use crate::mode::Mode;
 use crate::program::{
-    ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, StepProgram, slope, split,
+    ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, SeriesProgram, StepProgram,
+    slope, split,
 };
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
+use std::cell::OnceCell;
 use std::marker::PhantomData;
 
 /// Code written by `rocking_codegen` for this build.
@@ -88,17 +90,20 @@ pub fn generated_mode<P: StepProgram<f64> + 'static>(
 ) -> Option<Mode>
 where
     P::State: StateVector,
+    P::Vector: StateVector,
 {
     let dynamics = GeneratedMode::<P>::new(column, pattern, ground, linkages)?;
     Some(Mode::from_dynamics(pattern.clone(), dynamics))
 }
 
 /// A mode of a column on generated equations.
-#[derive(Clone, Debug)]
 pub struct GeneratedMode<P: StepProgram<f64>> {
     constants: P::Constants,
     geometry: Geometry<f64>,
     energies: SceneConstants<f64>,
+    series: SceneConstants<f64>,
+    energy_constants: OnceCell<<P::Energies as EnergyProgram<f64>>::Constants>,
+    series_constants: OnceCell<<P::Series as SeriesProgram<f64>>::Constants>,
     interfaces: Vec<InterfaceForces>,
 }
 
@@ -131,14 +136,25 @@ impl<P: StepProgram<f64>> GeneratedMode<P> {
         });
         let interfaces = interfaces.collect();
         let constants = P::Constants::try_from(&constants).ok()?;
-        Some(GeneratedMode { constants, geometry, energies: equations.energies, interfaces })
+        Some(GeneratedMode {
+            constants,
+            geometry,
+            energies: equations.energies,
+            series: equations.series,
+            energy_constants: OnceCell::new(),
+            series_constants: OnceCell::new(),
+            interfaces,
+        })
     }
 
     /// Scene constants of mass matrix and energies: computed where they are read.
-    fn energy_constants(&self) -> <P::Energies as EnergyProgram<f64>>::Constants {
-        let constants = (self.energies)(&self.geometry);
-        let constants = <P::Energies as EnergyProgram<f64>>::Constants::try_from(&constants);
-        constants.ok().expect("a linkage and its energy program come from one generator")
+    fn energy_constants(&self) -> &<P::Energies as EnergyProgram<f64>>::Constants {
+        self.energy_constants.get_or_init(|| fixed((self.energies)(&self.geometry)))
+    }
+
+    /// Scene constants of the weights: computed where they are read.
+    fn series_constants(&self) -> &<P::Series as SeriesProgram<f64>>::Constants {
+        self.series_constants.get_or_init(|| fixed((self.series)(&self.geometry)))
     }
 }
 
@@ -167,6 +183,7 @@ impl<S: Scalar, P: StepProgram<S>> StepProgram<S> for Mirrored<P> {
     type State = P::State;
     type Constants = P::Constants;
     type Energies = P::Energies;
+    type Series = P::Series;
 
     #[inline(always)]
     fn vector(fill: S) -> P::Vector {
@@ -196,11 +213,38 @@ impl<S: Scalar, P: StepProgram<S>> StepProgram<S> for Mirrored<P> {
     }
 }
 
+/// Constants as the array that their program wants.
+fn fixed<C: for<'a> TryFrom<&'a [f64]>>(constants: Vec<f64>) -> C {
+    match C::try_from(&constants) {
+        Ok(constants) => constants,
+        Err(_) => unreachable!("a linkage and its programs come from one generator"),
+    }
+}
+
 impl<P: StepProgram<f64>> Dynamics for GeneratedMode<P>
 where
     P::State: StateVector,
+    P::Vector: StateVector,
 {
     type State = P::State;
+    type Links = P::Vector;
+
+    fn zero_links(&self) -> P::Vector {
+        P::vector(0.0)
+    }
+
+    #[inline(always)]
+    fn coupling(&self, _: &P::State, cos: &P::Vector, sin: &P::Vector, matrix: &mut [f64]) {
+        let rows = P::Energies::mass_matrix(self.energy_constants(), cos, sin);
+        for (row, entries) in matrix.chunks_mut(P::DOF).zip(rows.as_ref()) {
+            row.copy_from_slice(entries.as_ref());
+        }
+    }
+
+    #[inline(always)]
+    fn weights(&self, cos_ddot: &P::Vector, sin_ddot: &P::Vector, ground: Ground) -> [P::Vector; 2] {
+        P::Series::weights(self.series_constants(), cos_ddot, sin_ddot, ground.x, ground.gravity)
+    }
 
     fn zero_state(&self) -> P::State {
         P::state(0.0)
@@ -213,13 +257,13 @@ where
 
     fn energy(&self, state: &P::State, gravity: f64) -> Energy {
         let (cos, sin, omega) = split::<f64, P>(state.as_slice());
-        let [kinetic, potential] = P::Energies::energies(&self.energy_constants(), &cos, &sin, &omega, gravity);
+        let [kinetic, potential] = P::Energies::energies(self.energy_constants(), &cos, &sin, &omega, gravity);
         Energy { kinetic, potential }
     }
 
     fn mass_matrix(&self, state: &P::State) -> Vec<f64> {
         let (cos, sin, _) = split::<f64, P>(state.as_slice());
-        let matrix = P::Energies::mass_matrix(&self.energy_constants(), &cos, &sin);
+        let matrix = P::Energies::mass_matrix(self.energy_constants(), &cos, &sin);
         matrix.as_ref().iter().flat_map(|row| row.as_ref().iter().copied()).collect()
     }
 

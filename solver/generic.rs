@@ -16,16 +16,23 @@ pub struct GenericMode {
     pattern: Pattern,
     link: Vec<usize>,
     dof: usize,
+    /// Per free angle, in its link's axes: the first moment of all that it carries about its pivot `[kg m]`.
+    moment: Vec<Vec2>,
+    /// Per free angle, in its link's axes: from its pivot to the next one `[m]`.
+    lever: Vec<Vec2>,
 }
 
 impl GenericMode {
     /// The mode of a pattern.
     pub fn new(column: &Column, pattern: &Pattern) -> GenericMode {
+        let (moment, lever) = carried(column, pattern);
         GenericMode {
             column: column.clone(),
             pattern: pattern.clone(),
             link: pattern.linkage().link_of_block(),
             dof: pattern.dof(),
+            moment,
+            lever,
         }
     }
 
@@ -33,6 +40,32 @@ impl GenericMode {
         let theta: Vec<f64> = self.link.iter().map(|&link| if link == 0 { 0.0 } else { state[link - 1] }).collect();
         Posture::new(&self.column, &self.pattern, &theta)
     }
+}
+
+/// First moments and levers of the links, base first.
+fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
+    let link = pattern.linkage().link_of_block();
+    let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
+    let (mut moments, mut levers) = (Vec::new(), Vec::new());
+    for own in 1..=pattern.dof() {
+        let (mut moment, mut lever) = ([0.0, 0.0], [0.0, 0.0]);
+        let mut first = None;
+        for (i, block) in column.blocks().iter().enumerate().filter(|(i, _)| link[*i] >= own) {
+            if link[i] == own {
+                let first = *first.get_or_insert(i);
+                moment[0] -= block.mass * pivot(first);
+                moment[1] += block.mass * (lever[1] + block.half_height);
+                lever[1] += 2.0 * block.half_height;
+                lever[0] = if i + 1 < link.len() { pivot(i + 1) - pivot(first) } else { 0.0 };
+            } else {
+                moment[0] += block.mass * lever[0];
+                moment[1] += block.mass * lever[1];
+            }
+        }
+        moments.push(moment);
+        levers.push(lever);
+    }
+    (moments, levers)
 }
 
 /// Accelerations less gravity: the ground's and those that the rates cause.
@@ -54,6 +87,41 @@ pub(crate) fn link_acceleration(posture: &Posture, rates: &[f64], ground: Ground
 
 impl Dynamics for GenericMode {
     type State = Vec<f64>;
+    type Links = Vec<f64>;
+
+    fn zero_links(&self) -> Vec<f64> {
+        vec![0.0; self.dof]
+    }
+
+    fn coupling(&self, state: &Vec<f64>, _: &Vec<f64>, _: &Vec<f64>, matrix: &mut [f64]) {
+        matrix.copy_from_slice(self.posture(state).mass_matrix().as_slice());
+    }
+
+    /// Moments about the pivots of the inertial forces, in the links' axes: what lies below a link accelerates its first
+    /// moment, what lies above pulls at its lever.
+    fn weights(&self, cos_ddot: &Vec<f64>, sin_ddot: &Vec<f64>, ground: Ground) -> [Vec<f64>; 2] {
+        let turned = |[u, v]: Vec2, link: usize| {
+            [u * cos_ddot[link] + v * sin_ddot[link], v * cos_ddot[link] - u * sin_ddot[link]]
+        };
+        let mut weights = [vec![0.0; self.dof], vec![0.0; self.dof]];
+        let mut add = |link: usize, [u, v]: Vec2, [x, y]: Vec2| {
+            weights[0][link] += v * x - u * y;
+            weights[1][link] -= u * x + v * y;
+        };
+        let mut below = [ground.x, ground.gravity];
+        for link in 0..self.dof {
+            add(link, self.moment[link], below);
+            let [x, y] = turned(self.lever[link], link);
+            below = [below[0] + x, below[1] + y];
+        }
+        let mut above = [0.0, 0.0];
+        for link in (0..self.dof).rev() {
+            add(link, self.lever[link], above);
+            let [x, y] = turned(self.moment[link], link);
+            above = [above[0] + x, above[1] + y];
+        }
+        weights
+    }
 
     fn zero_state(&self) -> Vec<f64> {
         vec![0.0; 2 * self.dof]

@@ -7,8 +7,8 @@ use crate::column::Column;
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
 use crate::generated;
 use crate::generic::GenericMode;
-use crate::ode::{self, Dop853, DormandPrince54, Pair, System, Tolerance};
-use crate::phase::{Ended, Phase, RungeKutta, Stepper};
+use crate::ode::{self, Dop853, DormandPrince54, KuttaMerson, Pair, RungeKutta4, System, Tolerance};
+use crate::phase::{Ended, Phase, RungeKutta, Stepper, TaylorSeries};
 use crate::scene::Method;
 use crate::simulate::{Run, SolveError};
 use rocking_codegen::GroundMotion;
@@ -57,10 +57,15 @@ fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
 
 impl<D: Dynamics> Equations for D {
     fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError> {
-        let gravity = run.scene.column.gravity();
-        let mut stepper: Box<dyn Stepper<D::State> + '_> = match run.scene.options.method {
-            Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity)),
-            Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity)),
+        let (gravity, options) = (run.scene.column.gravity(), &run.scene.options);
+        let mut stepper: Box<dyn Stepper<D::State> + '_> = match options.method {
+            Method::Taylor => Box::new(TaylorSeries::new(self, gravity, options.rtol)),
+            Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity, None)),
+            Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity, None)),
+            Method::KuttaMerson => Box::new(RungeKutta::<D, KuttaMerson<D::State>>::new(self, gravity, None)),
+            Method::RungeKutta4 => {
+                Box::new(RungeKutta::<D, RungeKutta4<D::State>>::new(self, gravity, Some(options.step)))
+            }
         };
         Phase::new(run, &mut *stepper).run()
     }

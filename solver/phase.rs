@@ -18,11 +18,11 @@ mod stepper;
 use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, StateVector};
 use crate::excitation::Segment;
-use crate::ode::{Interpolant, StepControl, Tolerance};
+use crate::ode::{Interpolant, Tolerance};
 use crate::response::mode_name;
 use crate::simulate::{Run, SolveError};
 use rocking_codegen::pattern::Interface;
-pub(crate) use stepper::{RungeKutta, Stepper};
+pub(crate) use stepper::{RungeKutta, Stepper, TaylorSeries};
 
 /// How a stretch of time ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,13 +149,12 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
 
     /// Integrates to the next event; the run's state is then that at the event, before what it brings about.
     pub fn run(mut self) -> Result<Ended, SolveError> {
-        let control = StepControl::new(self.stepper.error_order());
         self.stepper.slope(self.run.t, &self.x, &mut self.slope);
         self.arm();
         self.margins = self.weigh_start();
         let mut wanted = match self.run.suggested_step {
             Some(step) => step,
-            None => control.first_step(&self.x, &self.slope, self.tolerance),
+            None => self.stepper.first_step(&self.x, &self.slope, self.tolerance),
         };
         loop {
             let t = self.run.t;
@@ -176,7 +175,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             let error = self.stepper.attempt(t, &self.x, &self.slope, h, self.tolerance);
             if error.is_nan() || error > 1.0 {
                 self.run.work.rejected += 1;
-                wanted = h * if error.is_nan() { 0.1 } else { control.factor(error).min(1.0) };
+                wanted = h * if error.is_nan() { 0.1 } else { self.stepper.factor(error).min(1.0) };
                 self.check_step(t, wanted, error)?;
                 continue;
             }
@@ -185,7 +184,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             if self.run.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
                 (self.run.progress)(t);
             }
-            let factor = control.factor(error);
+            let factor = self.stepper.factor(error);
             // A step cut short by a segment's end says nothing against the step wanted.
             wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };
             self.interpolated = false;

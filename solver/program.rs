@@ -54,6 +54,8 @@ pub trait StepProgram<S: Scalar> {
     type Constants: for<'a> TryFrom<&'a [S]> + Clone;
     /// Mass matrix and energies of the same modes.
     type Energies: EnergyProgram<S, Vector = Self::Vector>;
+    /// Weights of the same equations, for Taylor coefficients.
+    type Series: SeriesProgram<S, Vector = Self::Vector>;
 
     /// A vector filled with one value.
     fn vector(fill: S) -> Self::Vector;
@@ -72,6 +74,25 @@ pub trait StepProgram<S: Scalar> {
         ground_x: S,
         gravity: S,
     ) -> Self::Vector;
+}
+
+/// The equations of all modes with one number of degrees of freedom in the form
+/// `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`, with `J` the diagonal of the mass matrix. Implemented by generated code.
+pub trait SeriesProgram<S: Scalar> {
+    /// One value per free angle.
+    type Vector;
+    /// Scene constants, in the order of the program's doc.
+    type Constants: for<'a> TryFrom<&'a [S]> + Clone;
+
+    /// The weights `[C, S]` `[N m]`: linear in the second derivatives of cosines and sines `[1/s²]`, the horizontal ground
+    /// acceleration and the effective gravity `[m/s²]`; of Taylor coefficients, those of the weights.
+    fn weights(
+        constants: &Self::Constants,
+        cos_ddot: &Self::Vector,
+        sin_ddot: &Self::Vector,
+        ground_x: S,
+        gravity: S,
+    ) -> [Self::Vector; 2];
 }
 
 /// Cosines, sines and rates of a state `[θ, θ̇]`.
@@ -151,6 +172,8 @@ pub struct LinkageEquations<S> {
     pub accelerations: [SceneConstants<S>; 2],
     /// Scene constants of mass matrix and energies.
     pub energies: SceneConstants<S>,
+    /// Scene constants of the weights.
+    pub series: SceneConstants<S>,
     /// Per interface, base first.
     pub interfaces: Vec<InterfaceEquations<S>>,
 }

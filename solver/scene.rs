@@ -48,17 +48,30 @@ pub enum Method {
     Dop853,
     /// Dormand & Prince 5(4): for tolerances above about 1e-6.
     DormandPrince54,
+    /// Taylor series of an order that follows from the tolerance: for tolerances below about 1e-8, and for records.
+    Taylor,
+    /// Merson's method of order 4, the paper's: for comparison.
+    KuttaMerson,
+    /// The classic method of order 4 with steps of [`SolveOptions::step`]: for comparison; the tolerances do nothing.
+    RungeKutta4,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Method; 2] = [Method::Dop853, Method::DormandPrince54];
+    pub const ALL: [Method; 5] =
+        [Method::Dop853, Method::DormandPrince54, Method::Taylor, Method::KuttaMerson, Method::RungeKutta4];
+
+    /// Those that choose their steps by the tolerance and reach any: all but those of order 4.
+    pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
 
     /// Its name in a scene file.
     pub fn name(self) -> &'static str {
         match self {
             Method::Dop853 => "dop853",
             Method::DormandPrince54 => "dormand-prince54",
+            Method::Taylor => "taylor",
+            Method::KuttaMerson => "kutta-merson",
+            Method::RungeKutta4 => "rk4",
         }
     }
 
@@ -95,6 +108,8 @@ pub struct SolveOptions {
     pub rtol: f64,
     /// Absolute tolerance of a step `[rad]`, `[rad/s]`.
     pub atol: f64,
+    /// Length of the steps of methods without step control `[s]`.
+    pub step: f64,
     /// An interface that would hop by less closes `[rad]`.
     pub stick_angle: f64,
     /// The column has overturned when some angle reaches this `[rad]`.
@@ -113,6 +128,7 @@ impl Default for SolveOptions {
             method: Method::default(),
             rtol: 1e-9,
             atol: 1e-12,
+            step: 1e-3,
             stick_angle: 1e-9,
             overturn_angle: FRAC_PI_2,
             dynamics: DynamicsSource::default(),
@@ -195,6 +211,7 @@ impl Scene {
             ("solver.t_end", options.t_end),
             ("solver.rtol", options.rtol),
             ("solver.atol", options.atol),
+            ("solver.step", options.step),
             ("solver.stick_angle", options.stick_angle),
             ("solver.overturn_angle", options.overturn_angle),
             ("output.dt", self.output_dt.unwrap_or(1.0)),

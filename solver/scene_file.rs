@@ -367,6 +367,7 @@ fn solver(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
         ("t_end", &mut options.t_end),
         ("rtol", &mut options.rtol),
         ("atol", &mut options.atol),
+        ("step", &mut options.step),
         ("stick_angle", &mut options.stick_angle),
         ("overturn_angle", &mut options.overturn_angle),
     ] {

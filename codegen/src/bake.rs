@@ -112,6 +112,8 @@ pub struct BakedCatalogue {
     pub linkages: Vec<LinkageRecord>,
     /// Programs of mass matrix and energies, by degrees of freedom.
     pub energies: Vec<Program>,
+    /// Programs of the weights, by degrees of freedom.
+    pub series: Vec<Program>,
     /// Distinct contact-force programs.
     pub forces: Vec<Program>,
 }
@@ -126,6 +128,7 @@ pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateE
     let plans: Vec<Plan> = (1..=blocks).map(Plan::new).collect();
     let shared = crate::catalogue_of(linkages(blocks), &plans);
     let energies = shared.energies.by_degrees_of_freedom(blocks)?;
+    let series = shared.series.by_degrees_of_freedom(blocks)?;
     let modes = modes(blocks).map(|(label, pattern)| {
         let accelerations = GroundMotion::ALL.map(|ground| {
             let form = plans[pattern.dof() - 1].form(ground);
@@ -135,7 +138,7 @@ pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateE
     });
     let modes = modes.collect();
     let forces = shared.forces.programs;
-    Ok(BakedCatalogue { column: column.clone(), modes, linkages: shared.linkages, energies, forces })
+    Ok(BakedCatalogue { column: column.clone(), modes, linkages: shared.linkages, energies, series, forces })
 }
 
 /// The accelerations of a pattern with the constants' values put in: zeros and ones vanish, equal values share a name.

@@ -101,6 +101,8 @@ pub struct Derivation {
     pub accelerations: [Program; 2],
     /// Mass matrix and energies.
     pub energies: Program,
+    /// Weights of the equations in second derivatives of sines and cosines.
+    pub series: Program,
     /// Contact forces per interface, base first.
     pub forces: Vec<Program>,
 }
@@ -145,6 +147,8 @@ pub fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
         optimise::acceleration_program(&mut arena, &symbols, &parts, ground, form)
     });
     let energies = optimise::energy_program(&mut arena, &symbols, &parts);
+    let weights = mechanics::weight_form(&mut arena, &symbols, linkage, &equations);
+    let series = optimise::series_program(&mut arena, &symbols, &weights);
     let forces = (0..linkage.blocks())
         .map(|interface| {
             let forces = mechanics::interface_forces(&mut arena, &symbols, linkage, &equations.centroids, interface);
@@ -152,7 +156,18 @@ pub fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
         })
         .collect();
     let forms = plan.forms;
-    Derivation { linkage: linkage.clone(), arena, symbols, equations, parts, forms, accelerations, energies, forces }
+    Derivation {
+        linkage: linkage.clone(),
+        arena,
+        symbols,
+        equations,
+        parts,
+        forms,
+        accelerations,
+        energies,
+        series,
+        forces,
+    }
 }
 
 /// One linkage in a [`Catalogue`].
@@ -166,6 +181,8 @@ pub struct LinkageRecord {
     pub accelerations: [Vec<Constant>; 2],
     /// Scene constants of mass matrix and energies.
     pub energies: Vec<Constant>,
+    /// Scene constants of the weights.
+    pub series: Vec<Constant>,
     /// Per interface: index of its program in [`Catalogue::forces`], and its scene constants.
     pub interfaces: Vec<(usize, Vec<Constant>)>,
 }
@@ -181,6 +198,8 @@ pub struct Catalogue {
     pub accelerations: [Vec<Program>; 2],
     /// Distinct programs of mass matrix and energies, by degrees of freedom.
     pub energies: Vec<Program>,
+    /// Distinct programs of the weights, by degrees of freedom.
+    pub series: Vec<Program>,
     /// Distinct contact-force programs.
     pub forces: Vec<Program>,
 }
@@ -235,6 +254,7 @@ pub fn catalogue(max_blocks: usize) -> Result<Catalogue, GenerateError> {
         linkages: shared.linkages,
         accelerations: [horizontal.by_degrees_of_freedom(max_blocks)?, vertical.by_degrees_of_freedom(max_blocks)?],
         energies: shared.energies.by_degrees_of_freedom(max_blocks)?,
+        series: shared.series.by_degrees_of_freedom(max_blocks)?,
         forces: shared.forces.programs,
     })
 }
@@ -245,6 +265,7 @@ struct Shared {
     linkages: Vec<LinkageRecord>,
     accelerations: [Distinct; 2],
     energies: Distinct,
+    series: Distinct,
     forces: Distinct,
 }
 
@@ -261,6 +282,7 @@ fn catalogue_of(linkages: impl Iterator<Item = Linkage>, plans: &[Plan]) -> Shar
             arena: derivation.arena,
             accelerations,
             energies: shared.energies.enlist(derivation.energies).1,
+            series: shared.series.enlist(derivation.series).1,
             interfaces,
         });
     }

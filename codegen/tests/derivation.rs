@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
+use rocking_codegen::mechanics::weight_form;
 use rocking_codegen::optimise::{Form, Program, acceleration_program};
 use rocking_codegen::pattern::{Linkage, linkages};
 use rocking_codegen::symbolic::{Arena, Environment, Expr};
@@ -203,4 +204,15 @@ fn derive_as(linkage: &Linkage, ground: GroundMotion, form: Form) -> (Derivation
     let (symbols, parts) = (derivation.symbols.clone(), derivation.parts.clone());
     let program = acceleration_program(&mut derivation.arena, &symbols, &parts, ground, form);
     (derivation, program)
+}
+
+/// Multiplied out, the form in second derivatives of sines and cosines is what Euler-Lagrange gives, for every linkage.
+#[test]
+fn the_weight_form_is_the_equations_of_motion() {
+    for linkage in (1..=5).flat_map(linkages) {
+        let mut derivation = derive(&linkage);
+        let (symbols, equations) = (derivation.symbols.clone(), derivation.equations.clone());
+        let form = weight_form(&mut derivation.arena, &symbols, &linkage, &equations);
+        assert!(form.is_proved(&mut derivation.arena, &symbols, &equations), "{linkage:?}");
+    }
 }

@@ -61,6 +61,39 @@ impl Piece {
         }
     }
 
+    /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
+    pub fn expand_at(&self, t: f64, coefficients: &mut [f64]) {
+        coefficients.fill(0.0);
+        match *self {
+            Piece::Zero => {}
+            Piece::Linear { slope, .. } => {
+                coefficients[0] = self.value(t);
+                if let Some(first) = coefficients.get_mut(1) {
+                    *first = slope;
+                }
+            }
+            Piece::Sine { amplitude, omega, start, phase } => {
+                let (sin, cos) = libm::sincos(omega * (t - start) + phase);
+                expand_circle(amplitude * sin, amplitude * cos, omega, coefficients);
+            }
+            Piece::Cosine { amplitude, omega, start } => {
+                let (sin, cos) = libm::sincos(omega * (t - start));
+                expand_circle(amplitude * cos, -amplitude * sin, omega, coefficients);
+            }
+            Piece::Ricker { amplitude, omega, centre } => {
+                // E = exp(-u²/2) has E' = -u u' E; the acceleration is (1 - u²) E, with u = u0 + omega τ.
+                let u = omega * (t - centre);
+                let polynomial = [1.0 - u * u, -2.0 * u * omega, -omega * omega];
+                let mut last = [0.0, 0.0, amplitude * libm::exp(-0.5 * u * u)];
+                for (k, coefficient) in coefficients.iter_mut().enumerate() {
+                    *coefficient = polynomial[0] * last[2] + polynomial[1] * last[1] + polynomial[2] * last[0];
+                    let next = -omega / (k + 1) as f64 * (u * last[2] + omega * last[1]);
+                    last = [last[1], last[2], next];
+                }
+            }
+        }
+    }
+
     /// Rate of the acceleration at `t` `[m/s³]`.
     pub fn rate(&self, t: f64) -> f64 {
         match *self {
@@ -116,6 +149,17 @@ impl Piece {
     }
 }
 
+/// Coefficients of the oscillation with this value and, a quarter of a period later, this one.
+fn expand_circle(value: f64, quarter: f64, omega: f64, coefficients: &mut [f64]) {
+    let (mut now, mut next) = (value, quarter);
+    let mut scale = 1.0;
+    for (k, coefficient) in coefficients.iter_mut().enumerate() {
+        *coefficient = now * scale;
+        (now, next) = (next, -now);
+        scale *= omega / (k + 1) as f64;
+    }
+}
+
 /// Relative change that counts as a jump. A pulse's end is a few roundings of `omega t` off zero: 1e-12 covers thousands of
 /// periods; a true jump below it moves nothing that a double could tell.
 const SAME_ACCELERATION: f64 = 1e-12;
@@ -137,6 +181,13 @@ mod tests {
             let slope = (piece.value(t + d) - piece.value(t - d)) / (2.0 * d);
             // Central difference: d² · third derivative (~1e2) and rounding 1e-16 / d.
             assert!((slope - piece.rate(t)).abs() < 1e-7, "{piece:?}");
+            let mut coefficients = [0.0; 20];
+            piece.expand_at(t, &mut coefficients);
+            let at = 0.21;
+            let sum = coefficients.iter().rev().fold(0.0, |sum, c| sum * at + c);
+            // 0.63^20 / 20! and, for the Ricker pulse, 0.63^20 / 10!: below rounding of the amplitude.
+            assert!((sum - piece.value(t + at)).abs() < 1e-14, "{piece:?}");
+            assert!((coefficients[1] - piece.rate(t)).abs() < 1e-14, "{piece:?}");
             let bend = (piece.rate(t + d) - piece.rate(t - d)) / (2.0 * d);
             assert!(bend.abs() <= piece.curvature_bound() + 1e-6, "{piece:?}");
         }

@@ -63,14 +63,7 @@ impl<V: StateVector> Pair<V> for DormandPrince54<V> {
         step.finish(&B);
         // The error estimate needs the slope at the end, which an accepted step needs anyway.
         step.end_slope(system, 6);
-        let mut sum = 0.0;
-        let count = step.x.as_slice().len();
-        for i in 0..count {
-            let scale = step.scale(tolerance, i);
-            let error = step.weighted(&E, i) / scale;
-            sum += error * error;
-        }
-        (sum / count as f64).sqrt()
+        step.error(&E, tolerance)
     }
 
     fn end(&self) -> &V {

@@ -16,6 +16,9 @@ impl<V: StateVector> Phase<'_, '_, V> {
         };
         for index in 0..self.gaps.len() {
             let (gap, dof) = (self.gaps[index], self.dof);
+            if gap.start_roots == 0 && self.interpolant.cheap_lower_bound(|x| gap.of(&x[..dof])) > 0.0 {
+                continue;
+            }
             let mut polynomial = self.interpolant.bernstein(|x| gap.of(&x[..dof]));
             if gap.start_roots > 0 {
                 let (rate, acceleration) = (gap.of(&self.x.as_slice()[dof..]), gap.of(&self.slope.as_slice()[dof..]));
@@ -28,8 +31,8 @@ impl<V: StateVector> Phase<'_, '_, V> {
         }
         let limit = self.run.scene.options.overturn_angle;
         for link in 0..self.dof {
-            let angle = self.interpolant.bernstein(|x| x[link]);
-            if angle.size() >= limit {
+            let is_far = |sign: f64| self.interpolant.cheap_lower_bound(|x| sign * x[link]) > -limit;
+            if !(is_far(1.0) && is_far(-1.0)) && self.interpolant.bernstein(|x| x[link]).size() >= limit {
                 let sign = if self.stepper.end().as_slice()[link] < 0.0 { -1.0 } else { 1.0 };
                 let mut polynomial = self.interpolant.bernstein(|x| -sign * x[link]);
                 polynomial.coefficients[..=polynomial.degree].iter_mut().for_each(|b| *b += limit);

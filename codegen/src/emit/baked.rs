@@ -26,6 +26,7 @@ pub fn baked_module(catalogue: &BakedCatalogue) -> String {
     let arms = catalogue.modes.iter().map(arms);
     let programs = catalogue.modes.iter().flat_map(|mode| GroundMotion::ALL.map(|ground| program(mode, ground)));
     let energies = catalogue.energies.iter().map(step::energy_program);
+    let series = catalogue.series.iter().map(step::series_program);
     let forces = catalogue.forces.iter().enumerate().map(|(index, program)| step::force_program(index, program));
     let linkages = catalogue.linkages.iter().map(linkage::force_and_energy_functions);
     let table = linkage::table(&catalogue.linkages, |_, _| format_ident!("no_constants"));
@@ -58,6 +59,7 @@ pub fn baked_module(catalogue: &BakedCatalogue) -> String {
 
         #(#programs)*
         #(#energies)*
+        #(#series)*
         #(#forces)*
         #table
         #(#linkages)*

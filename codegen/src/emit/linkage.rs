@@ -44,6 +44,12 @@ pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
         &record.arena,
         &record.energies,
     );
+    let series = scene_constants(
+        &format_ident!("series_{stem}"),
+        "Scene constants of the weights.",
+        &record.arena,
+        &record.series,
+    );
     let interfaces = record.interfaces.iter().enumerate().map(|(interface, (_, constants))| {
         let number = interface + 1;
         scene_constants(
@@ -53,7 +59,7 @@ pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
             constants,
         )
     });
-    quote! { #energies #(#interfaces)* }
+    quote! { #energies #series #(#interfaces)* }
 }
 
 /// The function of the accelerations' scene constants.
@@ -114,6 +120,7 @@ pub fn table(linkages: &[LinkageRecord], accelerations: impl Fn(&str, GroundMoti
         let stem = stem(&record.linkage);
         let accelerations = GroundMotion::ALL.map(|ground| accelerations(&stem, ground));
         let energies = format_ident!("energies_{stem}");
+        let series = format_ident!("series_{stem}");
         let dof = record.linkage.dof();
         let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {
             let constants = format_ident!("forces_{}_{stem}", interface + 1);
@@ -121,7 +128,7 @@ pub fn table(linkages: &[LinkageRecord], accelerations: impl Fn(&str, GroundMoti
             quote! { InterfaceEquations { constants: #constants, forces: #forces } }
         });
         quote! {
-            (#blocks, #mask) => LinkageEquations { dof: #dof, accelerations: [#(#accelerations),*], energies: #energies, interfaces: vec![#(#interfaces),*] },
+            (#blocks, #mask) => LinkageEquations { dof: #dof, accelerations: [#(#accelerations),*], energies: #energies, series: #series, interfaces: vec![#(#interfaces),*] },
         }
     });
     let doc = doc(

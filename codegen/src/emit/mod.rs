@@ -36,6 +36,7 @@ pub fn module(catalogue: &Catalogue) -> String {
         catalogue.accelerations[ground as usize].iter().map(move |program| shared_program(program, ground))
     });
     let energies = catalogue.energies.iter().map(step::energy_program);
+    let series = catalogue.series.iter().map(step::series_program);
     let forces = catalogue.forces.iter().enumerate().map(|(index, program)| step::force_program(index, program));
     let linkages = catalogue.linkages.iter().map(linkage::functions);
     let table = linkage::table(&catalogue.linkages, linkage::accelerations_name);
@@ -47,6 +48,7 @@ pub fn module(catalogue: &Catalogue) -> String {
         #modes
         #(#steps)*
         #(#energies)*
+        #(#series)*
         #(#forces)*
         #table
         #(#linkages)*
@@ -58,7 +60,7 @@ fn uses() -> TokenStream {
     quote! {
         use rocking::generated::{Equations, generated_mode};
         use rocking::pattern::Pattern;
-        use rocking::program::{EnergyProgram, Geometry, InterfaceEquations, LinkageEquations, Scalar, StepProgram};
+        use rocking::program::{EnergyProgram, Geometry, InterfaceEquations, LinkageEquations, Scalar, SeriesProgram, StepProgram};
         use rocking::{Column, GroundMotion, Mode};
     }
 }

@@ -21,6 +21,11 @@ pub fn energy_type(dof: usize) -> Ident {
     format_ident!("EnergiesDof{dof}")
 }
 
+/// The type that stands for the weights of this many degrees of freedom.
+pub fn series_type(dof: usize) -> Ident {
+    format_ident!("SeriesDof{dof}")
+}
+
 /// The name of a contact-force program.
 pub fn force_name(index: usize) -> Ident {
     format_ident!("contact_forces_{}", index + 1)
@@ -47,7 +52,7 @@ fn describe(title: &str, program: &Program) -> TokenStream {
 pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Literals) -> TokenStream {
     let dof = program.dof;
     let count = literals.remaining(program);
-    let energies = energy_type(dof);
+    let (energies, series) = (energy_type(dof), series_type(dof));
     let doc = describe(title, program);
     let state = 2 * dof;
     let acceleration = body(program, "acceleration", literals);
@@ -62,6 +67,7 @@ pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Lit
             type State = [S; #state];
             type Constants = [S; #count];
             type Energies = #energies;
+            type Series = #series;
 
             #[inline(always)]
             fn vector(fill: S) -> [S; #dof] {
@@ -111,6 +117,31 @@ pub fn energy_program(program: &Program) -> TokenStream {
     }
 }
 
+/// A `struct` and its `SeriesProgram`.
+pub fn series_program(program: &Program) -> TokenStream {
+    let dof = program.dof;
+    let name = series_type(dof);
+    let count = program.constants.len();
+    let title = format!("Weights of the equations of all modes with {dof} free angle(s), for Taylor coefficients.");
+    let doc = describe(&title, program);
+    let weights = body(program, "weights", &Literals::default());
+    quote! {
+        #doc
+        #[derive(Clone, Copy, Debug)]
+        pub struct #name;
+
+        impl<S: Scalar> SeriesProgram<S> for #name {
+            type Vector = [S; #dof];
+            type Constants = [S; #count];
+
+            #[inline(always)]
+            fn weights(constants: &[S; #count], cos_ddot: &[S; #dof], sin_ddot: &[S; #dof], ground_x: S, gravity: S) -> [[S; #dof]; 2] {
+                #weights
+            }
+        }
+    }
+}
+
 fn body(program: &Program, name: &str, literals: &Literals) -> TokenStream {
     routine_body(program, program.routines.iter().find(|routine| routine.name == name), literals)
 }
@@ -142,7 +173,7 @@ fn routine_body(program: &Program, routine: Option<&Routine>, literals: &Literal
     }
     let outputs: Vec<TokenStream> = routine.outputs.iter().map(|output| writer.read(*output)).collect();
     let lets = writer.finish();
-    let result = if routine.name == "mass_matrix" {
+    let result = if routine.name == "mass_matrix" || routine.name == "weights" {
         let rows = outputs.chunks(program.dof).map(|row| quote! { [#(#row),*] });
         quote! { [#(#rows),*] }
     } else {
@@ -159,6 +190,7 @@ fn inputs(program: &Program, routine: &Routine, used: &str, literals: &Literals)
     let mut lets = TokenStream::new();
     let families: &[&str] = match routine.name {
         "mass_matrix" => &["cos", "sin"],
+        "weights" => &["cos_ddot", "sin_ddot"],
         "contact_forces" => &["cos", "sin", "omega", "alpha"],
         _ => &["cos", "sin", "omega"],
     };

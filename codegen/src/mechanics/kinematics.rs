@@ -15,6 +15,10 @@ pub struct Symbols {
     pub omega: Vec<Expr>,
     /// Angular acceleration of each link `[rad/s²]`, length dof.
     pub alpha: Vec<Expr>,
+    /// Second derivative of the cosine of each angle `[1/s²]`, length dof; only the weight form uses them.
+    pub cos_ddot: Vec<Expr>,
+    /// Second derivative of the sine of each angle `[1/s²]`, length dof.
+    pub sin_ddot: Vec<Expr>,
     /// Horizontal ground acceleration `ẍ_g [m/s²]`.
     pub ground_x: Expr,
     /// Effective gravity `g + ÿ_g [m/s²]`: vertical ground motion acts like a change of gravity.
@@ -42,6 +46,8 @@ impl Symbols {
         let theta = family("theta", dof, Level::State, Unit::default());
         let omega = family("omega", dof, Level::State, Unit(0, 0, -1));
         let alpha = family("alpha", dof, Level::State, Unit(0, 0, -2));
+        let cos_ddot = family("cos_ddot", dof, Level::State, Unit(0, 0, -2));
+        let sin_ddot = family("sin_ddot", dof, Level::State, Unit(0, 0, -2));
         let pivot = family("pivot", blocks, Level::Scene, Unit(1, 0, 0));
         let half_height = family("half_height", blocks, Level::Scene, Unit(1, 0, 0));
         let mass = family("mass", blocks, Level::Scene, Unit(0, 1, 0));
@@ -50,7 +56,21 @@ impl Symbols {
         let gravity = arena.symbol("gravity", Level::State, Unit(1, 0, -2));
         let steady_gravity = arena.symbol("gravity", Level::Scene, Unit(1, 0, -2));
         let psi = arena.symbol("psi", Level::State, Unit::default());
-        Symbols { theta, omega, alpha, ground_x, gravity, steady_gravity, psi, pivot, half_height, mass, inertia }
+        Symbols {
+            theta,
+            omega,
+            alpha,
+            cos_ddot,
+            sin_ddot,
+            ground_x,
+            gravity,
+            steady_gravity,
+            psi,
+            pivot,
+            half_height,
+            mass,
+            inertia,
+        }
     }
 }
 

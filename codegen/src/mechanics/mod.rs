@@ -6,8 +6,10 @@
 mod contact;
 mod kinematics;
 mod lagrange;
+mod series;
 
 pub(crate) use contact::normal_and_tangent;
 pub use contact::{InterfaceForces, interface_forces};
 pub use kinematics::{Symbols, Vector, centroids};
 pub use lagrange::{Equations, equations_of_motion};
+pub use series::{WeightForm, weight_form};

@@ -7,10 +7,12 @@ mod condense;
 mod count;
 mod forces;
 mod program;
+mod series;
 mod step;
 mod units;
 
 pub use count::{Operations, count_expressions, count_hoisted};
 pub use forces::force_program;
 pub use program::{Constant, Program, Routine, Statement};
+pub use series::series_program;
 pub use step::{Coupling, Form, Parts, Rates, Units, Weight, acceleration_program, admitted, cheapest, energy_program};

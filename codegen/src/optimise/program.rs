@@ -158,7 +158,7 @@ pub struct ProgramBuilder<'a> {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// A builder whose inputs are `cos_a, sin_a, omega_a, alpha_a, ground_x, gravity`.
+    /// A builder whose inputs are `cos_a, sin_a, omega_a, alpha_a, cos_ddot_a, sin_ddot_a, ground_x, gravity`.
     pub fn new(source: &'a mut Arena, symbols: &Symbols) -> ProgramBuilder<'a> {
         let dof = symbols.theta.len();
         let mut arena = Arena::new();
@@ -175,6 +175,10 @@ impl<'a> ProgramBuilder<'a> {
                 _ => symbols.alpha[index],
             };
             input(format!("{family}_{}", index + 1), of, source);
+        }
+        for link in 0..dof {
+            input(format!("cos_ddot_{}", link + 1), symbols.cos_ddot[link], source);
+            input(format!("sin_ddot_{}", link + 1), symbols.sin_ddot[link], source);
         }
         input("ground_x".into(), symbols.ground_x, source);
         input("gravity".into(), symbols.gravity, source);

@@ -1,0 +1,123 @@
+//! The equations of motion in second derivatives of sines and cosines: the form in which Taylor coefficients are cheap.
+//!
+//! Positions are linear in `cos θ_b` and `sin θ_b`, so the centroids' accelerations are the same functions of their second
+//! derivatives, and each equation becomes, with its own link's share gathered in the constant `J_a`,
+//!
+//! ```text
+//! J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0
+//! ```
+//!
+//! where the weights `C_a, S_a` are linear in `(cos θ_b)¨, (sin θ_b)¨` of the other links and in the ground's acceleration. Two
+//! products per link are all that is not linear. The form is proved against Euler-Lagrange by [`WeightForm::is_proved`].
+
+use super::kinematics::{Symbols, jacobian};
+use super::lagrange::Equations;
+use crate::pattern::Linkage;
+use crate::symbolic::{Arena, Expr};
+
+/// The weights of every equation.
+#[derive(Clone, Debug)]
+pub struct WeightForm {
+    /// `C_a`, length dof.
+    pub cos: Vec<Expr>,
+    /// `S_a`, length dof.
+    pub sin: Vec<Expr>,
+}
+
+/// Derives the weights from the centroids by d'Alembert's principle.
+///
+/// # Panics
+/// If an equation is not of the form above: the links are rigid, so it is.
+pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equations: &Equations) -> WeightForm {
+    let dof = linkage.dof();
+    let mut form = WeightForm { cos: Vec::with_capacity(dof), sin: Vec::with_capacity(dof) };
+    for link in 0..dof {
+        let mut terms = Vec::new();
+        for (position, &mass) in equations.centroids.iter().zip(&symbols.mass) {
+            let levers = jacobian(arena, *position, symbols.theta[link]);
+            let ground = [symbols.ground_x, symbols.gravity];
+            for axis in 0..2 {
+                let acceleration = second_derivative(arena, symbols, position[axis]);
+                let acceleration = arena.add(acceleration, ground[axis]);
+                let lever = arena.mul(mass, levers[axis]);
+                terms.push(arena.mul(lever, acceleration));
+            }
+        }
+        let moment = arena.total(terms);
+        let moment = arena.expand(moment);
+        let angle = symbols.theta[link];
+        let atoms = [arena.cos(angle), arena.sin(angle)];
+        let own = [symbols.cos_ddot[link], symbols.sin_ddot[link]];
+        let mut weights = [Vec::new(), Vec::new()];
+        for (coefficient, term) in arena.terms(moment) {
+            let factors = arena.factors(term);
+            // cos θ (sin θ)¨ - sin θ (cos θ)¨ = θ̈: the link's own share, which belongs to J_a.
+            if factors.iter().any(|(factor, _)| own.contains(factor)) {
+                continue;
+            }
+            let atom = factors.iter().find_map(|(factor, _)| atoms.iter().position(|atom| atom == factor));
+            let atom = atom.expect("a moment about a pivot turns with its link");
+            let rest = arena.product([(term, 1), (atoms[atom], -1)]);
+            weights[atom].push((coefficient, rest));
+        }
+        let [cos, sin] = weights.map(|weight| arena.sum(weight));
+        form.cos.push(cos);
+        form.sin.push(sin);
+    }
+    form
+}
+
+/// An expression linear in sines and cosines with each replaced by its second derivative.
+fn second_derivative(arena: &mut Arena, symbols: &Symbols, position: Expr) -> Expr {
+    let mut terms = Vec::new();
+    let expanded = arena.expand(position);
+    for link in 0..symbols.theta.len() {
+        let angle = symbols.theta[link];
+        for (atom, derivative) in
+            [(arena.cos(angle), symbols.cos_ddot[link]), (arena.sin(angle), symbols.sin_ddot[link])]
+        {
+            for (coefficient, term) in arena.terms(expanded) {
+                if arena.factors(term).contains(&(atom, 1)) {
+                    terms.push((coefficient, arena.product([(term, 1), (atom, -1), (derivative, 1)])));
+                }
+            }
+        }
+    }
+    arena.sum(terms)
+}
+
+impl WeightForm {
+    /// Whether the form is the equations of motion: with the second derivatives written out, `(cos θ)¨ = -sin θ θ̈ - cos θ θ̇²`
+    /// and `(sin θ)¨ = cos θ θ̈ - sin θ θ̇²`, it differs from Euler-Lagrange by nothing, multiplied out.
+    pub fn is_proved(&self, arena: &mut Arena, symbols: &Symbols, equations: &Equations) -> bool {
+        let dof = self.cos.len();
+        let mut written_out = std::collections::HashMap::new();
+        for link in 0..dof {
+            let [cos, sin] = [arena.cos(symbols.theta[link]), arena.sin(symbols.theta[link])];
+            let square = arena.square(symbols.omega[link]);
+            let alpha = symbols.alpha[link];
+            let (a, b) = (arena.mul(sin, alpha), arena.mul(cos, square));
+            let sum = arena.add(a, b);
+            written_out.insert(symbols.cos_ddot[link], arena.neg(sum));
+            let (a, b) = (arena.mul(cos, alpha), arena.mul(sin, square));
+            written_out.insert(symbols.sin_ddot[link], arena.sub(a, b));
+        }
+        (0..dof).all(|row| {
+            let mut terms = vec![arena.mul(equations.mass[row][row], symbols.alpha[row])];
+            for (angle, weight) in
+                [(arena.cos(symbols.theta[row]), self.cos[row]), (arena.sin(symbols.theta[row]), self.sin[row])]
+            {
+                let weight = arena.substitute(weight, &written_out);
+                terms.push(arena.mul(angle, weight));
+            }
+            for column in 0..dof {
+                let inertia = arena.mul(equations.mass[row][column], symbols.alpha[column]);
+                terms.push(arena.neg(inertia));
+            }
+            terms.push(arena.neg(equations.bias[row]));
+            terms.push(arena.neg(equations.forcing[row]));
+            let residual = arena.total(terms);
+            arena.is_identically_zero(residual)
+        })
+    }
+}
