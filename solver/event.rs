@@ -14,13 +14,13 @@
 //!
 //! This file knows guards and polynomials, not what they mean.
 
-use crate::ode::{Bernstein, MAX_TERMS};
+use crate::ode::Bernstein;
 
 /// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
 const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// Bernstein coefficients of the longest dense output.
-const COEFFICIENTS: usize = MAX_TERMS + 1;
+const COEFFICIENTS: usize = Bernstein::LARGEST_DEGREE + 1;
 
 /// Binomial coefficients up to the degree of the longest dense output.
 const BINOMIAL: [[f64; COEFFICIENTS]; COEFFICIENTS] = {

@@ -183,9 +183,9 @@ mod tests {
             assert!((slope - piece.rate(t)).abs() < 1e-7, "{piece:?}");
             let mut coefficients = [0.0; 20];
             piece.expand_at(t, &mut coefficients);
-            let at = 0.21;
+            let at = 0.1;
             let sum = coefficients.iter().rev().fold(0.0, |sum, c| sum * at + c);
-            // 0.63^20 / 20! and, for the Ricker pulse, 0.63^20 / 10!: below rounding of the amplitude.
+            // 0.3^20 / 20! and, for the Ricker pulse, 0.3^20 / 10!: below rounding of the amplitude.
             assert!((sum - piece.value(t + at)).abs() < 1e-14, "{piece:?}");
             assert!((coefficients[1] - piece.rate(t)).abs() < 1e-14, "{piece:?}");
             let bend = (piece.rate(t + d) - piece.rate(t - d)) / (2.0 * d);

@@ -13,7 +13,7 @@
 use crate::dynamics::StateVector;
 
 /// Terms of the longest polynomial: a Taylor series of the angles of the largest order.
-pub(crate) const MAX_TERMS: usize = super::taylor::MAX_ORDER + 1;
+const MAX_TERMS: usize = super::taylor::MAX_ORDER + 1;
 
 /// The inside of a step.
 #[derive(Clone, Debug)]
@@ -45,6 +45,11 @@ pub struct Bernstein {
     pub coefficients: [f64; MAX_TERMS + 1],
     /// Degree of the polynomial.
     pub degree: usize,
+}
+
+impl Bernstein {
+    /// Degree of the longest dense output.
+    pub const LARGEST_DEGREE: usize = MAX_TERMS;
 }
 
 impl<V: StateVector> Interpolant<V> {

@@ -15,7 +15,6 @@ mod taylor;
 pub use control::{StepControl, Tolerance};
 pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince54;
-pub(crate) use interpolant::MAX_TERMS;
 pub use interpolant::{Bernstein, Interpolant};
 pub use kutta_merson::KuttaMerson;
 pub use runge_kutta4::RungeKutta4;
