@@ -272,13 +272,13 @@ struct Shared {
 /// Derives linkages in the forms planned for their degrees of freedom.
 fn catalogue_of(linkages: impl Iterator<Item = Linkage>, plans: &[Plan]) -> Shared {
     let mut shared = Shared::default();
-    for linkage in linkages {
-        let derivation = derive_in_form(&linkage, &plans[linkage.dof() - 1]);
+    let linkages: Vec<Linkage> = linkages.collect();
+    for derivation in map_in_order(&linkages, |linkage| derive_in_form(linkage, &plans[linkage.dof() - 1])) {
         let [horizontal, vertical] = derivation.accelerations;
         let accelerations = [shared.accelerations[0].enlist(horizontal).1, shared.accelerations[1].enlist(vertical).1];
         let interfaces = derivation.forces.into_iter().map(|program| shared.forces.enlist(program)).collect();
         shared.linkages.push(LinkageRecord {
-            linkage,
+            linkage: derivation.linkage,
             arena: derivation.arena,
             accelerations,
             energies: shared.energies.enlist(derivation.energies).1,
@@ -287,6 +287,27 @@ fn catalogue_of(linkages: impl Iterator<Item = Linkage>, plans: &[Plan]) -> Shar
         });
     }
     shared
+}
+
+/// `f` of every item, in the order of the items, on as many threads as the machine has.
+fn map_in_order<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = std::thread::available_parallelism().map_or(1, |threads| threads.get()).min(items.len().max(1));
+    let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
+        // Dealt like cards: large linkages stand together.
+        let f = &f;
+        let deal = move |thread: usize| {
+            let own = items.iter().enumerate().skip(thread).step_by(threads);
+            own.map(|(index, item)| (index, f(item))).collect::<Vec<_>>()
+        };
+        let workers: Vec<_> = (0..threads).map(|thread| scope.spawn(move || deal(thread))).collect();
+        let finished = workers.into_iter().flat_map(|worker| match worker.join() {
+            Ok(results) => results,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        finished.collect()
+    });
+    results.sort_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
 }
 
 /// The generated module for columns of up to `max_blocks` blocks, as formatted Rust. The same text on every run.

@@ -38,10 +38,9 @@ pub fn module(catalogue: &Catalogue) -> String {
     let energies = catalogue.energies.iter().map(step::energy_program);
     let series = catalogue.series.iter().map(step::series_program);
     let forces = catalogue.forces.iter().enumerate().map(|(index, program)| step::force_program(index, program));
-    let linkages = catalogue.linkages.iter().map(linkage::functions);
     let table = linkage::table(&catalogue.linkages, linkage::accelerations_name);
     let modes = linkage::modes(catalogue);
-    format(quote! {
+    let shared = format(quote! {
         #uses
         #header
         pub const MAX_BLOCKS: usize = #max_blocks;
@@ -51,8 +50,10 @@ pub fn module(catalogue: &Catalogue) -> String {
         #(#series)*
         #(#forces)*
         #table
-        #(#linkages)*
-    })
+    });
+    // By far the longest part: each linkage's functions are laid out by themselves.
+    let linkages = crate::map_in_order(&catalogue.linkages, |record| format(linkage::functions(record)));
+    shared + &linkages.concat()
 }
 
 /// What generated code needs of the library.
