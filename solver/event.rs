@@ -39,15 +39,22 @@ const BINOMIAL: [[f64; COEFFICIENTS]; COEFFICIENTS] = {
 };
 
 impl Bernstein {
-    /// Value at `s`, 0 to 1, by de Casteljau.
+    /// Value at `s`, 0 to 1, by Horner's rule in `s / (1 - s)` from the nearer end: all terms have binomial weights, so nothing
+    /// cancels that does not cancel in the sum itself.
     pub fn evaluate(&self, s: f64) -> f64 {
-        let mut b = self.coefficients;
-        for level in (1..=self.degree).rev() {
-            for i in 0..level {
-                b[i] = (1.0 - s) * b[i] + s * b[i + 1];
+        let (n, b) = (self.degree, &self.coefficients);
+        let is_left = s <= 0.5;
+        let (near, far) = if is_left { (1.0 - s, s) } else { (s, 1.0 - s) };
+        let ratio = far / near;
+        let (mut sum, mut power) = (0.0, 1.0);
+        for j in (0..=n).rev() {
+            let coefficient = if is_left { b[j] } else { b[n - j] };
+            sum = sum * ratio + coefficient * BINOMIAL[n][j];
+            if j > 0 {
+                power *= near;
             }
         }
-        b[0]
+        sum * power
     }
 
     /// Gives the polynomial this value and these derivatives at 0, which are known better than dense output has them: just after
