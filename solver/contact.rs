@@ -45,6 +45,9 @@ pub struct Decision {
     pub omega: Vec<f64>,
     /// No pattern was admissible: a block would fly.
     pub separation: bool,
+    /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
+    /// contact's centre, restitution included. Empty where rates do not jump.
+    pub impulses: Vec<ContactForce>,
 }
 
 /// The mass matrix of a pattern could not be factorised: its blocks differ beyond what rounding can hold.
@@ -239,12 +242,27 @@ pub fn impact(
     let free = problem.free;
 
     let rebound = restitute(column, theta, &plastic, closing, &free, law.kappa, energy_before);
-    let mut decision = Decision { pattern: plastic.pattern, omega: rebound.unwrap_or(plastic.motion), separation };
+    let mut decision = Decision {
+        pattern: plastic.pattern,
+        omega: rebound.unwrap_or(plastic.motion),
+        separation,
+        impulses: Vec::new(),
+    };
     settle(column, theta, &mut decision, &free, ground, law.stick_angle)?;
+    decision.impulses = impulses(column, theta, &before, &decision);
     let examined = open(column, &decision.pattern, theta, &decision.omega, ground, &[])?;
     decision.separation |= examined.separation;
     decision.pattern = examined.pattern;
     Ok(decision)
+}
+
+/// What the contacts have transmitted between the motion before and a decision.
+fn impulses(column: &Column, theta: &[f64], before: &Motion, decision: &Decision) -> Vec<ContactForce> {
+    let posture = Posture::new(column, &decision.pattern, theta);
+    let after = posture.linear(&posture.link_rates(&decision.omega));
+    let jump: Vec<Vec2> = after.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+    let turn: Vec<f64> = decision.omega.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
+    posture.resultants(&jump, &turn)
 }
 
 /// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or MODEL.md leaves it out.
@@ -371,7 +389,7 @@ pub fn open(
         problem.free.extend(driven_back);
         (answer, separation) = problem.solve(answer.pattern)?;
     }
-    Ok(Decision { pattern: answer.pattern, omega: omega.to_vec(), separation })
+    Ok(Decision { pattern: answer.pattern, omega: omega.to_vec(), separation, impulses: Vec::new() })
 }
 
 #[cfg(test)]
@@ -393,6 +411,13 @@ mod tests {
         let sine = libm::sin(libm::atan2(0.4, 1.6));
         assert_eq!(after.pattern, Pattern::from_signs(&[-1]));
         assert!((after.omega[0] / -0.7 - (1.0 - 1.5 * sine * sine)).abs() < 1e-15);
+        // The impulse is the change of momentum: the centroid moves by (h, p) times the rate, p = b before and -b after.
+        let (mass, rate) = (column.blocks()[0].mass, after.omega[0]);
+        let [impulse] = after.impulses[..] else { panic!("one interface") };
+        assert!((impulse.normal - mass * 0.4 * (0.7 - rate)).abs() < 1e-14);
+        assert!((impulse.tangential - mass * 1.6 * (rate + 0.7)).abs() < 1e-14);
+        // It acts at the new pivot, the left corner: x = -M / N.
+        assert!((impulse.moment - 0.4 * impulse.normal).abs() < 1e-14);
     }
 
     #[test]

@@ -157,17 +157,22 @@ fn root_in_piece(piece: &Bernstein, start: f64, width: f64) -> Option<f64> {
     root_in_piece(&left, start, half).or_else(|| root_in_piece(&right, start + half, half))
 }
 
-/// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: the Illinois rule with bisection
-/// where that does not halve the bracket.
+/// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: the Illinois rule, with bisection
+/// where three rounds of it have not halved the bracket.
 fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
     let (mut a, mut b) = (0.0f64, 1.0f64);
     let (mut fa, mut fb) = (f(a), f(b));
+    let mut width = 2.0;
     for round in 0..200 {
+        let is_slow = round % 3 == 2 && b - a > 0.5 * width;
+        if round % 3 == 2 {
+            width = b - a;
+        }
         if fb == 0.0 || b - a <= f64::EPSILON * b {
             break;
         }
         let secant = b - fb * (b - a) / (fb - fa);
-        let middle = if round % 3 == 2 || !(secant > a && secant < b) { 0.5 * (a + b) } else { secant };
+        let middle = if is_slow || !(secant > a && secant < b) { 0.5 * (a + b) } else { secant };
         if middle <= a || middle >= b {
             break;
         }

@@ -63,7 +63,7 @@ pub mod simulate;
 pub use column::{Block, Column, ColumnError};
 pub use excitation::{Excitation, Motion, Record, RecordError};
 pub use mode::Mode;
-pub use response::{Event, EventKind, Response, Sample, StopReason, Work};
+pub use response::{Event, EventKind, Impulse, Response, Sample, StopReason, Work};
 pub use rocking_codegen::{GroundMotion, pattern};
 pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions};
 

@@ -1,5 +1,6 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
+use crate::dynamics::ContactForce;
 use rocking_codegen::pattern::Pattern;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -64,6 +65,26 @@ pub struct Event {
     /// Kinetic energy lost over that before, 0 to 1; impacts only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_lost: Option<f64>,
+    /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub impulses: Vec<Impulse>,
+}
+
+/// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Impulse {
+    /// Normal part `[N s]`, compression positive.
+    pub normal: f64,
+    /// Tangential part `[N s]`, positive to the right.
+    pub tangential: f64,
+    /// Clockwise moment about the contact's centre `[N m s]`.
+    pub moment: f64,
+}
+
+impl From<&ContactForce> for Impulse {
+    fn from(impulse: &ContactForce) -> Impulse {
+        Impulse { normal: impulse.normal, tangential: impulse.tangential, moment: impulse.moment }
+    }
 }
 
 fn signs<S: serde::Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {

@@ -7,7 +7,7 @@ use crate::generated;
 use crate::kinematics::Posture;
 use crate::mode::Mode;
 use crate::phase::Ended;
-use crate::response::{Event, EventKind, Response, Sample, Separation, StopReason, Work, mode_name};
+use crate::response::{Event, EventKind, Impulse, Response, Sample, Separation, StopReason, Work, mode_name};
 use crate::rest;
 use crate::scene::{DynamicsSource, Scene, SceneError};
 use rocking_codegen::GroundMotion;
@@ -291,10 +291,11 @@ impl<'a> Run<'a> {
         let before = self.pattern.clone();
         let omega_before = self.omega.clone();
         let energy_before = self.kinetic_energy(&before, &omega_before);
+        let impulses = decision.impulses.iter().map(Impulse::from).collect();
         self.adopt(decision, EventKind::Impact);
         let energy_after = self.kinetic_energy(&self.pattern, &self.omega);
         let lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
-        self.record(EventKind::Impact, closing, before, omega_before, Some(lost));
+        self.record(EventKind::Impact, closing, before, omega_before, Some((lost, impulses)));
         self.guard_against_stall()
     }
 
@@ -305,9 +306,12 @@ impl<'a> Run<'a> {
         let mut pattern = before.clone();
         closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
         let released: Vec<_> = self.released.iter().copied().filter(|(i, _)| !closing.contains(i)).collect();
-        self.adopt(Decision { pattern, omega: self.omega.clone(), separation: false }, EventKind::Impact);
+        self.adopt(
+            Decision { pattern, omega: self.omega.clone(), separation: false, impulses: Vec::new() },
+            EventKind::Impact,
+        );
         self.released = released;
-        self.record(EventKind::Impact, closing, before, self.omega.clone(), Some(0.0));
+        self.record(EventKind::Impact, closing, before, self.omega.clone(), Some((0.0, Vec::new())));
         self.guard_against_stall()
     }
 
@@ -382,8 +386,9 @@ impl<'a> Run<'a> {
         interfaces: &[usize],
         before: Pattern,
         omega_before: Vec<f64>,
-        energy_lost: Option<f64>,
+        impact: Option<(f64, Vec<Impulse>)>,
     ) {
+        let (energy_lost, impulses) = impact.unzip();
         let (mode_before, _) = mode_name(&before);
         let (mode, mirrored) = mode_name(&self.pattern);
         let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
@@ -401,6 +406,7 @@ impl<'a> Run<'a> {
             omega_before,
             omega_after: self.omega.clone(),
             energy_lost,
+            impulses: impulses.unwrap_or_default(),
         });
     }
 
@@ -417,8 +423,11 @@ impl<'a> Run<'a> {
             let mut pattern = before.clone();
             closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
             let omega = self.omega.clone();
-            self.adopt(Decision { pattern, omega: omega.clone(), separation: true }, EventKind::Impact);
-            self.record(EventKind::Impact, &closing, before, omega, Some(0.0));
+            self.adopt(
+                Decision { pattern, omega: omega.clone(), separation: true, impulses: Vec::new() },
+                EventKind::Impact,
+            );
+            self.record(EventKind::Impact, &closing, before, omega, Some((0.0, Vec::new())));
         }
         if self.events_at_once > 2 * most {
             let pattern = self.pattern.to_string();
