@@ -67,6 +67,16 @@ impl Bernstein {
         b[2] = 2.0 * b[1] - b[0] + second / (degree * (degree - 1.0));
     }
 
+    /// The derivative by `s`.
+    fn derivative(&self) -> Bernstein {
+        let degree = self.degree - 1;
+        let mut coefficients = [0.0; COEFFICIENTS];
+        for (j, coefficient) in coefficients[..=degree].iter_mut().enumerate() {
+            *coefficient = self.degree as f64 * (self.coefficients[j + 1] - self.coefficients[j]);
+        }
+        Bernstein { coefficients, degree }
+    }
+
     /// The polynomial times `s - root`.
     fn times(&self, root: f64) -> Bernstein {
         let degree = self.degree + 1;
@@ -147,7 +157,7 @@ fn root_in_piece(piece: &Bernstein, start: f64, width: f64) -> Option<f64> {
         return Some(start);
     }
     if piece.sign_changes() == 1 && last <= 0.0 {
-        return Some(start + width * bisect(|s| piece.evaluate(s)));
+        return Some(start + width * only_root(piece));
     }
     if width < SMALLEST_PIECE {
         return None;
@@ -155,6 +165,30 @@ fn root_in_piece(piece: &Bernstein, start: f64, width: f64) -> Option<f64> {
     let (left, right) = piece.halves();
     let half = 0.5 * width;
     root_in_piece(&left, start, half).or_else(|| root_in_piece(&right, start + half, half))
+}
+
+/// The one root in `(0, 1]` of a polynomial above zero at 0 and not above at 1, to a few roundings: Newton's rule, kept in its
+/// bracket.
+fn only_root(polynomial: &Bernstein) -> f64 {
+    let slope = polynomial.derivative();
+    let (mut a, mut b) = (0.0f64, 1.0f64);
+    let (first, last) = (polynomial.coefficients[0], polynomial.coefficients[polynomial.degree]);
+    let mut s = first / (first - last);
+    for _ in 0..100 {
+        let value = polynomial.evaluate(s);
+        if value > 0.0 {
+            a = s;
+        } else {
+            b = s;
+        }
+        let newton = s - value / slope.evaluate(s);
+        let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+        if value == 0.0 || (newton - s).abs() <= f64::EPSILON * s || next == a || next == b {
+            break;
+        }
+        s = next;
+    }
+    s
 }
 
 /// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: the Illinois rule, with bisection

@@ -22,8 +22,8 @@ pub struct Posture<'a> {
     pub link: Vec<usize>,
     /// Number of links that move.
     pub dof: usize,
-    /// Angle of the lower block of each interface `[rad]`, length N.
-    lower_angle: Vec<f64>,
+    /// How the lower block of each interface is turned, length N.
+    lower: Vec<Turn>,
     /// Centre of each contact `[m]`, length N.
     contact_centre: Vec<Vec2>,
     /// Centroids `[m]`, length N.
@@ -33,10 +33,26 @@ pub struct Posture<'a> {
     lever: Vec<Vec2>,
 }
 
-/// `R(θ)(u, v)`
-fn rotate(angle: f64, [u, v]: Vec2) -> Vec2 {
-    let (sin, cos) = libm::sincos(angle);
-    [u * cos + v * sin, v * cos - u * sin]
+/// Sine and cosine of an angle.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    sin: f64,
+    cos: f64,
+}
+
+impl Turn {
+    /// The ground's.
+    const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
+
+    fn new(angle: f64) -> Turn {
+        let (sin, cos) = libm::sincos(angle);
+        Turn { sin, cos }
+    }
+
+    /// `R(θ)(u, v)`
+    fn rotate(self, [u, v]: Vec2) -> Vec2 {
+        [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
+    }
 }
 
 fn plus(a: Vec2, b: Vec2) -> Vec2 {
@@ -55,25 +71,26 @@ impl<'a> Posture<'a> {
         let link = pattern.linkage().link_of_block();
         let dof = pattern.dof();
         let mut pivots: Vec<Vec2> = Vec::with_capacity(dof);
-        let (mut lower_angle, mut contact_centre, mut centroid) =
+        let (mut lower, mut contact_centre, mut centroid) =
             (Vec::with_capacity(blocks), Vec::with_capacity(blocks), Vec::with_capacity(blocks));
-        let (mut centre, mut below) = ([0.0, 0.0], 0.0);
+        let (mut centre, mut below) = ([0.0, 0.0], Turn::NONE);
         for (index, block) in column.blocks().iter().enumerate() {
             contact_centre.push(centre);
-            lower_angle.push(below);
-            let angle = theta[index];
+            lower.push(below);
+            // Blocks of one link turn together.
+            let own = if index > 0 && theta[index] == theta[index - 1] { below } else { Turn::new(theta[index]) };
             let state = pattern.0[index];
             let base = if state.is_open() {
                 let offset = f64::from(state.sign()) * column.contact_half_width(index);
-                let pivot = plus(centre, rotate(below, [offset, 0.0]));
+                let pivot = plus(centre, below.rotate([offset, 0.0]));
                 pivots.push(pivot);
-                minus(pivot, rotate(angle, [offset, 0.0]))
+                minus(pivot, own.rotate([offset, 0.0]))
             } else {
                 centre
             };
-            centroid.push(plus(base, rotate(angle, [0.0, block.half_height])));
-            centre = plus(base, rotate(angle, [0.0, 2.0 * block.half_height]));
-            below = angle;
+            centroid.push(plus(base, own.rotate([0.0, block.half_height])));
+            centre = plus(base, own.rotate([0.0, 2.0 * block.half_height]));
+            below = own;
         }
         let mut lever = vec![[0.0, 0.0]; blocks * dof];
         for (block, &own) in link.iter().enumerate() {
@@ -82,7 +99,7 @@ impl<'a> Posture<'a> {
                 lever[block * dof + below - 1] = minus(end, pivots[below - 1]);
             }
         }
-        Posture { column, link, dof, lower_angle, contact_centre, centroid, lever }
+        Posture { column, link, dof, lower, contact_centre, centroid, lever }
     }
 
     /// Rates of the moving links, length dof, among the rates of the blocks, length N.
@@ -166,8 +183,8 @@ impl<'a> Posture<'a> {
     /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> Vec<ContactForce> {
         let blocks = self.column.blocks();
-        let contacts = self.contact_centre.iter().zip(&self.lower_angle).enumerate();
-        let resultant = |(interface, (&centre, &angle)): (usize, (&Vec2, &f64))| {
+        let contacts = self.contact_centre.iter().zip(&self.lower).enumerate();
+        let resultant = |(interface, (&centre, &Turn { sin, cos })): (usize, (&Vec2, &Turn))| {
             let (mut force, mut moment) = ([0.0, 0.0], 0.0);
             for (index, block) in blocks.iter().enumerate().skip(interface) {
                 let r = minus(self.centroid[index], centre);
@@ -175,7 +192,6 @@ impl<'a> Posture<'a> {
                 force = plus(force, load);
                 moment += block.inertia * angular[index] + (r[1] * load[0] - r[0] * load[1]);
             }
-            let (sin, cos) = libm::sincos(angle);
             let (normal, tangential) = (force[0] * sin + force[1] * cos, force[0] * cos - force[1] * sin);
             ContactForce { normal, tangential, moment }
         };
@@ -220,10 +236,10 @@ pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outlin
     let posture = Posture::new(column, pattern, theta);
     let outline = |(index, block): (usize, &Block)| {
         let (b, h) = (block.half_width, block.half_height);
-        let corner = |offset: Vec2| plus(posture.centroid[index], rotate(theta[index], offset));
+        let corner = |offset: Vec2| plus(posture.centroid[index], Turn::new(theta[index]).rotate(offset));
         let state = pattern.0[index];
         let offset = f64::from(state.sign()) * column.contact_half_width(index);
-        let pivot = plus(posture.contact_centre[index], rotate(posture.lower_angle[index], [offset, 0.0]));
+        let pivot = plus(posture.contact_centre[index], posture.lower[index].rotate([offset, 0.0]));
         Outline { corners: [[-b, -h], [b, -h], [b, h], [-b, h]].map(corner), pivot: state.is_open().then_some(pivot) }
     };
     column.blocks().iter().enumerate().map(outline).collect()
@@ -255,7 +271,7 @@ mod tests {
                         ([0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])], theta[index - 1])
                     }
                 };
-                let along_face = |point: Vec2| rotate(-angle, minus(point, centre));
+                let along_face = |point: Vec2| Turn::new(-angle).rotate(minus(point, centre));
                 let (half_width, contact) = (sizes[index].0, column.contact_half_width(index));
                 let [left, right] = [blocks[index].corners[0], blocks[index].corners[1]].map(along_face);
                 let sign = f64::from(state.sign());

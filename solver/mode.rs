@@ -58,9 +58,9 @@ fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
 impl<D: Dynamics> Equations for D {
     fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError> {
         let (gravity, options) = (run.scene.column.gravity(), &run.scene.options);
-        let mut stepper: Box<dyn Stepper<D::State> + '_> = match options.method {
+        let mut stepper: Box<dyn Stepper<D::State> + '_> = match run.scene.method() {
             Method::Taylor => Box::new(TaylorSeries::new(self, gravity, options.rtol)),
-            Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity, None)),
+            Method::Auto | Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity, None)),
             Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity, None)),
             Method::KuttaMerson => Box::new(RungeKutta::<D, KuttaMerson<D::State>>::new(self, gravity, None)),
             Method::RungeKutta4 => {

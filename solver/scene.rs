@@ -1,7 +1,7 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
 use crate::column::Column;
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, Motion};
 use crate::generated::Equations;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -43,8 +43,10 @@ pub struct Initial {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Order 8(5,3), dense output of order 7: the default.
+    /// What costs least for the scene and its tolerance, by the work-precision benchmark: the default. See [`Scene::method`].
     #[default]
+    Auto,
+    /// Order 8(5,3), dense output of order 7.
     Dop853,
     /// Dormand & Prince 5(4): for tolerances above about 1e-6.
     DormandPrince54,
@@ -58,8 +60,14 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Method; 5] =
-        [Method::Dop853, Method::DormandPrince54, Method::Taylor, Method::KuttaMerson, Method::RungeKutta4];
+    pub const ALL: [Method; 6] = [
+        Method::Auto,
+        Method::Dop853,
+        Method::DormandPrince54,
+        Method::Taylor,
+        Method::KuttaMerson,
+        Method::RungeKutta4,
+    ];
 
     /// Those that choose their steps by the tolerance and reach any: all but those of order 4.
     pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
@@ -67,6 +75,7 @@ impl Method {
     /// Its name in a scene file.
     pub fn name(self) -> &'static str {
         match self {
+            Method::Auto => "auto",
             Method::Dop853 => "dop853",
             Method::DormandPrince54 => "dormand-prince54",
             Method::Taylor => "taylor",
@@ -182,7 +191,31 @@ pub struct SceneError {
     pub remedy: String,
 }
 
+/// Tolerance below which Taylor series cost least where a record cuts the steps: above it Dormand & Prince's pair is as
+/// accurate at its one step a sample.
+const TAYLOR_FOR_RECORDS: f64 = 1e-10;
+
+/// Tolerance above which Dormand & Prince's pair costs least: steps are cut by events more than by the error.
+const PAIR_OF_ORDER_5: f64 = 1e-6;
+
+/// Tolerance below which Taylor series cost least.
+const TAYLOR: f64 = 1e-9;
+
 impl Scene {
+    /// The method that a run uses: the one that the options name, or, for [`Method::Auto`], by the ground motion and `rtol`.
+    pub fn method(&self) -> Method {
+        let rtol = self.options.rtol;
+        let components = [&self.excitation.horizontal, &self.excitation.vertical];
+        let has_record = components.iter().any(|motion| matches!(motion, Some(Motion::Record(_))));
+        match self.options.method {
+            Method::Auto if has_record && rtol >= TAYLOR_FOR_RECORDS => Method::DormandPrince54,
+            Method::Auto if rtol > PAIR_OF_ORDER_5 => Method::DormandPrince54,
+            Method::Auto if rtol <= TAYLOR || has_record => Method::Taylor,
+            Method::Auto => Method::Dop853,
+            named => named,
+        }
+    }
+
     /// A scene with this column at rest, no ground motion, plastic impacts and default options.
     pub fn new(column: Column) -> Scene {
         Scene {
