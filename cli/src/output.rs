@@ -24,6 +24,8 @@ struct Summary<'a> {
     min_normal_force: &'a [f64],
     separations: &'a [rocking::response::Separation],
     work: rocking::Work,
+    /// The method that the run used, where the options leave it open.
+    method: &'static str,
     wall_seconds: f64,
     warnings: &'a [String],
     options: &'a rocking::SolveOptions,
@@ -78,6 +80,7 @@ impl<'a> Folder<'a> {
             min_normal_force: &response.min_normal_force,
             separations: &response.separations,
             work: response.work,
+            method: scene.method().name(),
             wall_seconds,
             warnings,
             options: &scene.options,
