@@ -5,6 +5,8 @@
 //! called with the same state over and over (sines of one argument, warm caches); the whole run includes setting up modes and
 //! recording events but no rows; the generic code allocates.
 
+mod common;
+
 use criterion::{BenchmarkId, Criterion};
 use rocking::dynamics::{Dynamics, Ground};
 use rocking::generated::{GeneratedMode, equations};
@@ -12,8 +14,6 @@ use rocking::generic::GenericMode;
 use rocking::pattern::Pattern;
 use rocking::{Column, DynamicsSource, GroundMotion, Motion, Restitution, Scene, simulate};
 use std::hint::black_box;
-use std::path::PathBuf;
-use std::process::Command;
 use std::time::Duration;
 
 const GROUND: Ground = Ground { x: 1.3, gravity: 9.81 };
@@ -117,46 +117,26 @@ fn whole_run(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// First line of what a command prints, or `unknown`.
-fn output_of(command: &str, arguments: &[&str]) -> String {
-    let output = Command::new(command).args(arguments).output().ok();
-    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
-    text.lines().next().unwrap_or("unknown").replace(',', " ")
-}
-
-fn machine() -> String {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find(|line| line.starts_with("model name")).and_then(|line| line.split(':').nth(1));
-    format!("{} {}", std::env::consts::ARCH, model.unwrap_or("unknown").trim()).replace(',', " ")
-}
-
-fn target() -> PathBuf {
-    let default = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target");
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(default, PathBuf::from)
-}
-
 /// Median in nanoseconds that criterion has just stored.
 fn median(group: &str, name: &str, dof: usize) -> Option<f64> {
-    let path = target().join("criterion").join(group).join(name).join(dof.to_string()).join("new/estimates.json");
+    let path =
+        common::target().join("criterion").join(group).join(name).join(dof.to_string()).join("new/estimates.json");
     let estimates: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()?;
     estimates["median"]["point_estimate"].as_f64()
 }
 
 fn report() -> std::io::Result<()> {
-    let (commit, compiler, machine) =
-        (output_of("git", &["rev-parse", "--short", "HEAD"]), output_of("rustc", &["--version"]), machine());
-    let mut csv = String::from("benchmark,dof,generated_ns,generic_ns,ratio,commit,compiler,machine\n");
+    let circumstances = common::circumstances();
+    let mut csv = String::from("benchmark,dof,generated_ns,generic_ns,ratio,");
+    csv.push_str(common::CIRCUMSTANCES);
+    csv.push('\n');
     let rows = (1..=4).map(|dof| ("right-hand-side", dof)).chain([("three-blocks-pulse-10-s", 3)]);
     for (group, dof) in rows {
         let (Some(a), Some(b)) = (median(group, "generated", dof), median(group, "generic", dof)) else { continue };
         println!("{group}, {dof} free angle(s): generated {a:.1} ns, generic {b:.1} ns, ratio {:.1}", b / a);
-        csv.push_str(&format!("{group},{dof},{a:.2},{b:.2},{:.2},{commit},{compiler},{machine}\n", b / a));
+        csv.push_str(&format!("{group},{dof},{a:.2},{b:.2},{:.2},{circumstances}\n", b / a));
     }
-    let folder = target().join("bench");
-    std::fs::create_dir_all(&folder)?;
-    std::fs::write(folder.join("speed.csv"), csv)?;
-    println!("wrote {}", folder.join("speed.csv").display());
-    Ok(())
+    common::write("speed.csv", &csv)
 }
 
 fn main() -> std::io::Result<()> {
