@@ -69,6 +69,10 @@ impl Method {
         Method::RungeKutta4,
     ];
 
+    /// All but the one that stands for others.
+    pub const NAMED: [Method; 5] =
+        [Method::Dop853, Method::DormandPrince54, Method::Taylor, Method::KuttaMerson, Method::RungeKutta4];
+
     /// Those that choose their steps by the tolerance and reach any: all but those of order 4.
     pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
 

@@ -1,15 +1,18 @@
 //! Generated functions over other scalars: lanes, dual numbers, double-doubles.
 
 mod common;
+#[allow(dead_code, reason = "the benchmark that it belongs to needs more of it")]
+#[path = "../benches/work_precision/double.rs"]
+mod double;
 
+use double::Double;
 use proptest::prelude::*;
 use rocking::generated::{equations, geometry};
 use rocking::pattern::Pattern;
 use rocking::program::{EnergyProgram, Geometry, Scalar, StepProgram};
 use rocking::scalar::Dual;
 use rocking::{Column, GroundMotion};
-use std::ops::{Add, Mul, Neg, Sub};
-use twofloat::TwoFloat;
+use std::ops::Add;
 use wide::{f64x4, f64x8};
 
 /// Accelerations of a pattern with three free angles, in any scalar: constants from the column, then the program.
@@ -133,54 +136,8 @@ fn dual_numbers_give_the_derivatives_of_the_right_hand_side() {
     common::runner(100).run(&strategy, run).expect("duals agree with differences");
 }
 
-/// Some 32 digits, by the twofloat crate.
-#[derive(Clone, Copy)]
-struct Double(TwoFloat);
-
-impl Add for Double {
-    type Output = Double;
-    fn add(self, other: Double) -> Double {
-        Double(self.0 + other.0)
-    }
-}
-
-impl Sub for Double {
-    type Output = Double;
-    fn sub(self, other: Double) -> Double {
-        Double(self.0 - other.0)
-    }
-}
-
-impl Mul for Double {
-    type Output = Double;
-    fn mul(self, other: Double) -> Double {
-        Double(self.0 * other.0)
-    }
-}
-
-impl Neg for Double {
-    type Output = Double;
-    fn neg(self) -> Double {
-        Double(-self.0)
-    }
-}
-
-impl Scalar for Double {
-    fn from_f64(value: f64) -> Double {
-        Double(value.into())
-    }
-
-    fn recip(self) -> Double {
-        Double(TwoFloat::from(1.0) / self.0)
-    }
-
-    fn sin_cos(self) -> (Double, Double) {
-        (Double(self.0.sin()), Double(self.0.cos()))
-    }
-}
-
-/// The energy balance holds to the digits of the scalar: `d(T + V)/dt = 0` without ground motion, by the chain rule over the
-/// state, is a statement about accelerations and energies together.
+/// What the accelerations solve is linear in gravity at rest: in double-doubles that holds to their digits, and the accelerations
+/// in doubles differ by rounding.
 #[test]
 fn double_doubles_carry_twice_the_digits() {
     let run = |(column, random): (Column, Vec<f64>)| {
@@ -191,7 +148,7 @@ fn double_doubles_carry_twice_the_digits() {
             accelerations(&wide, MASK, x.map(Double::from_f64), Double::from_f64(0.0), Double::from_f64(gravity));
         let plain = accelerations(&sizes, MASK, x, 0.0, gravity);
         let size = plain.iter().fold(1.0f64, |size, a| size.max(a.abs()));
-        let error = (0..3).fold(0.0f64, |e, i| e.max((f64::from(exact[i].0) - plain[i]).abs()));
+        let error = (0..3).fold(0.0f64, |e, i| e.max((exact[i].value() - plain[i]).abs()));
         // Rounding times the condition of the mass matrix, up to some 1e5 for these columns.
         prop_assert!(error < 1e-9 * size, "{error:e} of {size:e}");
 
@@ -213,8 +170,8 @@ fn double_doubles_carry_twice_the_digits() {
         for row in matrix {
             let push = |a: &[Double; 3]| (0..3).map(|k| row[k] * a[k]).fold(Double::from_f64(0.0), Add::add);
             let residual = push(&thrice) - push(&once) * three;
-            let scale = f64::from(push(&thrice).0).abs() + 1.0;
-            prop_assert!(f64::from(residual.0).abs() < 1e-24 * scale, "{:e}", f64::from(residual.0));
+            let scale = push(&thrice).value().abs() + 1.0;
+            prop_assert!(residual.value().abs() < 1e-24 * scale, "{:e}", residual.value());
         }
         Ok(())
     };

@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// Colour and name of a method.
 fn style(method: Method) -> (&'static str, &'static str) {
     match method {
-        Method::Dop853 => ("#0072B2", "DOP853"),
+        Method::Auto | Method::Dop853 => ("#0072B2", "DOP853"),
         Method::DormandPrince54 => ("#E69F00", "Dormand-Prince 5(4)"),
         Method::Taylor => ("#D55E00", "Taylor series"),
         Method::KuttaMerson => ("#009E73", "Kutta-Merson 4"),
@@ -53,7 +53,7 @@ fn marker(svg: &mut String, method: Method, code: Code, [x, y]: [f64; 2]) {
         let _ = writeln!(svg, "<polygon points=\"{}\" {paint}/>", points.join(" "));
     };
     match method {
-        Method::Dop853 => {
+        Method::Auto | Method::Dop853 => {
             let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" {paint}/>");
         }
         Method::DormandPrince54 => path(svg, &[(-2.7, -2.7), (2.7, -2.7), (2.7, 2.7), (-2.7, 2.7)]),
@@ -113,7 +113,7 @@ fn panel(svg: &mut String, axes: &Axes, name: &str, points: &[Point], is_left: b
         PANEL[0], PANEL[1]
     );
     for code in [Code::Generic, Code::Generated] {
-        for method in Method::ALL {
+        for method in Method::NAMED {
             let curve = curve(points, name, method, code);
             let places = curve.iter().filter(|p| p.angle_error.is_finite());
             let places: Vec<[f64; 2]> = places.map(|p| [axes.x(p.best), axes.y(p.angle_error.max(1e-300))]).collect();
@@ -123,13 +123,13 @@ fn panel(svg: &mut String, axes: &Axes, name: &str, points: &[Point], is_left: b
 }
 
 fn legend(svg: &mut String, [left, top]: [f64; 2]) {
-    let entries = Method::ALL.map(|method| (method, Code::Generated, style(method).1));
+    let entries = Method::NAMED.map(|method| (method, Code::Generated, style(method).1));
     let codes = [
         (Method::Dop853, Code::Generated, "solid: generated equations"),
         (Method::Dop853, Code::Generic, "dashed: generic equations"),
     ];
     for (row, (method, code, name)) in entries.into_iter().chain(codes).enumerate() {
-        let y = top + 16.0 + 22.0 * row as f64 + if row >= Method::ALL.len() { 10.0 } else { 0.0 };
+        let y = top + 16.0 + 22.0 * row as f64 + if row >= Method::NAMED.len() { 10.0 } else { 0.0 };
         line(svg, method, code, &[[left + 12.0, y], [left + 42.0, y]]);
         text(svg, [left + 52.0, y + 4.0], "start", name);
     }

@@ -161,7 +161,7 @@ pub fn check(name: &str, scene: &Scene, reference: &Reference) {
 pub fn sweep(name: &'static str, scene: &Scene, reference: &Reference, plan: &Plan) -> Vec<Point> {
     let mut points = Vec::new();
     for code in [Code::Generated, Code::Generic] {
-        for method in Method::ALL {
+        for method in Method::NAMED {
             let settings = match (method, code) {
                 (Method::RungeKutta4, Code::Generated) => &plan.steps,
                 (Method::RungeKutta4, Code::Generic) => &plan.generic_steps,

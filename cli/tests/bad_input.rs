@@ -93,7 +93,10 @@ fn options_out_of_range() {
     refused(&with("t_end = 1.0", "t_end = -1.0"), &["line 9", "`solver.t_end`", "-1", "above zero"]);
     refused(&with("t_end = 1.0", "t_end = 1.0\nrtol = 0.0"), &["line 10", "`solver.rtol`", "above zero"]);
     refused(&with("t_end = 1.0", "t_end = 1.0\natol = -1e-9"), &["line 10", "`solver.atol`", "above zero"]);
-    refused(&with("t_end = 1.0", "t_end = 1.0\nmethod = \"euler\""), &["line 10", "method", "choose one of dop853"]);
+    refused(
+        &with("t_end = 1.0", "t_end = 1.0\nmethod = \"euler\""),
+        &["line 10", "method", "choose one of auto, dop853"],
+    );
 }
 
 #[test]
