@@ -1,0 +1,317 @@
+//! Random scenes by seed, ordinary and extreme, and what must hold of every run.
+
+use rocking::{
+    Block, Column, DynamicsSource, EventKind, Excitation, Method, Motion, Record, Response, Restitution, Scene,
+    StopReason,
+};
+
+/// SplitMix64 (Steele, Lea & Flood 2014): a stream per seed, the same on every machine.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Random {
+        Random(seed)
+    }
+
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in `low .. high`.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform in the logarithm, `low .. high`.
+    pub fn scale(&mut self, low: f64, high: f64) -> f64 {
+        self.within(low.ln(), high.ln()).exp()
+    }
+
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.bits() % count as u64) as usize
+    }
+
+    /// True once in `count`.
+    pub fn once_in(&mut self, count: usize) -> bool {
+        self.below(count) == 0
+    }
+
+    pub fn sign(&mut self) -> f64 {
+        if self.once_in(2) { 1.0 } else { -1.0 }
+    }
+}
+
+const GRAVITY: f64 = 9.81;
+
+fn column(random: &mut Random) -> Column {
+    let count = [1, 2, 2, 3, 3, 3, 4, 4, 5, 6, 7, 8][random.below(12)];
+    let block = |random: &mut Random, extreme: bool| {
+        let (h, alpha, density) = if extreme {
+            (random.scale(0.01, 3.0), random.scale(1e-4, 1.2), random.scale(1e-3, 1e3))
+        } else {
+            (random.within(0.3, 1.5), random.within(0.1, 0.6), random.within(0.5, 2.0))
+        };
+        // Masses of their own: up to 1e6 from block to block.
+        let mut block = Block::with_mass(h * alpha.tan(), h, density);
+        if random.once_in(4) {
+            block.inertia *= random.within(0.2, 2.0);
+        }
+        block
+    };
+    let extreme = random.once_in(2);
+    let first = block(random, extreme);
+    let blocks = if random.once_in(3) {
+        vec![first; count]
+    } else {
+        (0..count).map(|index| if index == 0 { first } else { block(random, extreme) }).collect()
+    };
+    Column::new(blocks, GRAVITY).expect("positive sizes")
+}
+
+/// Samples with steps: levels that hold for a while.
+fn steps(random: &mut Random, amplitude: f64) -> Vec<f64> {
+    let mut accel = Vec::new();
+    for _ in 0..2 + random.below(6) {
+        let level = if random.once_in(4) { 0.0 } else { amplitude * random.within(-1.0, 1.0) };
+        let held = 1 + random.below(8);
+        accel.extend(std::iter::repeat_n(level, held));
+    }
+    accel.push(0.0);
+    accel
+}
+
+fn motion(random: &mut Random, amplitude: f64, t_end: f64) -> Motion {
+    let omega = if random.once_in(6) { random.scale(60.0, 2000.0) } else { random.scale(0.5, 60.0) };
+    let start = if random.once_in(3) { 0.0 } else { random.within(0.0, 0.4 * t_end) };
+    match random.below(7) {
+        0 => Motion::SinePulse { amplitude, omega, start },
+        1 => Motion::CosinePulse { amplitude, omega, start },
+        2 => Motion::Harmonic { amplitude, omega, start, phase: random.within(-3.0, 3.0) },
+        3 => Motion::Ricker { amplitude, omega, start },
+        4 => {
+            let accel = (0..2 + random.below(80)).map(|_| amplitude * random.within(-1.0, 1.0)).collect();
+            Motion::Record(Record::new(accel, random.scale(0.002, 0.1), start).expect("valid"))
+        }
+        5 => {
+            let dt = if random.once_in(3) { random.scale(1e-8, 1e-4) } else { random.scale(0.002, 0.1) };
+            Motion::Record(Record::new(steps(random, amplitude), dt, start).expect("valid"))
+        }
+        _ => Motion::SinePulse { amplitude, omega: random.scale(1.0, 20.0), start },
+    }
+}
+
+fn tilts(random: &mut Random, scene: &mut Scene) {
+    let count = scene.column.len();
+    let (mut theta, mut omega) = (vec![0.0; count], vec![0.0; count]);
+    match random.below(5) {
+        // Whatever comes.
+        0 => theta.iter_mut().for_each(|angle| *angle = random.within(-0.2, 0.2)),
+        // Tiny gaps, some of them rounding.
+        1 => {
+            let mut angle = random.within(-0.1, 0.1);
+            for (own, rate) in theta.iter_mut().zip(&mut omega) {
+                angle += random.sign() * random.scale(1e-18, 1e-3);
+                *own = angle;
+                *rate = random.within(-1.0, 1.0);
+            }
+        }
+        // One tilted body.
+        2 => theta.fill(random.sign() * random.scale(1e-12, 0.3)),
+        // Landings of several interfaces within rounding, or nearly.
+        3 => {
+            let delay = random.scale(1e-17, 1e-3);
+            let (mut angle, mut rate) = (0.0, 0.0);
+            for (own, own_rate) in theta.iter_mut().zip(&mut omega) {
+                if !random.once_in(3) {
+                    let (side, speed) = (random.sign(), random.scale(0.01, 3.0));
+                    angle += side * speed * delay;
+                    rate -= side * speed;
+                }
+                *own = angle;
+                *own_rate = rate;
+            }
+        }
+        // Rates on a closed column.
+        _ => {
+            let speed = random.scale(1e-6, 3.0);
+            omega.iter_mut().for_each(|rate| *rate = speed * random.within(-1.0, 1.0));
+        }
+    }
+    (scene.initial.theta, scene.initial.omega) = (theta, omega);
+}
+
+/// The scene of a seed; seeds in turn take the accurate methods in turn.
+pub fn scene(seed: u64) -> Scene {
+    let random = &mut Random::new(seed);
+    random.bits();
+    let mut scene = Scene::new(column(random));
+    let options = &mut scene.options;
+    options.method = Method::ACCURATE[(seed % 3) as usize];
+    options.rtol = random.scale(1e-9, 1e-5);
+    options.atol = 1e-3 * options.rtol;
+    options.t_end = random.scale(0.1, 2.0);
+    if random.once_in(4) {
+        options.dynamics = DynamicsSource::Generic;
+    }
+    let t_end = options.t_end;
+    if !random.once_in(8) {
+        let amplitude = if random.once_in(4) {
+            // On the verge of the first uplift.
+            let verge = random.sign() * random.scale(1e-16, 1e-1);
+            scene.column.uplift_acceleration(random.below(scene.column.len())) * (1.0 + verge)
+        } else {
+            GRAVITY * random.scale(1e-6, 50.0)
+        };
+        let amplitude = random.sign() * amplitude;
+        scene.excitation.horizontal = Some(motion(random, amplitude, t_end));
+    }
+    if random.once_in(3) {
+        let amplitude =
+            if random.once_in(2) { random.within(0.9, 1.02) } else { random.scale(1e-6, 2.0) } * random.sign();
+        scene.excitation.vertical = Some(motion(random, GRAVITY * amplitude, t_end));
+    }
+    if random.once_in(3) || scene.excitation == Excitation::default() {
+        tilts(random, &mut scene);
+    }
+    let eta = [0.0, random.within(0.0, 1.0), random.within(0.8, 1.0), 1.0][random.below(4)];
+    scene.restitution = match random.below(3) {
+        0 => Restitution::Plastic,
+        1 => Restitution::Eta(eta),
+        _ => Restitution::Factors((0..scene.column.len()).map(|_| random.within(0.0, 1.2)).collect()),
+    };
+    if scene.check().is_err() {
+        scene.restitution = Restitution::Factors(vec![eta; scene.column.len()]);
+    }
+    scene.output_dt = Some(t_end / 16.0);
+    scene
+}
+
+/// The scene seen in a mirror.
+pub fn mirrored(scene: &Scene) -> Scene {
+    let mut mirrored = scene.clone();
+    let negate = |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value = -*value);
+    negate(&mut mirrored.initial.theta);
+    negate(&mut mirrored.initial.omega);
+    mirrored.excitation.horizontal = scene.excitation.horizontal.clone().map(|motion| match motion {
+        Motion::SinePulse { amplitude, omega, start } => Motion::SinePulse { amplitude: -amplitude, omega, start },
+        Motion::CosinePulse { amplitude, omega, start } => Motion::CosinePulse { amplitude: -amplitude, omega, start },
+        Motion::Harmonic { amplitude, omega, start, phase } => {
+            Motion::Harmonic { amplitude: -amplitude, omega, start, phase }
+        }
+        Motion::Ricker { amplitude, omega, start } => Motion::Ricker { amplitude: -amplitude, omega, start },
+        Motion::Record(record) => Motion::Record(record.scaled(-1.0).expect("finite")),
+    });
+    mirrored
+}
+
+/// What the run of a scene breaks, if anything.
+pub fn violation(scene: &Scene, response: &Response) -> Option<String> {
+    // Rows come from the dense output, which errs by some tolerances over some hundred steps.
+    let slack = 1e3 * scene.options.rtol;
+    let mut largest = vec![0.0f64; scene.column.len()];
+    for sample in &response.samples {
+        if !sample.theta.iter().chain(&sample.omega).chain(&sample.ground).all(|value| value.is_finite()) {
+            return Some(format!("a row is not finite at t = {}", sample.t));
+        }
+        let mut below = 0.0;
+        for (theta, interface) in sample.theta.iter().zip(&sample.pattern.0) {
+            let gap = theta - below;
+            if f64::from(interface.sign()) * gap < -slack || (!interface.is_open() && gap != 0.0) {
+                return Some(format!("a row has the gap {gap} at t = {} in {}", sample.t, sample.pattern));
+            }
+            below = *theta;
+        }
+        largest.iter_mut().zip(&sample.theta).for_each(|(most, theta)| *most = most.max(theta.abs()));
+    }
+    for (block, (row, peak)) in largest.iter().zip(&response.peak_theta).enumerate() {
+        if !peak.is_finite() || *row > peak + slack {
+            return Some(format!("block {block}: a row has {row}, the peak is {peak}"));
+        }
+    }
+    let mut before: Option<&rocking::Event> = None;
+    for (index, event) in response.events.iter().enumerate() {
+        let size = event.theta.iter().fold(0.0f64, |size, angle| size.max(angle.abs()));
+        let speed = event.omega_before.iter().chain(&event.omega_after).fold(0.0f64, |size, rate| size.max(rate.abs()));
+        if !(size.is_finite() && speed.is_finite()) {
+            return Some(format!("an event is not finite at t = {}", event.t));
+        }
+        if before.is_some_and(|before| before.after != event.before || before.t > event.t) {
+            return Some(format!("the events do not follow each other at t = {}", event.t));
+        }
+        let mut below = (0.0, 0.0);
+        for (interface, state) in event.after.0.iter().enumerate() {
+            let (sign, gap) = (f64::from(state.sign()), event.theta[interface] - below.0);
+            let rate = event.omega_after[interface] - below.1;
+            // States at events are full steps whose gaps were watched: rounding, and the step's own error in a second gap that
+            // closes within the same step.
+            if sign * gap < -slack {
+                return Some(format!("interface {} has the gap {gap} at the event at t = {}", interface + 1, event.t));
+            }
+            // Sticking is a projection of its own (MODEL.md section 5) and may turn the rate of an interface that has just opened:
+            // that one strikes in the same instant then.
+            let next = response.events.get(index + 1);
+            let strikes_at_once = next.is_some_and(|next| next.t == event.t && next.kind == EventKind::Impact);
+            if gap == 0.0 && sign * rate < -1e-12 * speed && !strikes_at_once {
+                return Some(format!("interface {} opens inwards at t = {}", interface + 1, event.t));
+            }
+            if sign == 0.0 && (gap != 0.0 || rate != 0.0) {
+                return Some(format!("interface {} is closed and moves at t = {}", interface + 1, event.t));
+            }
+            below = (event.theta[interface], event.omega_after[interface]);
+        }
+        // Restitution may raise the energy by a share of 1e-12 (MODEL.md section 5), and sums over masses 1e6 apart round.
+        if event.kind == EventKind::Impact && !event.energy_lost.is_some_and(|lost| (-1e-9..=1.0).contains(&lost)) {
+            return Some(format!("an impact loses the share {:?} of the energy at t = {}", event.energy_lost, event.t));
+        }
+        before = Some(event);
+    }
+    if response.status == StopReason::AtRest && response.events.last().is_some_and(|last| last.after.dof() > 0) {
+        return Some("at rest with an open interface".into());
+    }
+    let spent: f64 = response.time_in_mode.values().sum();
+    let until = if response.status == StopReason::AtRest { scene.options.t_end } else { response.t_final };
+    if (spent - until).abs() > 1e-9 * until {
+        return Some(format!("the times in the modes sum up to {spent} of {until}"));
+    }
+    None
+}
+
+fn opposite(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| *a == -*b)
+}
+
+/// Whether the two runs part where no law can tell left from right: from rest, without horizontal ground motion, in free fall.
+pub fn part_in_a_tie(scene: &Scene, a: &Response, b: &Response) -> bool {
+    let same = |(a, b): &(&rocking::Event, &rocking::Event)| {
+        a.t == b.t && a.after == b.after.mirror() && opposite(&a.omega_after, &b.omega_after)
+    };
+    let first = a.events.iter().zip(&b.events).find(|pair| !same(pair));
+    first.is_some_and(|(event, _)| {
+        let still = event.theta.iter().chain(&event.omega_before).all(|value| *value == 0.0);
+        let motion = scene.excitation.horizontal.as_ref();
+        let pushed = motion.is_some_and(|motion| motion.value(event.t) != 0.0);
+        still && !pushed && a.separations.iter().any(|separation| separation.t == event.t)
+    })
+}
+
+/// Whether two runs are mirror images, bit for bit.
+pub fn are_mirror_images(a: &Response, b: &Response) -> bool {
+    a.status == b.status
+        && a.t_final == b.t_final
+        && a.work == b.work
+        && a.peak_theta == b.peak_theta
+        && a.events.len() == b.events.len()
+        && a.samples.len() == b.samples.len()
+        && a.events.iter().zip(&b.events).all(|(a, b)| {
+            a.t == b.t
+                && a.kind == b.kind
+                && a.after == b.after.mirror()
+                && opposite(&a.theta, &b.theta)
+                && opposite(&a.omega_after, &b.omega_after)
+        })
+        && a.samples.iter().zip(&b.samples).all(|(a, b)| opposite(&a.theta, &b.theta) && opposite(&a.omega, &b.omega))
+}
