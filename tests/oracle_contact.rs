@@ -12,9 +12,8 @@ use rocking::pattern::{Interface, Pattern};
 use rocking::{Block, Column};
 use std::cell::RefCell;
 
-/// What lies this close to the verge of admissibility, as a share, may be decided either way: the two systems of equations have condition numbers
-/// of up to a
-/// million.
+/// What lies this close to the verge of admissibility, as a share, may be decided either way: the two systems of equations have
+/// condition numbers of up to a million.
 const VERGE: f64 = 1e-8;
 
 /// Rates agree to this, relative to the rates before: rounding times the condition numbers.

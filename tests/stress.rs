@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// A scene that takes longer has stalled: the mean is some milliseconds.
-const LONGEST: Duration = Duration::from_secs(60);
+const LONGEST: Duration = Duration::from_secs(30);
 
 /// One scene in so many is run in the mirror as well.
 const MIRRORED: u64 = 4;
@@ -37,12 +37,12 @@ fn kind(error: &SolveError) -> &'static str {
     }
 }
 
-/// The outcome of the scene of a seed, and what it breaks or where it was given up.
-fn run(seed: u64) -> (String, Option<String>, Option<String>) {
+/// The outcome of the scene of a seed, what it breaks, and where it was given up. Within `longest` it must go on.
+fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>) {
     let scene = scenes::scene(seed);
     let since = Instant::now();
     let observed = catch_unwind(AssertUnwindSafe(|| {
-        simulate_observed(&scene, |t| assert!(since.elapsed() < LONGEST, "no end in sight at t = {t}"))
+        simulate_observed(&scene, |t| assert!(since.elapsed() < longest, "no end in sight at t = {t}"))
     }));
     let response = match observed {
         Err(cause) => {
@@ -85,7 +85,7 @@ fn run_all(seeds: std::ops::Range<u64>) -> Tally {
                 return;
             }
             let since = Instant::now();
-            let (outcome, broken, given_up) = run(seed);
+            let (outcome, broken, given_up) = run(seed, LONGEST);
             let mut tally = tally.lock().expect("no panic while it is held");
             tally.slowest = tally.slowest.max((since.elapsed(), seed));
             *tally.outcomes.entry(outcome).or_insert(0) += 1;
@@ -134,6 +134,28 @@ fn stress_many_random_scenes() {
     check(0..100_000);
 }
 
+/// Scenes that have broken a rule.
+fn check_again(seeds: &[u64]) {
+    for &seed in seeds {
+        let (outcome, broken, _) = run(seed, Duration::from_secs(10));
+        assert_eq!(broken, None, "seed {seed}: {outcome}");
+    }
+}
+
+/// Columns in free fall whose gaps are 1e-28 to 1e-42 rad.
+#[test]
+#[ignore = "dense output and step disagree about such gaps for ever, in steps too short to advance the time"]
+fn regression_columns_in_free_fall_come_to_an_end() {
+    check_again(&[47_071, 48_120]);
+}
+
+/// Angles made equal at one interface open a gap of rounding, of either sign, at the next, which then strikes while it opens.
+#[test]
+#[ignore = "impacts at interfaces that have just opened, with closed ones that carry nothing decided by rounding"]
+fn regression_an_impact_at_an_interface_that_has_just_opened_is_mirrored_bit_for_bit() {
+    check_again(&[51_068, 16_192]);
+}
+
 /// One scene again, for a look at it.
 #[test]
 #[ignore = "needs ROCKING_SEED"]
@@ -141,7 +163,7 @@ fn stress_one_seed() {
     let seed = std::env::var("ROCKING_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
     let scene = scenes::scene(seed);
     println!("{scene:#?}");
-    let (outcome, broken, given_up) = run(seed);
+    let (outcome, broken, given_up) = run(seed, LONGEST);
     println!("{outcome} {broken:?} {given_up:?}");
     assert_eq!(broken, None);
 }

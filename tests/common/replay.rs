@@ -57,7 +57,12 @@ fn links_of(pattern: &Pattern, theta: &[f64], omega: &[f64]) -> Vec<f64> {
 pub fn per_block(pattern: &Pattern, x: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let dof = pattern.dof();
     let pick = |offset: usize| {
-        pattern.linkage().link_of_block().iter().map(|&link| if link == 0 { 0.0 } else { x[offset + link - 1] }).collect()
+        pattern
+            .linkage()
+            .link_of_block()
+            .iter()
+            .map(|&link| if link == 0 { 0.0 } else { x[offset + link - 1] })
+            .collect()
     };
     (pick(0), pick(dof))
 }
@@ -140,7 +145,8 @@ fn phase(
         found.state.lower(-(own - recorded).abs(), event.t);
     }
     if event.kind == EventKind::Impact {
-        let closing = if event.interfaces.is_empty() { event.interface.into_iter().collect() } else { event.interfaces.clone() };
+        let closing =
+            if event.interfaces.is_empty() { event.interface.into_iter().collect() } else { event.interfaces.clone() };
         for interface in closing {
             let below = if interface == 1 { 0.0 } else { theta[interface - 2] };
             found.closing.lower(-(theta[interface - 1] - below).abs(), event.t);
