@@ -171,6 +171,11 @@ fn is_rounding(values: &[f64], interface: usize) -> bool {
     relative(values, interface).abs() <= ROUNDING * largest(values)
 }
 
+/// Whether an interface, open or not, has no gap.
+pub(crate) fn is_gapless(theta: &[f64], interface: usize) -> bool {
+    is_rounding(theta, interface)
+}
+
 /// Whether an interface, open or not, has no gap yet and no rate.
 pub(crate) fn is_motionless(theta: &[f64], omega: &[f64], interface: usize) -> bool {
     is_rounding(theta, interface) && is_rounding(omega, interface)
@@ -241,7 +246,10 @@ pub fn impact(
     let (plastic, separation) = problem.solve(guess)?;
     let free = problem.free;
 
-    let rebound = restitute(column, theta, &plastic, closing, &free, law.kappa, energy_before);
+    // What strikes rebounds; an interface that only touches, moving apart, does not.
+    let striking: Vec<usize> =
+        closing.iter().copied().filter(|&i| f64::from(pattern.0[i].sign()) * relative(omega, i) < 0.0).collect();
+    let rebound = restitute(column, theta, &plastic, &striking, &free, law.kappa, energy_before);
     let mut decision = Decision {
         pattern: plastic.pattern,
         omega: rebound.unwrap_or(plastic.motion),

@@ -309,9 +309,10 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
     fn stop_at(&mut self, found: Found, t: f64, whole: f64, s: f64) -> Option<Ended> {
         self.output_until(t, whole, t + s * whole);
         let mut h = s * whole;
-        let mut has_touched = true;
+        let (mut taken, mut has_touched) = (h, true);
         for _ in 0..REPEATS {
             self.run.work.repeated += 1;
+            taken = h;
             self.stepper.attempt(t, &self.x, &self.slope, h, self.tolerance);
             let end = self.stepper.end().as_slice();
             let (value, rate) = match found {
@@ -329,7 +330,10 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             }
             h = next;
         }
-        let is_mistaken = !has_touched && h > 0.0;
+        // The state is that of the last attempt, and so is the time.
+        let h = taken;
+        // A mistake that takes no time would be made again: it is a touch.
+        let is_mistaken = !has_touched && t + h > t;
         self.stepper.accept();
         self.interpolated = false;
         self.note_peaks(h);

@@ -364,12 +364,17 @@ impl<'a> Run<'a> {
         self.pattern = decision.pattern;
         self.omega = decision.omega;
         self.released.clear();
-        // What is closed, or has only just opened, is so to the last bit.
-        for interface in 0..self.theta.len() {
-            let is_open = self.pattern.0[interface].is_open();
-            if !is_open || contact::is_motionless(&self.theta, &self.omega, interface) {
-                let below = interface.checked_sub(1);
+        // What is closed, or has only just opened, is so to the last bit. Decided before anything is moved: a block that is snapped
+        // to the one below must not open a gap to the one above.
+        let all = 0..self.theta.len();
+        let gapless: Vec<bool> = all.clone().map(|i| contact::is_gapless(&self.theta, i)).collect();
+        let still: Vec<bool> = all.clone().map(|i| contact::is_motionless(&self.theta, &self.omega, i)).collect();
+        for interface in all {
+            let (is_closed, below) = (!self.pattern.0[interface].is_open(), interface.checked_sub(1));
+            if is_closed || gapless[interface] {
                 self.theta[interface] = below.map_or(0.0, |below| self.theta[below]);
+            }
+            if is_closed || still[interface] {
                 self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
             }
         }

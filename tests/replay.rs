@@ -47,7 +47,6 @@ fn no_event_is_missed() {
 
 /// A harmonic vertical motion of 1596 rad/s: a contact guard dips to -0.4 % of its weight between two samples.
 #[test]
-#[ignore = "first_crossing overlooks the dip"]
 fn regression_a_short_dip_of_a_contact_guard_is_not_missed() {
     check(1615..1616);
 }

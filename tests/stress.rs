@@ -144,14 +144,12 @@ fn check_again(seeds: &[u64]) {
 
 /// Columns in free fall whose gaps are 1e-28 to 1e-42 rad.
 #[test]
-#[ignore = "dense output and step disagree about such gaps for ever, in steps too short to advance the time"]
 fn regression_columns_in_free_fall_come_to_an_end() {
     check_again(&[47_071, 48_120]);
 }
 
 /// Angles made equal at one interface open a gap of rounding, of either sign, at the next, which then strikes while it opens.
 #[test]
-#[ignore = "impacts at interfaces that have just opened, with closed ones that carry nothing decided by rounding"]
 fn regression_an_impact_at_an_interface_that_has_just_opened_is_mirrored_bit_for_bit() {
     check_again(&[51_068, 16_192]);
 }
