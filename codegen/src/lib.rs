@@ -15,7 +15,7 @@ pub mod emit;
 pub mod mechanics;
 pub mod optimise;
 pub mod pattern;
-#[cfg(feature = "emit")]
+#[cfg(feature = "report")]
 pub mod report;
 pub mod symbolic;
 

@@ -10,11 +10,13 @@
 //! Products are not multiplied out unless asked ([`Arena::expand`]): the derivation keeps its structure.
 //! Every expression has a [`Level`]: what must be known before it can be evaluated (number < scene < state).
 
+#[cfg(feature = "report")]
 mod collect;
 mod difference;
 mod differentiate;
 mod evaluate;
 mod expand;
+#[cfg(feature = "report")]
 pub mod latex;
 mod print;
 mod rational;
