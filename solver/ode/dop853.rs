@@ -1,5 +1,5 @@
-//! Hairer, Nørsett & Wanner's DOP853: order 8 with an error estimate of orders 5 and 3, dense output of order 7. The default:
-//! cheapest of the pairs here at tolerances below about 1e-6.
+//! Hairer, Nørsett & Wanner's DOP853: order 8 with an error estimate of orders 5 and 3, dense output of order 7. Cheapest of
+//! the pairs here at tolerances below about 1e-6 where neither events nor samples of a record cut its steps.
 //!
 //! Coefficients: Hairer's `dop853.f`, as in Solving Ordinary Differential Equations I, section II.5 and appendix.
 

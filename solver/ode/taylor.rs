@@ -15,7 +15,7 @@
 //! orders. Four convolutions per angle, side by side in four lanes, are all the work that grows with the order. The series is
 //! its own dense output, and a step that has to be shortened is the same series at another place.
 //!
-//! Choose it at tolerances below about 1e-8, and wherever many events are located. Order: `1 - ln(rtol) / 2`, after which a
+//! Choose it at tolerances from about 1e-7 on, and wherever many events are located: finding one costs no right-hand side. Order: `1 - ln(rtol) / 2`, after which a
 //! higher one costs more than the longer step saves (Jorba & Zou, 2005); fewer where the step is short.
 
 use super::{Interpolant, Tolerance};
