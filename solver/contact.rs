@@ -32,6 +32,10 @@ const VERGE: f64 = 1e-12;
 /// below it are no motion apart: an interface thrown open with one would land in the same instant, for ever.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// Gaps `[rad]` and rates `[rad/s]` below this are zero whatever they are compared with: columns in free fall come to angles of 1e-60,
+/// whose roundings are no motion. Larger, and the rocking of very slender columns would be cut off.
+const NOTHING: f64 = 1e-40;
+
 /// Share of the largest acceleration, at least that of a falling column, by which a released interface may seem to be driven
 /// back: its instant is known to the integration's tolerance only. Beyond it, something else has changed, and it is examined like the others.
 const RELEASE_TOLERANCE: f64 = 1e-6;
@@ -168,7 +172,7 @@ fn largest(values: &[f64]) -> f64 {
 
 /// Whether the gap of angles, or of rates, at an interface is no more than rounding.
 fn is_rounding(values: &[f64], interface: usize) -> bool {
-    relative(values, interface).abs() <= ROUNDING * largest(values)
+    relative(values, interface).abs() <= (ROUNDING * largest(values)).max(NOTHING)
 }
 
 /// Whether an interface, open or not, has no gap.
@@ -271,6 +275,25 @@ fn impulses(column: &Column, theta: &[f64], before: &Motion, decision: &Decision
     let jump: Vec<Vec2> = after.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
     let turn: Vec<f64> = decision.omega.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
     posture.resultants(&jump, &turn)
+}
+
+/// The decision that these interfaces close, whatever their contacts would rather do: the projection onto the closed pattern,
+/// recorded as a separation.
+pub(crate) fn stick(
+    column: &Column,
+    pattern: &Pattern,
+    theta: &[f64],
+    omega: &[f64],
+    closing: &[usize],
+) -> Result<Decision, SingularMass> {
+    let posture = Posture::new(column, pattern, theta);
+    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: omega.to_vec() };
+    let mut closed = pattern.clone();
+    closing.iter().for_each(|&interface| closed.0[interface] = Interface::Closed);
+    let omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion;
+    let mut decision = Decision { pattern: closed, omega, separation: true, impulses: Vec::new() };
+    decision.impulses = impulses(column, theta, &before, &decision);
+    Ok(decision)
 }
 
 /// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or MODEL.md leaves it out.

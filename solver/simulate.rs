@@ -415,6 +415,23 @@ impl<'a> Run<'a> {
         });
     }
 
+    /// Closes the open interfaces that `is_still` names, momentum conserved, as a separation.
+    fn close_all(&mut self, is_still: impl Fn(&Run, usize) -> bool) -> Result<(), SolveError> {
+        let before = self.pattern.clone();
+        let all = 0..self.theta.len();
+        let closing: Vec<usize> = all.filter(|i| before.0[*i].is_open() && is_still(self, *i)).collect();
+        let omega = self.omega.clone();
+        let decision = contact::stick(&self.scene.column, &before, &self.theta, &omega, &closing);
+        let decision = self.solved(decision)?;
+        let energy_before = self.kinetic_energy(&before, &omega);
+        let impulses = decision.impulses.iter().map(Impulse::from).collect();
+        self.adopt(decision, EventKind::Impact);
+        let energy_after = self.kinetic_energy(&self.pattern, &self.omega);
+        let lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
+        self.record(EventKind::Impact, &closing, before, omega, Some((lost, impulses)));
+        Ok(())
+    }
+
     /// Breaks circles of events in one instant.
     fn guard_against_stall(&mut self) -> Result<(), SolveError> {
         let events = &self.history.events;
@@ -422,17 +439,10 @@ impl<'a> Run<'a> {
         self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
         let most = EVENTS_AT_ONCE * (self.theta.len() + 1);
         if self.events_at_once == most {
-            let before = self.pattern.clone();
-            let is_still = |i: &usize| before.0[*i].is_open() && contact::is_motionless(&self.theta, &self.omega, *i);
-            let closing: Vec<usize> = (0..self.theta.len()).filter(is_still).collect();
-            let mut pattern = before.clone();
-            closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
-            let omega = self.omega.clone();
-            self.adopt(
-                Decision { pattern, omega: omega.clone(), separation: true, impulses: Vec::new() },
-                EventKind::Impact,
-            );
-            self.record(EventKind::Impact, &closing, before, omega, Some((0.0, Vec::new())));
+            self.close_all(|run, interface| contact::is_motionless(&run.theta, &run.omega, interface))?;
+        } else if self.events_at_once == most + most / 2 {
+            // Rates of some roundings, above what counts as motionless, go in circles as well.
+            self.close_all(|run, interface| contact::is_gapless(&run.theta, interface))?;
         }
         if self.events_at_once > 2 * most {
             let pattern = self.pattern.to_string();
