@@ -54,6 +54,8 @@
 //! vertical motion; the momentum form is written here by hand with its three-by-three solve unrolled by the compiler, the
 //! acceleration form is generated code; other programs on the machine.
 
+mod common;
+
 use rocking::dynamics::{Dynamics, Ground};
 use rocking::excitation::{Piece, Segment, TextOptions};
 use rocking::generated::{GeneratedMode, equations};
@@ -66,8 +68,7 @@ use rocking::program::Scalar;
 use rocking::{Column, Excitation, GroundMotion, Mode, Motion, Record};
 use std::fmt::Write;
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// `[m/s²]`
@@ -966,33 +967,18 @@ fn summary(rows: &[Row]) {
     }
 }
 
-/// First line of what a command prints, or `unknown`.
-fn output_of(command: &str, arguments: &[&str]) -> String {
-    let output = Command::new(command).args(arguments).output().ok();
-    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
-    text.lines().next().unwrap_or("unknown").replace(',', " ")
-}
-
 fn write_csv(rows: &[Row]) -> std::io::Result<()> {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find(|line| line.starts_with("model name")).and_then(|line| line.split(':').nth(1));
-    let machine = format!("{} {}", std::env::consts::ARCH, model.unwrap_or("unknown").trim()).replace(',', " ");
-    let (commit, compiler) = (output_of("git", &["rev-parse", "--short", "HEAD"]), output_of("rustc", &["--version"]));
-    let mut csv = String::from(
-        "dof,record,dt_s,scheme,setting,error,microseconds,microseconds_dense,right_hand_sides,steps,commit,compiler,machine\n",
-    );
+    let circumstances = common::circumstances();
+    let columns = "dof,record,dt_s,scheme,setting,error,microseconds,microseconds_dense,right_hand_sides,steps";
+    let mut csv = format!("{columns},{}\n", common::CIRCUMSTANCES);
     for row in rows {
         let Row { dof, record, dt, scheme, setting, error, time: [lean, dense], right_hand_sides, steps } = row;
         writeln!(
             csv,
-            "{dof},{record},{dt},{scheme},{setting:e},{error:e},{lean:.1},{dense:.1},{right_hand_sides},{steps},{commit},{compiler},{machine}"
+            "{dof},{record},{dt},{scheme},{setting:e},{error:e},{lean:.1},{dense:.1},{right_hand_sides},{steps},{circumstances}"
         )
         .expect("a string takes all");
     }
-    let default = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target");
-    let folder = std::env::var_os("CARGO_TARGET_DIR").map_or_else(default, PathBuf::from).join("bench");
-    std::fs::create_dir_all(&folder)?;
-    std::fs::write(folder.join("records.csv"), csv)?;
-    println!("\nwrote {}", folder.join("records.csv").display());
-    Ok(())
+    println!();
+    common::write("records.csv", &csv)
 }

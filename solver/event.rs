@@ -248,14 +248,16 @@ const NODES: [f64; DEGREE + 1] = [
     1.0,
 ];
 
-/// Largest size of `Π (s - NODES[k])` over all nodes but the last, on `[0, 1]`, generously: what the last coefficient of the
-/// polynomial weighs, and so what the first one left out may.
-const LAST_WEIGHT: f64 = 1.0 / 4096.0;
+/// Largest size of `Π (s - NODES[k])` over all nodes but the last, on `[0, 1]`, reached at the end: what the last coefficient of
+/// the polynomial weighs. What is left out weighs less as long as coefficients fall; a guard whose coefficients do not is under-sampled.
+const LAST_WEIGHT: f64 = 1.0 / 2048.0;
 
 /// Looks between two nodes for a low place of the polynomial.
 const PLACES_BETWEEN: usize = 8;
 
-/// A guard that changes by less than this share of its smallest value, over start, middle and end, has no zero in between.
+/// A guard that changes by less than this share of its smallest value, over start, middle and end, is taken to have no zero in
+/// between: it would have to swing three times as far and back within half a step. Larger, and more dips go unseen; smaller, and most
+/// steps are sampled for nothing.
 const FAR: f64 = 0.5;
 
 /// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` and `end` are its values at the ends of the

@@ -134,7 +134,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         h: f64,
         tolerance: Tolerance,
     ) -> f64 {
-        if !(self.is_begun && self.t == t && self.x.as_slice() == x.as_slice()) {
+        if !self.is_at(t, x) {
             self.begin(system, t, x);
         }
         self.h = h;
@@ -197,7 +197,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Orders known of the series at a place: none if it is another one than the last attempt's.
     pub fn order_at(&self, t: f64, x: &V) -> usize {
-        if self.is_begun && self.t == t && self.x.as_slice() == x.as_slice() { self.order } else { 0 }
+        if self.is_at(t, x) { self.order } else { 0 }
+    }
+
+    /// Whether the present series is about this place.
+    fn is_at(&self, t: f64, x: &V) -> bool {
+        self.is_begun && self.t == t && self.x.as_slice() == x.as_slice()
     }
 
     /// Time at the end of the last attempt `[s]`.
