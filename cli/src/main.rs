@@ -5,6 +5,7 @@ mod commands;
 mod error;
 mod figure;
 mod output;
+mod progress;
 
 use clap::Parser;
 use error::Failure;
