@@ -1,9 +1,9 @@
 //! The column: rigid blocks on one axis, base first, validated, in SI units.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// One rigid block. SI; masses may be per unit thickness.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Block {
     /// Half of its width `[m]`.
     pub half_width: f64,

@@ -43,6 +43,7 @@ struct Readme;
 
 pub mod column;
 pub mod contact;
+mod diagnostics;
 pub mod dynamics;
 pub mod event;
 pub mod excitation;

@@ -4,7 +4,8 @@
 //! a bounded second derivative, a step as long as the parabola through value and slope with that bound stays above zero cannot
 //! jump over a root: the search is conservative and converges quadratically.
 
-use crate::dynamics::ContactForce;
+use crate::column::Column;
+use crate::dynamics::{ContactForce, Energy, Ground};
 use crate::excitation::Segment;
 use crate::phase::Ended;
 use crate::simulate::Run;
@@ -125,7 +126,22 @@ fn first_zero(
     }
 }
 
-/// At rest the whole weight stands on each interface, and the ground drags it along.
+/// At rest the whole weight stands on each interface, and the ground drags it along. Base first, length N.
+pub fn contact_forces(column: &Column, ground: Ground) -> Vec<ContactForce> {
+    let force = |interface: usize| {
+        let mass = column.mass_above(interface);
+        let (normal, tangential) = (mass * ground.gravity, mass * ground.x);
+        ContactForce { normal, tangential, moment: column.centroid_height(interface) * tangential }
+    };
+    (0..column.len()).map(force).collect()
+}
+
+/// Energy of the column that stands still.
+pub fn energy(column: &Column) -> Energy {
+    let potential = column.mass_above(0) * column.gravity() * column.centroid_height(0);
+    Energy { kinetic: 0.0, potential }
+}
+
 fn note_forces(run: &mut Run, segment: &Segment, until: f64) {
     let column = &run.scene.column;
     let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - run.t);
@@ -134,14 +150,7 @@ fn note_forces(run: &mut Run, segment: &Segment, until: f64) {
     for place in 0..=count {
         let t = run.t + (until - run.t) * place as f64 / count as f64;
         let ground = segment.ground(t, column.gravity());
-        let forces: Vec<ContactForce> = (0..column.len())
-            .map(|interface| {
-                let mass = column.mass_above(interface);
-                let (normal, tangential) = (mass * ground.gravity, mass * ground.x);
-                ContactForce { normal, tangential, moment: column.centroid_height(interface) * tangential }
-            })
-            .collect();
-        run.history.note_forces(&forces);
+        run.history.note_forces(&contact_forces(column, ground));
     }
 }
 

@@ -60,17 +60,7 @@ impl Scene {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_file(file: &Path) -> Result<Scene, SceneFileError> {
-        let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
-            file: file.into(),
-            problem: format!("{error}; check the path and its permissions"),
-        };
-        let bytes = std::fs::read(file).map_err(unreadable)?;
-        let text = std::str::from_utf8(&bytes).map_err(|error| {
-            let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
-            let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
-            SceneFileError::Unreadable { file: file.into(), problem }
-        })?;
-        Scene::from_toml(text, file)
+        Scene::from_toml(&text(file)?, file)
     }
 
     /// Reads a scene from TOML text; `file` is named in errors, and records are found relative to it.
@@ -92,6 +82,24 @@ impl Scene {
         scene.check().map_err(|error| reader.refused(&root, error))?;
         Ok(scene)
     }
+}
+
+/// The text of a scene file.
+///
+/// # Errors
+/// [`SceneFileError::Unreadable`]
+pub fn text(file: &Path) -> Result<String, SceneFileError> {
+    let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
+        file: file.into(),
+        problem: format!("{error}; check the path and its permissions"),
+    };
+    let bytes = std::fs::read(file).map_err(unreadable)?;
+    let text = std::str::from_utf8(&bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
+        SceneFileError::Unreadable { file: file.into(), problem }
+    })?;
+    Ok(text.into())
 }
 
 /// Something wrong at a place, before the file's name and line are put to it.

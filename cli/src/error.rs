@@ -19,6 +19,14 @@ pub enum Failure {
         /// What the system says.
         problem: String,
     },
+    /// A folder is not that of a run.
+    #[error("{}: {problem}; give the folder of a finished `rocking run`, or run the scene again", path.display())]
+    Results {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
     /// The file of a figure cannot be written.
     #[error("{}: {problem}; choose a file that can be written with --svg", path.display())]
     Figure {
@@ -93,12 +101,18 @@ impl Failure {
         Failure::Output { path: path.into(), problem: problem.to_string() }
     }
 
+    /// Something in a run's folder that is not as it was written.
+    pub fn results(path: &Path, problem: impl fmt::Display) -> Failure {
+        Failure::Results { path: path.into(), problem: problem.to_string() }
+    }
+
     /// Whether the user can mend it by other input.
     pub fn is_bad_input(&self) -> bool {
         matches!(
             self,
             Failure::Scene(_)
                 | Failure::Output { .. }
+                | Failure::Results { .. }
                 | Failure::Figure { .. }
                 | Failure::CrowdedFigure { .. }
                 | Failure::Mode { .. }

@@ -5,7 +5,9 @@ mod commands;
 mod error;
 mod figure;
 mod output;
+mod plot;
 mod progress;
+mod results;
 
 use clap::Parser;
 use error::Failure;

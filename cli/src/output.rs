@@ -12,6 +12,7 @@ use tempfile::NamedTempFile;
 struct Summary<'a> {
     title: &'a str,
     version: &'static str,
+    scene: SceneText<'a>,
     status: rocking::StopReason,
     /// When the run ended, or the column came to rest for good `[s]`.
     t_final: f64,
@@ -29,6 +30,20 @@ struct Summary<'a> {
     wall_seconds: f64,
     warnings: &'a [String],
     options: &'a rocking::SolveOptions,
+    column: &'a rocking::Column,
+    friction: Option<f64>,
+    restitution: &'a rocking::Restitution,
+    excitation: &'a rocking::Excitation,
+    initial: &'a rocking::Initial,
+}
+
+/// The scene file as it was read: a run's folder says all that the run was.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct SceneText<'a> {
+    /// As it was named on the command line.
+    pub file: &'a Path,
+    /// Its text.
+    pub text: &'a str,
 }
 
 /// The files of a run, in the order in which they are put in place: the summary last, it tells that the others are there.
@@ -61,6 +76,7 @@ impl<'a> Folder<'a> {
     /// [`Failure::Output`]
     pub fn write(
         &self,
+        text: SceneText,
         scene: &Scene,
         response: &Response,
         wall_seconds: f64,
@@ -69,6 +85,7 @@ impl<'a> Folder<'a> {
         let summary = Summary {
             title: &scene.title,
             version: env!("CARGO_PKG_VERSION"),
+            scene: text,
             status: response.status,
             t_final: response.t_final,
             overturned_at: response.overturned_at(),
@@ -84,6 +101,11 @@ impl<'a> Folder<'a> {
             wall_seconds,
             warnings,
             options: &scene.options,
+            column: &scene.column,
+            friction: scene.friction,
+            restitution: &scene.restitution,
+            excitation: &scene.excitation,
+            initial: &scene.initial,
         };
         let files = [
             self.fill(|file| history(file, scene, response))?,

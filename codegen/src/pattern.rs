@@ -83,6 +83,18 @@ impl Pattern {
         Pattern(self.0.iter().map(|interface| interface.mirror()).collect())
     }
 
+    /// Reads `(+,0,-)`, as [`Pattern`] is displayed; `None` for anything else.
+    pub fn parse(text: &str) -> Option<Pattern> {
+        let signs = text.strip_prefix('(')?.strip_suffix(')')?.split(',');
+        let state = |sign: &str| match sign {
+            "+" => Some(Interface::Right),
+            "0" => Some(Interface::Closed),
+            "-" => Some(Interface::Left),
+            _ => None,
+        };
+        signs.map(state).collect::<Option<_>>().map(Pattern)
+    }
+
     /// Index of the lowest open interface, `None` at rest.
     pub fn lowest_open(&self) -> Option<usize> {
         self.0.iter().position(|interface| interface.is_open())
@@ -249,6 +261,7 @@ mod tests {
             assert_eq!(pattern.mode(), Some((label, false)));
             assert_eq!(pattern.mirror().mode(), Some((label, true)));
             assert_eq!(pattern.mirror().mirror(), pattern);
+            assert_eq!(Pattern::parse(&pattern.to_string()), Some(pattern));
         }
     }
 

@@ -7,12 +7,17 @@ use serde::Serialize;
 /// Ground acceleration sampled at equal intervals, linear between samples, zero outside.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Record {
-    /// Accelerations `[m/s²]`.
+    /// Accelerations `[m/s²]`; where a run is described, their number.
+    #[serde(rename = "samples", serialize_with = "count")]
     accel: Vec<f64>,
     /// Sampling interval `[s]`.
     dt: f64,
     /// Time of the first sample `[s]`.
     start: f64,
+}
+
+fn count<S: serde::Serializer>(accel: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_u64(accel.len() as u64)
 }
 
 /// Why a record is refused. Lines and columns count from 1.

@@ -1,9 +1,9 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::Dynamics;
-use crate::commands::{print, read};
+use crate::commands::print;
 use crate::error::Failure;
-use crate::output::Folder;
+use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
@@ -15,7 +15,8 @@ use std::time::Instant;
 /// # Errors
 /// [`Failure`]
 pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(), Failure> {
-    let mut scene = read(path)?;
+    let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
+    let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
     if dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
@@ -30,7 +31,7 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
     let warnings = response.warnings(scene.friction);
-    folder.write(&scene, &response, seconds, &warnings)?;
+    folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
     if quiet {
         return Ok(());
     }

@@ -1,0 +1,76 @@
+//! What follows from a column's state at one instant: its energy and the forces between its blocks.
+//!
+//! Histories hold angles and rates only. Whoever wants energies or contact forces at those times asks here, after the run, and
+//! nobody else pays for them.
+
+use crate::column::Column;
+use crate::dynamics::{ContactForce, Energy, Ground};
+use crate::mode::Mode;
+use crate::response::Sample;
+use crate::rest;
+
+impl Sample {
+    /// Energies relative to the moving ground, with gravity `g`: vertical ground motion does work on them.
+    pub fn energy(&self, column: &Column) -> Energy {
+        let gravity = column.gravity();
+        Mode::new(column, &self.pattern)
+            .map_or_else(|| rest::energy(column), |mode| mode.energy(&self.state_of_links(), gravity))
+    }
+
+    /// Contact forces at all interfaces, base first, length N (MODEL.md section 4).
+    pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
+        let ground = Ground { x: self.ground[0], gravity: column.gravity() + self.ground[1] };
+        match Mode::new(column, &self.pattern) {
+            Some(mode) => mode.contact_forces(&self.state_of_links(), ground),
+            None => rest::contact_forces(column, ground),
+        }
+    }
+
+    /// `[θ, θ̇]` of the free angles: those of the lowest block of each link that moves.
+    fn state_of_links(&self) -> Vec<f64> {
+        let open = || self.pattern.0.iter().enumerate().filter(|(_, state)| state.is_open()).map(|(block, _)| block);
+        open().map(|block| self.theta[block]).chain(open().map(|block| self.omega[block])).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking_codegen::pattern::Pattern;
+
+    fn sample(theta: [f64; 2], omega: [f64; 2], signs: [i8; 2]) -> Sample {
+        let pattern = Pattern::from_signs(&signs);
+        Sample { t: 0.0, theta: theta.to_vec(), omega: omega.to_vec(), ground: [1.5, 0.3], pattern }
+    }
+
+    fn column() -> Column {
+        Column::equal_blocks(2, 0.4, 1.6, 1000.0, 9.81).expect("sizes above zero")
+    }
+
+    #[test]
+    fn a_column_at_rest_stands_on_its_weight() {
+        let (column, rest) = (column(), sample([0.0; 2], [0.0; 2], [0, 0]));
+        let forces = rest.contact_forces(&column);
+        let mass = column.mass_above(0);
+        assert!((forces[0].normal - mass * 10.11).abs() < 1e-9 && (forces[0].tangential - mass * 1.5).abs() < 1e-9);
+        assert!((rest.energy(&column).potential - mass * 9.81 * 1.6).abs() < 1e-9);
+        assert_eq!(rest.energy(&column).kinetic, 0.0);
+    }
+
+    /// An upper block that does not turn, on one that is about to: no mode of one link is special.
+    #[test]
+    fn energies_and_forces_do_not_depend_on_how_the_state_is_told() {
+        let column = column();
+        let as_one = sample([0.05, 0.05], [0.2, 0.2], [1, 0]);
+        let mode = Mode::generic(&column, &as_one.pattern).expect("it moves");
+        let expected = mode.energy(&[0.05, 0.2], 9.81);
+        assert!((as_one.energy(&column).total() - expected.total()).abs() < 1e-9 * expected.total());
+        let upper = sample([0.0, 0.05], [0.0, 0.2], [0, 1]);
+        let forces = upper.contact_forces(&column);
+        let mode = Mode::generic(&column, &upper.pattern).expect("it moves");
+        let expected = mode.contact_forces(&[0.05, 0.2], Ground { x: 1.5, gravity: 10.11 });
+        for (force, expected) in forces.iter().zip(expected) {
+            assert!((force.normal - expected.normal).abs() < 1e-9 * expected.normal.abs());
+        }
+    }
+}
