@@ -105,7 +105,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         let column = &run.scene.column;
         let pattern = &run.pattern;
         let zero = stepper.zero();
-        stepper.enter(run.segments[run.segment]);
+        stepper.enter(run.segments[run.segment].clone());
         let links = pattern.linkage().link_of_block();
         let dof = pattern.dof();
         let mut x = zero.clone();
@@ -216,7 +216,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             return Some(Ended::EndOfTime);
         }
         self.run.segment += 1;
-        self.stepper.enter(self.run.segments[self.run.segment]);
+        self.stepper.enter(self.run.segments[self.run.segment].clone());
         self.segment().jumps.then_some(Ended::Jump)
     }
 

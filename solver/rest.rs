@@ -26,7 +26,7 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
     let since = run.t;
     let first = run.segment;
     loop {
-        let segment = run.segments[run.segment];
+        let segment = run.segments[run.segment].clone();
         if run.t < run.hold.until {
             let until = run.hold.until.min(segment.end);
             output_until(run, until);

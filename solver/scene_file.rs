@@ -273,11 +273,8 @@ fn solver(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
         }
     }
     if let Some((name, _)) = table.text("method")? {
-        options.method = Method::parse(&name).ok_or_else(|| {
-            let names: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
-            let problem = format!("there is no method `{name}`");
-            table.wrong("method", problem, &format!("choose one of {}", names.join(", ")))
-        })?;
+        options.method = Method::parse(&name)
+            .ok_or_else(|| table.no_such("method", "method", &name, &Method::ALL.map(Method::name)))?;
     }
     table.close()
 }

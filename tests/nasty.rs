@@ -184,7 +184,7 @@ fn regression_a_dip_of_a_contact_guard_below_zero_is_found_and_one_above_is_not(
     let pattern = Pattern::from_signs(&[1, 0]);
     let mode = Mode::generic(&column, &pattern).expect("it moves");
     let omega = 40.0;
-    let wavelet = |amplitude: f64| Motion::Ricker { amplitude, omega, start: 0.0 };
+    let wavelet = |amplitude: f64| Motion::Ricker { amplitude, omega: omega * std::f64::consts::SQRT_2, start: 0.0 };
     let until = 12.0 / omega;
     let margin = |amplitude: f64| {
         smallest(|places| {

@@ -163,7 +163,7 @@ impl<'a> Replay<'a> {
     }
 
     fn segment(&self) -> Segment {
-        self.segments[self.segment]
+        self.segments[self.segment].clone()
     }
 
     fn rows_before(&mut self, end: f64, theta: impl Fn(Double) -> Vec<Double>) {
@@ -202,7 +202,7 @@ impl<'a> Replay<'a> {
         self.t = Double::from_f64(event.t);
         if !is_at_jump {
             let column = &self.scene.column;
-            let ground = expand(self.segment().horizontal, self.t, 1)[0].value();
+            let ground = expand(&self.segment().horizontal, self.t, 1)[0].value();
             let uplift = |i: &usize| column.uplift_acceleration(*i);
             let interface = (0..column.len()).min_by(|a, b| uplift(a).total_cmp(&uplift(b))).unwrap_or(0);
             // c / h in double-doubles.

@@ -109,7 +109,7 @@ impl Mode {
 
     /// Ground acceleration and effective gravity `[m/s²]`.
     pub fn ground(&self, segment: &Segment, t: Double) -> [Double; 2] {
-        [expand(segment.horizontal, t, 1)[0], self.gravity + expand(segment.vertical, t, 1)[0]]
+        [expand(&segment.horizontal, t, 1)[0], self.gravity + expand(&segment.vertical, t, 1)[0]]
     }
 
     /// `[N, T, M]` at an interface, from zero, of a state `[θ, θ̇]`.
@@ -135,7 +135,7 @@ fn program<P: StepProgram<Double> + 'static>(
 }
 
 /// Taylor coefficients of a ground acceleration about `t`.
-pub fn expand(piece: Piece, t: Double, count: usize) -> Vec<Double> {
+pub fn expand(piece: &Piece, t: Double, count: usize) -> Vec<Double> {
     let lift = Double::from_f64;
     let mut coefficients = vec![ZERO; count];
     // Value and value a quarter of a period later, as both change by turns with each order.
@@ -147,7 +147,7 @@ pub fn expand(piece: Piece, t: Double, count: usize) -> Vec<Double> {
             scale = scale.scale(omega) / lift((k + 1) as f64);
         }
     };
-    match piece {
+    match *piece {
         Piece::Zero => {}
         Piece::Linear { value, slope, start } => {
             coefficients[0] = lift(value) + (t - lift(start)).scale(slope);
@@ -163,7 +163,7 @@ pub fn expand(piece: Piece, t: Double, count: usize) -> Vec<Double> {
             let (sin, cos) = (t - lift(start)).scale(omega).sin_cos();
             circle(cos.scale(amplitude), -sin.scale(amplitude), omega);
         }
-        Piece::Ricker { .. } => unreachable!("no scene has a Ricker wavelet"),
+        ref other => unreachable!("no scene has {other:?}"),
     }
     coefficients
 }
@@ -183,8 +183,8 @@ impl Series {
     /// The series up to `order` about `t` and a state `[θ, θ̇]`.
     pub fn new(mode: &Mode, segment: &Segment, t: Double, state: &[Double], order: usize) -> Series {
         let dof = mode.dof;
-        let horizontal = expand(segment.horizontal, t, order + 1);
-        let mut vertical = expand(segment.vertical, t, order + 1);
+        let horizontal = expand(&segment.horizontal, t, order + 1);
+        let mut vertical = expand(&segment.vertical, t, order + 1);
         vertical[0] += mode.gravity;
         let mass = mode.equations.mass_matrix(state);
         let (angles, rates) = state.split_at(dof);

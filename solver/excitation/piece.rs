@@ -1,7 +1,10 @@
 //! One smooth stretch of ground acceleration.
 
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
 /// A formula that holds between two break points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Piece {
     /// Nothing moves.
     Zero,
@@ -43,9 +46,65 @@ pub enum Piece {
         /// `[s]`
         centre: f64,
     },
+    /// `amplitude / β · (u² - 3) u exp(-u²/2)`, `u = omega (t - centre)`, with `β` such that the peak is the amplitude
+    AntisymmetricRicker {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        centre: f64,
+    },
+    /// The derivative of `velocity · exp(-(u/gamma)²) cos(u + phase)`, `u = omega (t - centre)`
+    Gabor {
+        /// `[m/s]`
+        velocity: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        centre: f64,
+        /// `[rad]`
+        phase: f64,
+        /// Dimensionless.
+        gamma: f64,
+    },
+    /// Several at the same time; none of them zero, linear only one, no sum.
+    Sum(Arc<[Piece]>),
 }
 
+/// `max |(u² - 3) u exp(-u²/2)|`, at `u² = 3 - √6`.
+const BETA: f64 = 1.380_118_833_563_847_8;
+
 impl Piece {
+    /// Several pieces at the same time as one.
+    pub fn sum(pieces: &[Piece]) -> Piece {
+        let mut linear: Option<(f64, f64, f64)> = None;
+        let mut terms: Vec<Piece> = Vec::new();
+        let flat = pieces.iter().flat_map(|piece| match piece {
+            Piece::Sum(terms) => &terms[..],
+            other => std::slice::from_ref(other),
+        });
+        for piece in flat {
+            match *piece {
+                Piece::Zero => {}
+                Piece::Linear { value, slope, start } => {
+                    linear = Some(linear.map_or((value, slope, start), |(first, first_slope, origin)| {
+                        (first + value + slope * (origin - start), first_slope + slope, origin)
+                    }));
+                }
+                ref other => terms.push(other.clone()),
+            }
+        }
+        if let Some((value, slope, start)) = linear {
+            terms.push(Piece::Linear { value, slope, start });
+        }
+        match terms.len() {
+            0 => Piece::Zero,
+            1 => terms.remove(0),
+            _ => Piece::Sum(terms.into()),
+        }
+    }
+
     /// Acceleration at `t` `[m/s²]`.
     #[inline(always)]
     pub fn value(&self, t: f64) -> f64 {
@@ -58,18 +117,32 @@ impl Piece {
                 let u = omega * (t - centre);
                 amplitude * (1.0 - u * u) * libm::exp(-0.5 * u * u)
             }
+            Piece::AntisymmetricRicker { amplitude, omega, centre } => {
+                let u = omega * (t - centre);
+                amplitude / BETA * (u * u - 3.0) * u * libm::exp(-0.5 * u * u)
+            }
+            Piece::Gabor { velocity, omega, centre, phase, gamma } => {
+                let u = omega * (t - centre);
+                let (sin, cos) = libm::sincos(u + phase);
+                -velocity * omega * libm::exp(-(u / gamma) * (u / gamma)) * (2.0 * u / (gamma * gamma) * cos + sin)
+            }
+            Piece::Sum(ref terms) => total(terms, t),
         }
     }
 
     /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
     pub fn expand_at(&self, t: f64, coefficients: &mut [f64]) {
         coefficients.fill(0.0);
+        self.add_expansion(t, coefficients);
+    }
+
+    fn add_expansion(&self, t: f64, coefficients: &mut [f64]) {
         match *self {
             Piece::Zero => {}
             Piece::Linear { slope, .. } => {
-                coefficients[0] = self.value(t);
+                coefficients[0] += self.value(t);
                 if let Some(first) = coefficients.get_mut(1) {
-                    *first = slope;
+                    *first += slope;
                 }
             }
             Piece::Sine { amplitude, omega, start, phase } => {
@@ -81,16 +154,33 @@ impl Piece {
                 expand_circle(amplitude * cos, -amplitude * sin, omega, coefficients);
             }
             Piece::Ricker { amplitude, omega, centre } => {
-                // E = exp(-u²/2) has E' = -u u' E; the acceleration is (1 - u²) E, with u = u0 + omega τ.
                 let u = omega * (t - centre);
-                let polynomial = [1.0 - u * u, -2.0 * u * omega, -omega * omega];
-                let mut last = [0.0, 0.0, amplitude * libm::exp(-0.5 * u * u)];
+                let polynomial = [1.0 - u * u, -2.0 * u * omega, -omega * omega, 0.0];
+                expand_gaussian(amplitude, polynomial, u, omega, coefficients);
+            }
+            Piece::AntisymmetricRicker { amplitude, omega, centre } => {
+                let u = omega * (t - centre);
+                let square = omega * omega;
+                let polynomial = [(u * u - 3.0) * u, 3.0 * (u * u - 1.0) * omega, 3.0 * u * square, omega * square];
+                expand_gaussian(amplitude / BETA, polynomial, u, omega, coefficients);
+            }
+            Piece::Gabor { velocity, omega, centre, phase, gamma } => {
+                // The velocity is the real part of w = exp(-(u/γ)² + i (u + phase)), of which w' = ω (i - 2u/γ²) w.
+                let u = omega * (t - centre);
+                let (sin, cos) = libm::sincos(u + phase);
+                let size = velocity * libm::exp(-(u / gamma) * (u / gamma));
+                let (narrow, mut last, mut now) = (2.0 / (gamma * gamma), [0.0, 0.0], [size * cos, size * sin]);
                 for (k, coefficient) in coefficients.iter_mut().enumerate() {
-                    *coefficient = polynomial[0] * last[2] + polynomial[1] * last[1] + polynomial[2] * last[0];
-                    let next = -omega / (k + 1) as f64 * (u * last[2] + omega * last[1]);
-                    last = [last[1], last[2], next];
+                    let next = [
+                        -now[1] - narrow * (u * now[0] + omega * last[0]),
+                        now[0] - narrow * (u * now[1] + omega * last[1]),
+                    ];
+                    *coefficient += omega * next[0];
+                    let scale = omega / (k + 1) as f64;
+                    (last, now) = (now, next.map(|part| part * scale));
                 }
             }
+            Piece::Sum(ref terms) => terms.iter().for_each(|term| term.add_expansion(t, coefficients)),
         }
     }
 
@@ -107,14 +197,76 @@ impl Piece {
                 let u = omega * (t - centre);
                 amplitude * omega * u * (u * u - 3.0) * libm::exp(-0.5 * u * u)
             }
+            Piece::AntisymmetricRicker { .. } | Piece::Gabor { .. } => {
+                let mut coefficients = [0.0; 2];
+                self.expand_at(t, &mut coefficients);
+                coefficients[1]
+            }
+            Piece::Sum(ref terms) => terms.iter().map(|term| term.rate(t)).sum(),
         }
     }
 
-    /// Angular frequency `[rad/s]`, zero where nothing oscillates.
+    /// Change of the velocity over `from .. to` `[s]`, and the displacement over it of a ground at rest at `from`: `[m/s]`, `[m]`.
+    pub fn integrals(&self, from: f64, to: f64) -> [f64; 2] {
+        let h = to - from;
+        let sine = |amplitude: f64, omega: f64, start: f64, phase: f64| {
+            let [first, last] = [from, to].map(|t| libm::sincos(omega * (t - start) + phase));
+            let scale = amplitude / omega;
+            [scale * (first.1 - last.1), scale * (h * first.1 - (last.0 - first.0) / omega)]
+        };
+        // Velocity and displacement of a wavelet as functions of u, over amplitude / ω and amplitude / ω².
+        let wavelet = |amplitude: f64, omega: f64, centre: f64, functions: fn(f64, f64) -> [f64; 2]| {
+            let [first, last] = [from, to].map(|t| {
+                let u = omega * (t - centre);
+                functions(u, libm::exp(-0.5 * u * u))
+            });
+            let scale = amplitude / omega;
+            [scale * (last[0] - first[0]), scale * ((last[1] - first[1]) / omega - h * first[0])]
+        };
+        match *self {
+            Piece::Zero => [0.0, 0.0],
+            Piece::Linear { slope, .. } => {
+                let value = self.value(from);
+                [h * (value + 0.5 * slope * h), h * h * (0.5 * value + slope * h / 6.0)]
+            }
+            Piece::Sine { amplitude, omega, start, phase } => sine(amplitude, omega, start, phase),
+            Piece::Cosine { amplitude, omega, start } => sine(amplitude, omega, start, FRAC_PI_2),
+            Piece::Ricker { amplitude, omega, centre } => wavelet(amplitude, omega, centre, |u, e| [u * e, -e]),
+            Piece::AntisymmetricRicker { amplitude, omega, centre } => {
+                wavelet(amplitude / BETA, omega, centre, |u, e| [(1.0 - u * u) * e, u * e])
+            }
+            // The displacement has no closed form: Taylor series of a step that they resolve to the last bit.
+            Piece::Gabor { .. } => {
+                let count = (self.omega() * h.abs() / SERIES_REACH).ceil().max(1.0) as usize;
+                let (mut coefficients, step) = ([0.0; SERIES_ORDER], h / count as f64);
+                let [mut velocity, mut displacement] = [0.0, 0.0];
+                for index in 0..count {
+                    self.expand_at(from + index as f64 * step, &mut coefficients);
+                    let (mut gained, mut moved) = (0.0, 0.0);
+                    for (k, a) in coefficients.iter().enumerate().rev() {
+                        gained = gained * step + a / (k + 1) as f64;
+                        moved = moved * step + a / ((k + 1) * (k + 2)) as f64;
+                    }
+                    displacement += velocity * step + moved * step * step;
+                    velocity += gained * step;
+                }
+                [velocity, displacement]
+            }
+            Piece::Sum(ref terms) => terms
+                .iter()
+                .map(|term| term.integrals(from, to))
+                .fold([0.0, 0.0], |sum, term| [sum[0] + term[0], sum[1] + term[1]]),
+        }
+    }
+
+    /// How fast it changes `[rad/s]`: the angular frequency where there is one, zero where nothing oscillates.
     pub fn omega(&self) -> f64 {
         match *self {
             Piece::Zero | Piece::Linear { .. } => 0.0,
-            Piece::Sine { omega, .. } | Piece::Cosine { omega, .. } | Piece::Ricker { omega, .. } => omega,
+            Piece::Sine { omega, .. } | Piece::Cosine { omega, .. } => omega,
+            Piece::Ricker { omega, .. } | Piece::AntisymmetricRicker { omega, .. } => omega,
+            Piece::Gabor { omega, gamma, .. } => omega * (1.0 + 1.0 / gamma),
+            Piece::Sum(ref terms) => terms.iter().map(Piece::omega).fold(0.0, f64::max),
         }
     }
 
@@ -127,11 +279,20 @@ impl Piece {
             }
             // |d²/du² (1-u²) exp(-u²/2)| = |(-u⁴ + 6u² - 3) exp(-u²/2)| is largest at u = 0, where it is 3.
             Piece::Ricker { amplitude, omega, .. } => 3.0 * amplitude.abs() * omega * omega,
+            // |d²/du² (u³ - 3u) exp(-u²/2)| = |(u⁵ - 10u³ + 15u) exp(-u²/2)| is at most 5.783, at u = 0.617.
+            Piece::AntisymmetricRicker { amplitude, omega, .. } => 5.79 / BETA * amplitude.abs() * omega * omega,
+            // Leibniz' rule for the third derivative of exp(-(u/γ)²) cos u; the Gaussian's own are at most 0.858, 2 and 3.91.
+            Piece::Gabor { velocity, omega, gamma, .. } => {
+                let s = 1.0 / gamma;
+                let shape = 1.0 + s * (3.0 * 0.858 + s * (3.0 * 2.0 + s * 3.91));
+                velocity.abs() * omega * omega * omega * shape
+            }
+            Piece::Sum(ref terms) => terms.iter().map(Piece::curvature_bound).sum(),
         }
     }
 
     /// Whether the acceleration changes by more than rounding when `before` gives way to this piece at `t`.
-    pub fn jumps_from(&self, before: Piece, t: f64) -> bool {
+    pub fn jumps_from(&self, before: &Piece, t: f64) -> bool {
         let (old, new) = (before.value(t), self.value(t));
         let size = self.size().max(before.size());
         (new - old).abs() > SAME_ACCELERATION * size
@@ -143,20 +304,42 @@ impl Piece {
             Piece::Zero => 0.0,
             Piece::Linear { value, .. } => value.abs(),
             Piece::Sine { amplitude, .. } | Piece::Cosine { amplitude, .. } => amplitude.abs(),
-            // Cut off where it is below 6e-7 of the amplitude: that is no jump to speak of.
-            Piece::Ricker { amplitude, .. } => amplitude.abs() * 1e6,
+            // Cut off where they are below 1e-6 of the amplitude: that is no jump to speak of.
+            Piece::Ricker { amplitude, .. } | Piece::AntisymmetricRicker { amplitude, .. } => amplitude.abs() * 1e6,
+            Piece::Gabor { velocity, omega, .. } => (velocity * omega).abs() * 1e6,
+            Piece::Sum(ref terms) => terms.iter().map(Piece::size).sum(),
         }
     }
 }
 
-/// Coefficients of the oscillation with this value and, a quarter of a period later, this one.
+/// Out of line: a sum of sums does not end for the compiler.
+fn total(terms: &[Piece], t: f64) -> f64 {
+    terms.iter().map(|term| term.value(t)).sum()
+}
+
+/// Radians of a step, and order, of the series that integrate where no closed form does: `0.5^24 / 24!` is far below rounding also
+/// where the coefficients grow as a Gaussian's.
+const SERIES_REACH: f64 = 0.5;
+const SERIES_ORDER: usize = 24;
+
+/// Adds the coefficients of the oscillation with this value and, a quarter of a period later, this one.
 fn expand_circle(value: f64, quarter: f64, omega: f64, coefficients: &mut [f64]) {
     let (mut now, mut next) = (value, quarter);
     let mut scale = 1.0;
     for (k, coefficient) in coefficients.iter_mut().enumerate() {
-        *coefficient = now * scale;
+        *coefficient += now * scale;
         (now, next) = (next, -now);
         scale *= omega / (k + 1) as f64;
+    }
+}
+
+/// Adds the coefficients of `amplitude · polynomial(τ) · exp(-(u + omega τ)²/2)`, of which the Gaussian has `E' = -u omega E`.
+fn expand_gaussian(amplitude: f64, polynomial: [f64; 4], u: f64, omega: f64, coefficients: &mut [f64]) {
+    let mut last = [amplitude * libm::exp(-0.5 * u * u), 0.0, 0.0, 0.0];
+    for (k, coefficient) in coefficients.iter_mut().enumerate() {
+        *coefficient += polynomial.iter().zip(&last).map(|(factor, e)| factor * e).sum::<f64>();
+        let next = -omega / (k + 1) as f64 * (u * last[0] + omega * last[1]);
+        last = [next, last[0], last[1], last[2]];
     }
 }
 
@@ -175,7 +358,11 @@ mod tests {
             Piece::Sine { amplitude: 2.0, omega: 3.0, start: 0.1, phase: 0.4 },
             Piece::Cosine { amplitude: 2.0, omega: 3.0, start: 0.1 },
             Piece::Ricker { amplitude: 2.0, omega: 3.0, centre: 0.6 },
+            Piece::AntisymmetricRicker { amplitude: 2.0, omega: 3.0, centre: 0.6 },
+            Piece::Gabor { velocity: 0.7, omega: 3.0, centre: 0.6, phase: 0.4, gamma: 2.0 },
         ];
+        let sum = Piece::sum(&pieces);
+        let pieces = pieces.into_iter().chain([sum]);
         for piece in pieces {
             let (t, d) = (0.77, 1e-5);
             let slope = (piece.value(t + d) - piece.value(t - d)) / (2.0 * d);

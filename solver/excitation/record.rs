@@ -1,5 +1,6 @@
 //! Sampled ground motion: a validated series, linear between samples.
 
+use super::overlay::Span;
 use super::piece::Piece;
 use super::text;
 use serde::Serialize;
@@ -117,6 +118,14 @@ pub enum RecordError {
         line: usize,
         /// What the file says.
         file: String,
+    },
+    /// A number of a synthetic record.
+    #[error("{name} = {value} is out of range: give a finite number above zero, and a duration of 1 to 1e7 dt")]
+    OutOfRange {
+        /// Which number.
+        name: &'static str,
+        /// What was given.
+        value: f64,
     },
     /// A record that never moves cannot be scaled to a peak.
     #[error("all samples are zero: such a record cannot be scaled to a peak acceleration")]
@@ -252,7 +261,7 @@ impl Record {
         self.start + sample as f64 * self.dt
     }
 
-    pub(super) fn pieces(&self) -> Vec<(f64, f64, Piece)> {
+    pub(super) fn pieces(&self) -> Vec<Span> {
         let pairs = self.accel.windows(2).enumerate();
         pairs
             .map(|(index, pair)| {
@@ -262,7 +271,7 @@ impl Record {
                     [a, b] => Piece::Linear { value: *a, slope: (b - a) / (end - start), start },
                     _ => Piece::Zero,
                 };
-                (start, end, piece)
+                Span { start, end, piece }
             })
             .collect()
     }

@@ -142,7 +142,7 @@ impl<D: Dynamics> SeriesSystem for Expanded<'_, D> {
     }
 
     fn expand_at(&mut self, t: f64, orders: usize) {
-        let Segment { horizontal, vertical, .. } = self.driven.segment;
+        let Segment { horizontal, vertical, .. } = &self.driven.segment;
         for (coefficients, piece) in self.ground.iter_mut().zip([horizontal, vertical]) {
             piece.expand_at(t, &mut coefficients[..orders]);
         }

@@ -1,13 +1,28 @@
 //! `[excitation.horizontal]` and `[excitation.vertical]`: pulses by their parameters, records by their files.
 
-use super::table::Table;
+use super::table::{Table, Wrong};
 use super::{Reader, SceneFileError};
-use crate::excitation::{AccelerationUnit, Excitation, Motion, Record, TextOptions};
+use crate::excitation::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};
 use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Kinds of ground motion, as a scene names them.
-const KINDS: [&str; 5] = ["sine-pulse", "cosine-pulse", "ricker", "harmonic", "record"];
+const KINDS: [&str; 14] = [
+    "sine-pulse",
+    "cosine-pulse",
+    "half-sine",
+    "type-c",
+    "ricker",
+    "antisymmetric-ricker",
+    "mavroeidis-papageorgiou",
+    "gabor",
+    "rectangular",
+    "double-rectangular",
+    "harmonic",
+    "sum",
+    "synthetic",
+    "record",
+];
 
 impl Reader<'_> {
     /// The ground motion of a scene.
@@ -30,40 +45,41 @@ impl Reader<'_> {
         let Some((kind, _)) = table.text("kind").map_err(own)? else {
             return Err(own(table.missing("kind", &format!("choose one of {}", KINDS.join(", ")))));
         };
-        let start = table.number("start").map_err(own)?.map_or(0.0, |(value, _)| value);
-        if kind == "record" {
-            return self.record(table, start, gravity).map(Motion::Record);
-        }
-        if !KINDS.contains(&kind.as_str()) {
-            let problem = format!("there is no kind `{kind}`");
-            return Err(own(table.wrong("kind", problem, &format!("choose one of {}", KINDS.join(", ")))));
-        }
-        let amplitude = table.one_of(&[("amplitude", &|a| a), ("amplitude_g", &|a| a * gravity)]).map_err(own)?;
-        let omega = table
-            .one_of(&[("omega", &|omega| omega), ("frequency", &|f| TAU * f), ("period", &|period| TAU / period)])
-            .map_err(own)?;
-        if !(omega.is_finite() && omega > 0.0) {
-            let key = ["omega", "frequency", "period"].into_iter().find(|key| table.has(key)).unwrap_or("omega");
-            return Err(own(table.wrong(key, "it must be above zero".into(), "give a finite number above zero")));
-        }
-        Ok(match kind.as_str() {
-            "sine-pulse" => Motion::SinePulse { amplitude, omega, start },
-            "cosine-pulse" => Motion::CosinePulse { amplitude, omega, start },
-            "ricker" => Motion::Ricker { amplitude, omega, start },
-            _ => {
-                let phase = table.number("phase").map_err(own)?.map_or(0.0, |(value, _)| value);
-                Motion::Harmonic { amplitude, omega, start, phase }
+        match kind.as_str() {
+            "sum" => self.sum(table, gravity),
+            "record" => {
+                let start = start(table).map_err(own)?;
+                self.record(table, start, gravity).map(Motion::Record)
             }
-        })
+            "synthetic" => synthetic(table, gravity).map(Motion::Record).map_err(own),
+            _ => pulse(table, &kind, gravity).map_err(own),
+        }
+    }
+
+    /// `[[excitation.horizontal.term]]`, each as a component.
+    fn sum(&self, table: &mut Table, gravity: f64) -> Result<Motion, SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let mut tables = table.tables("term").map_err(own)?.unwrap_or_default();
+        if tables.is_empty() {
+            let remedy = format!("add [[{}]] for each motion of the sum", table.dotted("term"));
+            return Err(own(table.missing("term", &remedy)));
+        }
+        let mut term = |table: &mut Table| {
+            let motion = self.motion(table, gravity)?;
+            table.close().map_err(own)?;
+            Ok(motion)
+        };
+        Ok(Motion::Sum { terms: tables.iter_mut().map(&mut term).collect::<Result<_, _>>()? })
     }
 
     fn record(&self, table: &mut Table, start: f64, gravity: f64) -> Result<Record, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let units = match table.text("units").map_err(own)? {
             None => None,
-            Some((name, _)) => Some(AccelerationUnit::parse(&name).ok_or_else(|| {
-                own(table.wrong("units", format!("there is no unit `{name}`"), "choose g, m/s2, cm/s2 or gal"))
-            })?),
+            Some((name, _)) => Some(
+                AccelerationUnit::parse(&name)
+                    .ok_or_else(|| own(table.no_such("units", "unit", &name, &["g", "m/s2", "cm/s2", "gal"])))?,
+            ),
         };
         let dt = table.positive("dt").map_err(own)?;
         let options = TextOptions { gravity, dt, units };
@@ -117,4 +133,122 @@ impl Reader<'_> {
             .map_err(|error| refuse(format!("{error}; give the path relative to the scene file")))?;
         Record::from_text(&String::from_utf8_lossy(&bytes), options).map_err(|error| refuse(error.to_string()))
     }
+}
+
+fn start(table: &mut Table) -> Result<f64, Wrong> {
+    Ok(table.number("start")?.map_or(0.0, |(value, _)| value))
+}
+
+fn phase(table: &mut Table) -> Result<f64, Wrong> {
+    Ok(table.number("phase")?.map_or(0.0, |(value, _)| value))
+}
+
+fn amplitude(table: &mut Table, gravity: f64) -> Result<f64, Wrong> {
+    table.one_of(&[("amplitude", &|a| a), ("amplitude_g", &|a| a * gravity)])
+}
+
+fn omega(table: &mut Table) -> Result<f64, Wrong> {
+    let omega =
+        table.one_of(&[("omega", &|omega| omega), ("frequency", &|f| TAU * f), ("period", &|period| TAU / period)])?;
+    if !(omega.is_finite() && omega > 0.0) {
+        let key = ["omega", "frequency", "period"].into_iter().find(|key| table.has(key)).unwrap_or("omega");
+        return Err(table.wrong(key, "it must be above zero".into(), "give a finite number above zero"));
+    }
+    Ok(omega)
+}
+
+/// A number above zero that must be there.
+fn needed(table: &mut Table, key: &str, remedy: &str) -> Result<f64, Wrong> {
+    table.positive(key)?.ok_or_else(|| table.missing(key, remedy))
+}
+
+/// A pulse told by its velocity: `(velocity, omega, phase, gamma)`.
+fn velocity_pulse(table: &mut Table, gravity: f64) -> Result<(f64, f64, f64, f64), Wrong> {
+    let omega = omega(table)?;
+    let velocity = table.one_of(&[
+        ("velocity", &|v| v),
+        ("amplitude", &|a| a / omega),
+        ("amplitude_g", &|a| a * gravity / omega),
+    ])?;
+    let gamma = needed(table, "gamma", "give the number of oscillations in the envelope, e.g. 2")?;
+    Ok((velocity, omega, phase(table)?, gamma))
+}
+
+/// A motion by a formula.
+fn pulse(table: &mut Table, kind: &str, gravity: f64) -> Result<Motion, Wrong> {
+    let start = start(table)?;
+    let mut wave = || Ok::<_, Wrong>((amplitude(table, gravity)?, omega(table)?));
+    Ok(match kind {
+        "sine-pulse" | "one-sine" | "type-a" => {
+            let (amplitude, omega) = wave()?;
+            Motion::SinePulse { amplitude, omega, start }
+        }
+        "cosine-pulse" | "one-cosine" | "type-b" => {
+            let (amplitude, omega) = wave()?;
+            Motion::CosinePulse { amplitude, omega, start }
+        }
+        "half-sine" => {
+            let (amplitude, omega) = wave()?;
+            Motion::HalfSine { amplitude, omega, start }
+        }
+        "type-c" => {
+            let (amplitude, omega) = wave()?;
+            let cycles =
+                table.whole("cycles", 1)?.ok_or_else(|| table.missing("cycles", "give n of type C_n, from 1"))?;
+            Motion::TypeC { amplitude, omega, start, cycles: u32::try_from(cycles).unwrap_or(u32::MAX) }
+        }
+        "ricker" | "symmetric-ricker" => {
+            let (amplitude, omega) = wave()?;
+            Motion::Ricker { amplitude, omega, start }
+        }
+        "antisymmetric-ricker" => {
+            let (amplitude, omega) = wave()?;
+            Motion::AntisymmetricRicker { amplitude, omega, start }
+        }
+        "mavroeidis-papageorgiou" => {
+            let (velocity, omega, phase, gamma) = velocity_pulse(table, gravity)?;
+            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma }
+        }
+        "gabor" => {
+            let (velocity, omega, phase, gamma) = velocity_pulse(table, gravity)?;
+            Motion::Gabor { velocity, omega, start, phase, gamma }
+        }
+        "rectangular" | "double-rectangular" => {
+            let amplitude = amplitude(table, gravity)?;
+            let duration = needed(table, "duration", "give it in s")?;
+            match kind {
+                "rectangular" => Motion::Rectangular { amplitude, start, duration },
+                _ => Motion::DoubleRectangular { amplitude, start, duration },
+            }
+        }
+        "harmonic" => {
+            let (amplitude, omega) = wave()?;
+            let phase = phase(table)?;
+            match table.positive("duration")? {
+                None => Motion::Harmonic { amplitude, omega, start, phase },
+                Some(duration) => Motion::SineBurst { amplitude, omega, start, phase, duration },
+            }
+        }
+        _ => return Err(table.no_such("kind", "kind", kind, &KINDS)),
+    })
+}
+
+/// Filtered noise from a seed.
+fn synthetic(table: &mut Table, gravity: f64) -> Result<Record, Wrong> {
+    let start = start(table)?;
+    let pga = table.one_of(&[("pga", &|a| a), ("pga_g", &|a| a * gravity)])?;
+    let mut synthetic = Synthetic { pga, seed: table.whole("seed", 0)?.unwrap_or(0), ..Synthetic::default() };
+    for (key, number) in [
+        ("duration", &mut synthetic.duration),
+        ("dt", &mut synthetic.dt),
+        ("frequency", &mut synthetic.frequency),
+        ("damping", &mut synthetic.damping),
+    ] {
+        *number = table.positive(key)?.unwrap_or(*number);
+    }
+    let record = synthetic.record().map_err(|error| {
+        let key = if let RecordError::OutOfRange { name, .. } = error { name } else { "kind" };
+        table.wrong(key, error.to_string(), "correct the number")
+    })?;
+    Ok(record.starting_at(start))
 }

@@ -198,6 +198,24 @@ impl Table {
         Ok(Some(numbers))
     }
 
+    /// A whole number from `least` on.
+    pub fn whole(&mut self, key: &str, least: u32) -> Result<Option<u64>, Wrong> {
+        match self.number(key)? {
+            Some((value, _)) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(
+                self.wrong(key, format!("{value} is out of range"), &format!("give a whole number from {least} on"))
+            ),
+            found => Ok(found.map(|(value, _)| value as u64)),
+        }
+    }
+
+    /// The error that a key's text is none of those known.
+    pub fn no_such(&self, key: &str, what: &str, text: &str, known: &[&str]) -> Wrong {
+        let nearest = known.iter().min_by_key(|name| distance(name, text)).filter(|name| is_slip(name, text));
+        let guess = nearest.map_or(String::new(), |name| format!("did you mean `{name}`? "));
+        let remedy = format!("{guess}choose one of {}", known.join(", "));
+        self.wrong(key, format!("there is no {what} `{text}`"), &remedy)
+    }
+
     /// Exactly one of several keys, each with its conversion.
     pub fn one_of(&mut self, keys: &[(&str, &dyn Fn(f64) -> f64)]) -> Result<f64, Wrong> {
         let mut found: Option<(&str, f64)> = None;
@@ -288,6 +306,9 @@ fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
         DeValue::Table(table) => Value::Table(Table::from_tree(name, place, table)),
     }
 }
+
+/// Whole numbers that a double keeps.
+const LARGEST_WHOLE: f64 = 9e15;
 
 /// Whether `written` may be a slip for `key`.
 fn is_slip(key: &str, written: &str) -> bool {

@@ -88,7 +88,22 @@ fn steps(random: &mut Random, amplitude: f64) -> Vec<f64> {
 fn motion(random: &mut Random, amplitude: f64, t_end: f64) -> Motion {
     let omega = if random.once_in(6) { random.scale(60.0, 2000.0) } else { random.scale(0.5, 60.0) };
     let start = if random.once_in(3) { 0.0 } else { random.within(0.0, 0.4 * t_end) };
-    match random.below(7) {
+    let (phase, duration) = (random.within(-3.0, 3.0), random.scale(0.01, 1.0) * t_end);
+    // Of the size that the amplitude asks for.
+    let velocity = amplitude / omega;
+    match random.below(16) {
+        7 => Motion::HalfSine { amplitude, omega, start },
+        8 => Motion::TypeC { amplitude, omega, start, cycles: 1 + random.below(3) as u32 },
+        9 => Motion::SineBurst { amplitude, omega, start, phase, duration },
+        10 => Motion::AntisymmetricRicker { amplitude, omega, start },
+        11 => Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma: random.scale(1.01, 6.0) },
+        12 => Motion::Gabor { velocity, omega, start, phase, gamma: random.scale(0.3, 6.0) },
+        13 => Motion::Rectangular { amplitude, start, duration },
+        14 => Motion::DoubleRectangular { amplitude, start, duration },
+        15 => {
+            let term = Motion::Harmonic { amplitude: 0.5 * amplitude, omega: 0.3 * omega, start: 0.0, phase };
+            Motion::Sum { terms: vec![Motion::CosinePulse { amplitude, omega, start }, term] }
+        }
         0 => Motion::SinePulse { amplitude, omega, start },
         1 => Motion::CosinePulse { amplitude, omega, start },
         2 => Motion::Harmonic { amplitude, omega, start, phase: random.within(-3.0, 3.0) },
@@ -197,16 +212,28 @@ pub fn mirrored(scene: &Scene) -> Scene {
     let negate = |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value = -*value);
     negate(&mut mirrored.initial.theta);
     negate(&mut mirrored.initial.omega);
-    mirrored.excitation.horizontal = scene.excitation.horizontal.clone().map(|motion| match motion {
-        Motion::SinePulse { amplitude, omega, start } => Motion::SinePulse { amplitude: -amplitude, omega, start },
-        Motion::CosinePulse { amplitude, omega, start } => Motion::CosinePulse { amplitude: -amplitude, omega, start },
-        Motion::Harmonic { amplitude, omega, start, phase } => {
-            Motion::Harmonic { amplitude: -amplitude, omega, start, phase }
-        }
-        Motion::Ricker { amplitude, omega, start } => Motion::Ricker { amplitude: -amplitude, omega, start },
-        Motion::Record(record) => Motion::Record(record.scaled(-1.0).expect("finite")),
-    });
+    mirrored.excitation.horizontal = scene.excitation.horizontal.clone().map(reversed);
     mirrored
+}
+
+/// The motion to the other side.
+fn reversed(mut motion: Motion) -> Motion {
+    match &mut motion {
+        Motion::SinePulse { amplitude, .. }
+        | Motion::CosinePulse { amplitude, .. }
+        | Motion::HalfSine { amplitude, .. }
+        | Motion::TypeC { amplitude, .. }
+        | Motion::Harmonic { amplitude, .. }
+        | Motion::SineBurst { amplitude, .. }
+        | Motion::Ricker { amplitude, .. }
+        | Motion::AntisymmetricRicker { amplitude, .. }
+        | Motion::Rectangular { amplitude, .. }
+        | Motion::DoubleRectangular { amplitude, .. } => *amplitude = -*amplitude,
+        Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => *velocity = -*velocity,
+        Motion::Sum { terms } => terms.iter_mut().for_each(|term| *term = reversed(term.clone())),
+        Motion::Record(record) => *record = record.clone().scaled(-1.0).expect("finite"),
+    }
+    motion
 }
 
 /// What the run of a scene breaks, if anything.

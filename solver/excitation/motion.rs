@@ -1,0 +1,433 @@
+//! Kinds of ground motion: each with its formula and source, as smooth pieces with known ends.
+//!
+//! `a` is the acceleration, `τ = t - start`, and `ω` the angular frequency of the literature, `2π / T_p` for a pulse of period
+//! `T_p`. A pulse begins at `start`, also one whose formula is told from its centre.
+//!
+//! Sources: Makris & Chang (2000), *Earthquake Spectra* 16 (types A, B, C_n); Ricker (1943), *Geophysics* 8, as in Vassiliou & Makris
+//! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
+//! (their pulse, and Gabor's wavelet beside it).
+
+use super::overlay::{Span, overlay};
+use super::piece::Piece;
+use super::record::Record;
+use serde::Serialize;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+
+/// Ground acceleration of one component.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Motion {
+    /// `a = amplitude · sin ωτ` over one period: the one-sine pulse, type A of Makris & Chang. The ground stops displaced by
+    /// `2π amplitude / ω²`.
+    SinePulse {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+    },
+    /// `a = amplitude · cos ωτ` over one period: the one-cosine pulse, type B of Makris & Chang. It jumps at both ends; the
+    /// ground stops where it was.
+    CosinePulse {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+    },
+    /// `a = amplitude · sin ωτ` over half a period: the half-sine pulse. The ground keeps the velocity `2 amplitude / ω`.
+    HalfSine {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+    },
+    /// `a = amplitude · cos(ωτ + φ)` over `(n + 1/2 - φ/π) T_p`, type C_n of Makris & Chang with `n` cycles: `φ` is the root of
+    /// `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ - cos φ = 0`, so that the ground stops where it was. It jumps at both ends.
+    TypeC {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+        /// `n >= 1`
+        cycles: u32,
+    },
+    /// `a = amplitude · sin(ωτ + phase)` for `τ >= 0`.
+    Harmonic {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+        /// `[rad]`
+        phase: f64,
+    },
+    /// `a = amplitude · sin(ωτ + phase)` for `0 <= τ < duration`: a harmonic motion that ends.
+    SineBurst {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+        /// `[rad]`
+        phase: f64,
+        /// `[s]`
+        duration: f64,
+    },
+    /// `a = amplitude · (1 - u²) exp(-u²/2)`, `u = ω (t - t_0) / √2`: the symmetric Ricker wavelet of period `T_p`, second derivative
+    /// of a Gaussian. The peak is at `t_0 = start + 6√2/ω`; cut off where `|u| > 6`, below 6e-7 of the amplitude. The ground stops
+    /// where it was.
+    Ricker {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+    },
+    /// `a = amplitude / β · (u² - 3) u exp(-u²/2)`, `u = ω (t - t_0) / √3`, `β = 1.3801`: the antisymmetric Ricker wavelet of period
+    /// `T_p`, third derivative of a Gaussian. `t_0 = start + 6.5√3/ω`; cut off where `|u| > 6.5`, below 2e-7 of the amplitude.
+    /// The ground stops where it was.
+    AntisymmetricRicker {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+    },
+    /// The pulse of Mavroeidis & Papageorgiou (2003), Eq. 3: the ground's velocity is
+    /// `velocity / 2 · (1 + cos(ω(t - t_0)/γ)) cos(ω(t - t_0) + phase)` for `|t - t_0| <= πγ/ω`, `t_0 = start + πγ/ω`.
+    MavroeidisPapageorgiou {
+        /// Amplitude of the velocity, their `A` `[m/s]`.
+        velocity: f64,
+        /// Their `2π f_p` `[rad/s]`.
+        omega: f64,
+        /// `[s]`
+        start: f64,
+        /// Their `ν` `[rad]`.
+        phase: f64,
+        /// Oscillations, their `γ > 1`, dimensionless.
+        gamma: f64,
+    },
+    /// Gabor's wavelet: the ground's velocity is `velocity · exp(-(ω(t - t_0)/γ)²) cos(ω(t - t_0) + phase)`,
+    /// `t_0 = start + 4.5γ/ω`; cut off where `|ω(t - t_0)| > 4.5γ`, below 2e-9 of the amplitude.
+    Gabor {
+        /// Amplitude of the velocity `[m/s]`.
+        velocity: f64,
+        /// `[rad/s]`
+        omega: f64,
+        /// `[s]`
+        start: f64,
+        /// `[rad]`
+        phase: f64,
+        /// Width of the envelope in radians of the wave, dimensionless.
+        gamma: f64,
+    },
+    /// `a = amplitude` for `0 <= τ < duration`: the rectangular pulse. The ground keeps the velocity `amplitude · duration`.
+    Rectangular {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[s]`
+        start: f64,
+        /// `[s]`
+        duration: f64,
+    },
+    /// `a = amplitude` in the first half of `duration`, `-amplitude` in the second: the double rectangular pulse. The ground stops
+    /// displaced by `amplitude · duration² / 4`.
+    DoubleRectangular {
+        /// `[m/s²]`
+        amplitude: f64,
+        /// `[s]`
+        start: f64,
+        /// Of both halves together `[s]`.
+        duration: f64,
+    },
+    /// All terms at the same time.
+    Sum {
+        /// What is summed.
+        terms: Vec<Motion>,
+    },
+    /// Samples, linear between, zero outside.
+    Record(Record),
+}
+
+/// Half-length of a symmetric Ricker wavelet in `u`.
+pub(super) const RICKER_REACH: f64 = 6.0;
+
+/// Half-length of an antisymmetric Ricker wavelet in `u`.
+const ANTISYMMETRIC_REACH: f64 = 6.5;
+
+/// Half-length of a Gabor wavelet in `ω(t - t_0)/γ`.
+const GABOR_REACH: f64 = 4.5;
+
+/// What a number of a ground motion must be.
+enum Range {
+    Any,
+    Above(f64),
+}
+
+impl Motion {
+    /// The smooth pieces in order of time, without overlap; nothing moves outside them.
+    pub(super) fn pieces(&self) -> Vec<Span> {
+        let span = |start: f64, duration: f64, piece: Piece| Span { start, end: start + duration, piece };
+        let sine = |start: f64, duration: f64, [amplitude, omega, phase]: [f64; 3]| {
+            span(start, duration, Piece::Sine { amplitude, omega, start, phase })
+        };
+        let level =
+            |start: f64, duration: f64, value: f64| span(start, duration, Piece::Linear { value, slope: 0.0, start });
+        match *self {
+            Motion::SinePulse { amplitude, omega, start } => vec![sine(start, TAU / omega, [amplitude, omega, 0.0])],
+            Motion::CosinePulse { amplitude, omega, start } => {
+                vec![span(start, TAU / omega, Piece::Cosine { amplitude, omega, start })]
+            }
+            Motion::HalfSine { amplitude, omega, start } => vec![sine(start, PI / omega, [amplitude, omega, 0.0])],
+            Motion::TypeC { amplitude, omega, start, cycles } => {
+                let phase = phase_of_type_c(cycles);
+                let duration = ((2.0 * f64::from(cycles) + 1.0) * PI - 2.0 * phase) / omega;
+                vec![sine(start, duration, [amplitude, omega, phase + FRAC_PI_2])]
+            }
+            Motion::Harmonic { amplitude, omega, start, phase } => {
+                vec![sine(start, f64::INFINITY, [amplitude, omega, phase])]
+            }
+            Motion::SineBurst { amplitude, omega, start, phase, duration } => {
+                vec![sine(start, duration, [amplitude, omega, phase])]
+            }
+            Motion::Ricker { amplitude, omega, start } => {
+                let omega = omega / SQRT_2;
+                let reach = RICKER_REACH / omega;
+                vec![span(start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })]
+            }
+            Motion::AntisymmetricRicker { amplitude, omega, start } => {
+                let omega = omega / 3f64.sqrt();
+                let reach = ANTISYMMETRIC_REACH / omega;
+                vec![span(start, 2.0 * reach, Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach })]
+            }
+            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
+                // Twice the product of sines and cosines is a sum of them: the derivative of the velocity has three frequencies.
+                let reach = PI * gamma / omega;
+                let wave = |ratio: f64, share: f64| Piece::Sine {
+                    amplitude: -0.5 * share * velocity * omega,
+                    omega: ratio * omega,
+                    start: start + reach,
+                    phase,
+                };
+                let (above, below) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
+                let waves = [wave(1.0, 1.0), wave(above, 0.5 * above), wave(below, 0.5 * below)];
+                vec![span(start, 2.0 * reach, Piece::sum(&waves))]
+            }
+            Motion::Gabor { velocity, omega, start, phase, gamma } => {
+                let reach = GABOR_REACH * gamma / omega;
+                let piece = Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma };
+                vec![span(start, 2.0 * reach, piece)]
+            }
+            Motion::Rectangular { amplitude, start, duration } => vec![level(start, duration, amplitude)],
+            Motion::DoubleRectangular { amplitude, start, duration } => {
+                let half = 0.5 * duration;
+                let first = level(start, half, amplitude);
+                let second = Span { start: first.end, ..level(first.end, half, -amplitude) };
+                vec![first, Span { end: start + duration, ..second }]
+            }
+            Motion::Sum { ref terms } => {
+                let terms: Vec<Vec<Span>> = terms.iter().map(Motion::pieces).collect();
+                let mut spans = Vec::new();
+                overlay(&terms, f64::NEG_INFINITY, f64::INFINITY, |start, end, pieces| {
+                    spans.push(Span { start, end, piece: Piece::sum(pieces) });
+                });
+                spans
+            }
+            Motion::Record(ref record) => record.pieces(),
+        }
+    }
+
+    /// Acceleration at `t` `[m/s²]`; where it jumps, the value after the jump.
+    pub fn value(&self, t: f64) -> f64 {
+        match self {
+            Motion::Record(record) => record.value(t),
+            Motion::Sum { terms } => terms.iter().map(|term| term.value(t)).sum(),
+            _ => self.pieces().iter().find(|span| t >= span.start && t < span.end).map_or(0.0, |s| s.piece.value(t)),
+        }
+    }
+
+    /// When it ends `[s]`; `None` for what goes on for ever.
+    pub fn end(&self) -> Option<f64> {
+        self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
+    }
+
+    /// The first parameter that is not finite, larger than `largest` in size, or not above what it must be above.
+    pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
+        if let Motion::Sum { terms } = self {
+            let term = |(index, term): (usize, &Motion)| {
+                term.invalid(largest).map(|(name, value)| (format!("term[{}].{name}", index + 1), value))
+            };
+            return terms.iter().enumerate().find_map(term);
+        }
+        let is_bad = |(_, value, range): &(&str, f64, Range)| {
+            value.is_nan() || value.abs() > largest || matches!(range, Range::Above(least) if value <= least)
+        };
+        let (name, value, _) = self.parameters().into_iter().find(is_bad)?;
+        Some((name.into(), value))
+    }
+
+    /// Numbers by their names in a scene.
+    fn parameters(&self) -> Vec<(&'static str, f64, Range)> {
+        use Range::{Above, Any};
+        let wave = |amplitude: f64, omega: f64, start: f64| {
+            vec![("amplitude", amplitude, Any), ("omega", omega, Above(0.0)), ("start", start, Any)]
+        };
+        let with = |mut all: Vec<(&'static str, f64, Range)>, name: &'static str, value: f64, range: Range| {
+            all.push((name, value, range));
+            all
+        };
+        match *self {
+            Motion::SinePulse { amplitude, omega, start }
+            | Motion::CosinePulse { amplitude, omega, start }
+            | Motion::HalfSine { amplitude, omega, start }
+            | Motion::Ricker { amplitude, omega, start }
+            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start),
+            Motion::TypeC { amplitude, omega, start, cycles } => {
+                with(wave(amplitude, omega, start), "cycles", f64::from(cycles), Above(0.0))
+            }
+            Motion::Harmonic { amplitude, omega, start, phase } => {
+                with(wave(amplitude, omega, start), "phase", phase, Any)
+            }
+            Motion::SineBurst { amplitude, omega, start, phase, duration } => {
+                let all = with(wave(amplitude, omega, start), "phase", phase, Any);
+                with(all, "duration", duration, Above(0.0))
+            }
+            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => vec![
+                ("velocity", velocity, Any),
+                ("amplitude", velocity * omega, Any),
+                ("omega", omega, Above(0.0)),
+                ("start", start, Any),
+                ("phase", phase, Any),
+                ("gamma", gamma, Above(1.0)),
+            ],
+            Motion::Gabor { velocity, omega, start, phase, gamma } => vec![
+                ("velocity", velocity, Any),
+                ("amplitude", velocity * omega, Any),
+                ("omega", omega, Above(0.0)),
+                ("start", start, Any),
+                ("phase", phase, Any),
+                ("gamma", gamma, Above(0.0)),
+            ],
+            Motion::Rectangular { amplitude, start, duration }
+            | Motion::DoubleRectangular { amplitude, start, duration } => {
+                vec![("amplitude", amplitude, Any), ("start", start, Any), ("duration", duration, Above(0.0))]
+            }
+            Motion::Sum { .. } => Vec::new(),
+            Motion::Record(ref record) => vec![
+                ("file", record.peak(), Any),
+                ("start", record.start(), Any),
+                ("dt", record.dt(), Above(SHORTEST_INTERVAL)),
+            ],
+        }
+    }
+}
+
+/// Shortest sampling interval `[s]`: below, samples of a long record fall on the same time.
+const SHORTEST_INTERVAL: f64 = 1e-9;
+
+/// The root of `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ = cos φ` near zero: `tan φ = 1 / ((n + 1/2)π - φ)`.
+fn phase_of_type_c(cycles: u32) -> f64 {
+    let turns = (f64::from(cycles) + 0.5) * PI;
+    // The right side changes by φ/turns² at most: each round gains a factor of ten at n = 1, more beyond.
+    (0..30).fold(0.0, |phase, _| libm::atan(1.0 / (turns - phase)))
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// One of each kind that is a formula and ends.
+    pub fn kinds() -> Vec<Motion> {
+        let (amplitude, omega, start) = (2.0, 4.0, 0.7);
+        vec![
+            Motion::SinePulse { amplitude, omega, start },
+            Motion::CosinePulse { amplitude, omega, start },
+            Motion::HalfSine { amplitude, omega, start },
+            Motion::TypeC { amplitude, omega, start, cycles: 1 },
+            Motion::TypeC { amplitude, omega, start, cycles: 2 },
+            Motion::SineBurst { amplitude, omega, start, phase: 0.3, duration: 2.0 },
+            Motion::Ricker { amplitude, omega, start },
+            Motion::AntisymmetricRicker { amplitude, omega, start },
+            Motion::MavroeidisPapageorgiou { velocity: 0.5, omega, start, phase: 0.4, gamma: 1.7 },
+            Motion::Gabor { velocity: 0.5, omega, start, phase: 0.4, gamma: 2.5 },
+            Motion::Rectangular { amplitude, start, duration: 0.6 },
+            Motion::DoubleRectangular { amplitude, start, duration: 0.6 },
+        ]
+    }
+
+    /// The formulas as their authors print them.
+    #[test]
+    fn validation_pulses_are_those_of_the_literature() {
+        let (omega, start, nu, gamma) = (4.0f64, 0.7, 0.4, 1.7);
+        let f = omega / TAU;
+        let pulse = Motion::MavroeidisPapageorgiou { velocity: 0.5, omega, start, phase: nu, gamma };
+        let centre = start + gamma / (2.0 * f);
+        for share in [0.1, 0.35, 0.5, 0.77, 0.95] {
+            let t = start + share * gamma / f;
+            let tau = t - centre;
+            // Mavroeidis & Papageorgiou (2003), Eq. 4
+            let slow = TAU * f / gamma * tau;
+            let fast = TAU * f * tau + nu;
+            let expected = -0.5 * PI * f / gamma * (slow.sin() * fast.cos() + gamma * fast.sin() * (1.0 + slow.cos()));
+            assert!((pulse.value(t) - expected).abs() < 1e-14, "{share}");
+            let velocity = 0.25 * (1.0 + slow.cos()) * fast.cos();
+            assert!((pulse.travel(t)[0] - velocity).abs() < 1e-14, "{share}");
+        }
+        // Makris & Chang (2000): 0.0697π and 0.0410π.
+        assert!((phase_of_type_c(1) / PI - 0.0697).abs() < 5e-5 && (phase_of_type_c(2) / PI - 0.0410).abs() < 5e-5);
+        // Vassiliou & Makris (2012), Eqs. 1 and 2, a fifth of a period from the centre.
+        let (period, amplitude) = (1.3f64, 2.0);
+        let omega = TAU / period;
+        let t = 0.2 * period;
+        let symmetric = Motion::Ricker { amplitude, omega, start: 0.0 };
+        let centre = RICKER_REACH * SQRT_2 / omega;
+        let square = 2.0 * PI * PI * t * t / (period * period);
+        assert!((symmetric.value(centre + t) - amplitude * (1.0 - square) * (-0.5 * square).exp()).abs() < 1e-14);
+        let antisymmetric = Motion::AntisymmetricRicker { amplitude, omega, start: 0.0 };
+        let centre = ANTISYMMETRIC_REACH * 3f64.sqrt() / omega;
+        let square = 4.0 * PI * PI * t * t / (3.0 * period * period);
+        let expected = amplitude / 1.3801 * (square - 3.0) * (TAU * t / (3f64.sqrt() * period)) * (-0.5 * square).exp();
+        assert!((antisymmetric.value(centre + t) - expected).abs() < 1e-4, "beta is printed with five digits");
+    }
+
+    #[test]
+    fn a_sum_is_the_sum_of_its_terms_and_breaks_where_they_break() {
+        let record = Record::new(vec![0.0, 1.0, -1.0, 0.0], 0.5, 0.25).expect("valid");
+        let terms = vec![
+            Motion::SinePulse { amplitude: 2.0, omega: 4.0, start: 0.7 },
+            Motion::Record(record),
+            Motion::Harmonic { amplitude: 0.1, omega: 9.0, start: 1.0, phase: 0.5 },
+        ];
+        let sum = Motion::Sum { terms: terms.clone() };
+        for index in 0..100 {
+            let t = 0.037 * f64::from(index);
+            let expected: f64 = terms.iter().map(|term| term.value(t)).sum();
+            let pieces = sum.pieces();
+            let span = pieces.iter().find(|span| t >= span.start && t < span.end);
+            let found = span.map_or(0.0, |span| span.piece.value(t));
+            assert!((found - expected).abs() < 1e-14 && sum.value(t) == expected, "{t}");
+            let travel: Vec<[f64; 2]> = terms.iter().map(|term| term.travel(t)).collect();
+            let expected = travel.iter().fold([0.0, 0.0], |sum, term| [sum[0] + term[0], sum[1] + term[1]]);
+            let found = sum.travel(t);
+            assert!((found[0] - expected[0]).abs() < 1e-13 && (found[1] - expected[1]).abs() < 1e-13, "{t}");
+        }
+        let starts: Vec<f64> = sum.pieces().iter().map(|span| span.start).collect();
+        assert_eq!(starts, [0.25, 0.7, 0.75, 1.0, 1.25, 1.75, 0.7 + TAU / 4.0]);
+        assert_eq!(sum.end(), None);
+        assert_eq!(sum.invalid(1e6), None);
+        let bad =
+            Motion::Sum { terms: vec![terms[0].clone(), Motion::HalfSine { amplitude: 1.0, omega: 0.0, start: 0.0 }] };
+        assert_eq!(bad.invalid(1e6), Some(("term[2].omega".into(), 0.0)));
+    }
+}

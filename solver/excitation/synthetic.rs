@@ -1,0 +1,214 @@
+//! Synthetic records for demonstrations and tests: filtered noise under an envelope. Nothing of them was ever measured.
+//!
+//! Gaussian white noise under the envelope of Jennings, Housner & Tsai (1968) passes the ground filter of Kanai (1957) and Tajimi (1960)
+//! and the second filter of Clough & Penzien (1975), which takes out what would let the ground drift away:
+//!
+//! ```text
+//! w_k = I(t_k) n_k        I = (t/t_1)² | 1 | exp(-c (t - t_2))
+//! ÿ + 2 ζ ω ẏ + ω² y = -w              a  = -(2 ζ ω ẏ + ω² y)
+//! z̈ + 2 ζ ω_f ż + ω_f² z = -a          ẍ_g = z̈,  ω_f = ω / 10
+//! ```
+//!
+//! Both are stepped by Newmark's method with constant average acceleration. The same seed gives the same record on every machine.
+
+use super::record::{Record, RecordError};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::Rng;
+use std::f64::consts::TAU;
+
+/// What is known of a synthetic record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Synthetic {
+    /// Peak acceleration `[m/s²]`.
+    pub pga: f64,
+    /// `[s]`
+    pub duration: f64,
+    /// `[s]`
+    pub dt: f64,
+    /// Which record of its kind.
+    pub seed: u64,
+    /// Dominant frequency of the ground filter, `ω / 2π` `[Hz]`: 1 for soft soil, 2.5 for firm ground, 4 for rock.
+    pub frequency: f64,
+    /// Damping ratio of the filters, dimensionless.
+    pub damping: f64,
+}
+
+impl Default for Synthetic {
+    /// Twenty seconds of firm ground, peak 3 m/s².
+    fn default() -> Synthetic {
+        Synthetic { pga: 3.0, duration: 20.0, dt: 0.01, seed: 0, frequency: 2.5, damping: 0.6 }
+    }
+}
+
+/// End of the rise and begin of the decay as shares of the duration, and the envelope at the end: that of a moderate earthquake.
+const RISE: f64 = 0.1;
+const DECAY: f64 = 0.4;
+const LAST: f64 = 0.01;
+
+/// Frequency of the second filter over that of the first.
+const SECOND_FILTER: f64 = 0.1;
+
+/// Samples beyond which a duration and an interval are taken for a mistake.
+const MOST_SAMPLES: f64 = 1e7;
+
+impl Synthetic {
+    /// The record.
+    ///
+    /// ```
+    /// use rocking::excitation::Synthetic;
+    /// let record = Synthetic { seed: 7, ..Synthetic::default() }.record()?;
+    /// assert_eq!(record.accel().len(), 2001);
+    /// assert!((record.peak() - 3.0).abs() < 1e-14);
+    /// # Ok::<(), rocking::RecordError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RecordError::OutOfRange`] for numbers that make no record.
+    pub fn record(&self) -> Result<Record, RecordError> {
+        let numbers = [
+            ("pga", self.pga),
+            ("dt", self.dt),
+            ("duration", self.duration),
+            ("frequency", self.frequency),
+            ("damping", self.damping),
+        ];
+        if let Some((name, value)) = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+            return Err(RecordError::OutOfRange { name, value });
+        }
+        let intervals = self.duration / self.dt;
+        if !(1.0..MOST_SAMPLES).contains(&intervals) {
+            return Err(RecordError::OutOfRange { name: "duration", value: self.duration });
+        }
+        let count = intervals.round() as usize + 1;
+        let mut noise = Noise::new(self.seed);
+        let omega = TAU * self.frequency;
+        let mut ground = Oscillator::new(omega, self.damping, self.dt);
+        let mut second = Oscillator::new(SECOND_FILTER * omega, self.damping, self.dt);
+        let mut accel = Vec::with_capacity(count);
+        for index in 0..count {
+            let share = index as f64 / (count - 1) as f64;
+            let [.., filtered] = ground.driven_by(-envelope(share) * noise.normal());
+            let [total, _] = second.driven_by(-filtered);
+            accel.push(total);
+        }
+        Record::new(accel, self.dt, 0.0)?.scaled_to_peak(self.pga)
+    }
+}
+
+/// At a share of the duration, 0 to 1.
+fn envelope(share: f64) -> f64 {
+    if share < RISE {
+        (share / RISE) * (share / RISE)
+    } else if share < DECAY {
+        1.0
+    } else {
+        libm::exp(libm::log(LAST) * (share - DECAY) / (1.0 - DECAY))
+    }
+}
+
+/// Normally distributed numbers by Box & Muller's method.
+struct Noise {
+    generator: Pcg64Mcg,
+    second: Option<f64>,
+}
+
+impl Noise {
+    fn new(seed: u64) -> Noise {
+        // Neighbouring seeds begin far apart: the seed in both halves, and a few numbers thrown away.
+        let mut generator = Pcg64Mcg::new(u128::from(seed) << 64 | u128::from(!seed));
+        (0..8).for_each(|_| {
+            generator.next_u64();
+        });
+        Noise { generator, second: None }
+    }
+
+    /// In `0 .. 1`, without 0.
+    fn uniform(&mut self) -> f64 {
+        ((self.generator.next_u64() >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        if let Some(second) = self.second.take() {
+            return second;
+        }
+        let radius = (-2.0 * libm::log(self.uniform())).sqrt();
+        let (sin, cos) = libm::sincos(TAU * self.uniform());
+        self.second = Some(radius * sin);
+        radius * cos
+    }
+}
+
+/// `ÿ + 2 ζ ω ẏ + ω² y = f`, by Newmark's method (1959) with constant average acceleration.
+struct Oscillator {
+    stiffness: f64,
+    damping: f64,
+    dt: f64,
+    state: [f64; 3],
+}
+
+impl Oscillator {
+    fn new(omega: f64, ratio: f64, dt: f64) -> Oscillator {
+        Oscillator { stiffness: omega * omega, damping: 2.0 * ratio * omega, dt, state: [0.0; 3] }
+    }
+
+    /// One interval further: `ÿ`, and `-(2 ζ ω ẏ + ω² y)`.
+    fn driven_by(&mut self, force: f64) -> [f64; 2] {
+        let ([y, rate, accel], h) = (self.state, self.dt);
+        let (rate_guess, guess) = (rate + 0.5 * h * accel, y + h * rate + 0.25 * h * h * accel);
+        let inertia = 1.0 + 0.5 * h * self.damping + 0.25 * h * h * self.stiffness;
+        let next = (force - self.damping * rate_guess - self.stiffness * guess) / inertia;
+        self.state = [guess + 0.25 * h * h * next, rate_guess + 0.5 * h * next, next];
+        [next, next - force]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_is_a_record_and_another_seed_another() {
+        let record = |seed: u64| Synthetic { seed, ..Synthetic::default() }.record().expect("valid");
+        assert_eq!(record(1), record(1));
+        let (a, b) = (record(1), record(2));
+        let dot = |a: &Record, b: &Record| a.accel().iter().zip(b.accel()).map(|(a, b)| a * b).sum::<f64>();
+        let alike = dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt();
+        assert!(alike.abs() < 0.2, "neighbouring seeds are correlated: {alike}");
+    }
+
+    /// An earthquake leaves the ground without velocity: what remains is a small share of its peak.
+    #[test]
+    fn the_ground_comes_to_rest() {
+        for seed in 0..20 {
+            let record = Synthetic { seed, ..Synthetic::default() }.record().expect("valid");
+            let motion = crate::Motion::Record(record);
+            let [velocity, _] = motion.travel(20.0);
+            let [_, peak, _] = motion.peaks(20.0);
+            assert!(velocity.abs() < 0.1 * peak, "seed {seed}: {velocity} of {peak} m/s");
+        }
+    }
+
+    /// Crossings of zero tell the frequency of filtered noise.
+    #[test]
+    fn softer_ground_shakes_more_slowly() {
+        let crossings = |frequency: f64| {
+            let record = Synthetic { frequency, damping: 0.3, ..Synthetic::default() }.record().expect("valid");
+            record.accel().windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count()
+        };
+        let (soft, firm) = (crossings(1.0), crossings(4.0));
+        assert!(soft < firm, "{soft} and {firm}");
+    }
+
+    #[test]
+    fn numbers_that_make_no_record_are_refused() {
+        let with = |change: fn(&mut Synthetic)| {
+            let mut synthetic = Synthetic::default();
+            change(&mut synthetic);
+            synthetic.record()
+        };
+        assert!(matches!(with(|s| s.dt = 0.0), Err(RecordError::OutOfRange { name: "dt", .. })));
+        assert!(matches!(with(|s| s.duration = -1.0), Err(RecordError::OutOfRange { name: "duration", .. })));
+        assert!(with(|s| s.duration = 1e9).is_err());
+        assert!(with(|s| s.pga = 0.0).is_err());
+    }
+}

@@ -1,0 +1,72 @@
+//! Every kind of ground motion shakes a column as its samples do: a record of the same motion, sampled finely, gives the same response.
+
+use rocking::{Column, Excitation, Motion, Record, Response, Scene, simulate};
+use std::path::Path;
+
+const KINDS: &str = include_str!("pulses.toml");
+
+/// A scene per `[[motion]]` of the file: each is a table as `[excitation.horizontal]` takes it.
+fn scenes() -> Vec<(String, Scene)> {
+    KINDS
+        .split("\n---\n")
+        .map(|motion| {
+            let text = format!(
+                "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[[block]]\nhalf_width = 0.3\nhalf_height = 0.8\n\
+                 [restitution]\neta = 0.9\n[solver]\nt_end = 3.0\nrtol = 1e-10\n[output]\ndt = 0.05\n{motion}"
+            );
+            let scene = Scene::from_toml(&text, Path::new("pulses.toml"));
+            (motion.to_string(), scene.unwrap_or_else(|error| panic!("{error}\n{motion}")))
+        })
+        .collect()
+}
+
+fn sampled(motion: &Motion, dt: f64, t_end: f64) -> Record {
+    let count = (t_end / dt).round() as usize + 1;
+    Record::new((0..count).map(|index| motion.value(index as f64 * dt)).collect(), dt, 0.0).expect("finite")
+}
+
+fn largest_difference(a: &Response, b: &Response) -> f64 {
+    let pairs = a.samples.iter().zip(&b.samples).flat_map(|(a, b)| a.theta.iter().zip(&b.theta));
+    pairs.fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
+}
+
+#[test]
+fn every_kind_shakes_as_its_samples_do() {
+    let mut moved = 0;
+    for (text, scene) in scenes() {
+        let motion = scene.excitation.horizontal.clone().expect("it is given");
+        let exact = simulate(&scene).expect("it runs");
+        let with = |dt: f64| {
+            let mut other = scene.clone();
+            other.excitation =
+                Excitation { horizontal: Some(Motion::Record(sampled(&motion, dt, 3.0))), vertical: None };
+            largest_difference(&simulate(&other).expect("it runs"), &exact)
+        };
+        let peak = exact.peak_theta.iter().fold(0.0f64, |peak, angle| peak.max(*angle));
+        moved += usize::from(peak > 1e-3);
+        if let Motion::Record(_) = motion {
+            continue;
+        }
+        // Samples miss a jump by half an interval: first order, with a factor of the rocking's growth.
+        let (coarse, fine) = (with(1e-3), with(1e-4));
+        assert!(fine < 2e-2 * peak.max(0.05), "{text}: {coarse:e} {fine:e} of {peak}");
+        assert!(fine < 0.5 * coarse.max(1e-9), "{text}: {coarse:e} {fine:e}");
+    }
+    assert_eq!(moved, scenes().len(), "a motion that moves nothing proves nothing");
+}
+
+/// Horizontal and vertical are summed, scaled and mirrored alike.
+#[test]
+fn a_sum_of_halves_is_the_whole() {
+    let column = Column::equal_blocks(2, 0.3, 1.8, 1.0, 9.81).expect("sizes above zero");
+    let mut whole = Scene::new(column);
+    whole.options.t_end = 3.0;
+    whole.output_dt = Some(0.05);
+    let pulse = |amplitude: f64| Motion::SinePulse { amplitude, omega: 8.0, start: 0.2 };
+    whole.excitation.horizontal = Some(pulse(5.0));
+    let mut halves = whole.clone();
+    halves.excitation.horizontal = Some(Motion::Sum { terms: vec![pulse(2.5), pulse(2.5)] });
+    let (whole, halves) = (simulate(&whole).expect("it runs"), simulate(&halves).expect("it runs"));
+    assert!(whole.peak_theta[0] > 1e-2);
+    assert!(largest_difference(&whole, &halves) < 1e-9);
+}
