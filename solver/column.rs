@@ -148,35 +148,89 @@ impl Column {
         moment / self.mass_above(interface)
     }
 
+    /// The blocks above an interface (from zero) as one body; that above interface 0 is the whole column.
+    pub fn stack(&self, interface: usize) -> Stack {
+        let half_width = self.contact_half_width(interface);
+        let mut base = 0.0;
+        let mut inertia = 0.0;
+        for block in &self.blocks[interface..] {
+            let height = base + block.half_height;
+            inertia += block.inertia + block.mass * (half_width * half_width + height * height);
+            base += 2.0 * block.half_height;
+        }
+        Stack {
+            mass: self.mass_above(interface),
+            height: base,
+            half_width,
+            centroid_height: self.centroid_height(interface),
+            inertia,
+            gravity: self.gravity,
+        }
+    }
+
     /// Horizontal ground acceleration `[m/s²]` at which the interface (from zero) of the column at rest opens:
     /// `c_i g / h_Pi` (MODEL.md section 4, the paper's Eq. 1).
     pub fn uplift_acceleration(&self, interface: usize) -> f64 {
-        self.contact_half_width(interface) * self.gravity / self.centroid_height(interface)
+        self.stack(interface).uplift_acceleration()
     }
 
-    /// Slenderness `α = atan(c_1 / h_P1)` of the whole column `[rad]`.
+    /// Slenderness `α` of the whole column `[rad]`; see [`Stack::slenderness`].
     pub fn slenderness(&self) -> f64 {
-        libm::atan2(self.contact_half_width(0), self.centroid_height(0))
+        self.stack(0).slenderness()
     }
 
     /// Moment of inertia `I_O [kg m²]` of the whole column as one body about a corner of its base.
     pub fn inertia_about_corner(&self) -> f64 {
-        let corner = self.contact_half_width(0);
-        let mut base = 0.0;
-        let mut inertia = 0.0;
-        for block in &self.blocks {
-            let height = base + block.half_height;
-            inertia += block.inertia + block.mass * (corner * corner + height * height);
-            base += 2.0 * block.half_height;
-        }
-        inertia
+        self.stack(0).inertia
     }
 
-    /// Housner's ratio `ω⁺/ω⁻` of the whole column as one body, `1 - 2 m c_1² / I_O`; for one homogeneous rectangle
-    /// `1 - 3/2 sin² α`.
+    /// Housner's ratio `ω⁺/ω⁻` of the whole column as one body; see [`Stack::housner_ratio`].
     pub fn housner_ratio(&self) -> f64 {
-        let corner = self.contact_half_width(0);
-        1.0 - 2.0 * self.mass_above(0) * corner * corner / self.inertia_about_corner()
+        self.stack(0).housner_ratio()
+    }
+}
+
+/// The blocks above an interface as one body that rocks on it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Stack {
+    /// `[kg]`
+    pub mass: f64,
+    /// From the interface to the top `[m]`.
+    pub height: f64,
+    /// Half-width `c_i` of the contact below `[m]`.
+    pub half_width: f64,
+    /// Height `h_Pi` of the centre of gravity above the contact `[m]`.
+    pub centroid_height: f64,
+    /// Moment of inertia `I_O` about a corner of the contact `[kg m²]`.
+    pub inertia: f64,
+    /// `[m/s²]`
+    pub gravity: f64,
+}
+
+impl Stack {
+    /// `α = atan(c / h_P)` `[rad]`
+    pub fn slenderness(&self) -> f64 {
+        libm::atan2(self.half_width, self.centroid_height)
+    }
+
+    /// Distance `R` of the centre of gravity from a corner `[m]`.
+    pub fn radius(&self) -> f64 {
+        libm::hypot(self.half_width, self.centroid_height)
+    }
+
+    /// Frequency parameter `p = √(m g R / I_O)` `[rad/s]`; for one homogeneous rectangle `√(3 g / (4 R))`. Housner (1963).
+    pub fn frequency_parameter(&self) -> f64 {
+        (self.mass * self.gravity * self.radius() / self.inertia).sqrt()
+    }
+
+    /// Horizontal ground acceleration at which it opens from rest, `c g / h_P` `[m/s²]` (MODEL.md section 4).
+    pub fn uplift_acceleration(&self) -> f64 {
+        self.half_width * self.gravity / self.centroid_height
+    }
+
+    /// Housner's ratio `ω⁺/ω⁻` of an impact, `1 - 2 m c² / I_O`; for one homogeneous rectangle `1 - 3/2 sin² α`.
+    pub fn housner_ratio(&self) -> f64 {
+        1.0 - 2.0 * self.mass * self.half_width * self.half_width / self.inertia
     }
 }
 
@@ -189,6 +243,10 @@ mod tests {
         let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
         let sine = libm::sin(libm::atan2(0.4, 1.6));
         assert!((column.housner_ratio() - (1.0 - 1.5 * sine * sine)).abs() < 1e-15);
+        let stack = column.stack(0);
+        let p = (0.75 * 9.81 / stack.radius()).sqrt();
+        assert!((stack.frequency_parameter() - p).abs() < 1e-15);
+        assert!((column.stack(1).height - 2.0 * 1.6 * 2.0 / 3.0).abs() < 1e-15);
     }
 
     #[test]

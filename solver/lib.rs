@@ -61,7 +61,7 @@ pub mod scene;
 pub mod scene_file;
 pub mod simulate;
 
-pub use column::{Block, Column, ColumnError};
+pub use column::{Block, Column, ColumnError, Stack};
 pub use excitation::{Excitation, Motion, Record, RecordError};
 pub use mode::Mode;
 pub use response::{Event, EventKind, Impulse, Response, Sample, StopReason, Work};

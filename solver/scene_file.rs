@@ -8,6 +8,7 @@ mod table;
 
 use crate::column::{Block, Column};
 use crate::scene::{Method, Restitution, Scene, SceneError};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use table::{Place, Table};
 
@@ -75,12 +76,45 @@ impl Scene {
     /// # Ok::<(), rocking::SceneFileError>(())
     /// ```
     pub fn from_toml(text: &str, file: &Path) -> Result<Scene, SceneFileError> {
+        SceneFile::from_toml(text, file).map(|read| read.scene)
+    }
+}
+
+/// A scene as its file gives it, and what followed from that.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneFile {
+    /// The scene.
+    pub scene: Scene,
+    /// Numbers of the blocks that the file does not give.
+    pub derived: Vec<Derived>,
+}
+
+/// A number that a file does not give but leaves to be found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Derived {
+    /// Dotted key that would give it, e.g. `block[1].mass`.
+    pub key: String,
+    /// In SI.
+    pub value: f64,
+    /// Of the value.
+    pub unit: &'static str,
+    /// Formula and source in words.
+    pub from: String,
+}
+
+impl SceneFile {
+    /// As [`Scene::from_toml`].
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn from_toml(text: &str, file: &Path) -> Result<SceneFile, SceneFileError> {
         let reader = Reader { text, file };
         let mut root = Table::parse(text).map_err(|wrong| reader.error(wrong))?;
-        let scene = reader.scene(&mut root)?;
+        let mut derived = Vec::new();
+        let scene = reader.scene(&mut root, &mut derived)?;
         root.close().map_err(|wrong| reader.error(wrong))?;
         scene.check().map_err(|error| reader.refused(&root, error))?;
-        Ok(scene)
+        Ok(SceneFile { scene, derived })
     }
 }
 
@@ -132,7 +166,7 @@ impl Reader<'_> {
         self.error(Wrong { place, key: error.key, problem: error.problem, remedy: error.remedy })
     }
 
-    fn scene(&self, root: &mut Table) -> Result<Scene, SceneFileError> {
+    fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let title = root.text("title").map_err(own)?.map(|(title, _)| title).unwrap_or_default();
         let gravity = root.number("gravity").map_err(own)?.map_or(crate::DEFAULT_GRAVITY, |(value, _)| value);
@@ -141,7 +175,7 @@ impl Reader<'_> {
                 root.wrong("gravity", format!("{gravity} is out of range"), "give m/s² above zero, or leave it out");
             return Err(own(wrong));
         }
-        let blocks = blocks(root).map_err(own)?;
+        let blocks = blocks(root, derived).map_err(own)?;
         let column = Column::new(blocks, gravity)
             .map_err(|error| own(root.wrong("block", error.to_string(), "correct the block")))?;
         let mut scene = Scene::new(column);
@@ -173,7 +207,7 @@ impl Reader<'_> {
 const DEFAULT_OUTPUT_DT: f64 = 0.01;
 
 /// `[[block]]`, or `[column]` with equal blocks.
-fn blocks(root: &mut Table) -> Result<Vec<Block>, Wrong> {
+fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wrong> {
     let tables = root.tables("block")?;
     let column = root.table("column")?;
     match (tables, column) {
@@ -183,7 +217,9 @@ fn blocks(root: &mut Table) -> Result<Vec<Block>, Wrong> {
             problem: "`[[block]]` is given as well".into(),
             remedy: "describe the column in one way".into(),
         }),
-        (Some(mut tables), None) if !tables.is_empty() => tables.iter_mut().map(|table| block(table, 1.0)).collect(),
+        (Some(mut tables), None) if !tables.is_empty() => {
+            tables.iter_mut().map(|table| block(table, 1.0, derived)).collect()
+        }
         (None, Some(mut column)) => {
             let (count, place) = match column.number("blocks")? {
                 Some(found) => found,
@@ -194,7 +230,7 @@ fn blocks(root: &mut Table) -> Result<Vec<Block>, Wrong> {
                 let problem = format!("{count} is no number of blocks");
                 return Err(Wrong { place, key: "column.blocks".into(), problem, remedy });
             }
-            Ok(vec![block(&mut column, count)?; count as usize])
+            Ok(vec![block(&mut column, count, derived)?; count as usize])
         }
         _ => Err(root.missing("block", "add a [[block]] with half_width and half_height for each block, base first")),
     }
@@ -204,7 +240,10 @@ fn blocks(root: &mut Table) -> Result<Vec<Block>, Wrong> {
 const MOST_BLOCKS: f64 = 100.0;
 
 /// A block, or one of `count` equal parts of a column whose half-height is given as a whole.
-fn block(table: &mut Table, count: f64) -> Result<Block, Wrong> {
+fn block(table: &mut Table, count: f64, derived: &mut Vec<Derived>) -> Result<Block, Wrong> {
+    let mut derive = |key: String, value: f64, unit: &'static str, from: String| {
+        derived.push(Derived { key, value, unit, from });
+    };
     let size = |table: &mut Table, key: &str| match table.positive(key)? {
         Some(value) => Ok(value),
         None => Err(table.missing(key, "give it in m")),
@@ -219,9 +258,27 @@ fn block(table: &mut Table, count: f64) -> Result<Block, Wrong> {
         (_, Some(mass)) => Block::with_mass(half_width, half_height, mass / count),
         (density, None) => Block::rectangle(half_width, half_height, density.unwrap_or(1.0)),
     };
+    if count > 1.0 {
+        derive(table.dotted("half_height"), half_height, "m", format!("of each block: the whole over {count}"));
+    }
+    match (density, mass) {
+        (_, Some(_)) if count == 1.0 => {}
+        (_, Some(_)) => {
+            derive(table.dotted("mass"), block.mass, "kg", format!("of each block: the whole over {count}"))
+        }
+        (density, None) => {
+            let density = density.map_or("1 kg/m² (nothing is given)".into(), |density| format!("{density} kg/m²"));
+            derive(table.dotted("mass"), block.mass, "kg", format!("4 · half_width · half_height · {density}"));
+        }
+    }
     // A column's inertia as a whole is no block's.
-    if count == 1.0 {
-        block.inertia = table.positive("inertia")?.unwrap_or(block.inertia);
+    let inertia = if count == 1.0 { table.positive("inertia")? } else { None };
+    match inertia {
+        Some(inertia) => block.inertia = inertia,
+        None => {
+            let from = "mass · (half_width² + half_height²) / 3: a homogeneous rectangle";
+            derive(table.dotted("inertia"), block.inertia, "kg m²", from.into());
+        }
     }
     let is_sound = |value: f64| value.is_finite() && value > 0.0;
     if !(is_sound(block.mass) && is_sound(block.inertia)) {

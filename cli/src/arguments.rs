@@ -1,6 +1,7 @@
 //! What can be asked on the command line.
 
 use clap::{Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use std::path::PathBuf;
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
@@ -15,6 +16,29 @@ pub struct Arguments {
 /// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a commented scene to begin with.
+    Init {
+        /// The file.
+        #[arg(default_value = "scene.toml")]
+        file: PathBuf,
+        /// Number of equal blocks.
+        #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
+        blocks: u8,
+        /// Shake it with this record instead of a pulse.
+        #[arg(long, value_name = "FILE")]
+        record: Option<PathBuf>,
+        /// Write over a file of this name.
+        #[arg(long)]
+        force: bool,
+    },
+    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion.
+    Check {
+        /// Scene file (TOML).
+        scene: PathBuf,
+        /// Print JSON instead of text.
+        #[arg(long)]
+        json: bool,
+    },
     /// Run a scene and write summary.json, response.csv and events.json.
     Run {
         /// Scene file (TOML).
@@ -28,6 +52,9 @@ pub enum Command {
         /// Print nothing but errors.
         #[arg(long, short)]
         quiet: bool,
+        /// Print the summary as JSON instead of text.
+        #[arg(long, conflicts_with = "quiet")]
+        json: bool,
     },
     /// List the independent rocking modes of a column, or draw them.
     Modes {
@@ -37,6 +64,9 @@ pub enum Command {
         /// Draw the modes into this file (SVG) instead of listing them; up to 5 blocks.
         #[arg(long, value_name = "FILE")]
         svg: Option<PathBuf>,
+        /// Print JSON instead of text.
+        #[arg(long, conflicts_with = "svg")]
+        json: bool,
     },
     /// Print the derivation or the generated code of a mode.
     Derive {
@@ -57,6 +87,20 @@ pub enum Command {
     Thresholds {
         /// Scene file (TOML).
         scene: PathBuf,
+        /// Print JSON instead of text.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print the completion script of a shell.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Print the man page, or write one per command into a folder.
+    Man {
+        /// Folder for the pages; made if it is not there.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
 }
 

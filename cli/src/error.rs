@@ -27,12 +27,26 @@ pub enum Failure {
         /// What is wrong.
         problem: String,
     },
-    /// The file of a figure cannot be written.
-    #[error("{}: {problem}; choose a file that can be written with --svg", path.display())]
-    Figure {
+    /// A file that the user has named cannot be written.
+    #[error("{}: {problem}; choose a file that can be written", path.display())]
+    File {
         /// The file.
         path: PathBuf,
         /// What the system says.
+        problem: String,
+    },
+    /// A file would be written over.
+    #[error("{}: there is such a file already; choose another name, or write over it with --force", path.display())]
+    Taken {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A record cannot be read.
+    #[error("{}: {problem}", path.display())]
+    Record {
+        /// The record's file.
+        path: PathBuf,
+        /// What is wrong, and what to do.
         problem: String,
     },
     /// A figure of so many modes would not be read.
@@ -113,7 +127,9 @@ impl Failure {
             Failure::Scene(_)
                 | Failure::Output { .. }
                 | Failure::Results { .. }
-                | Failure::Figure { .. }
+                | Failure::File { .. }
+                | Failure::Taken { .. }
+                | Failure::Record { .. }
                 | Failure::CrowdedFigure { .. }
                 | Failure::Mode { .. }
         )

@@ -119,6 +119,15 @@ impl<'a> Folder<'a> {
         Ok(())
     }
 
+    /// The summary as it was written.
+    ///
+    /// # Errors
+    /// [`Failure::Output`]
+    pub fn summary(&self) -> Result<String, Failure> {
+        let path = self.path.join("summary.json");
+        std::fs::read_to_string(&path).map(|text| text + "\n").map_err(|error| Failure::output(&path, error))
+    }
+
     fn fill(
         &self,
         write: impl FnOnce(&mut BufWriter<&mut std::fs::File>) -> std::io::Result<()>,
@@ -127,12 +136,12 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// Writes a figure.
+/// Writes a file that the user has named.
 ///
 /// # Errors
-/// [`Failure::Figure`]
-pub fn figure(path: &Path, text: &str) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| Failure::Figure { path: path.into(), problem: error.to_string() };
+/// [`Failure::File`]
+pub fn file(path: &Path, text: &str) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| Failure::File { path: path.into(), problem: error.to_string() };
     // A bare file name has the empty path above it.
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let file = fill(folder, |file| file.write_all(text.as_bytes())).map_err(failed)?;

@@ -73,7 +73,7 @@ pub enum Piece {
 }
 
 /// `max |(u² - 3) u exp(-u²/2)|`, at `u² = 3 - √6`.
-const BETA: f64 = 1.380_118_833_563_847_8;
+const BETA: f64 = 1.380_119_046_160_749_3;
 
 impl Piece {
     /// Several pieces at the same time as one.
@@ -350,6 +350,14 @@ const SAME_ACCELERATION: f64 = 1e-12;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_peak_of_an_antisymmetric_wavelet_is_its_amplitude() {
+        let wavelet = Piece::AntisymmetricRicker { amplitude: 2.0, omega: 1.0, centre: 0.0 };
+        let peak = (3.0 - 6f64.sqrt()).sqrt();
+        assert!((wavelet.value(-peak) - 2.0).abs() < 1e-15 && (wavelet.value(peak) + 2.0).abs() < 1e-15);
+        assert!(wavelet.value(1.001 * peak).abs() < 2.0 && wavelet.value(0.999 * peak).abs() < 2.0);
+    }
 
     #[test]
     fn rates_are_derivatives() {

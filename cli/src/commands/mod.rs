@@ -1,13 +1,18 @@
 //! The commands, a file each.
 
+mod check;
+mod init;
 mod modes;
 mod run;
+mod shell;
 mod thresholds;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;
-use modes::Printed;
+use init::NewScene;
+use modes::Asked;
 use rocking::Scene;
+use run::Printed;
 use std::io::Write as _;
 use std::path::Path;
 
@@ -17,14 +22,29 @@ use std::path::Path;
 /// [`Failure`]
 pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
-        Command::Run { scene, out, dynamics, quiet } => run::run(&scene, &out, dynamics, quiet),
-        Command::Modes { blocks, svg: None } => print(&modes::list_modes(usize::from(blocks))),
-        Command::Modes { blocks, svg: Some(file) } => modes::draw_modes(usize::from(blocks), &file),
-        Command::Derive { blocks, mode, counts, format } => {
-            let printed = if counts { Printed::Counts } else { Printed::Derivation(format) };
-            print(&modes::derive(usize::from(blocks), &mode, printed)?)
+        Command::Init { file, blocks, record, force } => {
+            init::init(&NewScene { file: &file, blocks, record: record.as_deref(), force })
         }
-        Command::Thresholds { scene } => print(&thresholds::thresholds(&read(&scene)?)),
+        Command::Check { scene, json } => check::check(&scene, json),
+        Command::Run { scene, out, dynamics, quiet, json } => {
+            let printed = match (quiet, json) {
+                (true, _) => Printed::Nothing,
+                (_, true) => Printed::Json,
+                _ => Printed::Text,
+            };
+            run::run(&scene, &out, dynamics, printed)
+        }
+        Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
+        Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
+        Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),
+        Command::Derive { blocks, mode, counts, format } => {
+            let asked = if counts { Asked::Counts } else { Asked::Derivation(format) };
+            print(&modes::derive(usize::from(blocks), &mode, asked)?)
+        }
+        Command::Thresholds { scene, json: true } => json(&thresholds::rows(&read(&scene)?)),
+        Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&read(&scene)?)),
+        Command::Completions { shell } => shell::completions(shell),
+        Command::Man { out } => shell::man(out.as_deref()),
     }
 }
 
@@ -40,4 +60,10 @@ fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Prints what a script reads.
+fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Failure::Print { problem: error.to_string() })?;
+    print(&(text + "\n"))
 }

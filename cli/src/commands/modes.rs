@@ -5,29 +5,56 @@ use crate::commands::print;
 use crate::error::Failure;
 use crate::{figure, output};
 use rocking::GroundMotion;
-use rocking::pattern::{ModeLabel, modes};
+use rocking::pattern::{ModeLabel, Pattern, modes};
 use rocking_codegen::Plan;
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// One line per mode. The drawing comes last: it alone has blanks, and a line is often split at them.
-pub fn list_modes(blocks: usize) -> String {
+/// A mode as it is listed.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    mode: String,
+    /// Signs of the interfaces, base first.
+    pattern: String,
+    /// Free angles.
+    dof: usize,
+    /// The step-time program of all modes with as many free angles.
+    program: String,
+    /// Of one call of its accelerations, ground moving horizontally.
+    flops: usize,
+    /// Among the flops.
+    divisions: usize,
+    drawing: String,
+}
+
+/// The independent modes of a column, in the order of their labels.
+pub fn rows(blocks: usize) -> Vec<Row> {
     // One step-time program per number of free angles: all modes that have as many share its operations.
     let operations: Vec<_> = (1..=blocks).map(|dof| Plan::new(dof).operations(GroundMotion::Horizontal)).collect();
+    let row = |(label, pattern): (ModeLabel, Pattern)| {
+        let dof = pattern.dof();
+        Row {
+            mode: label.to_string(),
+            pattern: pattern.to_string(),
+            dof,
+            program: format!("Dof{dof}"),
+            flops: operations[dof - 1].flops(),
+            divisions: operations[dof - 1].divisions,
+            drawing: figure::line(&pattern),
+        }
+    };
+    modes(blocks).map(row).collect()
+}
+
+/// One line per mode. The drawing comes last: it alone has blanks, and a line is often split at them.
+pub fn list_modes(blocks: usize) -> String {
     let width = (2 * blocks + 1).max("pattern".len());
     let mut text = format!("{:<9} {:<width$}  dof  program  flops  divisions  drawing\n", "mode", "pattern");
-    for (label, pattern) in modes(blocks) {
-        let dof = pattern.dof();
-        let operations = &operations[dof - 1];
+    for Row { mode, pattern, dof, program, flops, divisions, drawing } in rows(blocks) {
         let _ = writeln!(
             text,
-            "{:<9} {:<width$}  {dof:<3}  {:<7}  {:<5}  {:<9}  {}",
-            label.to_string(),
-            pattern.to_string(),
-            format!("Dof{dof}"),
-            operations.flops(),
-            operations.divisions,
-            figure::line(&pattern)
+            "{mode:<9} {pattern:<width$}  {dof:<3}  {program:<7}  {flops:<5}  {divisions:<9}  {drawing}"
         );
     }
     let _ = write!(
@@ -48,18 +75,18 @@ fn mode_count(blocks: usize) -> u64 {
 /// Draws the modes into a file.
 ///
 /// # Errors
-/// [`Failure::CrowdedFigure`], [`Failure::Figure`]
+/// [`Failure::CrowdedFigure`], [`Failure::File`]
 pub fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
     let modes = mode_count(blocks);
     if blocks > figure::LARGEST {
         return Err(Failure::CrowdedFigure { blocks, modes, largest: figure::LARGEST });
     }
-    output::figure(file, &figure::svg(blocks))?;
+    output::file(file, &figure::svg(blocks))?;
     print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", file.display()))
 }
 
-/// What is printed of a mode.
-pub enum Printed {
+/// What is asked of a mode.
+pub enum Asked {
     /// The equations, in a format.
     Derivation(Format),
     /// Operation counts.
@@ -70,13 +97,13 @@ pub enum Printed {
 ///
 /// # Errors
 /// [`Failure::Mode`]
-pub fn derive(blocks: usize, mode: &str, printed: Printed) -> Result<String, Failure> {
+pub fn derive(blocks: usize, mode: &str, asked: Asked) -> Result<String, Failure> {
     let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
     let pattern = pattern.ok_or_else(|| Failure::Mode { mode: mode.into(), blocks })?;
-    Ok(match printed {
-        Printed::Counts => rocking_codegen::report::counts(&pattern),
-        Printed::Derivation(Format::Text) => rocking_codegen::report::text(&pattern),
-        Printed::Derivation(Format::Rust) => rocking_codegen::report::rust(&pattern),
-        Printed::Derivation(Format::Latex) => rocking_codegen::report::latex(&pattern),
+    Ok(match asked {
+        Asked::Counts => rocking_codegen::report::counts(&pattern),
+        Asked::Derivation(Format::Text) => rocking_codegen::report::text(&pattern),
+        Asked::Derivation(Format::Rust) => rocking_codegen::report::rust(&pattern),
+        Asked::Derivation(Format::Latex) => rocking_codegen::report::latex(&pattern),
     })
 }

@@ -14,14 +14,14 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`Failure`]
-pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(), Failure> {
+pub fn run(path: &Path, out: &Path, dynamics: Dynamics, printed: Printed) -> Result<(), Failure> {
     let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
     let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
     if dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::open(out)?;
-    let bar = Progress::new(scene.options.t_end, quiet);
+    let bar = Progress::new(scene.options.t_end, printed == Printed::Nothing);
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve {
         scene: path.into(),
@@ -32,13 +32,27 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(
     bar.finish();
     let warnings = response.warnings(scene.friction);
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
-    if quiet {
+    if printed == Printed::Nothing {
         return Ok(());
     }
     for warning in &warnings {
         eprintln!("warning: {warning}");
     }
-    print(&account(&scene, &response, out))
+    match printed {
+        Printed::Json => print(&folder.summary()?),
+        _ => print(&account(&scene, &response, out)),
+    }
+}
+
+/// What a run prints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Printed {
+    /// A few lines.
+    Text,
+    /// The summary.
+    Json,
+    /// Errors only.
+    Nothing,
 }
 
 /// A few lines on what happened.

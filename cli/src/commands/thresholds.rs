@@ -1,31 +1,60 @@
 //! `rocking thresholds`: when a column's interfaces open.
 
-use rocking::Scene;
+use rocking::{Scene, Stack};
+use serde::Serialize;
 use std::fmt::Write as _;
+
+/// The stack above an interface as one body that rocks on it.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// From 1, base first.
+    pub interface: usize,
+    /// Mass, sizes, inertia.
+    #[serde(flatten)]
+    pub stack: Stack,
+    /// `[rad]`
+    pub slenderness: f64,
+    /// `[rad/s]`
+    pub frequency_parameter: f64,
+    /// `[m/s²]`
+    pub uplift_acceleration: f64,
+    /// Dimensionless.
+    pub housner_ratio: f64,
+}
+
+/// All interfaces of a scene's column, base first.
+pub fn rows(scene: &Scene) -> Vec<Row> {
+    let row = |interface: usize| {
+        let stack = scene.column.stack(interface);
+        Row {
+            interface: interface + 1,
+            stack,
+            slenderness: stack.slenderness(),
+            frequency_parameter: stack.frequency_parameter(),
+            uplift_acceleration: stack.uplift_acceleration(),
+            housner_ratio: stack.housner_ratio(),
+        }
+    };
+    (0..scene.column.len()).map(row).collect()
+}
 
 /// The paper's Tables 1 and 2 for a column: heights, and the ground acceleration that opens each interface at rest.
 pub fn thresholds(scene: &Scene) -> String {
-    let column = &scene.column;
-    let slenderness = column.slenderness();
+    let slenderness = scene.column.slenderness();
     let mut text = format!(
-        "column of {} block(s), slenderness {:.4} rad\ninterface  c [m]     h_P [m]   c/h_P     c/(h_P alpha)  opens at [m/s2]  [g]\n",
-        column.len(),
-        slenderness
+        "column of {} block(s), slenderness {slenderness:.4} rad\n\
+         interface  c [m]     h_P [m]   c/h_P     c/(h_P alpha)  opens at [m/s2]  [g]\n",
+        scene.column.len(),
     );
-    for interface in 0..column.len() {
-        let (half_width, height) = (column.contact_half_width(interface), column.centroid_height(interface));
-        let ratio = half_width / height;
-        let acceleration = column.uplift_acceleration(interface);
+    for Row { interface, stack, uplift_acceleration, .. } in rows(scene) {
+        let ratio = stack.half_width / stack.centroid_height;
         let _ = writeln!(
             text,
-            "{:<10} {:<9.4} {:<9.4} {:<9.4} {:<14.2} {:<16.4} {:.4}",
-            interface + 1,
-            half_width,
-            height,
-            ratio,
+            "{interface:<10} {:<9.4} {:<9.4} {ratio:<9.4} {:<14.2} {uplift_acceleration:<16.4} {:.4}",
+            stack.half_width,
+            stack.centroid_height,
             ratio / slenderness,
-            acceleration,
-            acceleration / column.gravity()
+            uplift_acceleration / stack.gravity
         );
     }
     text

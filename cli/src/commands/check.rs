@@ -1,0 +1,246 @@
+//! `rocking check`: what a scene says, and what follows from it before anything is run.
+
+use crate::commands::{json, print, thresholds};
+use crate::error::Failure;
+use rocking::scene_file::{self, Derived, SceneFile};
+use rocking::{Block, Motion, Restitution, Scene};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Reads a scene and explains it, or tells what is wrong with it.
+///
+/// # Errors
+/// [`Failure`]
+pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
+    let text = scene_file::text(path).map_err(Failure::scene)?;
+    let SceneFile { scene, derived } = SceneFile::from_toml(&text, path).map_err(Failure::scene)?;
+    let findings = Findings::of(&scene, derived);
+    if as_json { json(&findings) } else { print(&findings.text(path, &scene)) }
+}
+
+/// What is found of a scene. Lengths N per block or interface, base first.
+#[derive(Debug, Serialize)]
+struct Findings {
+    title: String,
+    blocks: Vec<Block>,
+    derived: Vec<Derived>,
+    stacks: Vec<thresholds::Row>,
+    /// Factors of the plastic relative rates at the interfaces, dimensionless.
+    restitution_factors: Vec<f64>,
+    horizontal: Option<MotionFindings>,
+    vertical: Option<MotionFindings>,
+    /// Interfaces, from 1, that the largest horizontal acceleration would open from rest; at the column's own gravity.
+    opens: Vec<usize>,
+    method: &'static str,
+    rows: Option<u64>,
+}
+
+/// A component of the ground motion.
+#[derive(Debug, Serialize)]
+struct MotionFindings {
+    #[serde(flatten)]
+    motion: Motion,
+    /// Largest acceleration, velocity and displacement of the ground until the end of the run `[m/s²]`, `[m/s]`, `[m]`.
+    pga: f64,
+    pgv: f64,
+    pgd: f64,
+    /// When it ends `[s]`; none for what goes on for ever.
+    end: Option<f64>,
+    /// Velocity and displacement with which the ground is left there `[m/s]`, `[m]`.
+    left_with: Option<[f64; 2]>,
+}
+
+impl Findings {
+    fn of(scene: &Scene, derived: Vec<Derived>) -> Findings {
+        let column = &scene.column;
+        let stacks = thresholds::rows(scene);
+        let component =
+            |motion: &Option<Motion>| motion.as_ref().map(|motion| MotionFindings::of(motion, scene.options.t_end));
+        let horizontal = component(&scene.excitation.horizontal);
+        let pga = horizontal.as_ref().map_or(0.0, |motion| motion.pga);
+        let opens = stacks.iter().filter(|stack| pga > stack.uplift_acceleration);
+        Findings {
+            title: scene.title.clone(),
+            blocks: column.blocks().to_vec(),
+            derived,
+            opens: opens.map(|stack| stack.interface).collect(),
+            stacks,
+            restitution_factors: scene.restitution.factors(column),
+            horizontal,
+            vertical: component(&scene.excitation.vertical),
+            method: scene.method().name(),
+            rows: scene.output_dt.map(|dt| (scene.options.t_end / dt * (1.0 + 4.0 * f64::EPSILON)) as u64 + 1),
+        }
+    }
+
+    fn text(&self, path: &Path, scene: &Scene) -> String {
+        let mut text = format!("{}: a valid scene", path.display());
+        if !self.title.is_empty() {
+            let _ = write!(text, ", {}", self.title);
+        }
+        text.push('\n');
+        self.column(&mut text, scene);
+        self.ground(&mut text, scene);
+        let options = &scene.options;
+        let _ = writeln!(
+            text,
+            "\nrun until {} s with method {}{}, rtol {:e}, atol {:e}; {} row(s) in response.csv",
+            options.t_end,
+            self.method,
+            if options.method.name() == self.method { "" } else { " (chosen by auto)" },
+            options.rtol,
+            options.atol,
+            self.rows.unwrap_or(0)
+        );
+        text
+    }
+
+    fn column(&self, text: &mut String, scene: &Scene) {
+        let whole = &self.stacks[0];
+        let gravity = scene.column.gravity();
+        let _ = writeln!(
+            text,
+            "\ncolumn of {} block(s): {:.4} m tall, {} kg, gravity {gravity} m/s²\n\
+             as one body: slenderness alpha = {:.4} rad ({:.2}°), R = {:.4} m, p = {:.4} rad/s",
+            self.blocks.len(),
+            whole.stack.height,
+            Short(whole.stack.mass),
+            whole.slenderness,
+            whole.slenderness.to_degrees(),
+            whole.stack.radius(),
+            whole.frequency_parameter
+        );
+        text.push_str("\nblock  width [m]  height [m]  mass [kg]     inertia [kg m²]   (base first)\n");
+        for (index, block) in self.blocks.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "{:<6} {:<10.4} {:<11.4} {:<13} {}",
+                index + 1,
+                2.0 * block.half_width,
+                2.0 * block.half_height,
+                Short(block.mass).to_string(),
+                Short(block.inertia)
+            );
+        }
+        if !self.derived.is_empty() {
+            text.push_str("derived, not given:\n");
+            for Derived { key, value, unit, from } in &self.derived {
+                let _ = writeln!(text, "  {key} = {} {unit}: {from}", Short(*value));
+            }
+        }
+        text.push_str(
+            "\nthe stack above each interface as one body, c half-width of its contact, h_P height of its centre of gravity:\n\
+             interface  c [m]    h_P [m]  alpha [rad]  p [rad/s]  opens at [m/s2]  [g]      Housner's ratio\n",
+        );
+        for stack in &self.stacks {
+            let _ = writeln!(
+                text,
+                "{:<10} {:<8.4} {:<8.4} {:<12.4} {:<10.4} {:<16.4} {:<8.4} {:.4}",
+                stack.interface,
+                stack.stack.half_width,
+                stack.stack.centroid_height,
+                stack.slenderness,
+                stack.frequency_parameter,
+                stack.uplift_acceleration,
+                stack.uplift_acceleration / gravity,
+                stack.housner_ratio
+            );
+        }
+        let factors: Vec<String> = self.restitution_factors.iter().map(|factor| format!("{factor:.4}")).collect();
+        let factors = factors.join(", ");
+        let _ = match &scene.restitution {
+            Restitution::Plastic => {
+                writeln!(text, "impacts: plastic, nothing rebounds (Housner's ratio for one block)")
+            }
+            Restitution::Eta(eta) => writeln!(
+                text,
+                "impacts: eta = {eta} for the column as one body, {factors} of the plastic relative rate at each interface"
+            ),
+            Restitution::Factors(_) => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
+        };
+    }
+
+    fn ground(&self, text: &mut String, scene: &Scene) {
+        let gravity = scene.column.gravity();
+        let components = [("horizontal", &self.horizontal), ("vertical", &self.vertical)];
+        if components.iter().all(|(_, motion)| motion.is_none()) {
+            text.push_str("\nthe ground does not move\n");
+        }
+        for (component, motion) in components {
+            let Some(motion) = motion else { continue };
+            let _ = writeln!(text, "\n{component} ground motion: {}", motion.kind());
+            let _ = writeln!(
+                text,
+                "  PGA {:.4} g ({:.4} m/s²), PGV {:.4} m/s, PGD {:.4} m until {} s",
+                motion.pga / gravity,
+                motion.pga,
+                motion.pgv,
+                motion.pgd,
+                scene.options.t_end
+            );
+            match (motion.end, motion.left_with) {
+                (Some(end), Some([velocity, displacement])) => {
+                    let _ = writeln!(
+                        text,
+                        "  ends at {end:.4} s; the ground is left with {velocity:.4} m/s, displaced by {displacement:.4} m"
+                    );
+                    if end > scene.options.t_end {
+                        let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
+                    }
+                }
+                _ => text.push_str("  goes on for ever\n"),
+            }
+        }
+        if let Some(motion) = &self.horizontal {
+            let lowest = self.stacks.iter().map(|stack| stack.uplift_acceleration).fold(f64::INFINITY, f64::min);
+            let interfaces: Vec<String> = self.opens.iter().map(usize::to_string).collect();
+            let _ = if interfaces.is_empty() {
+                writeln!(
+                    text,
+                    "  {:.4} g opens no interface of the column at rest, which takes {:.4} g",
+                    motion.pga / gravity,
+                    lowest / gravity
+                )
+            } else {
+                writeln!(
+                    text,
+                    "  {:.4} g is enough to open interface(s) {} of the column at rest; the first opens at {:.4} g",
+                    motion.pga / gravity,
+                    interfaces.join(", "),
+                    lowest / gravity
+                )
+            };
+        }
+    }
+}
+
+impl MotionFindings {
+    fn of(motion: &Motion, t_end: f64) -> MotionFindings {
+        let [pga, pgv, pgd] = motion.peaks(t_end);
+        let end = motion.end();
+        MotionFindings { motion: motion.clone(), pga, pgv, pgd, end, left_with: end.map(|end| motion.travel(end)) }
+    }
+
+    /// As the library names it.
+    fn kind(&self) -> String {
+        let value = serde_json::to_value(&self.motion).unwrap_or_default();
+        value["kind"].as_str().unwrap_or_default().to_string()
+    }
+}
+
+/// A number with six digits, without a tail of zeros.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let value = self.0;
+        if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+            return write!(f, "{value:.5e}");
+        }
+        let digits = if value == 0.0 { 0 } else { (5 - value.abs().log10().floor() as i32).max(0) as usize };
+        let text = format!("{value:.digits$}");
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        f.write_str(text)
+    }
+}
