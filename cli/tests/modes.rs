@@ -138,7 +138,7 @@ fn a_figure_that_cannot_be_put_in_place_leaves_nothing() {
         let output = common::rocking(folder.path(), &["modes", "--blocks", "2", "--svg", file]);
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        assert!(message.contains(file) && message.contains("--svg"), "{message}");
+        assert!(message.contains(file) && message.contains("choose a file"), "{message}");
     }
     assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1, "no temporary file is left");
 }
