@@ -16,8 +16,9 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Ground};
+use crate::few::Few;
 use crate::generic::{imposed_acceleration, link_acceleration};
-use crate::kinematics::{Posture, Vec2};
+use crate::kinematics::{Factorised, Posture, Vec2};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Patterns are enumerated up to this many interfaces at `φ = 0` (3^9 = 19,683 of them); beyond, a contact problem without
@@ -62,8 +63,8 @@ pub struct SingularMass;
 struct Answer {
     pattern: Pattern,
     /// Rates after an impact, or accelerations, per block.
-    motion: Vec<f64>,
-    resultants: Vec<ContactForce>,
+    motion: Few<f64>,
+    resultants: Few<ContactForce>,
     /// Half the squared distance in the metric of the masses: what breaks ties.
     distance: f64,
 }
@@ -72,7 +73,7 @@ struct Answer {
 struct Problem<'a, F> {
     column: &'a Column,
     /// Interfaces at `φ = 0` that choose their state.
-    free: Vec<usize>,
+    free: Few<usize>,
     /// Relative motion above which an open interface parts: zero of accelerations, rounding of rates.
     least_parting: f64,
     answer: F,
@@ -112,7 +113,7 @@ impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
         while !visited.contains(&pattern) && visited.len() < 8 * self.free.len() + 8 {
             let answer = (self.answer)(&pattern).ok_or(SingularMass)?;
             let wishes = self.free.iter().filter_map(|&i| self.wish(&answer, i).map(|state| (i, state)));
-            let wishes: Vec<_> = wishes.collect();
+            let wishes: Few<_> = wishes.collect();
             let Some(&(lowest, state)) = wishes.first() else { return Ok((answer, false)) };
             visited.push(pattern.clone());
             let mut next = pattern.clone();
@@ -194,17 +195,18 @@ pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground:
 
 /// Motion before an impact: velocities of the centroids and the blocks' rates.
 struct Motion {
-    linear: Vec<Vec2>,
-    angular: Vec<f64>,
+    linear: Few<Vec2>,
+    angular: Few<f64>,
 }
 
 /// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (MODEL.md section 5, item 1).
 fn project(column: &Column, theta: &[f64], before: &Motion, pattern: &Pattern) -> Option<Answer> {
     let posture = Posture::new(column, pattern, theta);
-    let rates = posture.factorised_mass()?.solve(&posture.generalised(&before.linear, &before.angular));
-    let (linear, motion) = (posture.linear(rates.as_slice()), posture.angular(rates.as_slice()));
-    let jump: Vec<Vec2> = linear.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
-    let turn: Vec<f64> = motion.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
+    let mut rates = posture.generalised(&before.linear, &before.angular);
+    posture.factorised_mass()?.solve(&mut rates);
+    let (linear, motion) = (posture.linear(&rates), posture.angular(&rates));
+    let jump: Few<Vec2> = linear.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+    let turn: Few<f64> = motion.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
     let resultants = posture.resultants(&jump, &turn);
     let distance = posture.kinetic_energy(&jump, &turn);
     Some(Answer { pattern: pattern.clone(), motion, resultants, distance })
@@ -236,7 +238,7 @@ pub fn impact(
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
     let posture = Posture::new(column, pattern, theta);
-    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: omega.to_vec() };
+    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: Few::from_slice(omega) };
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
 
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
@@ -251,12 +253,12 @@ pub fn impact(
     let free = problem.free;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
-    let striking: Vec<usize> =
+    let striking: Few<usize> =
         closing.iter().copied().filter(|&i| f64::from(pattern.0[i].sign()) * relative(omega, i) < 0.0).collect();
     let rebound = restitute(column, theta, &plastic, &striking, &free, law.kappa, energy_before);
     let mut decision = Decision {
         pattern: plastic.pattern,
-        omega: rebound.unwrap_or(plastic.motion),
+        omega: rebound.unwrap_or(plastic.motion).to_vec(),
         separation,
         impulses: Vec::new(),
     };
@@ -272,9 +274,9 @@ pub fn impact(
 fn impulses(column: &Column, theta: &[f64], before: &Motion, decision: &Decision) -> Vec<ContactForce> {
     let posture = Posture::new(column, &decision.pattern, theta);
     let after = posture.linear(&posture.link_rates(&decision.omega));
-    let jump: Vec<Vec2> = after.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
-    let turn: Vec<f64> = decision.omega.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
-    posture.resultants(&jump, &turn)
+    let jump: Few<Vec2> = after.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+    let turn: Few<f64> = decision.omega.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
+    posture.resultants(&jump, &turn).to_vec()
 }
 
 /// The decision that these interfaces close, whatever their contacts would rather do: the projection onto the closed pattern,
@@ -287,10 +289,10 @@ pub(crate) fn stick(
     closing: &[usize],
 ) -> Result<Decision, SingularMass> {
     let posture = Posture::new(column, pattern, theta);
-    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: omega.to_vec() };
+    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: Few::from_slice(omega) };
     let mut closed = pattern.clone();
     closing.iter().for_each(|&interface| closed.0[interface] = Interface::Closed);
-    let omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion;
+    let omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion.to_vec();
     let mut decision = Decision { pattern: closed, omega, separation: true, impulses: Vec::new() };
     decision.impulses = impulses(column, theta, &before, &decision);
     Ok(decision)
@@ -305,27 +307,38 @@ fn restitute(
     free: &[usize],
     kappa: &[f64],
     energy_before: f64,
-) -> Option<Vec<f64>> {
+) -> Option<Few<f64>> {
     let pattern = &plastic.pattern;
-    let rebounding: Vec<usize> = closing.iter().copied().filter(|&i| pattern.0[i].is_open()).collect();
+    let rebounding: Few<usize> = closing.iter().copied().filter(|&i| pattern.0[i].is_open()).collect();
     if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
         return None;
     }
     let posture = Posture::new(column, pattern, theta);
     let mass = posture.factorised_mass()?;
-    let mut rows = nalgebra::DMatrix::zeros(rebounding.len(), posture.dof);
-    let mut gain = nalgebra::DVector::zeros(rebounding.len());
-    for (row, &interface) in rebounding.iter().enumerate() {
-        rows[(row, posture.link[interface] - 1)] = 1.0;
+    // Column by column: the links' rates that a unit impulse at each rebounding interface causes.
+    let mut spread: Few<Few<f64>> = Few::new();
+    let mut gain: Few<f64> = Few::new();
+    let apart = |rates: &[f64], interface: usize| {
+        let below = if interface > 0 { posture.link[interface - 1] } else { 0 };
+        rates[posture.link[interface] - 1] - if below > 0 { rates[below - 1] } else { 0.0 }
+    };
+    for &interface in &rebounding {
+        let mut column = Few::from_elem(0.0, posture.dof);
+        column[posture.link[interface] - 1] = 1.0;
         if interface > 0 && posture.link[interface - 1] > 0 {
-            rows[(row, posture.link[interface - 1] - 1)] = -1.0;
+            column[posture.link[interface - 1] - 1] = -1.0;
         }
-        gain[row] = (kappa[interface] - 1.0) * relative(&plastic.motion, interface);
+        mass.solve(&mut column);
+        spread.push(column);
+        gain.push((kappa[interface] - 1.0) * relative(&plastic.motion, interface));
     }
-    let spread = mass.solve(&rows.transpose());
-    let impulse = (&rows * &spread).cholesky()?.solve(&gain);
-    let change = spread * impulse;
-    let rates: Vec<f64> = posture.link_rates(&plastic.motion).iter().zip(change.iter()).map(|(a, b)| a + b).collect();
+    let compliance = rebounding.iter().flat_map(|&row| spread.iter().map(move |column| (row, column)));
+    let compliance = compliance.map(|(row, column)| apart(column, row)).collect();
+    Factorised::new(compliance, rebounding.len())?.solve(&mut gain);
+    let mut rates = posture.link_rates(&plastic.motion);
+    for (column, impulse) in spread.iter().zip(&gain) {
+        rates.iter_mut().zip(column).for_each(|(rate, share)| *rate += share * impulse);
+    }
     let rebound = posture.angular(&rates);
 
     let flips = |&i: &usize| {
@@ -371,8 +384,8 @@ fn settle(
         if closed == decision.pattern {
             return Ok(());
         }
-        let before = Motion { linear: posture.linear(&rates), angular: decision.omega.clone() };
-        decision.omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion;
+        let before = Motion { linear: posture.linear(&rates), angular: Few::from_slice(&decision.omega) };
+        decision.omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion.to_vec();
         decision.pattern = closed;
         height = height.min(UNRESOLVED_HOP);
     }
@@ -394,7 +407,7 @@ pub fn open(
 ) -> Result<Decision, SingularMass> {
     let is_motionless = |i: &usize| !pattern.0[*i].is_open() || is_motionless(theta, omega, *i);
     let mut guess = pattern.clone();
-    let mut free: Vec<usize> = (0..column.len()).filter(is_motionless).collect();
+    let mut free: Few<usize> = (0..column.len()).filter(is_motionless).collect();
     for &(interface, side) in released {
         guess.0[interface] = side;
         free.retain(|other| *other != interface);
@@ -415,7 +428,7 @@ pub fn open(
     let tolerance = verge_acceleration(column, &answer.motion, ground);
     let is_driven_back =
         |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
-    let driven_back: Vec<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
+    let driven_back: Few<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
         problem.free.extend(driven_back);
         (answer, separation) = problem.solve(answer.pattern)?;
@@ -503,7 +516,7 @@ mod tests {
                 return Ok(());
             }
             let posture = Posture::new(&column, &pattern, &theta);
-            let before = Motion { linear: posture.linear(&posture.link_rates(&omega)), angular: omega };
+            let before = Motion { linear: posture.linear(&posture.link_rates(&omega)), angular: Few::from_vec(omega) };
             let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
             let answer = |candidate: &Pattern| project(&column, &theta, &before, candidate);
             let mut problem = Problem { column: &column, free, least_parting: f64::MIN_POSITIVE, answer };

@@ -6,6 +6,7 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground};
+use crate::few::Few;
 use crate::kinematics::{Posture, Vec2};
 use rocking_codegen::pattern::Pattern;
 
@@ -37,7 +38,7 @@ impl GenericMode {
     }
 
     fn posture(&self, state: &[f64]) -> Posture<'_> {
-        let theta: Vec<f64> = self.link.iter().map(|&link| if link == 0 { 0.0 } else { state[link - 1] }).collect();
+        let theta: Few<f64> = self.link.iter().map(|&link| if link == 0 { 0.0 } else { state[link - 1] }).collect();
         Posture::new(&self.column, &self.pattern, &theta)
     }
 }
@@ -69,7 +70,7 @@ fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
 }
 
 /// Accelerations less gravity: the ground's and those that the rates cause.
-pub(crate) fn imposed_acceleration(posture: &Posture, rates: &[f64], ground: Ground) -> Vec<Vec2> {
+pub(crate) fn imposed_acceleration(posture: &Posture, rates: &[f64], ground: Ground) -> Few<Vec2> {
     let mut acceleration = posture.centripetal(rates);
     for a in &mut acceleration {
         a[0] += ground.x;
@@ -79,10 +80,12 @@ pub(crate) fn imposed_acceleration(posture: &Posture, rates: &[f64], ground: Gro
 }
 
 /// `θ̈` of the links `[rad/s²]`; `None` if the mass matrix cannot be factorised.
-pub(crate) fn link_acceleration(posture: &Posture, rates: &[f64], ground: Ground) -> Option<Vec<f64>> {
+pub(crate) fn link_acceleration(posture: &Posture, rates: &[f64], ground: Ground) -> Option<Few<f64>> {
     let imposed = imposed_acceleration(posture, rates, ground);
-    let load = -posture.generalised(&imposed, &vec![0.0; imposed.len()]);
-    Some(posture.factorised_mass()?.solve(&load).as_slice().to_vec())
+    let mut alpha = posture.generalised(&imposed, &Few::from_elem(0.0, imposed.len()));
+    alpha.iter_mut().for_each(|load| *load = -*load);
+    posture.factorised_mass()?.solve(&mut alpha);
+    Some(alpha)
 }
 
 impl Dynamics for GenericMode {
@@ -94,7 +97,7 @@ impl Dynamics for GenericMode {
     }
 
     fn coupling(&self, state: &Vec<f64>, _: &Vec<f64>, _: &Vec<f64>, matrix: &mut [f64]) {
-        matrix.copy_from_slice(self.posture(state).mass_matrix().as_slice());
+        matrix.copy_from_slice(&self.posture(state).mass_matrix());
     }
 
     /// Moments about the pivots of the inertial forces, in the links' axes: what lies below a link accelerates its first
@@ -148,7 +151,7 @@ impl Dynamics for GenericMode {
     }
 
     fn mass_matrix(&self, state: &Vec<f64>) -> Vec<f64> {
-        self.posture(state).mass_matrix().as_slice().to_vec()
+        self.posture(state).mass_matrix().to_vec()
     }
 
     fn contact_forces(&self, state: &Vec<f64>, derivative: &Vec<f64>, ground: Ground, result: &mut [ContactForce]) {

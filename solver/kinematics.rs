@@ -8,7 +8,7 @@
 
 use crate::column::{Block, Column};
 use crate::dynamics::ContactForce;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use crate::few::{Few, Square};
 use rocking_codegen::pattern::Pattern;
 
 /// A vector of the plane, `[x, y]`.
@@ -19,18 +19,18 @@ pub type Vec2 = [f64; 2];
 pub struct Posture<'a> {
     column: &'a Column,
     /// Link of each block, base first, length N.
-    pub link: Vec<usize>,
+    pub link: Few<usize>,
     /// Number of links that move.
     pub dof: usize,
     /// How the lower block of each interface is turned, length N.
-    lower: Vec<Turn>,
+    lower: Few<Turn>,
     /// Centre of each contact `[m]`, length N.
-    contact_centre: Vec<Vec2>,
+    contact_centre: Few<Vec2>,
     /// Centroids `[m]`, length N.
-    centroid: Vec<Vec2>,
+    centroid: Few<Vec2>,
     /// From the pivot of link `a` to the centroid of block `j`, or to the next pivot where the block is on a higher link:
     /// entry `j * dof + a - 1`; zero where the link is above the block.
-    lever: Vec<Vec2>,
+    lever: Square<Vec2>,
 }
 
 /// Sine and cosine of an angle.
@@ -68,11 +68,9 @@ impl<'a> Posture<'a> {
     /// angles.
     pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
         let blocks = column.len();
-        let link = pattern.linkage().link_of_block();
-        let dof = pattern.dof();
-        let mut pivots: Vec<Vec2> = Vec::with_capacity(dof);
-        let (mut lower, mut contact_centre, mut centroid) =
-            (Vec::with_capacity(blocks), Vec::with_capacity(blocks), Vec::with_capacity(blocks));
+        let (mut link, mut dof) = (Few::new(), 0);
+        let mut pivots: Few<Vec2> = Few::new();
+        let (mut lower, mut contact_centre, mut centroid) = (Few::new(), Few::new(), Few::new());
         let (mut centre, mut below) = ([0.0, 0.0], Turn::NONE);
         for (index, block) in column.blocks().iter().enumerate() {
             contact_centre.push(centre);
@@ -80,6 +78,8 @@ impl<'a> Posture<'a> {
             // Blocks of one link turn together.
             let own = if index > 0 && theta[index] == theta[index - 1] { below } else { Turn::new(theta[index]) };
             let state = pattern.0[index];
+            dof += usize::from(state.is_open());
+            link.push(dof);
             let base = if state.is_open() {
                 let offset = f64::from(state.sign()) * column.contact_half_width(index);
                 let pivot = plus(centre, below.rotate([offset, 0.0]));
@@ -92,7 +92,7 @@ impl<'a> Posture<'a> {
             centre = plus(base, own.rotate([0.0, 2.0 * block.half_height]));
             below = own;
         }
-        let mut lever = vec![[0.0, 0.0]; blocks * dof];
+        let mut lever = Square::from_elem([0.0, 0.0], blocks * dof);
         for (block, &own) in link.iter().enumerate() {
             for below in 1..=own {
                 let end = if below == own { centroid[block] } else { pivots[below] };
@@ -103,14 +103,14 @@ impl<'a> Posture<'a> {
     }
 
     /// Rates of the moving links, length dof, among the rates of the blocks, length N.
-    pub fn link_rates(&self, block: &[f64]) -> Vec<f64> {
-        let mut rates = vec![0.0; self.dof];
+    pub fn link_rates(&self, block: &[f64]) -> Few<f64> {
+        let mut rates = Few::from_elem(0.0, self.dof);
         self.link.iter().zip(block).filter(|(link, _)| **link > 0).for_each(|(link, rate)| rates[*link - 1] = *rate);
         rates
     }
 
     /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, or the part of accelerations due to link accelerations.
-    pub fn linear(&self, rates: &[f64]) -> Vec<Vec2> {
+    pub fn linear(&self, rates: &[f64]) -> Few<Vec2> {
         let row = |block: usize| {
             let levers = &self.lever[block * self.dof..(block + 1) * self.dof];
             levers.iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| [sum[0] + rate * r[1], sum[1] - rate * r[0]])
@@ -119,12 +119,12 @@ impl<'a> Posture<'a> {
     }
 
     /// Angular rates of the blocks for link rates.
-    pub fn angular(&self, rates: &[f64]) -> Vec<f64> {
+    pub fn angular(&self, rates: &[f64]) -> Few<f64> {
         self.link.iter().map(|&link| if link == 0 { 0.0 } else { rates[link - 1] }).collect()
     }
 
     /// Centripetal accelerations of the centroids `[m/s²]` at link rates.
-    pub fn centripetal(&self, rates: &[f64]) -> Vec<Vec2> {
+    pub fn centripetal(&self, rates: &[f64]) -> Few<Vec2> {
         let row = |block: usize| {
             let levers = &self.lever[block * self.dof..(block + 1) * self.dof];
             levers.iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| {
@@ -135,38 +135,39 @@ impl<'a> Posture<'a> {
         (0..self.link.len()).map(row).collect()
     }
 
-    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, dof × dof.
-    pub fn mass_matrix(&self) -> DMatrix<f64> {
-        let mut matrix = DMatrix::zeros(self.dof, self.dof);
+    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof.
+    pub fn mass_matrix(&self) -> Square<f64> {
+        let dof = self.dof;
+        let mut matrix = Square::from_elem(0.0, dof * dof);
         for (index, (block, &own)) in self.column.blocks().iter().zip(&self.link).enumerate() {
-            let levers = &self.lever[index * self.dof..(index + 1) * self.dof];
+            let levers = &self.lever[index * dof..(index + 1) * dof];
             for row in 0..own {
                 for column in 0..=row {
                     let (r, q) = (levers[row], levers[column]);
-                    matrix[(row, column)] += block.mass * (r[0] * q[0] + r[1] * q[1]);
+                    matrix[row * dof + column] += block.mass * (r[0] * q[0] + r[1] * q[1]);
                 }
             }
             if own > 0 {
-                matrix[(own - 1, own - 1)] += block.inertia;
+                matrix[(own - 1) * (dof + 1)] += block.inertia;
             }
         }
-        for row in 0..self.dof {
-            for column in row + 1..self.dof {
-                matrix[(row, column)] = matrix[(column, row)];
+        for row in 0..dof {
+            for column in row + 1..dof {
+                matrix[row * dof + column] = matrix[column * dof + row];
             }
         }
         matrix
     }
 
     /// The mass matrix factorised; `None` if rounding has made it indefinite.
-    pub fn factorised_mass(&self) -> Option<Cholesky<f64, Dyn>> {
-        Cholesky::new(self.mass_matrix())
+    pub fn factorised_mass(&self) -> Option<Factorised> {
+        Factorised::new(self.mass_matrix(), self.dof)
     }
 
     /// `Jᵀ m v`: what loads per unit mass on the centroids `[m/s²]` and angular loads per unit inertia `[rad/s²]` do on the
     /// free angles `[N m]`; with velocities, the generalised momenta.
-    pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> DVector<f64> {
-        let mut result = DVector::zeros(self.dof);
+    pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> Few<f64> {
+        let mut result = Few::from_elem(0.0, self.dof);
         for (index, (block, &own)) in self.column.blocks().iter().zip(&self.link).enumerate() {
             let levers = &self.lever[index * self.dof..(index + 1) * self.dof];
             for (row, r) in levers.iter().enumerate().take(own) {
@@ -181,7 +182,7 @@ impl<'a> Posture<'a> {
 
     /// What the contacts transmit to the stacks above when the blocks are given these accelerations less gravity
     /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
-    pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> Vec<ContactForce> {
+    pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> Few<ContactForce> {
         let blocks = self.column.blocks();
         let contacts = self.contact_centre.iter().zip(&self.lower).enumerate();
         let resultant = |(interface, (&centre, &Turn { sin, cos })): (usize, (&Vec2, &Turn))| {
@@ -208,6 +209,49 @@ impl<'a> Posture<'a> {
     pub fn potential_energy(&self, gravity: f64) -> f64 {
         let blocks = self.column.blocks().iter().zip(&self.centroid);
         blocks.map(|(block, position)| block.mass * gravity * position[1]).sum()
+    }
+}
+
+/// A mass matrix as `L Lᵀ` (Cholesky). nalgebra's asks for memory, which contact problems are too many and too small for.
+#[derive(Clone, Debug)]
+pub struct Factorised {
+    /// `L`, row by row, `1 / L_ii` on its diagonal.
+    lower: Square<f64>,
+    dof: usize,
+}
+
+impl Factorised {
+    /// Of a symmetric matrix, row by row, dof × dof; `None` if it is not positive definite.
+    pub fn new(mut matrix: Square<f64>, dof: usize) -> Option<Factorised> {
+        for row in 0..dof {
+            for column in 0..=row {
+                let (own, other) =
+                    (&matrix[row * dof..row * dof + column], &matrix[column * dof..column * dof + column]);
+                let known: f64 = own.iter().zip(other).map(|(a, b)| a * b).sum();
+                let left = matrix[row * dof + column] - known;
+                matrix[row * dof + column] = if column < row {
+                    left * matrix[column * (dof + 1)]
+                } else if left > 0.0 && left.is_finite() {
+                    1.0 / left.sqrt()
+                } else {
+                    return None;
+                };
+            }
+        }
+        Some(Factorised { lower: matrix, dof })
+    }
+
+    /// `x` of `L Lᵀ x = right`, in place; length dof.
+    pub fn solve(&self, right: &mut [f64]) {
+        let dof = self.dof;
+        for row in 0..dof {
+            let known: f64 = self.lower[row * dof..row * dof + row].iter().zip(&*right).map(|(a, x)| a * x).sum();
+            right[row] = (right[row] - known) * self.lower[row * (dof + 1)];
+        }
+        for row in (0..dof).rev() {
+            let known: f64 = (row + 1..dof).map(|below| self.lower[below * dof + row] * right[below]).sum();
+            right[row] = (right[row] - known) * self.lower[row * (dof + 1)];
+        }
     }
 }
 

@@ -47,6 +47,7 @@ mod diagnostics;
 pub mod dynamics;
 pub mod event;
 pub mod excitation;
+mod few;
 pub mod generated;
 pub mod generic;
 pub mod kinematics;

@@ -18,6 +18,7 @@ mod stepper;
 use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, StateVector};
 use crate::excitation::Segment;
+use crate::few::Few;
 use crate::ode::{Interpolant, Tolerance};
 use crate::response::mode_name;
 use crate::simulate::{Run, SolveError};
@@ -82,20 +83,20 @@ pub(crate) struct Phase<'p, 'a, V> {
     interpolant: Interpolant<V>,
     interpolated: bool,
     dof: usize,
-    links: Vec<usize>,
-    gaps: Vec<Gap>,
-    closed: Vec<usize>,
-    half_width: Vec<f64>,
+    links: Few<usize>,
+    gaps: Few<Gap>,
+    closed: Few<usize>,
+    half_width: Few<f64>,
     tolerance: Tolerance,
     x: V,
     slope: V,
-    forces: Vec<ContactForce>,
+    forces: Few<ContactForce>,
     /// Contact forces at the start of the step.
-    start_forces: Vec<ContactForce>,
-    end_forces: Vec<ContactForce>,
+    start_forces: Few<ContactForce>,
+    end_forces: Few<ContactForce>,
     /// Values of the contact guards at the start and the end of the step, per closed interface.
-    margins: Vec<f64>,
-    end_margins: Vec<f64>,
+    margins: Few<f64>,
+    end_margins: Few<f64>,
     scratch: (V, V),
 }
 
@@ -106,8 +107,12 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         let pattern = &run.pattern;
         let zero = stepper.zero();
         stepper.enter(run.segments[run.segment].clone());
-        let links = pattern.linkage().link_of_block();
-        let dof = pattern.dof();
+        let mut dof = 0;
+        let mut link = |interface: &Interface| {
+            dof += usize::from(interface.is_open());
+            dof
+        };
+        let links: Few<usize> = pattern.0.iter().map(&mut link).collect();
         let mut x = zero.clone();
         for (block, &link) in links.iter().enumerate() {
             if link > 0 {
@@ -123,7 +128,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             start_roots: 0,
         });
         let gaps = gaps.collect();
-        let closed: Vec<usize> = (0..column.len()).filter(|i| !pattern.0[*i].is_open()).collect();
+        let closed: Few<usize> = (0..column.len()).filter(|i| !pattern.0[*i].is_open()).collect();
         let options = &run.scene.options;
         Phase {
             stepper,
@@ -136,11 +141,11 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
             x,
             slope: zero.clone(),
-            forces: vec![ContactForce::default(); column.len()],
-            start_forces: vec![ContactForce::default(); column.len()],
-            end_forces: vec![ContactForce::default(); column.len()],
-            margins: vec![0.0; closed.len()],
-            end_margins: vec![0.0; closed.len()],
+            forces: Few::from_elem(ContactForce::default(), column.len()),
+            start_forces: Few::from_elem(ContactForce::default(), column.len()),
+            end_forces: Few::from_elem(ContactForce::default(), column.len()),
+            margins: Few::from_elem(0.0, closed.len()),
+            end_margins: Few::from_elem(0.0, closed.len()),
             closed,
             scratch: (zero.clone(), zero),
             run,
@@ -238,10 +243,10 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
     }
 
     /// Contact forces and margins of the contact guards at the start of the phase.
-    fn weigh_start(&mut self) -> Vec<f64> {
+    fn weigh_start(&mut self) -> Few<f64> {
         let (t, x, slope) = (self.run.t, self.x.clone(), self.slope.clone());
         if !self.reads_forces() {
-            return Vec::new();
+            return Few::new();
         }
         self.weigh(t, &x, &slope);
         let margins = self.closed.iter().map(|&i| self.margin(i)).collect();
