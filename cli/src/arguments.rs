@@ -25,9 +25,24 @@ pub enum Command {
         /// Equations of motion to run on.
         #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
         dynamics: Dynamics,
+        /// Draw the figures of `rocking plot` into the same folder (SVG).
+        #[arg(long)]
+        plots: bool,
         /// Print nothing but errors.
         #[arg(long, short)]
         quiet: bool,
+    },
+    /// Draw the figures of a run: time-history, phase-portrait, energy and forces.
+    Plot {
+        /// Folder of a finished run.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// How the figures are written.
+        #[arg(long, value_enum, default_value_t = Picture::Svg)]
+        format: Picture,
+        /// Folder for the figures; made if it is not there [default: DIR].
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
     },
     /// List the independent rocking modes of a column, or draw them.
     Modes {
@@ -70,6 +85,15 @@ pub enum Dynamics {
     Generated,
     /// Hand-written for any number of blocks.
     Generic,
+}
+
+/// How a figure is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Picture {
+    /// To be scaled at will.
+    Svg,
+    /// In pixels.
+    Png,
 }
 
 /// How a derivation is printed.

@@ -1,6 +1,7 @@
 //! The commands, a file each.
 
 mod modes;
+mod plot;
 mod run;
 mod thresholds;
 
@@ -17,7 +18,10 @@ use std::path::Path;
 /// [`Failure`]
 pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
-        Command::Run { scene, out, dynamics, quiet } => run::run(&scene, &out, dynamics, quiet),
+        Command::Run { scene, out, dynamics, plots, quiet } => {
+            run::run(&scene, &out, dynamics, run::Told { plots, quiet })
+        }
+        Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
         Command::Modes { blocks, svg: None } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file) } => modes::draw_modes(usize::from(blocks), &file),
         Command::Derive { blocks, mode, counts, format } => {

@@ -1,7 +1,7 @@
 //! `rocking run`: a scene in, its response out.
 
-use crate::arguments::Dynamics;
-use crate::commands::print;
+use crate::arguments::{Dynamics, Picture};
+use crate::commands::{plot, print};
 use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
@@ -10,18 +10,27 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
+/// What is told of a run beside its results.
+#[derive(Clone, Copy, Debug)]
+pub struct Told {
+    /// Figures, in the folder of the results.
+    pub plots: bool,
+    /// Nothing on standard output.
+    pub quiet: bool,
+}
+
 /// Runs a scene and writes its results.
 ///
 /// # Errors
 /// [`Failure`]
-pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(), Failure> {
+pub fn run(path: &Path, out: &Path, dynamics: Dynamics, told: Told) -> Result<(), Failure> {
     let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
     let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
     if dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::open(out)?;
-    let bar = Progress::new(scene.options.t_end, quiet);
+    let bar = Progress::new(scene.options.t_end, told.quiet);
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve {
         scene: path.into(),
@@ -32,17 +41,20 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(
     bar.finish();
     let warnings = response.warnings(scene.friction);
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
-    if quiet {
+    let figures = if told.plots { plot::draw(out, Picture::Svg, out)? } else { Vec::new() };
+    if told.quiet {
         return Ok(());
     }
     for warning in &warnings {
         eprintln!("warning: {warning}");
     }
-    print(&account(&scene, &response, out))
+    print(&account(&scene, &response))?;
+    let files = ["summary.json", "response.csv", "events.json"].into_iter().chain(figures.iter().map(String::as_str));
+    print(&format!("wrote {} to {}\n", files.collect::<Vec<_>>().join(", "), out.display()))
 }
 
 /// A few lines on what happened.
-fn account(scene: &Scene, response: &Response, out: &Path) -> String {
+fn account(scene: &Scene, response: &Response) -> String {
     let outcome = match (response.status, response.overturned_block) {
         (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
         (StopReason::AtRest, _) => format!("stands, at rest from t = {:.4} s on", response.t_final),
@@ -57,6 +69,5 @@ fn account(scene: &Scene, response: &Response, out: &Path) -> String {
     let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts());
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
-    let _ = writeln!(text, "wrote summary.json, response.csv, events.json to {}", out.display());
     text
 }

@@ -1,0 +1,197 @@
+//! Curves on paper `[px]`: thinned to what can be seen, cut at the frame, cut into dashes.
+//!
+//! Dashes are cut here rather than by whoever draws: all outputs then show the same, and a raster that starts its dashes anew at
+//! every point would show none.
+
+/// `[x, y]`, y downwards on paper.
+pub type Point = [f64; 2];
+
+/// A rectangle on paper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Of the left edge.
+    pub left: f64,
+    /// Of the upper edge.
+    pub top: f64,
+    /// Above zero.
+    pub width: f64,
+    /// Above zero.
+    pub height: f64,
+}
+
+impl Frame {
+    /// Of the right edge.
+    pub fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    /// Of the lower edge.
+    pub fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+}
+
+/// How wide the columns are in which [`thin_along_x`] keeps extremes: a pixel of the sheet, three of the PNG.
+const COLUMN: f64 = 1.0;
+
+/// A curve that runs to the right: first, smallest, largest and last point of every pixel column, in their order.
+pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
+    let column = |point: &Point| (point[0] / COLUMN).floor();
+    let mut kept = Vec::new();
+    for points in points.chunk_by(|a, b| column(a) == column(b)) {
+        let by_height = |a: &&(usize, &Point), b: &&(usize, &Point)| a.1[1].total_cmp(&b.1[1]);
+        let numbered: Vec<(usize, &Point)> = points.iter().enumerate().collect();
+        let extremes = [numbered.iter().min_by(by_height), numbered.iter().max_by(by_height)];
+        let mut places = vec![0, points.len() - 1];
+        places.extend(extremes.into_iter().flatten().map(|(place, _)| *place));
+        places.sort_unstable();
+        places.dedup();
+        kept.extend(places.into_iter().map(|place| points[place]));
+    }
+    kept
+}
+
+/// The smallest distance of neighbours on a thinned curve: less is not seen.
+const CLOSE: f64 = 0.4;
+
+/// Curves of any shape, with at most `budget` points together but for their ends: points closer than some distance to the last
+/// one kept are left out, the distance as small as will do.
+pub fn thin_by_distance(runs: Vec<Vec<Point>>, budget: usize) -> Vec<Vec<Point>> {
+    let mut distance = CLOSE;
+    let mut thinned: Vec<Vec<Point>> = runs.iter().map(|run| spaced(run, distance)).collect();
+    let count = |runs: &[Vec<Point>]| runs.iter().map(|run| run.len().saturating_sub(2)).sum::<usize>();
+    while count(&thinned) > budget {
+        distance *= 1.5;
+        thinned = runs.iter().map(|run| spaced(run, distance)).collect();
+    }
+    thinned
+}
+
+fn spaced(run: &[Point], distance: f64) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::new();
+    for (place, point) in run.iter().enumerate() {
+        let far = kept.last().is_none_or(|last| (point[0] - last[0]).hypot(point[1] - last[1]) >= distance);
+        if far || place + 1 == run.len() {
+            kept.push(*point);
+        }
+    }
+    kept
+}
+
+/// The parts of a curve inside a frame.
+pub fn clip(run: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
+    let mut parts: Vec<Vec<Point>> = Vec::new();
+    for ends in run.windows(2) {
+        let Some([from, to]) = clip_segment(ends[0], ends[1], frame) else { continue };
+        match parts.last_mut() {
+            Some(part) if part.last() == Some(&from) => part.push(to),
+            _ => parts.push(vec![from, to]),
+        }
+    }
+    parts
+}
+
+/// Liang and Barsky (1984).
+fn clip_segment(from: Point, to: Point, frame: &Frame) -> Option<[Point; 2]> {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let sides = [
+        (-along[0], from[0] - frame.left),
+        (along[0], frame.right() - from[0]),
+        (-along[1], from[1] - frame.top),
+        (along[1], frame.bottom() - from[1]),
+    ];
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for (outwards, room) in sides {
+        if outwards == 0.0 && room < 0.0 {
+            return None;
+        } else if outwards < 0.0 {
+            enters = enters.max(room / outwards);
+        } else if outwards > 0.0 {
+            leaves = leaves.min(room / outwards);
+        }
+    }
+    // The ends themselves where they are inside, so that parts join.
+    let at = |share: f64| [from[0] + share * along[0], from[1] + share * along[1]];
+    let first = if enters > 0.0 { at(enters) } else { from };
+    let last = if leaves < 1.0 { at(leaves) } else { to };
+    (enters <= leaves).then_some([first, last])
+}
+
+/// Cuts a curve into dashes; `lengths` are of dashes and gaps in turn. A solid line stays as it is.
+pub fn dash(run: &[Point], lengths: &[f64]) -> Vec<Vec<Point>> {
+    if lengths.is_empty() || run.is_empty() {
+        return vec![run.to_vec()];
+    }
+    let mut dashes = Vec::new();
+    let mut drawn = vec![run[0]];
+    let (mut turn, mut left) = (0, lengths[0]);
+    for ends in run.windows(2) {
+        let (mut from, to) = (ends[0], ends[1]);
+        loop {
+            let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+            if length <= left {
+                left -= length;
+                if turn % 2 == 0 {
+                    drawn.push(to);
+                }
+                break;
+            }
+            let share = left / length;
+            from = [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+            if turn % 2 == 0 {
+                drawn.push(from);
+                dashes.push(std::mem::take(&mut drawn));
+            } else {
+                drawn = vec![from];
+            }
+            turn += 1;
+            left = lengths[turn % lengths.len()];
+        }
+    }
+    if drawn.len() > 1 {
+        dashes.push(drawn);
+    }
+    dashes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: Frame = Frame { left: 0.0, top: 0.0, width: 10.0, height: 10.0 };
+
+    #[test]
+    fn thinning_keeps_every_extreme_and_both_ends() {
+        let points: Vec<Point> = (0..10_000).map(|i| [f64::from(i) * 1e-3, (f64::from(i) * 0.7).sin()]).collect();
+        let thinned = thin_along_x(&points);
+        assert!(thinned.len() <= 40, "{}", thinned.len());
+        let largest = |points: &[Point]| points.iter().map(|point| point[1]).fold(f64::MIN, f64::max);
+        assert_eq!(largest(&thinned), largest(&points));
+        assert_eq!((thinned.first(), thinned.last()), (points.first(), points.last()));
+        assert!(thinned.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
+    }
+
+    #[test]
+    fn no_more_points_are_left_than_the_budget_has() {
+        let circle: Vec<Point> =
+            (0..100_000).map(|i| [(f64::from(i) * 0.1).cos(), (f64::from(i) * 0.1).sin()]).collect();
+        let thinned = thin_by_distance(vec![circle.clone()], 500);
+        assert!(thinned[0].len() <= 502 && thinned[0].last() == circle.last());
+    }
+
+    #[test]
+    fn a_curve_is_cut_where_it_crosses_the_frame_and_whole_inside() {
+        let run = [[-5.0, 5.0], [5.0, 5.0], [5.0, 8.0], [5.0, 20.0], [8.0, 20.0], [8.0, 5.0]];
+        let parts = clip(&run, &FRAME);
+        assert_eq!(parts, [vec![[0.0, 5.0], [5.0, 5.0], [5.0, 8.0], [5.0, 10.0]], vec![[8.0, 10.0], [8.0, 5.0]]]);
+        assert!(clip(&[[-1.0, -1.0], [-1.0, 20.0]], &FRAME).is_empty());
+    }
+
+    #[test]
+    fn dashes_go_around_corners() {
+        let run = [[0.0, 0.0], [3.0, 0.0], [3.0, 5.0]];
+        let dashes = dash(&run, &[4.0, 2.0]);
+        assert_eq!(dashes, [vec![[0.0, 0.0], [3.0, 0.0], [3.0, 1.0]], vec![[3.0, 3.0], [3.0, 5.0]]]);
+        assert_eq!(dash(&run, &[]), [run.to_vec()]);
+    }
+}
