@@ -51,6 +51,33 @@ pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
     kept
 }
 
+/// A curve may be drawn so far from its points `[px]`: a tenth of a pixel of the PNG.
+const STRAIGHT: f64 = 0.03;
+
+/// A curve without the points that lie on a straight line between others (Douglas and Peucker 1973).
+pub fn straighten(run: &[Point]) -> Vec<Point> {
+    let mut kept = vec![false; run.len()];
+    kept.iter_mut().take(1).for_each(|first| *first = true);
+    let mut parts = vec![(0, run.len().saturating_sub(1))];
+    while let Some((from, to)) = parts.pop() {
+        kept.iter_mut().skip(to).take(1).for_each(|last| *last = true);
+        let off = |place: usize| distance(run[place], run[from], run[to]);
+        let farthest = (from + 1..to).max_by(|a, b| off(*a).total_cmp(&off(*b)));
+        if let Some(place) = farthest.filter(|place| off(*place) > STRAIGHT) {
+            parts.extend([(from, place), (place, to)]);
+        }
+    }
+    run.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
+}
+
+/// From a point to the line between two others.
+fn distance(point: Point, from: Point, to: Point) -> f64 {
+    let (along, out) = ([to[0] - from[0], to[1] - from[1]], [point[0] - from[0], point[1] - from[1]]);
+    let length = along[0] * along[0] + along[1] * along[1];
+    let share = if length > 0.0 { ((out[0] * along[0] + out[1] * along[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (out[0] - share * along[0]).hypot(out[1] - share * along[1])
+}
+
 /// The smallest distance of neighbours on a thinned curve: less is not seen.
 const CLOSE: f64 = 0.4;
 
@@ -169,6 +196,16 @@ mod tests {
         assert_eq!(largest(&thinned), largest(&points));
         assert_eq!((thinned.first(), thinned.last()), (points.first(), points.last()));
         assert!(thinned.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
+    }
+
+    #[test]
+    fn points_on_a_straight_line_are_left_out_and_corners_are_not() {
+        let run: Vec<Point> = (0..=20).map(|i| [f64::from(i), (f64::from(i) - 10.0).abs()]).collect();
+        assert_eq!(straighten(&run), [[0.0, 10.0], [10.0, 0.0], [20.0, 10.0]]);
+        assert_eq!(straighten(&run[..1]), run[..1]);
+        assert!(straighten(&[]).is_empty());
+        let closed = [[0.0, 0.0], [5.0, 0.0], [0.0, 0.0]];
+        assert_eq!(straighten(&closed), closed);
     }
 
     #[test]

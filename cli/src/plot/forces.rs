@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::axis::{Axis, brief, span};
-use super::curve::Point;
+use super::curve::{self, Point};
 use super::motion::Motion;
 use super::sheet::{Anchor, Key, Panel, Sheet};
 use super::style::{self, Stroke};
@@ -59,7 +59,7 @@ pub fn draw(motion: &Motion) -> Figure {
     for (interface, contact) in contacts.iter().enumerate() {
         let runs = contact.demand.iter().map(|run| {
             let placed: Vec<Point> = run.iter().map(|point| friction.place(*point)).collect();
-            super::curve::thin_along_x(&placed)
+            curve::straighten(&curve::thin_along_x(&placed))
         });
         sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
     }

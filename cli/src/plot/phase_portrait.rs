@@ -8,8 +8,8 @@ use super::sheet::{Anchor, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
 use super::style::{self, Stroke};
 
 /// Room around panels `[px]`.
-const TOP: f64 = 10.0;
-const GAP: f64 = 14.0;
+const NAME: f64 = 22.0;
+const GAP: f64 = 32.0;
 /// Panels side by side: with four, numbers would not be read.
 const ACROSS: usize = 3;
 
@@ -26,7 +26,7 @@ pub fn draw(motion: &Motion) -> Figure {
     let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) };
     let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps");
     let entries = [(Key::Line(CURVE), "smooth motion".into()), (Key::Line(JUMP), "jump at an impact".into())];
-    let top = sheet.legend(0.0, &entries) + TOP;
+    let top = sheet.legend(0.0, &entries) + if blocks > 1 { NAME } else { 4.0 };
 
     let slenderness = motion.slenderness();
     let limit = |block: usize| if motion.overturned() { FALL * slenderness[block] } else { f64::INFINITY };
@@ -37,16 +37,19 @@ pub fn draw(motion: &Motion) -> Figure {
         std::iter::once(&knot.before).chain(&knot.after).map(move |(omega, _)| omega[block]).collect::<Vec<_>>()
     });
     let width = (WIDTH - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
-    let height = if blocks == 1 { 0.62 * width } else { 0.9 * width.min(300.0) };
+    let height = if blocks == 1 { 0.62 * width } else { 1.15 * width.min(240.0) };
     let x = Axis::around("Angle θ [rad]", angles, 1e-6, if across == 1 { 8.0 } else { 4.0 });
     let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 1e-6, 6.0);
 
-    let rows = blocks.div_ceil(across);
     let budget = BUDGET / blocks;
     for block in 0..blocks {
         let (row, place) = (block / across, block % across);
-        let frame =
-            Frame { left: LEFT + place as f64 * (width + GAP), top: top + row as f64 * (height + GAP), width, height };
+        let frame = Frame {
+            left: LEFT + place as f64 * (width + GAP),
+            top: top + row as f64 * (height + NAME + 8.0),
+            width,
+            height,
+        };
         let lowest = block + across >= blocks;
         let x = Axis { numbers: lowest, ..x.clone() };
         let panel = Panel { frame, x, y: Some(Axis { numbers: place == 0, ..y.clone() }) };
@@ -54,9 +57,8 @@ pub fn draw(motion: &Motion) -> Figure {
         if place == 0 {
             sheet.label_upwards(&panel);
         }
-        sheet.height = sheet.height.max(if lowest { sheet_end(&mut sheet, &panel) } else { 0.0 });
+        sheet.height = sheet.height.max(if lowest { sheet.label_below(&panel) + 8.0 } else { 0.0 });
     }
-    debug_assert!(rows > 0);
     let whose = if blocks == 1 { "the block" } else { "each block" };
     let mut caption = format!(
         "Rate of {whose} over its angle, at output times and events; dashed, the jumps of the rate at impacts. All \
@@ -66,10 +68,6 @@ pub fn draw(motion: &Motion) -> Figure {
         caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α."));
     }
     Figure::new("phase-portrait", caption, sheet)
-}
-
-fn sheet_end(sheet: &mut Sheet, panel: &Panel) -> f64 {
-    sheet.label_below(panel) + 8.0
 }
 
 fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize, budget: usize) {
@@ -94,11 +92,12 @@ fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize, bud
             }
         }
     }
-    sheet.lines(panel, &curve::thin_by_distance(jumps, budget / 4), &JUMP);
+    let runs = runs.iter().map(|run| curve::straighten(run)).collect();
     sheet.lines(panel, &curve::thin_by_distance(runs, budget), &CURVE);
+    sheet.lines(panel, &curve::thin_by_distance(jumps, budget / 4), &JUMP);
     if motion.results.column.len() > 1 {
-        let at = [panel.frame.left + 9.0, panel.frame.top + 19.0];
+        let at = [panel.frame.left, panel.frame.top - 7.0];
         let name = format!("block {}, θ{}", block + 1, subscript(block + 1));
-        sheet.words_on_paper(at, &name, style::NOTE, Anchor::Start);
+        sheet.words(at, &name, style::NOTE, Anchor::Start);
     }
 }

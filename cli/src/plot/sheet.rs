@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Width of all sheets `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
 pub const WIDTH: f64 = 720.0;
 /// Room for numbers and labels left of panels `[px]`.
-pub const LEFT: f64 = 72.0;
+pub const LEFT: f64 = 78.0;
 /// Room right of panels `[px]`.
 pub const RIGHT: f64 = 18.0;
 /// Pixels of a PNG per pixel of the sheet: 300 dots per inch where it is printed 18 cm wide.
@@ -141,7 +141,7 @@ impl Sheet {
     /// The label of the upward axis, left of the numbers of the leftmost panel.
     pub fn label_upwards(&mut self, panel: &Panel) {
         let Some(axis) = &panel.y else { return };
-        let at = [panel.frame.left - LEFT + 18.0, panel.frame.top + 0.5 * panel.frame.height];
+        let at = [panel.frame.left - LEFT + 16.0, panel.frame.top + 0.5 * panel.frame.height];
         self.marks.push(Mark::Words {
             at,
             text: axis.label.clone(),
@@ -168,7 +168,7 @@ impl Sheet {
     /// A history in a panel: values over time, thinned to what the width can show.
     pub fn history(&mut self, panel: &Panel, points: &[Point], stroke: &Stroke) {
         let placed: Vec<Point> = points.iter().map(|point| panel.place(*point)).collect();
-        self.lines(panel, &[curve::thin_along_x(&placed)], stroke);
+        self.lines(panel, &[curve::straighten(&curve::thin_along_x(&placed))], stroke);
     }
 
     /// A line across a panel at a height, if the panel has it.

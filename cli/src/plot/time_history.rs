@@ -9,7 +9,7 @@ use super::style::{self, Stroke};
 use rocking::Sample;
 
 /// Heights `[px]`.
-const GROUND: f64 = 96.0;
+const GROUND: f64 = 110.0;
 const ANGLES: f64 = 220.0;
 const TICKS: f64 = 16.0;
 const BAND: f64 = 28.0;
@@ -45,9 +45,11 @@ fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     let directions: Vec<Vec<Point>> =
         [0, 1].map(|direction| over_time(motion.samples, |sample: &Sample| sample.ground[direction] / gravity)).into();
     let vertical = directions[1].iter().any(|point| point[1] != 0.0);
-    let label = if vertical { "Ground [g]" } else { "Ground ẍ [g]" };
     let values = directions.iter().flatten().map(|point| point[1]);
-    let axis = Axis::around(label, values, 0.01, 4.0);
+    // Where the ground is still, the axis says so at one glance.
+    let still = directions.iter().flatten().all(|point| point[1] == 0.0);
+    let values = values.chain(if still { [-0.1, 0.1] } else { [0.0; 2] });
+    let axis = Axis::around("Ground acc. [g]", values, 1e-6, 4.0);
     let mut top = top;
     let strokes = [Stroke::solid(style::GROUND, 1.5), Stroke::dashed("#e69f00", 1.5, &[6.0, 3.0])];
     if vertical {
@@ -153,8 +155,11 @@ fn draw_band(sheet: &mut Sheet, motion: &Motion, panel: &Panel, band: &Frame) {
     let modes = modes(motion);
     let drawn = on_columns(&motion.stretches(), panel);
     for (rank, mode) in modes.iter().enumerate() {
-        let of_mode = drawn.iter().filter(|stretch| stretch.mode == *mode);
-        let areas: Vec<_> = of_mode.map(|stretch| corners(&part(band, stretch))).collect();
+        // A pattern and its mirror image as one: between two areas a seam would show.
+        let together = drawn.chunk_by(|a, b| a.mode == b.mode && a.to == b.from);
+        let of_mode = together.filter(|stretches| stretches[0].mode == *mode);
+        let whole = |stretches: &[Stretch]| Stretch { to: stretches[stretches.len() - 1].to, ..stretches[0].clone() };
+        let areas: Vec<_> = of_mode.map(|stretches| corners(&part(band, &whole(stretches)))).collect();
         if !areas.is_empty() {
             sheet.areas(areas, mode_fill(mode, rank));
         }
@@ -168,7 +173,7 @@ fn draw_band(sheet: &mut Sheet, motion: &Motion, panel: &Panel, band: &Frame) {
     for same in drawn.chunk_by(|a, b| a.mode == b.mode) {
         let (from, to) = (same[0].from, same[same.len() - 1].to);
         let label = &same[0].mode;
-        if to - from > super::sheet::text_width(label, style::NOTE) + 8.0 {
+        if to - from > super::sheet::text_width(label, style::NOTE) + 2.0 {
             let at = [0.5 * (from + to), band.top + 0.5 * BAND + 4.5];
             sheet.words(at, label, style::NOTE, Anchor::Middle);
         }
@@ -231,10 +236,10 @@ fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     let (resting, moving): (Vec<&String>, Vec<&String>) = modes.iter().partition(|mode| *mode == "rest");
     let mut entries = vec![(Key::None, "Time in mode:".to_string())];
     for (rank, mode) in moving.iter().enumerate().take(style::NAMED_MODES) {
-        entries.push((Key::Fill(style::fill(rank)), format!("{mode} {}", share(times[*mode]))));
+        entries.push((Key::Fill(style::fill(rank)), format!("{mode}: {}", share(times[*mode]))));
     }
     if let Some(mode) = resting.first() {
-        entries.push((Key::Fill(style::REST_FILL), format!("rest {}", share(times[*mode]))));
+        entries.push((Key::Fill(style::REST_FILL), format!("rest: {}", share(times[*mode]))));
     }
     let others = &moving[moving.len().min(style::NAMED_MODES)..];
     for (place, names) in others[..others.len().min(LISTED)].chunks(8).enumerate() {
@@ -248,7 +253,10 @@ fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     if moving.is_empty() {
         return end;
     }
-    let explained = [(Key::None, "Dark edge of the band above: pattern as labelled; below: its mirror image.".into())];
+    let explained = [(
+        Key::None,
+        "Dark along the upper edge of the band: pattern as labelled; lower edge: its mirror image.".into(),
+    )];
     sheet.legend(end, &explained)
 }
 
