@@ -17,16 +17,17 @@ pub struct Axis {
 const ROOM: f64 = 0.06;
 
 impl Axis {
-    /// From `range[0]` to `range[1]`, with about so many ticks.
-    pub fn over(label: &str, range: [f64; 2], ticks: f64) -> Axis {
-        Axis { label: label.into(), range, step: step((range[1] - range[0]) / ticks), numbers: true }
+    /// From `range[0]` to `range[1]`, with at least so many ticks.
+    pub fn over(label: &str, range: [f64; 2], ticks: usize) -> Axis {
+        Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
     }
 
     /// Around all `values` with some room; at least `least` to both sides of their middle, for where nothing happens.
-    pub fn around(label: &str, values: impl IntoIterator<Item = f64>, least: f64, ticks: f64) -> Axis {
+    pub fn around(label: &str, values: impl IntoIterator<Item = f64>, least: f64, ticks: usize) -> Axis {
         let [low, high] = span(values);
         let middle = 0.5 * (low + high);
-        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(least);
+        // A constant far from zero still has two ends.
+        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(least).max(1e-6 * middle.abs());
         Axis::over(label, [middle - reach, middle + reach], ticks)
     }
 
@@ -47,12 +48,13 @@ pub fn span(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.map(|value| [value, value]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is no less than `least`, rounding aside.
-fn step(least: f64) -> f64 {
-    let power = least.log10().floor();
-    let digits = least / 10f64.powf(power);
-    let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digits <= digit * 1.000_001);
-    digit.unwrap_or(10.0) * 10f64.powf(power)
+/// The largest of 1, 2, 5 times a power of ten of which so many multiples lie in a range.
+fn step(range: [f64; 2], ticks: usize) -> f64 {
+    let power = (range[1] - range[0]).log10().ceil() as i32;
+    // Rounding must not lose the tick at an end.
+    let inside = |step: f64| (range[1] / step + 1e-9).floor() - (range[0] / step - 1e-9).ceil() + 1.0;
+    let steps = (0..).flat_map(|lower| [5.0, 2.0, 1.0].map(|digit| digit * 10f64.powi(power - lower)));
+    steps.into_iter().find(|step| inside(*step) >= ticks as f64).expect("steps grow smaller")
 }
 
 /// Below this step numbers are written with a power of ten, and from its inverse times a hundred on.
@@ -106,9 +108,9 @@ mod tests {
 
     #[test]
     fn ticks_are_at_round_numbers() {
-        let steps = [0.7, 1.0, 1.2, 2.0, 3.3, 0.03, 140.0].map(step);
-        for (step, expected) in steps.into_iter().zip([1.0, 1.0, 2.0, 2.0, 5.0, 0.05, 200.0]) {
-            assert!((step / expected - 1.0).abs() < 1e-12, "{step} {expected}");
+        let cases = [([0.0, 10.0], 6, 2.0), ([0.0, 25.0], 6, 5.0), ([-0.19, 0.19], 3, 0.1), ([0.0, 0.3], 4, 0.1)];
+        for (range, ticks, expected) in cases {
+            assert!((step(range, ticks) / expected - 1.0).abs() < 1e-12, "{range:?} {}", step(range, ticks));
         }
     }
 
@@ -125,7 +127,7 @@ mod tests {
 
     #[test]
     fn an_axis_without_values_has_a_range() {
-        let axis = Axis::around("", [0.0, 0.0], 0.1, 4.0);
+        let axis = Axis::around("", [0.0, 0.0], 0.1, 3);
         assert_eq!((axis.range, axis.share(0.0)), ([-0.1, 0.1], 0.5));
     }
 }

@@ -4,7 +4,7 @@ use super::Figure;
 use super::axis::{Axis, brief};
 use super::curve::Point;
 use super::motion::Motion;
-use super::sheet::{Key, Sheet};
+use super::sheet::{Anchor, Key, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis, wide};
 use rocking::Sample;
@@ -27,6 +27,8 @@ pub fn draw(motion: &Motion) -> Figure {
     let still = vec![0.0; column.len()];
     let rest = Sample { t: 0.0, theta: still.clone(), omega: still, ground: [0.0; 2], pattern };
     let level = rest.energy(column).potential;
+    // Beyond, energies only tell how far it has fallen.
+    let fall = motion.falls_at().unwrap_or(f64::INFINITY);
     let mut curves: [Vec<Point>; 3] = [const { Vec::new() }; 3];
     for row in motion.knots.iter().flat_map(|knot| knot.rows()) {
         let energy = row.energy(column);
@@ -35,20 +37,14 @@ pub fn draw(motion: &Motion) -> Figure {
             curve.push([row.t, value]);
         }
     }
-    // A fall ends far below: what matters is above.
-    let all = || curves.iter().flatten().map(|point| point[1]);
-    let before_falling = || {
-        let summit = curves[1].iter().map(|point| point[1]).fold(0.0, f64::max);
-        all().map(move |value| value.clamp(-2.0 * summit, 4.0 * summit))
-    };
-    let values: Vec<f64> = if motion.overturned() { before_falling().collect() } else { all().collect() };
-    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    let (factor, unit) = match largest {
+    let largest = curves.iter().flatten().map(|point| point[1]).fold(0.0, f64::max);
+    let values: Vec<f64> = curves.iter().flatten().filter(|point| point[0] <= fall).map(|point| point[1]).collect();
+    let (factor, unit) = match values.iter().fold(0.0, |most: f64, value| most.max(value.abs())) {
         value if value >= 2e6 => (1e-6, "MJ"),
         value if value >= 2e3 => (1e-3, "kJ"),
         _ => (1.0, "J"),
     };
-    let axis = Axis::around(&format!("Energy [{unit}]"), values.iter().map(|value| value * factor), 1e-9, 7.0);
+    let axis = Axis::around(&format!("Energy [{unit}]"), values.iter().map(|value| value * factor), 1e-9, 5);
 
     let mut sheet = Sheet::new("Kinetic, potential and total energy over time");
     let entries: Vec<_> = KINDS.map(|(name, stroke)| (Key::Line(stroke), name.to_string())).into();
@@ -61,9 +57,9 @@ pub fn draw(motion: &Motion) -> Figure {
         let scaled: Vec<Point> = curve.iter().map(|[t, value]| [*t, value * factor]).collect();
         sheet.history(&panel, &scaled, stroke);
     }
-    mark_ending(&mut sheet, motion, &panel, true);
+    mark_ending(&mut sheet, motion, &panel, Anchor::End);
     sheet.height = sheet.label_below(&panel) + 8.0;
-    Figure::new("energy", caption(motion, all().fold(0.0, f64::max)), sheet)
+    Figure::new("energy", caption(motion, largest), sheet)
 }
 
 fn caption(motion: &Motion, largest: f64) -> String {

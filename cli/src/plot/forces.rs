@@ -38,7 +38,7 @@ pub fn draw(motion: &Motion) -> Figure {
     let normals = contacts.iter().flat_map(|contact| &contact.normal).map(|point| point[1]);
     let normals = normals.map(|normal| normal.clamp(-1.0, LARGEST_NORMAL)).chain([0.0, 1.0]);
     let label = "Normal force N/W";
-    let normal = wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 0.1, 5.0)));
+    let normal = wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 0.1, 3)));
     sheet.axes(&normal);
     sheet.label_upwards(&normal);
     sheet.level(&normal, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -46,13 +46,13 @@ pub fn draw(motion: &Motion) -> Figure {
     for (interface, contact) in contacts.iter().enumerate() {
         sheet.history(&normal, &contact.normal, &style::line(interface));
     }
-    mark_ending(&mut sheet, motion, &normal, true);
+    mark_ending(&mut sheet, motion, &normal, Anchor::Start);
 
     let recorded = summary.friction_demand.iter().flatten();
     let [_, needed] = span(recorded.copied().chain(demands(&contacts)));
     let most = LARGEST_DEMAND.max(summary.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
     let least = summary.friction.unwrap_or(0.05) * 1.15;
-    let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 5.0);
+    let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
     let friction = wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
     sheet.label_upwards(&friction);

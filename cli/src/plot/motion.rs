@@ -65,7 +65,7 @@ impl Motion<'_> {
             end = end.min(summary.t_final * (1.0 + AFTERMATH));
         }
         let samples = &results.samples[..count];
-        Motion { results, samples, knots: knots(samples, &results.events), end: end.max(f64::MIN_POSITIVE) }
+        Motion { results, samples, knots: knots(samples, &results.events), end: end.max(1e-9) }
     }
 
     /// Times of the impacts `[s]`.
@@ -84,6 +84,14 @@ impl Motion<'_> {
     /// Whether the column overturned.
     pub fn overturned(&self) -> bool {
         self.results.summary.status == StopReason::Overturned
+    }
+
+    /// When the first angle passed [`FALL`] times its slenderness on the way to overturning `[s]`; none where the column stands.
+    pub fn falls_at(&self) -> Option<f64> {
+        let slenderness = self.slenderness();
+        let fallen = |knot: &Knot| knot.theta.iter().zip(&slenderness).any(|(theta, alpha)| theta.abs() > FALL * alpha);
+        let falling = self.knots.iter().rev().take_while(|knot| fallen(knot)).last();
+        falling.filter(|_| self.overturned()).map(|knot| knot.t)
     }
 
     /// What the run ended with, to be written at its time; none where time was over first.

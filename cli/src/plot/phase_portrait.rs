@@ -38,8 +38,8 @@ pub fn draw(motion: &Motion) -> Figure {
     });
     let width = (WIDTH - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
     let height = if blocks == 1 { 0.62 * width } else { 1.15 * width.min(240.0) };
-    let x = Axis::around("Angle θ [rad]", angles, 1e-6, if across == 1 { 8.0 } else { 4.0 });
-    let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 1e-6, 6.0);
+    let x = Axis::around("Angle θ [rad]", angles, 1e-6, if across == 1 { 5 } else { 2 });
+    let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 1e-6, 4);
 
     let budget = BUDGET / blocks;
     for block in 0..blocks {

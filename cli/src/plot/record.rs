@@ -19,7 +19,7 @@ const MARK: Stroke = Stroke::dashed("#d55e00", 1.5, &[6.0, 4.0]);
 /// The build-up of the Arias intensity is the trapezoidal sum of the squares of `accel`, with 5 % and 95 % marked.
 pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64], displacement: &[f64]) -> Figure {
     let count = accel.len().max(velocity.len()).max(displacement.len()).max(2);
-    let time = Axis::over("Time [s]", [0.0, (count - 1) as f64 * dt], 10.0);
+    let time = Axis::over("Time [s]", [0.0, (count - 1) as f64 * dt], 6);
     let build_up = husid(accel);
     let accelerations: Vec<f64> = accel.iter().map(|value| value / gravity).collect();
     let quantities: [(&str, &[f64]); 3] =
@@ -30,7 +30,7 @@ pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64
     let mut top = GAP;
     let mut peaks = Vec::new();
     for (label, values) in quantities {
-        let axis = Axis::around(label, values.iter().copied(), 1e-9, 4.0);
+        let axis = Axis::around(label, values.iter().copied(), 1e-9, 3);
         let panel = wide(top, HEIGHT, time.unnumbered(), Some(axis));
         sheet.axes(&panel);
         sheet.label_upwards(&panel);
@@ -39,7 +39,7 @@ pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64
         peaks.push(values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs())));
         top = panel.frame.bottom() + GAP;
     }
-    let panel = wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5.0)));
+    let panel = wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     let percent: Vec<f64> = build_up.iter().map(|share| 100.0 * share).collect();

@@ -198,15 +198,23 @@ impl Sheet {
     /// Text on a patch of paper, to be read where lines run.
     pub fn words_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         let width = text_width(text, size) + 6.0;
-        let left = match anchor {
-            Anchor::Start => at[0] - 3.0,
-            Anchor::Middle => at[0] - 0.5 * width,
-            Anchor::End => at[0] - width + 3.0,
+        let frame = Frame {
+            left: at[0] - 3.0 - behind(anchor, width - 6.0),
+            top: at[1] - f64::from(size),
+            width,
+            height: f64::from(size) + 4.0,
         };
-        let height = f64::from(size) + 4.0;
-        let frame = Frame { left, top: at[1] - f64::from(size), width, height };
         self.areas(vec![corners(&frame)], style::REST_FILL);
         self.words(at, text, size, anchor);
+    }
+
+    /// The same, upwards.
+    pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        let height = text_width(text, size) + 6.0;
+        let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
+        let frame = Frame { left: at[0] - f64::from(size), top, width: f64::from(size) + 4.0, height };
+        self.areas(vec![corners(&frame)], style::REST_FILL);
+        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: true });
     }
 
     /// A legend from `top` down, over the width of the panels. Returns where it ends `[px]`.
@@ -365,6 +373,15 @@ fn path(runs: &[Vec<Point>], fill: Option<&str>, stroke: Option<&Stroke>) -> Pri
 /// A coordinate to a hundredth, no `-0`.
 fn tidy(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
+}
+
+/// How much of a text of this width lies before the point where it was put.
+fn behind(anchor: Anchor, width: f64) -> f64 {
+    match anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5 * width,
+        Anchor::End => width,
+    }
 }
 
 /// About how wide a text is `[px]`; the font of the PNGs is wider than most.

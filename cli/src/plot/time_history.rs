@@ -31,7 +31,7 @@ pub fn draw(motion: &Motion) -> Figure {
 
 /// The axis of time.
 pub fn time_axis(motion: &Motion) -> Axis {
-    Axis::over("Time [s]", [0.0, motion.end], 10.0)
+    Axis::over("Time [s]", [0.0, motion.end], 6)
 }
 
 /// A panel over the width of the sheet.
@@ -49,7 +49,7 @@ fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     // Where the ground is still, the axis says so at one glance.
     let still = directions.iter().flatten().all(|point| point[1] == 0.0);
     let values = values.chain(if still { [-0.1, 0.1] } else { [0.0; 2] });
-    let axis = Axis::around("Ground acc. [g]", values, 1e-6, 4.0);
+    let axis = Axis::around("Ground acc. [g]", values, 1e-6, 3);
     let mut top = top;
     let strokes = [Stroke::solid(style::GROUND, 1.5), Stroke::dashed("#e69f00", 1.5, &[6.0, 3.0])];
     if vertical {
@@ -96,7 +96,7 @@ fn angles_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
     let limit = if motion.overturned() { FALL } else { f64::INFINITY };
     let values = curves.iter().flatten().map(|point| point[1].clamp(-limit, limit));
     let label = if curves.len() == 1 { "Angle θ/α" } else { "Angles θᵢ/αᵢ" };
-    let panel = wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 1e-6, 6.0)));
+    let panel = wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 1e-6, 4)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -104,20 +104,18 @@ fn angles_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
     for (block, points) in curves.iter().enumerate() {
         sheet.history(&panel, points, &style::line(block));
     }
-    let sinks = curves.iter().filter_map(|points| points.last()).any(|point| point[1] < 0.0);
-    mark_ending(sheet, motion, &panel, sinks);
+    mark_ending(sheet, motion, &panel, Anchor::End);
     panel
 }
 
-/// A line where the run was over before its time, with what happened; above if the curves leave `below`.
-pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, below: bool) {
+/// A line where the run was over before its time, and what happened along it: to its upper `End`, or from its lower `Start`.
+pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, anchor: Anchor) {
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
-    let y = if below || !motion.overturned() { frame.top + 19.0 } else { frame.bottom() - 9.0 };
-    let after = frame.right() - x > 90.0;
-    let (x, anchor) = if after { (x + 7.0, Anchor::Start) } else { (x - 7.0, Anchor::End) };
-    sheet.words_on_paper([x, y], &words, style::NOTE, anchor);
+    let y = if anchor == Anchor::End { frame.top + 8.0 } else { frame.bottom() - 8.0 };
+    let beside = if frame.right() - x > 20.0 { x + 15.0 } else { x - 6.0 };
+    sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);
 }
 
 /// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
