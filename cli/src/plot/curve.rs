@@ -3,6 +3,8 @@
 //! Dashes are cut here rather than by whoever draws: all outputs then show the same, and a raster that starts its dashes anew at
 //! every point would show none.
 
+use std::collections::HashSet;
+
 /// `[x, y]`, y downwards on paper.
 pub type Point = [f64; 2];
 
@@ -31,8 +33,8 @@ impl Frame {
     }
 }
 
-/// How wide the columns are in which [`thin_along_x`] keeps extremes: a pixel of the sheet, three of the PNG.
-const COLUMN: f64 = 1.0;
+/// How wide the columns are in which [`thin_along_x`] keeps extremes `[px]`: wider ones let the drops of an energy lean.
+const COLUMN: f64 = 0.5;
 
 /// A curve that runs to the right: first, smallest, largest and last point of every pixel column, in their order.
 pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
@@ -78,31 +80,37 @@ fn distance(point: Point, from: Point, to: Point) -> f64 {
     (out[0] - share * along[0]).hypot(out[1] - share * along[1])
 }
 
-/// The smallest distance of neighbours on a thinned curve: less is not seen.
-const CLOSE: f64 = 0.4;
+/// Side of the squares of ink `[px]`, half of a line's width: what lies in one that has been drawn in cannot be told from it.
+const INK_SQUARE: f64 = 0.7;
 
-/// Curves of any shape, with at most `budget` points together but for their ends: points closer than some distance to the last
-/// one kept are left out, the distance as small as will do.
-pub fn thin_by_distance(runs: Vec<Vec<Point>>, budget: usize) -> Vec<Vec<Point>> {
-    let mut distance = CLOSE;
-    let mut thinned: Vec<Vec<Point>> = runs.iter().map(|run| spaced(run, distance)).collect();
-    let count = |runs: &[Vec<Point>]| runs.iter().map(|run| run.len().saturating_sub(2)).sum::<usize>();
-    while count(&thinned) > budget {
-        distance *= 1.5;
-        thinned = runs.iter().map(|run| spaced(run, distance)).collect();
-    }
-    thinned
-}
+/// Squares that have been drawn in.
+#[derive(Debug, Default)]
+pub struct Ink(HashSet<[i32; 2]>);
 
-fn spaced(run: &[Point], distance: f64) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::new();
-    for (place, point) in run.iter().enumerate() {
-        let far = kept.last().is_none_or(|last| (point[0] - last[0]).hypot(point[1] - last[1]) >= distance);
-        if far || place + 1 == run.len() {
-            kept.push(*point);
+impl Ink {
+    /// The parts of a curve of any shape that reach squares without ink, which then have some: a motion that repeats itself a
+    /// thousand times is drawn once.
+    pub fn new_parts(&mut self, run: &[Point]) -> Vec<Vec<Point>> {
+        let mut parts: Vec<Vec<Point>> = Vec::new();
+        let mut joined = false;
+        for ends in run.windows(2) {
+            let [from, to] = [ends[0], ends[1]];
+            let squares = ((to[0] - from[0]).hypot(to[1] - from[1]) / INK_SQUARE).ceil();
+            let mut new = false;
+            for square in 0..=squares as i32 {
+                let share = f64::from(square) / squares.max(1.0);
+                let along = |axis: usize| ((from[axis] + share * (to[axis] - from[axis])) / INK_SQUARE).floor() as i32;
+                new |= self.0.insert([along(0), along(1)]);
+            }
+            match parts.last_mut().filter(|_| joined && new) {
+                Some(part) => part.push(to),
+                None if new => parts.push(vec![from, to]),
+                None => {}
+            }
+            joined = new;
         }
+        parts
     }
-    kept
 }
 
 /// The parts of a curve inside a frame.
@@ -144,9 +152,14 @@ fn clip_segment(from: Point, to: Point, frame: &Frame) -> Option<[Point; 2]> {
     (enters <= leaves).then_some([first, last])
 }
 
+/// A curve longer than this `[px]`, forty times the width of a panel, runs to and fro so densely that its dashes make no line: it
+/// is drawn solid.
+const TOO_LONG_FOR_DASHES: f64 = 25_000.0;
+
 /// Cuts a curve into dashes; `lengths` are of dashes and gaps in turn. A solid line stays as it is.
 pub fn dash(run: &[Point], lengths: &[f64]) -> Vec<Vec<Point>> {
-    if lengths.is_empty() || run.is_empty() {
+    let length: f64 = run.windows(2).map(|ends| (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])).sum();
+    if lengths.is_empty() || run.is_empty() || length > TOO_LONG_FOR_DASHES {
         return vec![run.to_vec()];
     }
     let mut dashes = Vec::new();
@@ -191,7 +204,7 @@ mod tests {
     fn thinning_keeps_every_extreme_and_both_ends() {
         let points: Vec<Point> = (0..10_000).map(|i| [f64::from(i) * 1e-3, (f64::from(i) * 0.7).sin()]).collect();
         let thinned = thin_along_x(&points);
-        assert!(thinned.len() <= 40, "{}", thinned.len());
+        assert!(thinned.len() <= 4 * 20, "{}", thinned.len());
         let largest = |points: &[Point]| points.iter().map(|point| point[1]).fold(f64::MIN, f64::max);
         assert_eq!(largest(&thinned), largest(&points));
         assert_eq!((thinned.first(), thinned.last()), (points.first(), points.last()));
@@ -209,11 +222,16 @@ mod tests {
     }
 
     #[test]
-    fn no_more_points_are_left_than_the_budget_has() {
-        let circle: Vec<Point> =
-            (0..100_000).map(|i| [(f64::from(i) * 0.1).cos(), (f64::from(i) * 0.1).sin()]).collect();
-        let thinned = thin_by_distance(vec![circle.clone()], 500);
-        assert!(thinned[0].len() <= 502 && thinned[0].last() == circle.last());
+    fn what_repeats_itself_is_drawn_once() {
+        let circle = |turns: i32| -> Vec<Point> {
+            let angles = (0..=100 * turns).map(|i| f64::from(i) * std::f64::consts::TAU / 100.0);
+            angles.map(|angle| [50.0 + 20.0 * angle.cos(), 50.0 + 20.0 * angle.sin()]).collect()
+        };
+        let count = |turns: i32| Ink::default().new_parts(&circle(turns)).iter().map(Vec::len).sum::<usize>();
+        assert!(count(1) > 90 && count(100) < count(1) + 10, "{} {}", count(1), count(100));
+        let mut ink = Ink::default();
+        assert_eq!(ink.new_parts(&[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0]]), [[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0]]]);
+        assert_eq!(ink.new_parts(&[[0.0, 0.0], [9.0, 0.0], [15.0, 0.0]]), [[[9.0, 0.0], [15.0, 0.0]]]);
     }
 
     #[test]

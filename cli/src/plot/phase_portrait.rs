@@ -2,7 +2,7 @@
 
 use super::Figure;
 use super::axis::{Axis, subscript};
-use super::curve::{self, Frame, Point};
+use super::curve::{self, Frame, Ink, Point};
 use super::motion::{FALL, Motion};
 use super::sheet::{Anchor, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
 use super::style::{self, Stroke};
@@ -13,11 +13,8 @@ const GAP: f64 = 32.0;
 /// Panels side by side: with four, numbers would not be read.
 const ACROSS: usize = 3;
 
-/// Points of the curves of one figure: half a megabyte of coordinates.
-const BUDGET: usize = 30_000;
-
 /// Jumps: dashes so short that a small impact still shows one.
-const JUMP: Stroke = Stroke::dashed(style::IMPACT, 1.3, &[2.5, 3.5]);
+const JUMP: Stroke = Stroke::dashed(style::IMPACT, 1.8, &[2.5, 3.5]);
 const CURVE: Stroke = Stroke::solid("#0072b2", 1.3);
 
 /// The figure.
@@ -41,7 +38,6 @@ pub fn draw(motion: &Motion) -> Figure {
     let x = Axis::around("Angle θ [rad]", angles, 1e-6, if across == 1 { 5 } else { 2 });
     let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 1e-6, 4);
 
-    let budget = BUDGET / blocks;
     for block in 0..blocks {
         let (row, place) = (block / across, block % across);
         let frame = Frame {
@@ -53,7 +49,7 @@ pub fn draw(motion: &Motion) -> Figure {
         let lowest = block + across >= blocks;
         let x = Axis { numbers: lowest, ..x.clone() };
         let panel = Panel { frame, x, y: Some(Axis { numbers: place == 0, ..y.clone() }) };
-        portrait(&mut sheet, motion, &panel, block, budget);
+        portrait(&mut sheet, motion, &panel, block);
         if place == 0 {
             sheet.label_upwards(&panel);
         }
@@ -70,7 +66,7 @@ pub fn draw(motion: &Motion) -> Figure {
     Figure::new("phase-portrait", caption, sheet)
 }
 
-fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize, budget: usize) {
+fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize) {
     sheet.axes(panel);
     sheet.level(panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     let upright = panel.place_x(0.0);
@@ -92,9 +88,11 @@ fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize, bud
             }
         }
     }
-    let runs = runs.iter().map(|run| curve::straighten(run)).collect();
-    sheet.lines(panel, &curve::thin_by_distance(runs, budget), &CURVE);
-    sheet.lines(panel, &curve::thin_by_distance(jumps, budget / 4), &JUMP);
+    for (runs, stroke) in [(runs, CURVE), (jumps, JUMP)] {
+        let mut ink = Ink::default();
+        let parts = runs.iter().flat_map(|run| ink.new_parts(run)).map(|part| curve::straighten(&part));
+        sheet.lines(panel, &parts.collect::<Vec<_>>(), &stroke);
+    }
     if motion.results.column.len() > 1 {
         let at = [panel.frame.left, panel.frame.top - 7.0];
         let name = format!("block {}, θ{}", block + 1, subscript(block + 1));

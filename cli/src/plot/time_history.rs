@@ -137,7 +137,7 @@ fn strip(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
 }
 
 /// From so many ticks on those that fall on one another are drawn once.
-const MANY_TICKS: usize = 20_000;
+const MANY_TICKS: usize = 10_000;
 
 fn seen(mut ticks: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     if ticks.len() > MANY_TICKS {
