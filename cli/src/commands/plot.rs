@@ -5,6 +5,7 @@ use crate::commands::print;
 use crate::error::Failure;
 use crate::results::Results;
 use crate::{output, plot};
+use std::fmt::Write as _;
 use std::path::Path;
 
 /// Draws the figures of the run in `folder` into `out` and says what it wrote.
@@ -12,25 +13,38 @@ use std::path::Path;
 /// # Errors
 /// [`Failure::Results`] for a folder that is not of a run, [`Failure::Output`] for one that cannot be written.
 pub fn plot(folder: &Path, format: Picture, out: &Path) -> Result<(), Failure> {
-    let names = draw(folder, format, out)?;
-    print(&format!("wrote {} to {}\n", names.join(", "), out.display()))
+    let figures = draw(folder, format, out)?;
+    let mut text = format!("wrote {} figures to {}\n", figures.len(), out.display());
+    for drawn in &figures {
+        let _ = writeln!(text, "{}: {}", drawn.file, drawn.caption);
+    }
+    print(&text)
 }
 
-/// Draws the figures. Returns the names of the files.
+/// A figure that was written.
+#[derive(Debug)]
+pub struct Drawn {
+    /// The name of its file.
+    pub file: String,
+    /// What it shows.
+    pub caption: String,
+}
+
+/// Draws the figures.
 ///
 /// # Errors
 /// As [`plot`].
-pub fn draw(folder: &Path, format: Picture, out: &Path) -> Result<Vec<String>, Failure> {
+pub fn draw(folder: &Path, format: Picture, out: &Path) -> Result<Vec<Drawn>, Failure> {
     let results = Results::read(folder)?;
     std::fs::create_dir_all(out).map_err(|error| Failure::output(out, error))?;
-    let mut names = Vec::new();
+    let mut drawn = Vec::new();
     for figure in plot::figures(&results) {
-        let (name, bytes) = match format {
+        let (file, bytes) = match format {
             Picture::Svg => (format!("{}.svg", figure.name), figure.svg.into_bytes()),
             Picture::Png => (format!("{}.png", figure.name), plot::png(&figure)),
         };
-        output::picture(out, &name, &bytes)?;
-        names.push(name);
+        output::picture(out, &file, &bytes)?;
+        drawn.push(Drawn { file, caption: figure.caption });
     }
-    Ok(names)
+    Ok(drawn)
 }

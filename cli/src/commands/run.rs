@@ -49,7 +49,9 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, told: Told) -> Result<()
         eprintln!("warning: {warning}");
     }
     print(&account(&scene, &response))?;
-    let files = ["summary.json", "response.csv", "events.json"].into_iter().chain(figures.iter().map(String::as_str));
+    let files = ["summary.json", "response.csv", "events.json"]
+        .into_iter()
+        .chain(figures.iter().map(|drawn| drawn.file.as_str()));
     print(&format!("wrote {} to {}\n", files.collect::<Vec<_>>().join(", "), out.display()))
 }
 

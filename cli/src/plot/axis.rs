@@ -92,7 +92,7 @@ pub fn brief(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         "0".into()
-    } else if size < 1e5 && size >= 1e-3 {
+    } else if (1e-3..1e5).contains(&size) {
         let decimals = (2 - size.log10().floor() as i32).clamp(0, 5) as usize;
         let text = format!("{size:.decimals$}");
         let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

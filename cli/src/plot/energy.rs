@@ -63,13 +63,14 @@ pub fn draw(motion: &Motion) -> Figure {
 }
 
 fn caption(motion: &Motion, largest: f64) -> String {
-    let mut caption = format!(
+    let mut caption = String::from(
         "Energy relative to the moving ground, potential above that of the column at rest; impacts are the drops of the \
-         total. Masses of blocks given by density are per metre of thickness, and so is their energy. Largest: {} J.",
-        brief(largest)
+         total. Masses of blocks given by density are per metre of thickness, and so is their energy.",
     );
     if motion.overturned() {
         caption.push_str(" Curves leave the panel where the column falls.");
+    } else {
+        caption.push_str(&format!(" Largest: {} J.", brief(largest)));
     }
     caption
 }

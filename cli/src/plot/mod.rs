@@ -42,7 +42,7 @@ pub struct Figure {
 
 impl Figure {
     fn new(name: &'static str, caption: String, sheet: Sheet) -> Figure {
-        Figure { name, caption, svg: sheet.svg(), sheet }
+        Figure { name, svg: sheet.svg(&caption), caption, sheet }
     }
 }
 

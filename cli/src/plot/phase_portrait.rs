@@ -57,11 +57,11 @@ pub fn draw(motion: &Motion) -> Figure {
     }
     let whose = if blocks == 1 { "the block" } else { "each block" };
     let mut caption = format!(
-        "Rate of {whose} over its angle, at output times and events; dashed, the jumps of the rate at impacts. All \
-         panels have the same axes."
+        "Rate of {whose} over its angle, at output times and events; dashed, the jumps of the rate at impacts.{}",
+        if blocks > 1 { " All panels have the same axes." } else { "" }
     );
     if motion.overturned() {
-        caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α."));
+        caption.push_str(" Curves leave the panel where the column falls.");
     }
     Figure::new("phase-portrait", caption, sheet)
 }

@@ -252,16 +252,16 @@ impl Sheet {
         self.marks.push(Mark::Lines { runs: vec![run], stroke: style::THIN });
     }
 
-    /// The document.
-    pub fn svg(&self) -> String {
+    /// The document, with a caption for those who cannot see it.
+    pub fn svg(&self, caption: &str) -> String {
         let drawn = SvgBackend::new().with_pretty(true).render_scene(&self.scene());
         // Its root has no view box: the sheet would not scale.
         let body = drawn.split_once('>').map_or("", |(_, body)| body);
-        let (height, title) = (self.height, escape(&self.title));
+        let (height, title, caption) = (self.height, escape(&self.title), escape(caption));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
              viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
-             font-family=\"Helvetica, Arial, sans-serif\" fill=\"{}\">{body}",
+             font-family=\"Helvetica, Arial, sans-serif\" fill=\"{}\">\n  <desc>{caption}</desc>{body}",
             style::INK
         )
     }

@@ -242,7 +242,10 @@ fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     let others = &moving[moving.len().min(style::NAMED_MODES)..];
     for (place, names) in others[..others.len().min(LISTED)].chunks(8).enumerate() {
         let names = names.iter().map(|mode| mode.as_str()).collect::<Vec<_>>().join(", ");
-        entries.push((if place == 0 { Key::Fill(style::OTHER_FILL) } else { Key::None }, names));
+        entries.push(match place {
+            0 => (Key::Fill(style::OTHER_FILL), format!("others: {names}")),
+            _ => (Key::None, names),
+        });
     }
     if others.len() > LISTED {
         entries.push((Key::None, format!("and {} more", others.len() - LISTED)));
@@ -278,7 +281,8 @@ fn caption(motion: &Motion) -> String {
         caption.push_str(" Dashed: θ = ±α, beyond which a rigid stack at rest would fall.");
     }
     if let Some((t, words)) = motion.ending() {
-        caption.push_str(&format!(" The column is {words} at t = {t:.4} s."));
+        let verb = if motion.overturned() { "" } else { "is " };
+        caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
     }
     caption.push_str(&format!(" {} impact(s).", summary.impacts));
     caption
