@@ -1,6 +1,6 @@
 //! What can be asked on the command line.
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
 
@@ -40,21 +40,18 @@ pub enum Command {
         json: bool,
     },
     /// Run a scene and write summary.json, response.csv and events.json.
-    Run {
-        /// Scene file (TOML).
-        scene: PathBuf,
-        /// Folder for the results; made if it is not there.
-        #[arg(long, value_name = "DIR", default_value = "out")]
-        out: PathBuf,
-        /// Equations of motion to run on.
-        #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
-        dynamics: Dynamics,
-        /// Print nothing but errors.
-        #[arg(long, short)]
-        quiet: bool,
-        /// Print the summary as JSON instead of text.
-        #[arg(long, conflicts_with = "quiet")]
-        json: bool,
+    Run(Run),
+    /// Draw the figures of a run: time-history, phase-portrait, energy and forces.
+    Plot {
+        /// Folder of a finished run.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// How the figures are written.
+        #[arg(long, value_enum, default_value_t = Picture::Svg)]
+        format: Picture,
+        /// Folder for the figures; made if it is not there [default: DIR].
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
     },
     /// List the independent rocking modes of a column, or draw them.
     Modes {
@@ -104,6 +101,28 @@ pub enum Command {
     },
 }
 
+/// `rocking run`.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// Scene file (TOML).
+    pub scene: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Equations of motion to run on.
+    #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
+    pub dynamics: Dynamics,
+    /// Draw the figures of `rocking plot` into the same folder (SVG).
+    #[arg(long)]
+    pub plots: bool,
+    /// Print nothing but errors.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Print the summary as JSON instead of text.
+    #[arg(long, conflicts_with = "quiet")]
+    pub json: bool,
+}
+
 /// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.
 const LARGEST_LISTED: i64 = 12;
 
@@ -114,6 +133,15 @@ pub enum Dynamics {
     Generated,
     /// Hand-written for any number of blocks.
     Generic,
+}
+
+/// How a figure is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Picture {
+    /// To be scaled at will.
+    Svg,
+    /// In pixels.
+    Png,
 }
 
 /// How a derivation is printed.

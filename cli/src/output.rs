@@ -149,6 +149,17 @@ pub fn file(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Writes a picture into a folder that is there.
+///
+/// # Errors
+/// [`Failure::Output`]
+pub fn picture(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+    let path = folder.join(name);
+    let file = fill(folder, |file| file.write_all(bytes)).map_err(|error| Failure::output(&path, error))?;
+    file.persist(&path).map_err(|error| Failure::output(&path, error.error))?;
+    Ok(())
+}
+
 /// A temporary file in `folder`, with all that `write` writes.
 fn fill(
     folder: &Path,

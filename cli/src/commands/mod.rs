@@ -3,6 +3,7 @@
 mod check;
 mod init;
 mod modes;
+mod plot;
 mod run;
 mod shell;
 mod thresholds;
@@ -12,7 +13,6 @@ use crate::error::Failure;
 use init::NewScene;
 use modes::Asked;
 use rocking::Scene;
-use run::Printed;
 use std::io::Write as _;
 use std::path::Path;
 
@@ -26,14 +26,8 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
             init::init(&NewScene { file: &file, blocks, record: record.as_deref(), force })
         }
         Command::Check { scene, json } => check::check(&scene, json),
-        Command::Run { scene, out, dynamics, quiet, json } => {
-            let printed = match (quiet, json) {
-                (true, _) => Printed::Nothing,
-                (_, true) => Printed::Json,
-                _ => Printed::Text,
-            };
-            run::run(&scene, &out, dynamics, printed)
-        }
+        Command::Run(run) => run::run(&run),
+        Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),

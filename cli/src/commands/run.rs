@@ -1,62 +1,58 @@
 //! `rocking run`: a scene in, its response out.
 
-use crate::arguments::Dynamics;
-use crate::commands::print;
+use crate::arguments::{Dynamics, Picture, Run};
+use crate::commands::{plot, print};
 use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
-use std::path::Path;
 use std::time::Instant;
 
 /// Runs a scene and writes its results.
 ///
 /// # Errors
 /// [`Failure`]
-pub fn run(path: &Path, out: &Path, dynamics: Dynamics, printed: Printed) -> Result<(), Failure> {
+pub fn run(asked: &Run) -> Result<(), Failure> {
+    let Run { scene: path, out, .. } = asked;
     let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
     let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
-    if dynamics == Dynamics::Generic {
+    if asked.dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::open(out)?;
-    let bar = Progress::new(scene.options.t_end, printed == Printed::Nothing);
+    let bar = Progress::new(scene.options.t_end, asked.quiet);
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve {
-        scene: path.into(),
-        out: out.into(),
+        scene: path.clone(),
+        out: out.clone(),
         error,
     })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
     let warnings = response.warnings(scene.friction);
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
-    if printed == Printed::Nothing {
+    let mut written: Vec<String> = FILES_OF_A_RUN.map(String::from).to_vec();
+    if asked.plots {
+        written.extend(plot::draw(out, Picture::Svg, out)?.into_iter().map(|drawn| drawn.file));
+    }
+    if asked.quiet {
         return Ok(());
     }
     for warning in &warnings {
         eprintln!("warning: {warning}");
     }
-    match printed {
-        Printed::Json => print(&folder.summary()?),
-        _ => print(&account(&scene, &response, out)),
+    if asked.json {
+        return print(&folder.summary()?);
     }
+    print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), out.display()))
 }
 
-/// What a run prints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Printed {
-    /// A few lines.
-    Text,
-    /// The summary.
-    Json,
-    /// Errors only.
-    Nothing,
-}
+/// As they are told.
+const FILES_OF_A_RUN: [&str; 3] = ["summary.json", "response.csv", "events.json"];
 
 /// A few lines on what happened.
-fn account(scene: &Scene, response: &Response, out: &Path) -> String {
+fn account(scene: &Scene, response: &Response) -> String {
     let outcome = match (response.status, response.overturned_block) {
         (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
         (StopReason::AtRest, _) => format!("stands, at rest from t = {:.4} s on", response.t_final),
@@ -71,6 +67,5 @@ fn account(scene: &Scene, response: &Response, out: &Path) -> String {
     let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts());
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
-    let _ = writeln!(text, "wrote summary.json, response.csv, events.json to {}", out.display());
     text
 }

@@ -1,8 +1,34 @@
-//! Figures of a run and of a record, as SVG.
+//! Figures of a run and of a record, as SVG and PNG.
+//!
+//! ```text
+//! results ──> motion.rs ──> time_history.rs, phase_portrait.rs, energy.rs, forces.rs ──> sheet.rs ──> SVG, PNG
+//!             rows, events   what is drawn where                                          kuva
+//!                                record.rs ──────────────────────────────────────────────┘
+//! ```
+//!
+//! No mechanics: energies and forces come from the library. A figure is made of a run's files alone, and is the same, byte for
+//! byte, whenever it is made of them.
+
+mod axis;
+mod curve;
+mod energy;
+mod forces;
+mod motion;
+mod phase_portrait;
+#[allow(dead_code, reason = "for whoever has a record to show")]
+mod record;
+mod sheet;
+mod style;
+mod time_history;
 
 use crate::results::Results;
+use motion::Motion;
+use sheet::Sheet;
 
-/// A figure: a stand-alone SVG document.
+#[allow(unused_imports, reason = "for whoever has a record to show")]
+pub use record::record;
+
+/// A figure: a stand-alone SVG document, and what it is made of.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// File name without extension, e.g. `time-history`.
@@ -11,9 +37,22 @@ pub struct Figure {
     pub caption: String,
     /// The document.
     pub svg: String,
+    sheet: Sheet,
+}
+
+impl Figure {
+    fn new(name: &'static str, caption: String, sheet: Sheet) -> Figure {
+        Figure { name, svg: sheet.svg(&caption), caption, sheet }
+    }
 }
 
 /// All figures of a run, in the order in which they are read.
-pub fn figures(_results: &Results) -> Vec<Figure> {
-    Vec::new()
+pub fn figures(results: &Results) -> Vec<Figure> {
+    let motion = Motion::of(results);
+    vec![time_history::draw(&motion), phase_portrait::draw(&motion), energy::draw(&motion), forces::draw(&motion)]
+}
+
+/// A figure as a PNG file, three pixels for one of the SVG.
+pub fn png(figure: &Figure) -> Vec<u8> {
+    figure.sheet.png()
 }

@@ -1,0 +1,133 @@
+//! Axes: range, ticks at round numbers, and how those numbers are written.
+
+/// One axis of a panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Quantity and unit.
+    pub label: String,
+    /// Values at its ends, the smaller first.
+    pub range: [f64; 2],
+    /// From tick to tick; 1, 2 or 5 times a power of ten.
+    pub step: f64,
+    /// Whether numbers stand at the ticks: of panels above one another only the lowest has them for the axis they share.
+    pub numbers: bool,
+}
+
+/// Room beyond the values, as a share of their range.
+const ROOM: f64 = 0.06;
+
+impl Axis {
+    /// From `range[0]` to `range[1]`, with at least so many ticks.
+    pub fn over(label: &str, range: [f64; 2], ticks: usize) -> Axis {
+        Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
+    }
+
+    /// Around all `values` with some room; at least `least` to both sides of their middle, for where nothing happens.
+    pub fn around(label: &str, values: impl IntoIterator<Item = f64>, least: f64, ticks: usize) -> Axis {
+        let [low, high] = span(values);
+        let middle = 0.5 * (low + high);
+        // A constant far from zero still has two ends.
+        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(least).max(1e-6 * middle.abs());
+        Axis::over(label, [middle - reach, middle + reach], ticks)
+    }
+
+    /// The same without numbers.
+    pub fn unnumbered(&self) -> Axis {
+        Axis { numbers: false, ..self.clone() }
+    }
+
+    /// Where a value is along the axis, from 0 to 1.
+    pub fn share(&self, value: f64) -> f64 {
+        (value - self.range[0]) / (self.range[1] - self.range[0])
+    }
+}
+
+/// The smallest and the largest of finite values; zeros where there are none.
+pub fn span(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let values = values.into_iter().filter(|value| value.is_finite());
+    values.map(|value| [value, value]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
+}
+
+/// The largest of 1, 2, 5 times a power of ten of which so many multiples lie in a range.
+fn step(range: [f64; 2], ticks: usize) -> f64 {
+    let power = (range[1] - range[0]).log10().ceil() as i32;
+    // Rounding must not lose the tick at an end.
+    let inside = |step: f64| (range[1] / step + 1e-9).floor() - (range[0] / step - 1e-9).ceil() + 1.0;
+    let steps = (0..).flat_map(|lower| [5.0, 2.0, 1.0].map(|digit| digit * 10f64.powi(power - lower)));
+    steps.into_iter().find(|step| inside(*step) >= ticks as f64).expect("steps grow smaller")
+}
+
+/// Below this step numbers are written with a power of ten, and from its inverse times a hundred on.
+const SMALL: f64 = 1e-4;
+
+/// The number at a tick: as many decimals as the step has, a true minus, no `-0`.
+pub fn number(value: f64, step: f64) -> String {
+    let power = step.log10().floor() as i32;
+    let (scaled, decimals, factor) = if (SMALL..100.0 / SMALL).contains(&step) {
+        (value, usize::try_from(-power).unwrap_or(0), String::new())
+    } else {
+        (value / 10f64.powi(power), 0, format!("×10{}", superscript(power)))
+    };
+    let text = format!("{:.decimals$}", scaled.abs());
+    if text.chars().all(|digit| "0.".contains(digit)) {
+        return "0".into();
+    }
+    format!("{}{text}{factor}", if scaled < 0.0 { "−" } else { "" })
+}
+
+fn superscript(power: i32) -> String {
+    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |sign: char| sign.to_digit(10).map_or('⁻', |digit| digits[digit as usize]);
+    power.to_string().chars().map(raised).collect()
+}
+
+/// A whole number below the line, as in θ₁.
+pub fn subscript(number: usize) -> String {
+    let lowered = |sign: char| sign.to_digit(10).and_then(|digit| char::from_u32(0x2080 + digit)).unwrap_or(sign);
+    number.to_string().chars().map(lowered).collect()
+}
+
+/// A number in a text: two or three digits that count, a true minus.
+pub fn brief(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".into()
+    } else if (1e-3..1e5).contains(&size) {
+        let decimals = (2 - size.log10().floor() as i32).clamp(0, 5) as usize;
+        let text = format!("{size:.decimals$}");
+        let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        format!("{}{text}", if value < 0.0 { "−" } else { "" })
+    } else {
+        number(value, 10f64.powf(size.log10().floor()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_at_round_numbers() {
+        let cases = [([0.0, 10.0], 6, 2.0), ([0.0, 25.0], 6, 5.0), ([-0.19, 0.19], 3, 0.1), ([0.0, 0.3], 4, 0.1)];
+        for (range, ticks, expected) in cases {
+            assert!((step(range, ticks) / expected - 1.0).abs() < 1e-12, "{range:?} {}", step(range, ticks));
+        }
+    }
+
+    #[test]
+    fn numbers_have_the_decimals_of_their_step_and_a_true_minus() {
+        let cases = [(-0.5, 0.5), (-1e-17, 0.1), (1.0, 0.2), (0.05, 0.05), (250.0, 50.0), (-2e-6, 1e-6)];
+        let texts = cases.map(|(value, step)| number(value, step));
+        assert_eq!(texts, ["−0.5", "0", "1.0", "0.05", "250", "−2×10⁻⁶"]);
+        assert_eq!(
+            [0.7841977, -0.25, 12.0, 0.0, 58.42, 1e-6].map(brief),
+            ["0.784", "−0.25", "12", "0", "58.4", "1×10⁻⁶"]
+        );
+    }
+
+    #[test]
+    fn an_axis_without_values_has_a_range() {
+        let axis = Axis::around("", [0.0, 0.0], 0.1, 3);
+        assert_eq!((axis.range, axis.share(0.0)), ([-0.1, 0.1], 0.5));
+    }
+}

@@ -1,0 +1,135 @@
+//! Contact forces over time: normal force over the weight above, and the friction that each interface asks for.
+
+use super::Figure;
+use super::axis::{Axis, brief, span};
+use super::curve::{self, Point};
+use super::motion::Motion;
+use super::sheet::{Anchor, Key, Panel, Sheet};
+use super::style::{self, Stroke};
+use super::time_history::{mark_ending, time_axis, wide};
+
+/// Heights `[px]`.
+const NORMAL: f64 = 190.0;
+const FRICTION: f64 = 230.0;
+const GAP: f64 = 16.0;
+
+/// The axis of friction demand ends here at the latest, or a third above the scene's coefficient: more is never at hand, and peaks
+/// before a contact parts would flatten the rest.
+const LARGEST_DEMAND: f64 = 2.0;
+/// The axis of normal forces ends at so many weights: a column that lies down hits hard.
+const LARGEST_NORMAL: f64 = 5.0;
+
+/// Curves of one interface over time. Friction demand has gaps where nothing presses.
+struct Contact {
+    normal: Vec<Point>,
+    demand: Vec<Vec<Point>>,
+}
+
+/// The figure.
+pub fn draw(motion: &Motion) -> Figure {
+    let contacts = contacts(motion);
+    let summary = &motion.results.summary;
+    let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time");
+    let entries: Vec<(Key, String)> = (0..contacts.len())
+        .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
+        .collect();
+    let top = sheet.legend(0.0, &entries) + 4.0;
+
+    let normals = contacts.iter().flat_map(|contact| &contact.normal).map(|point| point[1]);
+    let normals = normals.map(|normal| normal.clamp(-1.0, LARGEST_NORMAL)).chain([0.0, 1.0]);
+    let label = "Normal force N/W";
+    let normal = wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 0.1, 3)));
+    sheet.axes(&normal);
+    sheet.label_upwards(&normal);
+    sheet.level(&normal, 0.0, &Stroke::solid(style::GREY, 0.8));
+    sheet.level(&normal, 1.0, &style::REFERENCE);
+    for (interface, contact) in contacts.iter().enumerate() {
+        sheet.history(&normal, &contact.normal, &style::line(interface));
+    }
+    mark_ending(&mut sheet, motion, &normal, Anchor::Start);
+
+    let recorded = summary.friction_demand.iter().flatten();
+    let [_, needed] = span(recorded.copied().chain(demands(&contacts)));
+    let most = LARGEST_DEMAND.max(summary.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
+    let least = summary.friction.unwrap_or(0.05) * 1.15;
+    let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
+    let friction = wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
+    sheet.axes(&friction);
+    sheet.label_upwards(&friction);
+    for (interface, contact) in contacts.iter().enumerate() {
+        let runs = contact.demand.iter().map(|run| {
+            let placed: Vec<Point> = run.iter().map(|point| friction.place(*point)).collect();
+            curve::straighten(&curve::thin_along_x(&placed))
+        });
+        sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
+    }
+    if let Some(available) = summary.friction {
+        sheet.level(&friction, available, &Stroke::dashed(style::INK, 1.8, &[10.0, 5.0]));
+        let at = [friction.frame.right() - 8.0, friction.place([0.0, available])[1] - 6.0];
+        sheet.words_on_paper(at, &format!("friction coefficient {}", brief(available)), style::NOTE, Anchor::End);
+    }
+    let below = sheet.label_below(&friction);
+    sheet.height = largest_demands(&mut sheet, motion, &friction, below) + 8.0;
+    Figure::new("forces", caption(motion, &contacts, &friction), sheet)
+}
+
+fn contacts(motion: &Motion) -> Vec<Contact> {
+    let column = &motion.results.column;
+    let weights: Vec<f64> =
+        (0..column.len()).map(|interface| column.mass_above(interface) * column.gravity()).collect();
+    let empty = || Contact { normal: Vec::new(), demand: vec![Vec::new()] };
+    let mut contacts: Vec<Contact> = weights.iter().map(|_| empty()).collect();
+    let upright = if motion.overturned() { motion.samples.len() - 1 } else { motion.samples.len() };
+    for sample in &motion.samples[..upright.max(1)] {
+        for ((contact, force), weight) in contacts.iter_mut().zip(sample.contact_forces(column)).zip(&weights) {
+            contact.normal.push([sample.t, force.normal / weight]);
+            if force.normal > 0.0 {
+                let demand = force.tangential.abs() / force.normal;
+                contact.demand.last_mut().expect("there is a first").push([sample.t, demand]);
+            } else {
+                contact.demand.push(Vec::new());
+            }
+        }
+    }
+    contacts.iter_mut().for_each(|contact| contact.demand.retain(|run| !run.is_empty()));
+    contacts
+}
+
+fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
+    contacts.iter().flat_map(|contact| &contact.demand).flatten().map(|point| point[1])
+}
+
+/// Where the run's largest demands are, at the right edge, and what they are, below: events between the output times count too.
+fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) -> f64 {
+    let mut entries = vec![(Key::None, "Largest demand of the whole run (◂):".to_string())];
+    for (interface, demand) in motion.results.summary.friction_demand.iter().enumerate() {
+        let what = demand.map_or("no friction is enough".into(), brief);
+        entries.push((Key::Line(style::line(interface)), what));
+        let Some(demand) = demand.filter(|demand| panel.reaches(*demand)) else { continue };
+        let [x, y] = [panel.frame.right() + 2.0, panel.place([0.0, demand])[1]];
+        sheet.areas(vec![vec![[x, y], [x + 11.0, y - 5.0], [x + 11.0, y + 5.0]]], style::line(interface).color);
+    }
+    if motion.results.summary.friction_demand.is_empty() {
+        return top;
+    }
+    sheet.legend(top, &entries)
+}
+
+fn caption(motion: &Motion, contacts: &[Contact], panel: &Panel) -> String {
+    let mut caption = String::from(
+        "At output times: normal force of each interface over the weight above it (dashed: 1), and below the friction \
+         coefficient it asks for",
+    );
+    match motion.results.summary.friction {
+        Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
+        None => caption.push_str("; the scene names no friction coefficient."),
+    }
+    let beyond = demands(contacts).chain(motion.results.summary.friction_demand.iter().flatten().copied());
+    if beyond.into_iter().any(|demand| !panel.reaches(demand)) {
+        caption.push_str(" Larger demands leave the panel.");
+    }
+    if contacts.iter().flat_map(|contact| &contact.normal).any(|point| point[1] <= 0.0) {
+        caption.push_str(" Gaps: nothing presses there, and no friction is enough.");
+    }
+    caption
+}

@@ -1,0 +1,176 @@
+//! A run as figures need it: rows and events in one order of time, and the stretches of time spent in each pattern.
+//!
+//! Rows may lie far apart; events hold the angles and the rates on both sides of an impact, so that curves break where they must.
+
+use super::curve::Point;
+use crate::results::{Event, Results};
+use rocking::pattern::Pattern;
+use rocking::response::mode_name;
+use rocking::{EventKind, Sample, StopReason};
+
+/// The column at a row or an event. Lengths N, base first.
+#[derive(Clone, Debug)]
+pub struct Knot<'a> {
+    /// `[s]`
+    pub t: f64,
+    /// `[rad]`
+    pub theta: &'a [f64],
+    /// `[rad/s]`, with the pattern that goes with them.
+    pub before: (&'a [f64], Pattern),
+    /// The same, after the event; none for a row.
+    pub after: Option<(&'a [f64], Pattern)>,
+}
+
+/// A stretch of time in one pattern.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    /// `[s]`
+    pub from: f64,
+    /// `[s]`
+    pub to: f64,
+    /// `k.j`, or `rest`.
+    pub mode: String,
+    /// Whether its pattern is the mirror image of the labelled one.
+    pub mirrored: bool,
+}
+
+/// What of a run is drawn.
+#[derive(Debug)]
+pub struct Motion<'a> {
+    /// The run.
+    pub results: &'a Results,
+    /// The rows that are drawn: those after overturning only fill the file.
+    pub samples: &'a [Sample],
+    /// Rows and events in order of time.
+    pub knots: Vec<Knot<'a>>,
+    /// Where axes of time end `[s]`.
+    pub end: f64,
+}
+
+/// Room behind overturning, as a share of the time until then.
+const AFTERMATH: f64 = 0.04;
+
+/// Curves of angles end at so many times the slenderness where the column overturns: the fall would flatten the rest.
+pub const FALL: f64 = 2.0;
+
+impl Motion<'_> {
+    /// Sorts a run for drawing.
+    pub fn of(results: &Results) -> Motion<'_> {
+        let summary = &results.summary;
+        let last = results.samples.last().map_or(0.0, |sample| sample.t);
+        let (mut count, mut end) = (results.samples.len(), last.max(summary.options.t_end));
+        if summary.status == StopReason::Overturned {
+            // The first row after it holds the column as it was then.
+            count = (results.samples.partition_point(|sample| sample.t < summary.t_final) + 1).min(count);
+            end = end.min(summary.t_final * (1.0 + AFTERMATH));
+        }
+        let samples = &results.samples[..count];
+        Motion { results, samples, knots: knots(samples, &results.events), end: end.max(1e-9) }
+    }
+
+    /// Times of the impacts `[s]`.
+    pub fn impacts(&self) -> impl Iterator<Item = f64> {
+        self.results.events.iter().filter(|event| event.kind == EventKind::Impact).map(|event| event.t)
+    }
+
+    /// Slenderness of the stack that stands on each interface, base first `[rad]`: `α_i = atan(c_i / h_Pi)`.
+    pub fn slenderness(&self) -> Vec<f64> {
+        let column = &self.results.column;
+        (0..column.len())
+            .map(|interface| column.contact_half_width(interface).atan2(column.centroid_height(interface)))
+            .collect()
+    }
+
+    /// Whether the column overturned.
+    pub fn overturned(&self) -> bool {
+        self.results.summary.status == StopReason::Overturned
+    }
+
+    /// When the first angle passed [`FALL`] times its slenderness on the way to overturning `[s]`; none where the column stands.
+    pub fn falls_at(&self) -> Option<f64> {
+        let slenderness = self.slenderness();
+        let fallen = |knot: &Knot| knot.theta.iter().zip(&slenderness).any(|(theta, alpha)| theta.abs() > FALL * alpha);
+        let falling = self.knots.iter().rev().take_while(|knot| fallen(knot)).last();
+        falling.filter(|_| self.overturned()).map(|knot| knot.t)
+    }
+
+    /// What the run ended with, to be written at its time; none where time was over first.
+    pub fn ending(&self) -> Option<(f64, String)> {
+        let summary = &self.results.summary;
+        match (summary.status, summary.overturned_block) {
+            (StopReason::Overturned, Some(block)) if self.results.column.len() > 1 => {
+                Some((summary.t_final, format!("overturned (block {block})")))
+            }
+            (StopReason::Overturned, _) => Some((summary.t_final, "overturned".into())),
+            (StopReason::AtRest, _) if summary.t_final < self.end => Some((summary.t_final, "at rest".into())),
+            _ => None,
+        }
+    }
+
+    /// The patterns of the run in order of time, from 0 to its end.
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let end = if self.overturned() { self.results.summary.t_final } else { self.end };
+        let named = |pattern: &Pattern, from: f64| {
+            let (mode, mirrored) = mode_name(pattern);
+            Stretch { from, to: end, mode, mirrored }
+        };
+        let first = self.results.events.first().map(|event| Pattern::from_signs(&event.before));
+        let first = first.unwrap_or_else(|| self.samples[0].pattern.clone());
+        let mut stretches = vec![named(&first, 0.0)];
+        for event in &self.results.events {
+            let next = named(&Pattern::from_signs(&event.after), event.t);
+            let current = stretches.last_mut().expect("there is a first");
+            if (&current.mode, current.mirrored) != (&next.mode, next.mirrored) {
+                current.to = next.from;
+                stretches.push(next);
+            }
+        }
+        stretches.retain(|stretch| stretch.to > stretch.from);
+        stretches
+    }
+}
+
+fn knots<'a>(samples: &'a [Sample], events: &'a [Event]) -> Vec<Knot<'a>> {
+    let mut events = events.iter().peekable();
+    let mut knots = Vec::with_capacity(samples.len());
+    for sample in samples {
+        let mut taken = false;
+        while let Some(event) = events.next_if(|event| event.t <= sample.t) {
+            taken = event.t == sample.t;
+            knots.push(at_event(event));
+        }
+        // The row of an event's own time may stand for either side of it.
+        if !taken {
+            let before = (sample.omega.as_slice(), sample.pattern.clone());
+            knots.push(Knot { t: sample.t, theta: &sample.theta, before, after: None });
+        }
+    }
+    knots
+}
+
+fn at_event(event: &Event) -> Knot<'_> {
+    Knot {
+        t: event.t,
+        theta: &event.theta,
+        before: (event.omega_before.as_slice(), Pattern::from_signs(&event.before)),
+        after: Some((event.omega_after.as_slice(), Pattern::from_signs(&event.after))),
+    }
+}
+
+impl Knot<'_> {
+    /// The knot as rows, one for each side of an event. No ground motion: nothing that needs it is asked of them.
+    pub fn rows(&self) -> impl Iterator<Item = Sample> {
+        std::iter::once(&self.before).chain(&self.after).map(|(omega, pattern)| Sample {
+            t: self.t,
+            theta: self.theta.to_vec(),
+            omega: omega.to_vec(),
+            ground: [0.0; 2],
+            pattern: pattern.clone(),
+        })
+    }
+}
+
+/// A quantity of the rows over time.
+pub fn over_time(samples: &[Sample], value: impl Fn(&Sample) -> f64) -> Vec<Point> {
+    samples.iter().map(|sample| [sample.t, value(sample)]).collect()
+}

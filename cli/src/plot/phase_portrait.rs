@@ -1,0 +1,101 @@
+//! Rates over angles, a panel per block; impacts jump from one rate to the next at the same angle.
+
+use super::Figure;
+use super::axis::{Axis, subscript};
+use super::curve::{self, Frame, Ink, Point};
+use super::motion::{FALL, Motion};
+use super::sheet::{Anchor, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
+use super::style::{self, Stroke};
+
+/// Room around panels `[px]`.
+const NAME: f64 = 22.0;
+const GAP: f64 = 32.0;
+/// Panels side by side: with four, numbers would not be read.
+const ACROSS: usize = 3;
+
+/// Jumps: dashes so short that a small impact still shows one.
+const JUMP: Stroke = Stroke::dashed(style::IMPACT, 1.8, &[2.5, 3.5]);
+const CURVE: Stroke = Stroke::solid("#0072b2", 1.3);
+
+/// The figure.
+pub fn draw(motion: &Motion) -> Figure {
+    let blocks = motion.results.column.len();
+    let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) };
+    let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps");
+    let entries = [(Key::Line(CURVE), "smooth motion".into()), (Key::Line(JUMP), "jump at an impact".into())];
+    let top = sheet.legend(0.0, &entries) + if blocks > 1 { NAME } else { 4.0 };
+
+    let slenderness = motion.slenderness();
+    let limit = |block: usize| if motion.overturned() { FALL * slenderness[block] } else { f64::INFINITY };
+    let seen = || motion.knots.iter().flat_map(|knot| (0..blocks).map(move |block| (knot, block)));
+    let seen = || seen().filter(|(knot, block)| knot.theta[*block].abs() <= limit(*block));
+    let angles = seen().map(|(knot, block)| knot.theta[block]);
+    let rates = seen().flat_map(|(knot, block)| {
+        std::iter::once(&knot.before).chain(&knot.after).map(move |(omega, _)| omega[block]).collect::<Vec<_>>()
+    });
+    let width = (WIDTH - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
+    let height = if blocks == 1 { 0.62 * width } else { 1.15 * width.min(240.0) };
+    let x = Axis::around("Angle θ [rad]", angles, 1e-6, if across == 1 { 5 } else { 2 });
+    let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 1e-6, 4);
+
+    for block in 0..blocks {
+        let (row, place) = (block / across, block % across);
+        let frame = Frame {
+            left: LEFT + place as f64 * (width + GAP),
+            top: top + row as f64 * (height + NAME + 8.0),
+            width,
+            height,
+        };
+        let lowest = block + across >= blocks;
+        let x = Axis { numbers: lowest, ..x.clone() };
+        let panel = Panel { frame, x, y: Some(Axis { numbers: place == 0, ..y.clone() }) };
+        portrait(&mut sheet, motion, &panel, block);
+        if place == 0 {
+            sheet.label_upwards(&panel);
+        }
+        sheet.height = sheet.height.max(if lowest { sheet.label_below(&panel) + 8.0 } else { 0.0 });
+    }
+    let whose = if blocks == 1 { "the block" } else { "each block" };
+    let mut caption = format!(
+        "Rate of {whose} over its angle, at output times and events; dashed, the jumps of the rate at impacts.{}",
+        if blocks > 1 { " All panels have the same axes." } else { "" }
+    );
+    if motion.overturned() {
+        caption.push_str(" Curves leave the panel where the column falls.");
+    }
+    Figure::new("phase-portrait", caption, sheet)
+}
+
+fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize) {
+    sheet.axes(panel);
+    sheet.level(panel, 0.0, &Stroke::solid(style::GREY, 0.8));
+    let upright = panel.place_x(0.0);
+    if upright > panel.frame.left && upright < panel.frame.right() {
+        let ends = [[upright, panel.frame.top], [upright, panel.frame.bottom()]];
+        sheet.line(ends[0], ends[1], &Stroke::solid(style::GREY, 0.8));
+    }
+    let mut runs: Vec<Vec<Point>> = vec![Vec::new()];
+    let mut jumps = Vec::new();
+    for knot in &motion.knots {
+        let at = |omega: &[f64]| panel.place([knot.theta[block], omega[block]]);
+        let before = at(knot.before.0);
+        runs.last_mut().expect("there is a first").push(before);
+        if let Some((omega, _)) = &knot.after {
+            let after = at(omega);
+            if after != before {
+                jumps.push(vec![before, after]);
+                runs.push(vec![after]);
+            }
+        }
+    }
+    for (runs, stroke) in [(runs, CURVE), (jumps, JUMP)] {
+        let mut ink = Ink::default();
+        let parts = runs.iter().flat_map(|run| ink.new_parts(run)).map(|part| curve::straighten(&part));
+        sheet.lines(panel, &parts.collect::<Vec<_>>(), &stroke);
+    }
+    if motion.results.column.len() > 1 {
+        let at = [panel.frame.left, panel.frame.top - 7.0];
+        let name = format!("block {}, θ{}", block + 1, subscript(block + 1));
+        sheet.words(at, &name, style::NOTE, Anchor::Start);
+    }
+}

@@ -1,0 +1,402 @@
+//! The sheet of paper: marks as plain data, and how they become SVG and PNG. The only file that knows `kuva`.
+//!
+//! `kuva` draws frames, ticks, grids and text, and writes both outputs from one list of primitives, so that they show the same. It
+//! brings its font for PNGs; SVGs name a family. Curves come to it thinned, clipped and dashed ([`super::curve`]), so that
+//! documents have no identifiers that could clash where several stand on one page.
+
+use super::axis::{self, Axis};
+use super::curve::{self, Frame, Point};
+use super::style::{self, Stroke};
+use kuva::RasterBackend;
+use kuva::backend::svg::SvgBackend;
+use kuva::render::axis::add_axes_and_grid;
+use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
+use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+/// Width of all sheets `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
+pub const WIDTH: f64 = 720.0;
+/// Room for numbers and labels left of panels `[px]`.
+pub const LEFT: f64 = 78.0;
+/// Room right of panels `[px]`.
+pub const RIGHT: f64 = 18.0;
+/// Pixels of a PNG per pixel of the sheet: 300 dots per inch where it is printed 18 cm wide.
+const PNG_SCALE: f32 = 3.0;
+
+/// A sheet: what is drawn later lies on top.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// What it is, for those who cannot see it.
+    pub title: String,
+    /// `[px]`
+    pub height: f64,
+    /// In the order of drawing.
+    pub marks: Vec<Mark>,
+}
+
+/// Something on a sheet; coordinates `[px]`.
+#[derive(Clone, Debug)]
+pub enum Mark {
+    /// Frame, ticks and numbers.
+    Axes(Panel),
+    /// Lines, dashes among them, as one.
+    Lines {
+        /// Ends and corners.
+        runs: Vec<Vec<Point>>,
+        /// Its dashes have been cut.
+        stroke: Stroke,
+    },
+    /// Filled polygons, as one.
+    Areas {
+        /// Corners.
+        areas: Vec<Vec<Point>>,
+        /// As SVG has it.
+        fill: &'static str,
+    },
+    /// Text; `at` is the end of its base line that `anchor` names.
+    Words {
+        /// See above.
+        at: Point,
+        /// What it says.
+        text: String,
+        /// `[px]`
+        size: u32,
+        /// See above.
+        anchor: Anchor,
+        /// Upwards rather than to the right.
+        upwards: bool,
+    },
+}
+
+/// Which part of a text is where it was put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its left end.
+    Start,
+    /// Its middle.
+    Middle,
+    /// Its right end.
+    End,
+}
+
+/// A frame with axes.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Where it is.
+    pub frame: Frame,
+    /// To the right.
+    pub x: Axis,
+    /// Upwards; none for a strip in which height means nothing.
+    pub y: Option<Axis>,
+}
+
+impl Panel {
+    /// Where a pair of values is on paper.
+    pub fn place(&self, [x, y]: Point) -> Point {
+        let up = self.y.as_ref().map_or(0.0, |axis| axis.share(y));
+        [self.place_x(x), self.frame.bottom() - self.frame.height * up]
+    }
+
+    /// Where a value is along the axis to the right.
+    pub fn place_x(&self, x: f64) -> f64 {
+        self.frame.left + self.frame.width * self.x.share(x)
+    }
+
+    /// Whether the upward axis reaches a value.
+    pub fn reaches(&self, y: f64) -> bool {
+        self.y.as_ref().is_some_and(|axis| (0.0..=1.0).contains(&axis.share(y)))
+    }
+}
+
+/// An entry of a legend: how something looks, and its name.
+#[derive(Clone, Debug)]
+pub enum Key {
+    /// A line.
+    Line(Stroke),
+    /// An area with a frame.
+    Fill(&'static str),
+    /// Nothing: words only.
+    None,
+}
+
+/// Lengths in a legend `[px]`.
+const LEGEND_LINE: f64 = 21.0;
+const KEY_WIDTH: f64 = 34.0;
+const FILL_WIDTH: f64 = 18.0;
+const KEY_GAP: f64 = 7.0;
+const ENTRY_GAP: f64 = 20.0;
+
+impl Sheet {
+    /// An empty sheet.
+    pub fn new(title: &str) -> Sheet {
+        Sheet { title: title.into(), height: 0.0, marks: Vec::new() }
+    }
+
+    /// Frame, ticks and numbers of a panel, with the label of its upward axis.
+    pub fn axes(&mut self, panel: &Panel) {
+        self.marks.push(Mark::Axes(panel.clone()));
+    }
+
+    /// The label of the upward axis, left of the numbers of the leftmost panel.
+    pub fn label_upwards(&mut self, panel: &Panel) {
+        let Some(axis) = &panel.y else { return };
+        let at = [panel.frame.left - LEFT + 16.0, panel.frame.top + 0.5 * panel.frame.height];
+        self.marks.push(Mark::Words {
+            at,
+            text: axis.label.clone(),
+            size: style::LABEL,
+            anchor: Anchor::Middle,
+            upwards: true,
+        });
+    }
+
+    /// The label of the axis to the right, below its numbers. Returns where it ends `[px]`.
+    pub fn label_below(&mut self, panel: &Panel) -> f64 {
+        let at = [panel.frame.left + 0.5 * panel.frame.width, panel.frame.bottom() + 38.0];
+        self.words(at, &panel.x.label, style::LABEL, Anchor::Middle);
+        at[1] + 6.0
+    }
+
+    /// Lines in a panel, cut at its frame; `runs` on paper.
+    pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
+        let inside = runs.iter().flat_map(|run| curve::clip(run, &panel.frame));
+        let runs = inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect();
+        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+    }
+
+    /// A history in a panel: values over time, thinned to what the width can show.
+    pub fn history(&mut self, panel: &Panel, points: &[Point], stroke: &Stroke) {
+        let placed: Vec<Point> = points.iter().map(|point| panel.place(*point)).collect();
+        self.lines(panel, &[curve::straighten(&curve::thin_along_x(&placed))], stroke);
+    }
+
+    /// A line across a panel at a height, if the panel has it.
+    pub fn level(&mut self, panel: &Panel, value: f64, stroke: &Stroke) {
+        if panel.reaches(value) {
+            let y = panel.place([panel.x.range[0], value])[1];
+            self.lines(panel, &[vec![[panel.frame.left, y], [panel.frame.right(), y]]], stroke);
+        }
+    }
+
+    /// A line anywhere.
+    pub fn line(&mut self, from: Point, to: Point, stroke: &Stroke) {
+        let runs = curve::dash(&[from, to], stroke.dashes);
+        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+    }
+
+    /// Filled polygons.
+    pub fn areas(&mut self, areas: Vec<Vec<Point>>, fill: &'static str) {
+        self.marks.push(Mark::Areas { areas, fill });
+    }
+
+    /// Text.
+    pub fn words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false });
+    }
+
+    /// Text on a patch of paper, to be read where lines run.
+    pub fn words_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        let width = text_width(text, size) + 6.0;
+        let frame = Frame {
+            left: at[0] - 3.0 - behind(anchor, width - 6.0),
+            top: at[1] - f64::from(size),
+            width,
+            height: f64::from(size) + 4.0,
+        };
+        self.areas(vec![corners(&frame)], style::REST_FILL);
+        self.words(at, text, size, anchor);
+    }
+
+    /// The same, upwards.
+    pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        let height = text_width(text, size) + 6.0;
+        let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
+        let frame = Frame { left: at[0] - f64::from(size), top, width: f64::from(size) + 4.0, height };
+        self.areas(vec![corners(&frame)], style::REST_FILL);
+        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: true });
+    }
+
+    /// A legend from `top` down, over the width of the panels. Returns where it ends `[px]`.
+    pub fn legend(&mut self, top: f64, entries: &[(Key, String)]) -> f64 {
+        let (mut x, mut y) = (LEFT, top + 15.0);
+        for (key, name) in entries {
+            let room = match key {
+                Key::Line(_) => KEY_WIDTH + KEY_GAP,
+                Key::Fill(_) => FILL_WIDTH + KEY_GAP,
+                Key::None => 0.0,
+            };
+            let width = room + text_width(name, style::NOTE);
+            if x > LEFT && x + width > WIDTH - RIGHT {
+                (x, y) = (LEFT, y + LEGEND_LINE);
+            }
+            match key {
+                Key::Line(stroke) => self.line([x, y - 4.5], [x + KEY_WIDTH, y - 4.5], stroke),
+                Key::Fill(fill) => {
+                    let swatch = Frame { left: x, top: y - 11.0, width: FILL_WIDTH, height: 13.0 };
+                    self.areas(vec![corners(&swatch)], fill);
+                    self.outline(&swatch);
+                }
+                Key::None => {}
+            }
+            self.words([x + room, y], name, style::NOTE, Anchor::Start);
+            x += width + ENTRY_GAP;
+        }
+        y + 6.0
+    }
+
+    /// The edge of a frame.
+    pub fn outline(&mut self, frame: &Frame) {
+        let mut run = corners(frame);
+        run.push(run[0]);
+        self.marks.push(Mark::Lines { runs: vec![run], stroke: style::THIN });
+    }
+
+    /// The document, with a caption for those who cannot see it.
+    pub fn svg(&self, caption: &str) -> String {
+        let drawn = SvgBackend::new().with_pretty(true).render_scene(&self.scene());
+        // Its root has no view box: the sheet would not scale.
+        let body = drawn.split_once('>').map_or("", |(_, body)| body);
+        let (height, title, caption) = (self.height, escape(&self.title), escape(caption));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
+             viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
+             font-family=\"Helvetica, Arial, sans-serif\" fill=\"{}\">\n  <desc>{caption}</desc>{body}",
+            style::INK
+        )
+    }
+
+    /// The same in pixels.
+    pub fn png(&self) -> Vec<u8> {
+        RasterBackend::new().with_scale(PNG_SCALE).render_scene(&self.scene()).expect("a sheet has a size")
+    }
+
+    fn scene(&self) -> Scene {
+        let mut scene = Scene::new(WIDTH, self.height);
+        scene.text_color = Some(style::INK.into());
+        scene.add(Primitive::GroupStart {
+            transform: None,
+            title: None,
+            extra_attrs: Some("stroke-linecap=\"round\" stroke-linejoin=\"round\"".into()),
+        });
+        for mark in &self.marks {
+            match mark {
+                Mark::Axes(panel) => self.draw_axes(&mut scene, panel),
+                Mark::Lines { runs, stroke } => scene.add(path(runs, None, Some(stroke))),
+                Mark::Areas { areas, fill } => scene.add(path(areas, Some(fill), None)),
+                Mark::Words { at, text, size, anchor, upwards } => scene.add(Primitive::Text {
+                    x: tidy(at[0]),
+                    y: tidy(at[1]),
+                    // A dollar would begin a formula.
+                    content: text.replace('$', "\\$"),
+                    size: *size,
+                    anchor: match anchor {
+                        Anchor::Start => TextAnchor::Start,
+                        Anchor::Middle => TextAnchor::Middle,
+                        Anchor::End => TextAnchor::End,
+                    },
+                    rotate: upwards.then_some(-90.0),
+                    bold: false,
+                    color: None,
+                }),
+            }
+        }
+        scene.add(Primitive::GroupEnd);
+        scene
+    }
+
+    fn draw_axes(&self, scene: &mut Scene, panel: &Panel) {
+        let Panel { frame, x, y } = panel;
+        let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
+        let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
+            .with_width(WIDTH)
+            .with_height(self.height)
+            .with_force_margins(frame.left, WIDTH - frame.right())
+            .with_force_margins_y(frame.top, self.height - frame.bottom())
+            .with_x_axis_min(x.range[0])
+            .with_x_axis_max(x.range[1])
+            .with_y_axis_min(y_range[0])
+            .with_y_axis_max(y_range[1])
+            .with_x_tick_step(x.step)
+            .with_y_tick_step(y.as_ref().map_or(1.0, |axis| axis.step))
+            .with_x_tick_format(numbers(x))
+            .with_tick_size(style::NUMBER)
+            .with_tick_length(4.0)
+            .with_show_grid(y.is_some())
+            .with_box_axes();
+        layout.theme.grid_color = style::FAINT.into();
+        layout.theme.axis_color = style::INK.into();
+        layout.theme.tick_color = style::INK.into();
+        layout.suppress_y_ticks = y.is_none();
+        if let Some(axis) = y {
+            layout = layout.with_y_tick_format(numbers(axis));
+        }
+        let computed = ComputedLayout::from_layout(&layout);
+        let before = scene.elements.len();
+        add_axes_and_grid(scene, &computed, &layout);
+        let unlabelled = |drawn: &Primitive| matches!(drawn, Primitive::Text { content, .. } if content.is_empty());
+        let drawn = scene.elements.split_off(before);
+        scene.elements.extend(drawn.into_iter().filter(|drawn| !unlabelled(drawn)));
+    }
+}
+
+fn numbers(axis: &Axis) -> TickFormat {
+    let (step, shown) = (axis.step, axis.numbers);
+    TickFormat::Custom(Arc::new(move |value| if shown { axis::number(value, step) } else { String::new() }))
+}
+
+/// The corners of a frame.
+pub fn corners(frame: &Frame) -> Vec<Point> {
+    let (right, bottom) = (frame.right(), frame.bottom());
+    vec![[frame.left, frame.top], [right, frame.top], [right, bottom], [frame.left, bottom]]
+}
+
+fn path(runs: &[Vec<Point>], fill: Option<&str>, stroke: Option<&Stroke>) -> Primitive {
+    let mut d = String::new();
+    for run in runs {
+        for (place, [x, y]) in run.iter().enumerate() {
+            let command = if place == 0 { "M" } else { "L" };
+            let _ = write!(d, "{command}{} {}", tidy(*x), tidy(*y));
+        }
+        d.push_str(if fill.is_some() { "Z" } else { "" });
+    }
+    Primitive::Path(Box::new(PathData {
+        d,
+        fill: fill.map(Into::into),
+        stroke: stroke.map_or("none", |stroke| stroke.color).into(),
+        stroke_width: stroke.map_or(0.0, |stroke| stroke.width),
+        opacity: None,
+        stroke_dasharray: None,
+    }))
+}
+
+/// A coordinate to a hundredth, no `-0`.
+fn tidy(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0 + 0.0
+}
+
+/// How much of a text of this width lies before the point where it was put.
+fn behind(anchor: Anchor, width: f64) -> f64 {
+    match anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5 * width,
+        Anchor::End => width,
+    }
+}
+
+/// About how wide a text is `[px]`; the font of the PNGs is wider than most.
+pub fn text_width(text: &str, size: u32) -> f64 {
+    let em = |sign: char| match sign {
+        'i' | 'l' | 'j' | '.' | ',' | ':' | ';' | '|' | '\'' | '₁' | ' ' => 0.34,
+        'm' | 'w' | 'M' | 'W' | '%' | '−' => 0.92,
+        'A'..='Z' => 0.7,
+        _ => 0.62,
+    };
+    f64::from(size) * text.chars().map(em).sum::<f64>()
+}
+
+/// For the value of an XML attribute.
+fn escape(text: &str) -> String {
+    let visible: String = text.chars().filter(|sign| !sign.is_control()).collect();
+    visible.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}

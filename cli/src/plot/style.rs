@@ -1,0 +1,81 @@
+//! How lines and areas look: told apart by the colour-blind, in grey print, and where curves lie on one another.
+//!
+//! Colours are Okabe and Ito's (2008). Every line has its own dashes as well, and later lines are thinner, so that an earlier one
+//! shows on both sides and through the gaps of those that cover it.
+
+/// Text, frames and ticks.
+pub const INK: &str = "#222222";
+/// Lines to compare with.
+pub const GREY: &str = "#777777";
+/// Grid.
+pub const FAINT: &str = "#e4e4e4";
+/// The ground.
+pub const GROUND: &str = "#000000";
+/// What an impact does.
+pub const IMPACT: &str = "#d55e00";
+
+/// Sizes of text `[px]` on a sheet 720 px wide: 8 pt where it is printed 15 cm wide.
+pub const LABEL: u32 = 14;
+/// See [`LABEL`].
+pub const NUMBER: u32 = 13;
+/// See [`LABEL`].
+pub const NOTE: u32 = 13;
+
+/// A line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// As SVG has it.
+    pub color: &'static str,
+    /// `[px]`
+    pub width: f64,
+    /// Lengths of dashes and gaps in turn `[px]`; none for a solid line.
+    pub dashes: &'static [f64],
+}
+
+impl Stroke {
+    /// A solid line.
+    pub const fn solid(color: &'static str, width: f64) -> Stroke {
+        Stroke { color, width, dashes: &[] }
+    }
+
+    /// A dashed line.
+    pub const fn dashed(color: &'static str, width: f64, dashes: &'static [f64]) -> Stroke {
+        Stroke { color, width, dashes }
+    }
+}
+
+/// A value to compare with: slenderness, weight, friction coefficient.
+pub const REFERENCE: Stroke = Stroke::dashed(GREY, 1.2, &[5.0, 4.0]);
+/// Ticks and thin marks.
+pub const THIN: Stroke = Stroke::solid(INK, 0.9);
+
+/// Lines of the blocks or interfaces, base first. Larger columns begin anew: then the legend is of no use, and figures of parts are.
+const LINES: [Stroke; 7] = [
+    Stroke::solid("#0072b2", 2.6),
+    Stroke::dashed("#d55e00", 2.1, &[8.0, 5.0]),
+    Stroke::dashed("#000000", 1.8, &[1.5, 5.0]),
+    Stroke::dashed("#009e73", 1.7, &[9.0, 4.5, 1.5, 4.5]),
+    Stroke::dashed("#cc79a7", 1.6, &[15.0, 5.0]),
+    Stroke::dashed("#e69f00", 1.5, &[4.5, 4.5]),
+    Stroke::dashed("#56b4e9", 1.4, &[9.0, 4.0, 1.5, 4.0, 1.5, 4.0]),
+];
+
+/// The line of a block or interface, from zero.
+pub fn line(index: usize) -> Stroke {
+    LINES[index % LINES.len()].clone()
+}
+
+/// Fills of modes, those that last longest first: the colours at 60 % on white, so that dark text is read on them.
+const FILLS: [&str; 7] = ["#9ad2f2", "#f0c566", "#66c5ab", "#e0afca", "#e69e66", "#f6ef8e", "#66aad1"];
+/// Modes beyond the fills.
+pub const OTHER_FILL: &str = "#c4c4c4";
+/// Nothing moves.
+pub const REST_FILL: &str = "#ffffff";
+
+/// Modes that get a fill of their own.
+pub const NAMED_MODES: usize = FILLS.len();
+
+/// The fill of the mode with this rank by time.
+pub fn fill(rank: usize) -> &'static str {
+    FILLS.get(rank).copied().unwrap_or(OTHER_FILL)
+}

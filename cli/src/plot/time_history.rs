@@ -1,0 +1,289 @@
+//! Angles over time: the ground acceleration above, impacts as ticks and modes as a band below.
+
+use super::Figure;
+use super::axis::{Axis, brief, span, subscript};
+use super::curve::{Frame, Point};
+use super::motion::{FALL, Motion, Stretch, over_time};
+use super::sheet::{Anchor, Key, LEFT, Panel, RIGHT, Sheet, WIDTH, corners};
+use super::style::{self, Stroke};
+use rocking::Sample;
+
+/// Heights `[px]`.
+const GROUND: f64 = 110.0;
+const ANGLES: f64 = 220.0;
+const TICKS: f64 = 16.0;
+const BAND: f64 = 28.0;
+const GAP: f64 = 14.0;
+/// Height of the dark edge that tells a pattern from its mirror image.
+const EDGE: f64 = 5.0;
+
+/// The figure.
+pub fn draw(motion: &Motion) -> Figure {
+    let mut sheet = Sheet::new("Angles of the blocks over time, ground acceleration, impacts and modes");
+    let top = ground_panel(&mut sheet, motion, GAP);
+    let top = legend(&mut sheet, motion, top);
+    let angles = angles_panel(&mut sheet, motion, top + 4.0);
+    let strip = strip(&mut sheet, motion, angles.frame.bottom() + 8.0);
+    let below = sheet.label_below(&strip);
+    sheet.height = modes_legend(&mut sheet, motion, below + 2.0) + 8.0;
+    Figure::new("time-history", caption(motion), sheet)
+}
+
+/// The axis of time.
+pub fn time_axis(motion: &Motion) -> Axis {
+    Axis::over("Time [s]", [0.0, motion.end], 6)
+}
+
+/// A panel over the width of the sheet.
+pub fn wide(top: f64, height: f64, x: Axis, y: Option<Axis>) -> Panel {
+    Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
+}
+
+/// Ground acceleration in parts of gravity, from `top` down. Returns where it ends.
+fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
+    let gravity = motion.results.column.gravity();
+    let directions: Vec<Vec<Point>> =
+        [0, 1].map(|direction| over_time(motion.samples, |sample: &Sample| sample.ground[direction] / gravity)).into();
+    let vertical = directions[1].iter().any(|point| point[1] != 0.0);
+    let values = directions.iter().flatten().map(|point| point[1]);
+    // Where the ground is still, the axis says so at one glance.
+    let still = directions.iter().flatten().all(|point| point[1] == 0.0);
+    let values = values.chain(if still { [-0.1, 0.1] } else { [0.0; 2] });
+    let axis = Axis::around("Ground acc. [g]", values, 1e-6, 3);
+    let mut top = top;
+    let strokes = [Stroke::solid(style::GROUND, 1.5), Stroke::dashed("#e69f00", 1.5, &[6.0, 3.0])];
+    if vertical {
+        let names = ["horizontal", "vertical"].map(|name| format!("{name} ground acceleration"));
+        let entries: Vec<_> = strokes.iter().cloned().map(Key::Line).zip(names).collect();
+        top = sheet.legend(top - GAP, &entries) + 2.0;
+    }
+    let panel = wide(top, GROUND, time_axis(motion).unnumbered(), Some(axis));
+    sheet.axes(&panel);
+    sheet.label_upwards(&panel);
+    sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
+    for (points, stroke) in directions.iter().zip(&strokes).rev() {
+        if vertical || std::ptr::eq(stroke, &strokes[0]) {
+            sheet.history(&panel, points, stroke);
+        }
+    }
+    panel.frame.bottom()
+}
+
+fn legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
+    let entries: Vec<(Key, String)> = motion
+        .slenderness()
+        .iter()
+        .enumerate()
+        .map(|(index, alpha)| {
+            let name = if motion.results.column.len() == 1 {
+                format!("θ/α, α = {} rad", brief(*alpha))
+            } else {
+                format!("block {}, α{} = {}", index + 1, subscript(index + 1), brief(*alpha))
+            };
+            (Key::Line(style::line(index)), name)
+        })
+        .collect();
+    sheet.legend(top + 4.0, &entries)
+}
+
+fn angles_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
+    let curves: Vec<Vec<Point>> = motion
+        .slenderness()
+        .iter()
+        .enumerate()
+        .map(|(block, alpha)| motion.knots.iter().map(|knot| [knot.t, knot.theta[block] / alpha]).collect())
+        .collect();
+    let limit = if motion.overturned() { FALL } else { f64::INFINITY };
+    let values = curves.iter().flatten().map(|point| point[1].clamp(-limit, limit));
+    let label = if curves.len() == 1 { "Angle θ/α" } else { "Angles θᵢ/αᵢ" };
+    let panel = wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 1e-6, 4)));
+    sheet.axes(&panel);
+    sheet.label_upwards(&panel);
+    sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
+    [-1.0, 1.0].into_iter().for_each(|bound| sheet.level(&panel, bound, &style::REFERENCE));
+    for (block, points) in curves.iter().enumerate() {
+        sheet.history(&panel, points, &style::line(block));
+    }
+    mark_ending(sheet, motion, &panel, Anchor::End);
+    panel
+}
+
+/// A line where the run was over before its time, and what happened along it: to its upper `End`, or from its lower `Start`.
+pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, anchor: Anchor) {
+    let Some((t, words)) = motion.ending() else { return };
+    let (x, frame) = (panel.place_x(t), &panel.frame);
+    sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
+    let y = if anchor == Anchor::End { frame.top + 8.0 } else { frame.bottom() - 8.0 };
+    let beside = if frame.right() - x > 20.0 { x + 15.0 } else { x - 6.0 };
+    sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);
+}
+
+/// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
+fn strip(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
+    let panel = wide(top, TICKS + BAND, time_axis(motion), None);
+    let band = Frame { top: top + TICKS, height: BAND, ..panel.frame };
+    draw_band(sheet, motion, &panel, &band);
+    let impacts: Vec<Vec<Point>> =
+        motion.impacts().map(|t| panel.place_x(t)).map(|x| vec![[x, top + 2.0], [x, top + TICKS - 2.0]]).collect();
+    let (beside, below) = (panel.frame.left - 8.0, 4.5);
+    sheet.words([beside, top + 0.5 * TICKS + below], "impacts", style::NOTE, Anchor::End);
+    sheet.words([beside, band.top + 0.5 * BAND + below], "mode", style::NOTE, Anchor::End);
+    if !impacts.is_empty() {
+        sheet.lines(&panel, &seen(impacts), &style::THIN);
+    }
+    sheet.line([band.left, band.top], [band.right(), band.top], &style::THIN);
+    sheet.axes(&panel);
+    panel
+}
+
+/// From so many ticks on those that fall on one another are drawn once.
+const MANY_TICKS: usize = 10_000;
+
+fn seen(mut ticks: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
+    if ticks.len() > MANY_TICKS {
+        ticks.dedup_by_key(|tick| (tick[0][0] * 20.0) as i64);
+    }
+    ticks
+}
+
+/// Columns of the band `[px]`: each shows the pattern that lasts longest in it.
+const GRAIN: f64 = 0.25;
+
+fn draw_band(sheet: &mut Sheet, motion: &Motion, panel: &Panel, band: &Frame) {
+    let modes = modes(motion);
+    let drawn = on_columns(&motion.stretches(), panel);
+    for (rank, mode) in modes.iter().enumerate() {
+        // A pattern and its mirror image as one: between two areas a seam would show.
+        let together = drawn.chunk_by(|a, b| a.mode == b.mode && a.to == b.from);
+        let of_mode = together.filter(|stretches| stretches[0].mode == *mode);
+        let whole = |stretches: &[Stretch]| Stretch { to: stretches[stretches.len() - 1].to, ..stretches[0].clone() };
+        let areas: Vec<_> = of_mode.map(|stretches| corners(&part(band, &whole(stretches)))).collect();
+        if !areas.is_empty() {
+            sheet.areas(areas, mode_fill(mode, rank));
+        }
+    }
+    let moving = drawn.iter().filter(|stretch| stretch.mode != "rest");
+    let edge = |stretch: &Stretch| {
+        let top = if stretch.mirrored { band.bottom() - EDGE } else { band.top };
+        corners(&Frame { top, height: EDGE, ..part(band, stretch) })
+    };
+    sheet.areas(moving.map(edge).collect(), style::INK);
+    for same in drawn.chunk_by(|a, b| a.mode == b.mode) {
+        let (from, to) = (same[0].from, same[same.len() - 1].to);
+        let label = &same[0].mode;
+        if to - from > super::sheet::text_width(label, style::NOTE) + 2.0 {
+            let at = [0.5 * (from + to), band.top + 0.5 * BAND + 4.5];
+            sheet.words(at, label, style::NOTE, Anchor::Middle);
+        }
+    }
+}
+
+fn part(band: &Frame, stretch: &Stretch) -> Frame {
+    Frame { left: stretch.from, width: stretch.to - stretch.from, ..*band }
+}
+
+/// The stretches on paper: `from` and `to` in `[px]`, none narrower than a column.
+fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
+    let mut drawn: Vec<Stretch> = Vec::new();
+    let columns = (panel.frame.width / GRAIN).round() as usize;
+    let (mut next, mut from) = (0, panel.frame.left);
+    for column in 1..=columns {
+        let to = panel.frame.left + panel.frame.width * column as f64 / columns as f64;
+        let inside = |stretch: &Stretch| panel.place_x(stretch.to).min(to) - panel.place_x(stretch.from).max(from);
+        while next < stretches.len() && panel.place_x(stretches[next].to) <= from {
+            next += 1;
+        }
+        let here = stretches[next..].iter().take_while(|stretch| panel.place_x(stretch.from) < to);
+        let longest = here.max_by(|a, b| inside(a).total_cmp(&inside(b)));
+        if let Some(longest) = longest.filter(|stretch| inside(stretch) > 0.0) {
+            let same = |last: &&mut Stretch| (&last.mode, last.mirrored) == (&longest.mode, longest.mirrored);
+            match drawn.last_mut().filter(same).filter(|last| last.to == from) {
+                Some(last) => last.to = to,
+                None => drawn.push(Stretch { from, to, ..longest.clone() }),
+            }
+        }
+        from = to;
+    }
+    drawn
+}
+
+/// The modes of a run, those that last longest first; `rest` last.
+fn modes(motion: &Motion) -> Vec<String> {
+    let mut modes: Vec<(&String, f64)> =
+        motion.results.summary.time_in_mode.iter().map(|(mode, time)| (mode, *time)).collect();
+    modes.sort_by(|a, b| (a.0 == "rest").cmp(&(b.0 == "rest")).then(b.1.total_cmp(&a.1)));
+    modes.into_iter().map(|(mode, _)| mode.clone()).collect()
+}
+
+fn mode_fill(mode: &str, rank: usize) -> &'static str {
+    if mode == "rest" { style::REST_FILL } else { style::fill(rank) }
+}
+
+/// Modes without a fill of their own are named up to this many.
+const LISTED: usize = 24;
+
+fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
+    let times = &motion.results.summary.time_in_mode;
+    let total: f64 = times.values().sum();
+    let share = |time: f64| match 100.0 * time / total {
+        percent if percent < 0.1 => "< 0.1 %".into(),
+        percent if percent < 10.0 => format!("{percent:.1} %"),
+        percent => format!("{percent:.0} %"),
+    };
+    let modes = modes(motion);
+    let (resting, moving): (Vec<&String>, Vec<&String>) = modes.iter().partition(|mode| *mode == "rest");
+    let mut entries = vec![(Key::None, "Time in mode:".to_string())];
+    for (rank, mode) in moving.iter().enumerate().take(style::NAMED_MODES) {
+        entries.push((Key::Fill(style::fill(rank)), format!("{mode}: {}", share(times[*mode]))));
+    }
+    if let Some(mode) = resting.first() {
+        entries.push((Key::Fill(style::REST_FILL), format!("rest: {}", share(times[*mode]))));
+    }
+    let others = &moving[moving.len().min(style::NAMED_MODES)..];
+    for (place, names) in others[..others.len().min(LISTED)].chunks(8).enumerate() {
+        let names = names.iter().map(|mode| mode.as_str()).collect::<Vec<_>>().join(", ");
+        entries.push(match place {
+            0 => (Key::Fill(style::OTHER_FILL), format!("others: {names}")),
+            _ => (Key::None, names),
+        });
+    }
+    if others.len() > LISTED {
+        entries.push((Key::None, format!("and {} more", others.len() - LISTED)));
+    }
+    let end = sheet.legend(top, &entries);
+    if moving.is_empty() {
+        return end;
+    }
+    let explained = [(
+        Key::None,
+        "Dark along the upper edge of the band: pattern as labelled; lower edge: its mirror image.".into(),
+    )];
+    sheet.legend(end, &explained)
+}
+
+fn caption(motion: &Motion) -> String {
+    let summary = &motion.results.summary;
+    let blocks = motion.results.column.len();
+    let mut caption = if blocks == 1 {
+        "Angle of the block over its slenderness α".to_string()
+    } else {
+        "Angles of the blocks, base first, each over the slenderness αᵢ of the stack that stands on its interface"
+            .into()
+    };
+    caption.push_str("; above, the acceleration of the ground in parts of gravity; below, impacts and modes.");
+    let [low, high] = span(motion.knots.iter().flat_map(|knot| {
+        motion.slenderness().into_iter().zip(knot.theta).map(|(alpha, theta)| theta / alpha).collect::<Vec<_>>()
+    }));
+    if motion.overturned() && low.abs().max(high) > FALL {
+        caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α."));
+    }
+    if low <= -1.0 || high >= 1.0 {
+        caption.push_str(" Dashed: θ = ±α, beyond which a rigid stack at rest would fall.");
+    }
+    if let Some((t, words)) = motion.ending() {
+        let verb = if motion.overturned() { "" } else { "is " };
+        caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
+    }
+    caption.push_str(&format!(" {} impact(s).", summary.impacts));
+    caption
+}

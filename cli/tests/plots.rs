@@ -1,0 +1,230 @@
+//! Figures of a run: what they claim to show is in them, and they are documents that anybody can open.
+
+mod common;
+
+use roxmltree::{Document, Node};
+use serde_json::Value;
+use std::path::Path;
+
+const FIGURES: [&str; 4] = ["time-history", "phase-portrait", "energy", "forces"];
+
+/// A column that nothing moves.
+const STILL: &str = "[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[solver]\nt_end = 1.0\n";
+
+/// The figures of a scene of the project, and its summary.
+fn figures_of(scene: &str) -> (Vec<String>, Value) {
+    let scene = common::root().join("scenes").join(format!("{scene}.toml"));
+    figures_of_file(&scene)
+}
+
+fn figures_of_file(scene: &Path) -> (Vec<String>, Value) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = common::succeeds(folder.path(), &["run", &scene.to_string_lossy(), "--out", "out", "--plots"]);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).expect("written");
+    let figures = FIGURES.map(|name| {
+        assert!(text.contains(&format!("{name}.svg")), "{text}");
+        read(&format!("{name}.svg"))
+    });
+    (figures.into(), serde_json::from_str(&read("summary.json")).expect("JSON"))
+}
+
+fn words(document: &Document) -> Vec<String> {
+    let texts = document.descendants().filter(|node| node.has_tag_name("text"));
+    texts.filter_map(|node| node.text()).map(String::from).collect()
+}
+
+fn number(node: &Node, attribute: &str) -> f64 {
+    node.attribute(attribute).and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{attribute} of {node:?}"))
+}
+
+/// The parts of a path: where each begins and the corners that follow.
+fn parts(path: &str) -> Vec<Vec<[f64; 2]>> {
+    let point = |text: &str| {
+        let numbers: Vec<f64> = text.split_whitespace().map(|number| number.parse().expect("a number")).collect();
+        [numbers[0], numbers[1]]
+    };
+    let parts = path.trim_end_matches('Z').split('M').filter(|part| !part.is_empty());
+    parts.map(|part| part.trim_end_matches('Z').split('L').map(point).collect()).collect()
+}
+
+fn paths<'a>(document: &'a Document) -> impl Iterator<Item = Vec<Vec<[f64; 2]>>> + 'a {
+    document.descendants().filter_map(|node| node.attribute("d")).map(parts)
+}
+
+#[test]
+fn figures_stand_alone_and_beside_others_and_scale() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let still = folder.path().join("still.toml");
+    std::fs::write(&still, STILL).expect("written");
+    let scenes =
+        ["three-drums-pulse", "paper-1-block-3.00", "five-drums-free", "two-drums-record", "paper-1-block-6.32"];
+    let drawn = scenes.map(|scene| figures_of(scene).0).into_iter().chain([figures_of_file(&still).0]);
+    for figure in drawn.flatten() {
+        let document = Document::parse(&figure).expect("XML");
+        let root = document.root_element();
+        let (width, height) = (number(&root, "width"), number(&root, "height"));
+        assert_eq!(root.attribute("viewBox"), Some(format!("0 0 {width} {height}").as_str()));
+        assert!(root.attribute("font-family").is_some_and(|family| family.ends_with("sans-serif")));
+        for node in document.descendants() {
+            assert!(node.attribute("id").is_none() && node.attribute("clip-path").is_none(), "{node:?} may clash");
+            for attribute in node.attributes() {
+                assert!(!["NaN", "inf"].iter().any(|bad| attribute.value().contains(bad)), "{attribute:?}");
+            }
+        }
+        let texts = document.descendants().filter(|node| node.has_tag_name("text"));
+        assert!(texts.clone().count() > 5);
+        // Eleven pixels where a figure is 900 wide.
+        assert!(texts.into_iter().all(|text| number(&text, "font-size") * 900.0 / width >= 11.0));
+        for [x, y] in paths(&document).flatten().flatten() {
+            assert!((-1.0..=width + 1.0).contains(&x) && (-1.0..=height + 1.0).contains(&y), "({x}, {y})");
+        }
+    }
+}
+
+#[test]
+fn a_time_history_has_a_tick_for_every_impact_and_a_name_for_every_mode() {
+    for scene in ["three-drums-pulse", "paper-1-block-3.00", "five-drums-free", "two-drums-record"] {
+        let (figures, summary) = figures_of(scene);
+        let document = Document::parse(&figures[0]).expect("XML");
+        let impacts = summary["impacts"].as_u64().expect("a number") as usize;
+        let upright = |part: &Vec<[f64; 2]>| part.len() == 2 && part[0][0] == part[1][0];
+        let ticks = paths(&document).filter(|parts| parts.len() == impacts && parts.iter().all(upright));
+        assert_eq!(ticks.count(), 1, "{scene}: {impacts} impacts");
+
+        let words = words(&document);
+        for mode in summary["time_in_mode"].as_object().expect("modes").keys() {
+            let named = |text: &String| {
+                text.split([',', ':', ' ']).any(|word| word == mode) && (text.contains(',') || text.contains(':'))
+                    || text == mode
+            };
+            assert!(words.iter().any(named), "{scene}: mode {mode} is not in {words:?}");
+        }
+        let blocks = summary["peak_theta"].as_array().expect("a list").len();
+        assert!(
+            blocks == 1
+                || (1..=blocks).all(|block| words.iter().any(|text| text.starts_with(&format!("block {block},"))))
+        );
+    }
+}
+
+/// Words only: coordinates may differ in their last digit from one machine to the next.
+#[test]
+fn the_figure_of_the_readme_is_what_its_command_draws() {
+    let (figures, _) = figures_of("paper-3-blocks-3.00");
+    let shown = std::fs::read_to_string(common::root().join("docs/time-history.svg")).expect("it is there");
+    let said = |figure: &str| words(&Document::parse(figure).expect("XML"));
+    assert_eq!(said(&figures[0]), said(&shown));
+    let readme = std::fs::read_to_string(common::root().join("README.md")).expect("it is there");
+    assert!(readme.contains("rocking run scenes/paper-3-blocks-3.00.toml --out out/ --plots"));
+}
+
+#[test]
+fn endings_are_told() {
+    let told = |scene: &str| {
+        let figures = figures_of(scene).0;
+        words(&Document::parse(&figures[0]).expect("XML"))
+    };
+    assert!(told("paper-1-block-6.32").iter().any(|text| text == "overturned"));
+    assert!(told("paper-3-blocks-7.17").iter().any(|text| text.starts_with("overturned (block ")));
+    assert!(told("five-drums-free").iter().any(|text| text == "at rest"));
+}
+
+/// At an impact the total energy falls, straight down, by what the event says; and rates jump.
+#[test]
+fn impacts_are_drops_of_the_energy_and_jumps_of_the_rate() {
+    let (figures, summary) = figures_of("paper-1-block-3.00");
+    let impacts = summary["impacts"].as_u64().expect("a number") as usize;
+    let portrait = Document::parse(&figures[1]).expect("XML");
+    let jumps = portrait.descendants().filter(|node| node.attribute("stroke") == Some("#d55e00"));
+    let dashes: Vec<_> = jumps.filter_map(|node| node.attribute("d")).flat_map(parts).collect();
+    let upright = dashes.iter().filter(|part| part.iter().all(|point| point[0] == part[0][0]));
+    assert!(upright.count() >= impacts, "each jump has one dash at least");
+
+    let energy = Document::parse(&figures[2]).expect("XML");
+    let total = energy.descendants().filter(|node| node.attribute("stroke") == Some("#000000"));
+    let total = total.filter_map(|node| node.attribute("d")).map(parts).max_by_key(|parts| parts[0].len());
+    let total = total.expect("a curve").remove(0);
+    let drops = total.windows(2).filter(|ends| ends[1][0] - ends[0][0] < 0.6 && ends[1][1] > ends[0][1] + 0.5);
+    assert!(drops.count() >= impacts / 2, "the larger ones can be seen");
+}
+
+#[test]
+fn friction_demand_is_drawn_against_what_the_scene_has() {
+    let (figures, summary) = figures_of("three-drums-pulse");
+    let said = |figure: &str| words(&Document::parse(figure).expect("XML"));
+    let words = said(&figures[3]);
+    assert!(words.iter().any(|text| text == "friction coefficient 0.8"), "{words:?}");
+    for demand in summary["friction_demand"].as_array().expect("a list") {
+        let demand = demand.as_f64().expect("a number");
+        let near = |text: &String| text.parse().is_ok_and(|shown: f64| (shown / demand - 1.0).abs() < 5e-3);
+        assert!(words.iter().any(near), "{demand} is not in {words:?}");
+    }
+    let without = figures_of("five-drums-free").0;
+    assert!(!said(&without[3]).iter().any(|text| text.starts_with("friction coefficient")));
+}
+
+#[test]
+fn pngs_have_the_figures_size_and_figures_are_the_same_from_run_to_run() {
+    let root = common::root();
+    let folder = tempfile::tempdir().expect("a folder");
+    common::succeeds(folder.path(), &["run", &root.join("scenes/paper-2-blocks-3.00.toml").to_string_lossy()]);
+    for (format, out) in [("svg", "first"), ("svg", "second"), ("png", "first"), ("png", "second")] {
+        let text = common::succeeds(folder.path(), &["plot", "out", "--format", format, "--out", out]);
+        assert!(text.starts_with(&format!("wrote 4 figures to {out}\n")), "{text}");
+        let told = |name: &str| text.lines().any(|line| line.starts_with(&format!("{name}.{format}: ")));
+        assert!(FIGURES.iter().all(|name| told(name)), "{text}");
+    }
+    for name in FIGURES {
+        let read = |out: &str, format: &str| {
+            std::fs::read(folder.path().join(out).join(format!("{name}.{format}"))).expect("written")
+        };
+        assert!(read("first", "svg") == read("second", "svg") && read("first", "png") == read("second", "png"));
+        let (svg, png) = (String::from_utf8(read("first", "svg")).expect("text"), read("first", "png"));
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+        let side = |place: usize| u32::from_be_bytes(png[place..place + 4].try_into().expect("four bytes"));
+        let document = Document::parse(&svg).expect("XML");
+        let sides = ["width", "height"].map(|side| (3.0 * number(&document.root_element(), side)) as u32);
+        assert!(side(16).abs_diff(sides[0]) <= 1 && side(20).abs_diff(sides[1]) <= 1);
+    }
+}
+
+#[test]
+fn a_folder_that_is_not_of_a_run_is_bad_input() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = common::rocking(folder.path(), &["plot", "."]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("summary.json") && message.contains("rocking run"), "{message}");
+    assert!(std::fs::read_dir(folder.path()).expect("a folder").next().is_none(), "nothing is half written");
+}
+
+/// A hundred thousand rows of a chattering column.
+#[test]
+fn figures_of_long_runs_stay_small() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("long.toml");
+    let text = "[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 1.6\n\
+        [excitation.horizontal]\nkind = \"harmonic\"\namplitude_g = 0.5\nfrequency = 2.0\n\
+        [solver]\nt_end = 200.0\n[output]\ndt = 0.002\n";
+    std::fs::write(&scene, text).expect("written");
+    for (figure, name) in figures_of_file(&scene).0.iter().zip(FIGURES) {
+        assert!(figure.len() < 1_000_000, "{name} has {} bytes", figure.len());
+    }
+}
+
+#[test]
+fn one_file_knows_the_plotting_crate() {
+    let mut folders = vec![common::root().join("cli/src")];
+    let mut knowing = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder of the project") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if std::fs::read_to_string(&path).expect("readable").contains("kuva::") {
+                knowing.push(path);
+            }
+        }
+    }
+    assert!(knowing.len() == 1 && knowing[0].ends_with("plot/sheet.rs"), "{knowing:?}");
+}
