@@ -25,9 +25,20 @@ pub enum Command {
         /// Equations of motion to run on.
         #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
         dynamics: Dynamics,
+        /// Write report.html as well: one page with outcome, validity, figures and an animation.
+        #[arg(long)]
+        report: bool,
         /// Print nothing but errors.
         #[arg(long, short)]
         quiet: bool,
+    },
+    /// Write one self-contained HTML page of a finished run: outcome, validity, figures and an animation.
+    Report {
+        /// Folder of the run.
+        folder: PathBuf,
+        /// File of the page; report.html in the folder unless given.
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
     },
     /// List the independent rocking modes of a column, or draw them.
     Modes {

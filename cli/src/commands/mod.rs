@@ -1,6 +1,7 @@
 //! The commands, a file each.
 
 mod modes;
+mod report;
 mod run;
 mod thresholds;
 
@@ -17,7 +18,8 @@ use std::path::Path;
 /// [`Failure`]
 pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
-        Command::Run { scene, out, dynamics, quiet } => run::run(&scene, &out, dynamics, quiet),
+        Command::Run { scene, out, dynamics, report, quiet } => run::run(&scene, &out, dynamics, report, quiet),
+        Command::Report { folder, out } => report::report(&folder, out.as_deref()),
         Command::Modes { blocks, svg: None } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file) } => modes::draw_modes(usize::from(blocks), &file),
         Command::Derive { blocks, mode, counts, format } => {

@@ -1,7 +1,7 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::Dynamics;
-use crate::commands::print;
+use crate::commands::{print, report};
 use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
@@ -10,11 +10,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-/// Runs a scene and writes its results.
+/// Runs a scene and writes its results, with `page` their report as well.
 ///
 /// # Errors
 /// [`Failure`]
-pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(), Failure> {
+pub fn run(path: &Path, out: &Path, dynamics: Dynamics, page: bool, quiet: bool) -> Result<(), Failure> {
     let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
     let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
     if dynamics == Dynamics::Generic {
@@ -32,13 +32,19 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(
     bar.finish();
     let warnings = response.warnings(scene.friction);
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
+    // Made of the files, as `rocking report` makes it: of one run there is one page.
+    let page = page.then(|| report::write(out, None)).transpose()?;
     if quiet {
         return Ok(());
     }
     for warning in &warnings {
         eprintln!("warning: {warning}");
     }
-    print(&account(&scene, &response, out))
+    let mut text = account(&scene, &response, out);
+    if let Some(page) = page {
+        let _ = writeln!(text, "wrote {}", page.display());
+    }
+    print(&text)
 }
 
 /// A few lines on what happened.
