@@ -58,7 +58,13 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
         let is_told = frames.last().is_some_and(|frame| frame.t == row.t);
         if !is_told && (index % stride == 0 || index == last) {
             let at = ground.at(results, index, row.t);
-            frames.push(Frame { t: row.t, theta: &row.theta, omega: &row.omega, pattern: row.pattern.clone(), ground: at });
+            frames.push(Frame {
+                t: row.t,
+                theta: &row.theta,
+                omega: &row.omega,
+                pattern: row.pattern.clone(),
+                ground: at,
+            });
         }
     }
     // Overturning ends the rows; what happened after the last of them belongs to the run all the same.
@@ -120,10 +126,7 @@ impl Ground {
         let dt = rows[index].t - rows[before].t;
         let share = if dt > 0.0 { ((t - rows[before].t) / dt).clamp(0.0, 1.0) } else { 1.0 };
         let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
-        [
-            between(rows[before].ground, rows[index].ground),
-            between(self.displacement[before], self.displacement[index]),
-        ]
+        [between(rows[before].ground, rows[index].ground), between(self.displacement[before], self.displacement[index])]
     }
 }
 
@@ -222,7 +225,7 @@ pub fn notes(results: &Results) -> String {
             .map(|axis| format!("{} m/s {}", significant(drift[axis], 3), name(axis)))
             .collect();
         notes.push(if taken.is_empty() {
-            "The ground moves as its acceleration, integrated twice over the output rows, says.".to_string()
+            "The ground's displacement is its acceleration, integrated twice over the output rows.".to_string()
         } else {
             format!(
                 "The ground's displacement is its acceleration, integrated twice over the output rows, and shown without drift: \

@@ -70,7 +70,9 @@ fn section_of(figures: &[Figure]) -> String {
     if figures.is_empty() {
         return String::new();
     }
-    let mut text = String::from("<section id=\"figures\" aria-labelledby=\"figures-title\">\n<h2 id=\"figures-title\">Figures</h2>\n");
+    let mut text = String::from(
+        "<section id=\"figures\" aria-labelledby=\"figures-title\">\n<h2 id=\"figures-title\">Figures</h2>\n",
+    );
     for Figure { name, caption, svg } in figures {
         let caption = escape(caption);
         let _ = writeln!(

@@ -64,11 +64,9 @@ fn parameter(key: &str, value: &Value, gravity: f64) -> Option<String> {
     Some(match (key, number) {
         ("start" | "phase", Some(0.0)) => return None,
         (_, None) if value.is_null() => return None,
-        ("amplitude", Some(amplitude)) => format!(
-            "amplitude {} m/s² = {} g",
-            significant(amplitude, 5),
-            significant(amplitude / gravity, 4)
-        ),
+        ("amplitude", Some(amplitude)) => {
+            format!("amplitude {} m/s² = {} g", significant(amplitude, 5), significant(amplitude / gravity, 4))
+        }
         ("omega", Some(omega)) => format!(
             "ω = {} rad/s, frequency {} Hz, period {} s",
             significant(omega, 5),

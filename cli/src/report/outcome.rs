@@ -19,20 +19,22 @@ pub fn sentence(results: &Results) -> String {
                 1 => String::new(),
                 _ => format!(", block {block} first"),
             });
-            ("overturned", format!("The column <strong>overturns</strong> at t = {t}&nbsp;s{first}."))
+            ("overturned", format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."))
         }
         StopReason::AtRest if results.events.is_empty() && summary.t_final == 0.0 => {
             ("stands", format!("The column <strong>stands</strong>: nothing starts it in {end}&nbsp;s."))
         }
         StopReason::AtRest => {
-            ("stands", format!("The column <strong>stands</strong>: it comes to rest at t = {t}&nbsp;s."))
+            ("stands", format!("The column <strong>stands</strong>: it comes to rest at t&nbsp;=&nbsp;{t}&nbsp;s."))
         }
         StopReason::EndOfTime if results.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
-            ("stands", format!("The column <strong>stands</strong> at the end of the run, t = {end}&nbsp;s."))
+            ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
         StopReason::EndOfTime => (
             "rocking",
-            format!("The column <strong>stands</strong>, but is still rocking at the end of the run, t = {end}&nbsp;s."),
+            format!(
+                "The column <strong>stands</strong>, but is still rocking at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
+            ),
         ),
     };
     // Told apart by shape, not by colour alone.
@@ -57,7 +59,7 @@ pub fn tiles(results: &Results) -> String {
         tiles.push(("largest angle", degrees(peak), of));
     }
     let starts = results.events.iter().filter(|event| event.kind != EventKind::Impact).count();
-    tiles.push(("impacts", summary.impacts.to_string(), format!("{starts} other change(s) of pattern")));
+    tiles.push(("impacts", summary.impacts.to_string(), format!("{starts} other event(s): starts, openings")));
     let total: f64 = summary.time_in_mode.values().sum();
     let most = summary.time_in_mode.iter().max_by(|a, b| a.1.total_cmp(b.1));
     if let Some((mode, time)) = most {
@@ -65,11 +67,17 @@ pub fn tiles(results: &Results) -> String {
         tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
     }
     let peak = |axis: usize| results.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
-    let [x, y] = [peak(0), peak(1)].map(|peak| format!("{} g", significant(peak / results.column.gravity(), 3)));
-    let vertical = if y == "0 g" { "horizontal; at output times".into() } else { format!("vertical {y}; at output times") };
-    tiles.push(("peak ground acceleration", x, vertical));
+    let peaks = [peak(0), peak(1)];
+    let [x, y] = peaks.map(|peak| format!("{} g", significant(peak / results.column.gravity(), 3)));
+    tiles.push(match peaks {
+        [0.0, 0.0] => ("ground acceleration", "none".into(), "the ground does not move".into()),
+        [_, 0.0] => ("peak ground acceleration", x, "horizontal; at output times".into()),
+        _ => ("peak ground acceleration", x, format!("vertical {y}; at output times")),
+    });
     let tile = |(name, value, note): (&str, String, String)| {
-        format!("<li><span class=\"name\">{name}</span> <span class=\"value\">{value}</span> <span class=\"note\">{note}</span></li>\n")
+        format!(
+            "<li><span class=\"name\">{name}</span> <span class=\"value\">{value}</span> <span class=\"note\">{note}</span></li>\n"
+        )
     };
     format!("<ul class=\"tiles\">\n{}</ul>\n", tiles.into_iter().map(tile).collect::<String>())
 }
@@ -129,7 +137,11 @@ pub fn impacts(results: &Results) -> String {
     let words = match impacts.len() {
         1 => format!("One impact, at t = {} s", significant(first.t, 4)),
         count => {
-            format!("{count} impacts, the first at t = {} s, the last at {} s", significant(first.t, 4), significant(last.t, 4))
+            format!(
+                "{count} impacts, the first at t = {} s, the last at {} s",
+                significant(first.t, 4),
+                significant(last.t, 4)
+            )
         }
     };
     let mut at = vec![0; results.column.len()];
@@ -137,7 +149,7 @@ pub fn impacts(results: &Results) -> String {
     let share = |interface: usize| format!("<li>interface {}: {}</li>", interface + 1, at[interface]);
     let shares: String = (0..at.len()).rev().map(share).collect();
     let counted = if at.len() > 1 {
-        format!("; which interface closed, several at once where they do:</p>\n<ul class=\"plain\">{shares}</ul>\n")
+        format!("; interfaces that closed, several at once in some:</p>\n<ul class=\"plain\">{shares}</ul>\n")
     } else {
         ".</p>\n".into()
     };
@@ -151,28 +163,27 @@ const MODES_SHOWN: usize = 8;
 pub fn modes(results: &Results) -> String {
     let blocks = results.column.len();
     let total: f64 = results.summary.time_in_mode.values().sum::<f64>().max(f64::MIN_POSITIVE);
-    let mut modes: Vec<(&String, f64)> = results.summary.time_in_mode.iter().map(|(mode, time)| (mode, *time)).collect();
+    let mut modes: Vec<(&String, f64)> =
+        results.summary.time_in_mode.iter().map(|(mode, time)| (mode, *time)).collect();
     modes.sort_by(|a, b| b.1.total_cmp(&a.1));
     let row = |(mode, time): &(&String, f64)| {
         let pattern = match mode.as_str() {
             "rest" => Some(Pattern::rest(blocks)),
             mode => ModeLabel::parse(mode).and_then(|label| label.pattern(blocks)),
         };
-        let (drawing, signs) = pattern.map_or((String::new(), String::new()), |pattern| {
-            (sketch(&results.column, &pattern), typeset(&pattern))
-        });
+        let (drawing, signs) = pattern
+            .map_or((String::new(), String::new()), |pattern| (sketch(&results.column, &pattern), typeset(&pattern)));
         let name = if *mode == "rest" { "rest".to_string() } else { escape(mode) };
         format!(
             "<li>{drawing}<span class=\"mode\"><strong>{name}</strong> <span class=\"note\">{signs}</span></span>{}\
              <span class=\"time\">{} s <span class=\"note\">{}</span></span></li>\n",
             bar(time / total),
-            significant(*time, 4),
+            milliseconds(*time),
             percent(time / total)
         )
     };
-    let list = |modes: &[(&String, f64)]| {
-        format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>())
-    };
+    let list =
+        |modes: &[(&String, f64)]| format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>());
     let (shown, others) = modes.split_at(modes.len().min(MODES_SHOWN));
     let mut text = list(shown);
     if !others.is_empty() {
@@ -181,11 +192,16 @@ pub fn modes(results: &Results) -> String {
             text,
             "<details><summary>{} more, {} s together</summary>\n{}</details>",
             others.len(),
-            significant(time, 3),
+            milliseconds(time),
             list(others)
         );
     }
     text
+}
+
+/// A time to the millisecond `[s]`.
+fn milliseconds(time: f64) -> String {
+    if time < 0.001 { "< 0.001".into() } else { format!("{time:.3}") }
 }
 
 /// The pattern with a minus as wide as the plus.

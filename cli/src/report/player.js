@@ -225,17 +225,24 @@ function drawStage(state) {
   const { signs, link } = state.pattern;
   const blocks = outlines(enlarged(state.theta, factor), signs);
   blocks.forEach((block, i) => drawDrum(c, block.corners.map(([u, v]) => [x(u), y(v)]), run.fills[link[i]], i + 1));
+  // Closed interfaces between blocks: the line between the two gives way to dashes.
   blocks.forEach((block, i) => {
-    if (block.pivot) return;
+    if (block.pivot || i === 0) return;
     const [from, to] = block.contact.map(([u, v]) => [x(u), y(v)]);
-    c.strokeStyle = "#222";
-    c.lineWidth = 1.2;
-    c.setLineDash([4, 4]);
-    c.beginPath();
-    c.moveTo(...from);
-    c.lineTo(...to);
-    c.stroke();
+    const line = (style, width, dash) => {
+      c.strokeStyle = style;
+      c.lineWidth = width;
+      c.setLineDash(dash);
+      c.beginPath();
+      c.moveTo(...from);
+      c.lineTo(...to);
+      c.stroke();
+    };
+    c.lineCap = "butt";
+    line(run.fills[link[i]], 2.5, []);
+    line("#222", 1.2, [4, 4]);
     c.setLineDash([]);
+    c.lineCap = "round";
   });
   drawImpact(c, state.t, blocks, x, y);
   for (const { pivot } of blocks) {
@@ -297,7 +304,7 @@ function drawDrum(c, corners, fill, number) {
 }
 
 // How long an impact is seen, in seconds of the viewer.
-const FLASH = 0.25;
+const FLASH = 0.2;
 
 function drawImpact(c, t, blocks, x, y) {
   const reach = FLASH * speed;
@@ -404,7 +411,7 @@ function drawStripOnce() {
   c.lineTo(width - RIGHT, middle);
   c.stroke();
   c.lineJoin = "round";
-  for (let block = N - 1; block >= 0; block--) {
+  for (let block = 0; block < N; block++) {
     c.strokeStyle = CURVES[block % CURVES.length];
     c.setLineDash(DASHES[block % DASHES.length]);
     c.lineWidth = 1.6;
@@ -474,9 +481,9 @@ function tell(state) {
   text(element("pattern"), state.pattern.text.replaceAll("-", "\u2212"));
   text(element("scale"), factor === 1 ? "angles as they are" : `angles drawn ×${factor}`);
   const index = eventAt(state.t), event = run.events[index];
-  const where = event && event.at.length ? `, interface ${event.at.map(one => one + 1).join(" and ")}` : "";
+  const where = event && event.at.length ? `, interface\u00a0${event.at.map(one => one + 1).join(", ")}` : "";
   text(element("event"), event
-    ? `Event ${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}`
+    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}`
     : run.events.length ? `${run.events.length} events to come` : "No events in this run");
   for (const output of readouts) {
     const angle = state.theta[output.dataset.block - 1];

@@ -18,7 +18,9 @@ pub fn provenance(results: &Results) -> String {
     };
     let modes = summary.time_in_mode.keys().filter(|mode| *mode != "rest").count();
     let interval = match results.samples.as_slice() {
-        [first, second, ..] => format!("every {} s, {} rows", significant(second.t - first.t, 6), results.samples.len()),
+        [first, second, ..] => {
+            format!("every {} s, {} rows", significant(second.t - first.t, 6), results.samples.len())
+        }
         _ => "one row".into(),
     };
     let rows = [
@@ -26,7 +28,10 @@ pub fn provenance(results: &Results) -> String {
         ("Method", format!("<code>{}</code>", escape(&summary.method))),
         ("Relative tolerance", significant(options.rtol, 3)),
         ("Absolute tolerance", format!("{} rad, rad/s", significant(options.atol, 3))),
-        ("Stick angle", format!("{} rad: an interface that would hop by less closes", significant(options.stick_angle, 3))),
+        (
+            "Stick angle",
+            format!("{} rad: an interface that would hop by less closes", significant(options.stick_angle, 3)),
+        ),
         (
             "Overturning angle",
             format!("{} rad = {}", significant(options.overturn_angle, 5), degrees(options.overturn_angle)),

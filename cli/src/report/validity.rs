@@ -37,7 +37,8 @@ fn judge(results: &Results) -> Verdict {
             significant(first.t, 5)
         ));
     }
-    let parted = summary.min_normal_force.iter().enumerate().filter(|(_, force)| force.is_some_and(|force| force < 0.0));
+    let parted =
+        summary.min_normal_force.iter().enumerate().filter(|(_, force)| force.is_some_and(|force| force < 0.0));
     for (interface, _) in parted {
         reasons.push(format!("interface {} would have to pull: the contact would part", interface + 1));
     }
@@ -77,13 +78,13 @@ fn judge(results: &Results) -> Verdict {
 /// The verdict in a sentence or a list, with its sign.
 pub fn verdict(results: &Results) -> String {
     let (class, sign, words) = match judge(results) {
-        Verdict::Holds(why) => {
-            ("holds", "✓", format!("<p><strong>The model holds for this run</strong>: {why}.</p>"))
-        }
+        Verdict::Holds(why) => ("holds", "✓", format!("<p><strong>The model holds for this run</strong>: {why}.</p>")),
         Verdict::Conditional(why) => (
             "conditional",
             "?",
-            format!("<p><strong>The model holds if the joints are rough enough</strong>: {why}. The scene names no coefficient.</p>"),
+            format!(
+                "<p><strong>The model holds if the joints are rough enough</strong>: {why}. The scene names no coefficient.</p>"
+            ),
         ),
         Verdict::Fails(reasons) => {
             let reasons: String = reasons.iter().map(|reason| format!("<li>{reason}</li>")).collect();
@@ -95,7 +96,9 @@ pub fn verdict(results: &Results) -> String {
             "<p><strong>Whether the model holds is not known</strong>: contact forces were not recorded.</p>".into(),
         ),
     };
-    format!("<div class=\"verdict {class}\"><span class=\"sign\" aria-hidden=\"true\">{sign}</span><div>{words}</div></div>\n")
+    format!(
+        "<div class=\"verdict {class}\"><span class=\"sign\" aria-hidden=\"true\">{sign}</span><div>{words}</div></div>\n"
+    )
 }
 
 /// Demands and forces per interface, the top one first, and what they mean.
@@ -107,15 +110,16 @@ pub fn details(results: &Results) -> String {
         let demand = summary.friction_demand[interface];
         let force = summary.min_normal_force[interface];
         let slides = summary.friction.is_some_and(|available| demand.is_none_or(|demand| demand > available));
-        let share = force.map_or(String::new(), |force| format!(" <span class=\"note\">{}</span>", percent(force / weight)));
+        let share =
+            force.map_or(String::new(), |force| format!(" <span class=\"note\">{}</span>", percent(force / weight)));
         let _ = writeln!(
             rows,
             "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}{share}</td><td>{}</td></tr>",
             if slides { " class=\"beyond\"" } else { "" },
             interface + 1,
             demand.map_or("no limit".into(), |demand| significant(demand, 3)),
-            force.map_or("not finite".into(), |force| format!("{} N", significant(force, 4))),
-            format_args!("{} N", significant(weight, 4)),
+            force.map_or("not finite".into(), |force| significant(force, 4)),
+            significant(weight, 4),
         );
     }
     let mut text = String::new();
@@ -127,7 +131,7 @@ pub fn details(results: &Results) -> String {
             text,
             "<div class=\"wide\"><table>\n<caption>Per interface, the top one first; interface 1 is under block 1. Friction: {available}.</caption>\n\
              <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">largest friction demand |T|/N</th>\
-             <th scope=\"col\">smallest normal force, of the weight</th><th scope=\"col\">weight above</th></tr></thead>\n\
+             <th scope=\"col\">smallest normal force [N], share of weight</th><th scope=\"col\">weight above [N]</th></tr></thead>\n\
              <tbody>\n{rows}</tbody></table></div>\n"
         );
     }
@@ -136,6 +140,11 @@ pub fn details(results: &Results) -> String {
          interface needs so as not to slide; a normal force that falls to zero is a block about to lift off. Peaks that last a \
          few milliseconds count in full.</p>\n",
     );
+    if summary.overturned_at.is_some() {
+        text.push_str(
+            "<p>The column falls in this run, and the fall is included: its friction demand grows with the lean.</p>\n",
+        );
+    }
     let separations = match summary.separations.len() {
         0 => "<p>Separations: none.</p>\n".to_string(),
         count => {
