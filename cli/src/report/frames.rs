@@ -168,7 +168,7 @@ pub fn json(results: &Results) -> String {
     let events: Vec<_> = results
         .events
         .iter()
-        .map(|event| json!({ "t": event.t, "kind": kind(event.kind), "at": interfaces(event) }))
+        .map(|event| json!({ "t": event.t, "kind": kind(event.kind), "at": interfaces(event), "mode": event.mode }))
         .collect();
     let head = json!({
         "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,

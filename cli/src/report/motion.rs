@@ -104,7 +104,7 @@ mod tests {
         let told = "record: file <code>a&lt;b</code>; 2001 samples every 0.01 s, 20 s long; from t = 1.5 s on; \
             peak 4.905 m/s² = 0.5 g at output times";
         assert_eq!(words(&record, 9.81, 4.905), told);
-        let unknown = json!({"kind": "near-fault", "v_peak": 1.25, "name": "<b>", "list": [0.0; 9], "none": null});
+        let unknown = json!({"kind": "near-fault", "v_peak": 1.25, "name": "<b>", "list": vec![0.0; 9], "none": null});
         assert_eq!(words(&unknown, 9.81, 0.0), "near fault: list: 9 numbers; name: &lt;b&gt;; v peak = 1.25");
         assert_eq!(words(&Value::Null, 9.81, 0.0), "none");
     }

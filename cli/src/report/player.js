@@ -2,7 +2,8 @@
 //
 // What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
 //   blocks [[b, h]] half-sizes m; contact [c] half-widths m; gravity m/s²; fills per link; overturned
-//   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0}]
+//   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0,
+//   mode after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
 //   ax, ay, dx, dy [F] ground acceleration m/s² and displacement m, null where there is none
 //
@@ -483,7 +484,7 @@ function tell(state) {
   const index = eventAt(state.t), event = run.events[index];
   const where = event && event.at.length ? `, interface\u00a0${event.at.map(one => one + 1).join(", ")}` : "";
   text(element("event"), event
-    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}`
+    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}, then ${event.mode === "rest" ? "rest" : "mode\u00a0" + event.mode}`
     : run.events.length ? `${run.events.length} events to come` : "No events in this run");
   for (const output of readouts) {
     const angle = state.theta[output.dataset.block - 1];
