@@ -172,7 +172,7 @@ pub fn json(results: &Results) -> String {
         .collect();
     let head = json!({
         "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
-        "overturned": results.summary.overturned_at.is_some(), "patterns": patterns, "events": events,
+        "patterns": patterns, "events": events,
     });
     let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {

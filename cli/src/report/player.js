@@ -1,15 +1,15 @@
 // Plays a run: the column on a canvas, its curves on another, and the controls.
 //
 // What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
-//   blocks [[b, h]] half-sizes m; contact [c] half-widths m; gravity m/s²; fills per link; overturned
-//   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0,
-//   mode after}]
+//   blocks [[b, h]] half-sizes m; contact [c] half-widths m; gravity m/s²; fills per link
+//   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces
+//   from 0, mode after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
 //   ax, ay, dx, dy [F] ground acceleration m/s² and displacement m, null where there is none
 //
 // Address: ?t=3.2 starts there, paused; ?play=1 plays; ?speed=, ?angles= choose; ?show=animation leaves the rest out;
-// ?probe=0,1.5 writes window.rocking.at() of these times into #probe. On <html>: data-done once something is drawn, data-t the
-// time drawn, data-theta its angles, data-ended at the end of playing, data-error where a script failed.
+// window.rocking.at(t) tells what is shown at t, at true size. On <html>: data-done once something is drawn, data-t the time
+// drawn, data-theta its angles, data-ended at the end of playing, data-error where a script failed.
 "use strict";
 (() => {
 const page = document.documentElement;
@@ -659,16 +659,19 @@ setSpeed();
 setFactor();
 if (address.has("t")) now = Math.min(end, Math.max(start, Number(address.get("t")) || start));
 layOut();
-new ResizeObserver(layOut).observe(element("player"));
+const sizes = new ResizeObserver(layOut);
+sizes.observe(stage);
+sizes.observe(strip);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", layOut);
-window.addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(one => { one.open = true; }));
-if (address.has("probe")) {
-  const probe = document.createElement("output");
-  probe.id = "probe";
-  probe.hidden = true;
-  probe.textContent = JSON.stringify(address.get("probe").split(",").map(t => window.rocking.at(Number(t))));
-  document.body.append(probe);
-}
+window.addEventListener("beforeprint", () => {
+  document.querySelectorAll("details").forEach(one => { one.open = true; });
+  page.classList.add("printing");
+  layOut();
+});
+window.addEventListener("afterprint", () => {
+  page.classList.remove("printing");
+  layOut();
+});
 page.dataset.done = "true";
 if (address.get("play") === "1") play();
 })();
