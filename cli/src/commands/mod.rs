@@ -18,7 +18,9 @@ use std::path::Path;
 /// [`Failure`]
 pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
-        Command::Run { scene, out, dynamics, report, quiet } => run::run(&scene, &out, dynamics, report, quiet),
+        Command::Run { scene, out, dynamics, report, quiet } => {
+            run::run(&scene, &out, dynamics, run::Told { report, quiet })
+        }
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
         Command::Modes { blocks, svg: None } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file) } => modes::draw_modes(usize::from(blocks), &file),

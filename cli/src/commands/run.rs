@@ -10,18 +10,27 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-/// Runs a scene and writes its results, with `page` their report as well.
+/// What is told of a run beside its results.
+#[derive(Clone, Copy, Debug)]
+pub struct Told {
+    /// Their report, in the same folder.
+    pub report: bool,
+    /// Nothing on standard output.
+    pub quiet: bool,
+}
+
+/// Runs a scene and writes its results.
 ///
 /// # Errors
 /// [`Failure`]
-pub fn run(path: &Path, out: &Path, dynamics: Dynamics, page: bool, quiet: bool) -> Result<(), Failure> {
+pub fn run(path: &Path, out: &Path, dynamics: Dynamics, told: Told) -> Result<(), Failure> {
     let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
     let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
     if dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::open(out)?;
-    let bar = Progress::new(scene.options.t_end, quiet);
+    let bar = Progress::new(scene.options.t_end, told.quiet);
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve {
         scene: path.into(),
@@ -33,8 +42,8 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, page: bool, quiet: bool)
     let warnings = response.warnings(scene.friction);
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
     // Made of the files, as `rocking report` makes it: of one run there is one page.
-    let page = page.then(|| report::write(out, None)).transpose()?;
-    if quiet {
+    let page = told.report.then(|| report::write(out, None)).transpose()?;
+    if told.quiet {
         return Ok(());
     }
     for warning in &warnings {

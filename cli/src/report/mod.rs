@@ -18,17 +18,15 @@ mod svg;
 mod html;
 mod number;
 
-use crate::plot::{self, Figure};
+use crate::plot;
 use crate::results::Results;
 use html::escape;
 use std::fmt::Write as _;
 
 /// The page of a run.
 pub fn page(results: &Results) -> String {
-    page_with(results, &plot::figures(results))
-}
-
-fn page_with(results: &Results, figures: &[Figure]) -> String {
+    let figures = plot::figures(results);
+    let figures: Vec<_> = figures.iter().map(|one| (one.name, one.caption.as_str(), one.svg.as_str())).collect();
     let summary = &results.summary;
     let title = if summary.title.is_empty() { "A run of rocking" } else { &summary.title };
     let parts = [
@@ -44,7 +42,7 @@ fn page_with(results: &Results, figures: &[Figure]) -> String {
         ("validity", validity::details(results)),
         ("readout", readout(results.column.len())),
         ("player-notes", frames::notes(results)),
-        ("figures", section_of(figures)),
+        ("figures", section_of(&figures)),
         ("inputs", inputs::inputs(results)),
         ("provenance", provenance::provenance(results)),
         ("css", include_str!("page.css").into()),
@@ -65,15 +63,15 @@ fn readout(blocks: usize) -> String {
     (1..=blocks).rev().map(row).collect()
 }
 
-/// The section of the figures; nothing where there are none.
-fn section_of(figures: &[Figure]) -> String {
+/// The section of the figures, `(name, caption, svg)` each; nothing where there are none.
+fn section_of(figures: &[(&str, &str, &str)]) -> String {
     if figures.is_empty() {
         return String::new();
     }
     let mut text = String::from(
         "<section id=\"figures\" aria-labelledby=\"figures-title\">\n<h2 id=\"figures-title\">Figures</h2>\n",
     );
-    for Figure { name, caption, svg } in figures {
+    for (name, caption, svg) in figures {
         let caption = escape(caption);
         let _ = writeln!(
             text,
@@ -87,14 +85,14 @@ fn section_of(figures: &[Figure]) -> String {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
 
     #[test]
     fn figures_of_any_number_are_embedded_with_ids_of_their_own() {
         assert_eq!(section_of(&[]), "");
         let svg = "<?xml version=\"1.0\"?>\n<svg><path id=\"a\"/><use href=\"#a\"/></svg>";
-        let figures = ["one", "two"].map(|name| Figure { name, caption: "a < b".into(), svg: svg.into() });
+        let figures = ["one", "two"].map(|name| (name, "a < b", svg));
         let text = section_of(&figures);
         assert_eq!(text.matches("<figure ").count(), 2);
         assert!(text.contains("id=\"one-a\"") && text.contains("href=\"#two-a\""), "{text}");
