@@ -308,12 +308,15 @@ function drawDrum(c, corners, fill, number) {
 const FLASH = 0.2;
 
 function drawImpact(c, t, blocks, x, y) {
-  const reach = FLASH * speed;
+  const reach = FLASH * speed, seen = new Set();
   for (let i = eventAt(t); i >= 0 && t - run.events[i].t < reach; i--) {
     const { kind, at, t: when } = run.events[i];
     if (kind !== "impact") continue;
     const age = (t - when) / reach;
     for (const joint of at) {
+      // Of a joint that chatters, the last impact.
+      if (seen.has(joint)) continue;
+      seen.add(joint);
       const [from, to] = blocks[joint].contact.map(([u, v]) => [x(u), y(v)]);
       c.globalAlpha = calm.matches ? 1 : 1 - age;
       c.strokeStyle = "#e8462a";

@@ -37,28 +37,29 @@ fn judge(results: &Results) -> Verdict {
             significant(first.t, 5)
         ));
     }
-    let parted =
-        summary.min_normal_force.iter().enumerate().filter(|(_, force)| force.is_some_and(|force| force < 0.0));
-    for (interface, _) in parted {
-        reasons.push(format!("interface {} would have to pull: the contact would part", interface + 1));
+    let forces = summary.min_normal_force.iter().enumerate();
+    let parted: Vec<usize> =
+        forces.filter(|(_, force)| force.is_some_and(|force| force < 0.0)).map(|(at, _)| at).collect();
+    if !parted.is_empty() {
+        reasons.push(format!("{} would have to pull: the blocks would part", named(&parted)));
     }
     let Some((worst, demand)) = largest_demand(results) else {
         return if reasons.is_empty() { Verdict::Unknown } else { Verdict::Fails(reasons) };
     };
-    let needs = |interface: usize, demand: f64| match demand.is_finite() {
-        true => format!("interface {} needs a friction coefficient of {}", interface + 1, significant(demand, 3)),
-        false => format!("no friction coefficient is enough at interface {}", interface + 1),
-    };
-    if let Some(available) = summary.friction {
-        for (interface, demand) in summary.friction_demand.iter().enumerate() {
-            let demand = demand.unwrap_or(f64::INFINITY);
-            if demand > available {
-                let has = significant(available, 3);
-                reasons.push(format!("{}, the scene has {has}: the blocks would slide", needs(interface, demand)));
-            }
-        }
-    } else if demand.is_infinite() {
-        reasons.push(format!("{}: the blocks would slide", needs(worst, demand)));
+    let demands = summary.friction_demand.iter().map(|demand| demand.unwrap_or(f64::INFINITY)).enumerate();
+    let beyond = |available: f64| demands.clone().filter(|(_, demand)| *demand > available).map(|(at, _)| at).collect();
+    if demand.is_infinite() {
+        let limitless: Vec<usize> = beyond(f64::MAX);
+        reasons.push(format!("no friction coefficient is enough at {}: the blocks would slide", named(&limitless)));
+    } else if let Some(available) = summary.friction.filter(|available| demand > *available) {
+        let sliding: Vec<usize> = beyond(available);
+        let (verb, most) = if sliding.len() == 1 { ("needs", "") } else { ("need", "up to ") };
+        reasons.push(format!(
+            "{} {verb} a friction coefficient of {most}{}, the scene has {}: the blocks would slide",
+            named(&sliding),
+            significant(demand, 3),
+            significant(available, 3)
+        ));
     }
     match (reasons.is_empty(), summary.friction) {
         (false, _) => Verdict::Fails(reasons),
@@ -68,10 +69,21 @@ fn judge(results: &Results) -> Verdict {
             significant(available, 3)
         )),
         (true, None) => Verdict::Conditional(format!(
-            "no block leaves its contact, and {}{}",
-            needs(worst, demand),
+            "no block leaves its contact, and {} needs a friction coefficient of {}{}",
+            named(&[worst]),
+            significant(demand, 3),
             if demand > UNUSUAL_FRICTION { ", which is more than bare stone on stone offers" } else { "" }
         )),
+    }
+}
+
+/// Interfaces, given from 0, by their numbers.
+fn named(interfaces: &[usize]) -> String {
+    let numbers: Vec<String> = interfaces.iter().map(|interface| (interface + 1).to_string()).collect();
+    match numbers.split_last() {
+        Some((last, [])) => format!("interface {last}"),
+        Some((last, others)) => format!("interfaces {} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }
 
