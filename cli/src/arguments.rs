@@ -53,6 +53,14 @@ pub enum Command {
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
+    /// Write one self-contained HTML page of a finished run: outcome, validity, figures and an animation.
+    Report {
+        /// Folder of the run.
+        folder: PathBuf,
+        /// File of the page; report.html in the folder unless given.
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// List the independent rocking modes of a column, or draw them.
     Modes {
         /// Number of blocks.
@@ -115,6 +123,9 @@ pub struct Run {
     /// Draw the figures of `rocking plot` into the same folder (SVG).
     #[arg(long)]
     pub plots: bool,
+    /// Write report.html as well: one page with outcome, validity, figures and an animation.
+    #[arg(long)]
+    pub report: bool,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,

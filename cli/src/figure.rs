@@ -78,7 +78,7 @@ const GROUND: f64 = SCALE * COLUMN[0] + HATCH;
 
 /// Fills of the rigid groups, base first: grey stays with the ground, then the free angles. Okabe and Ito's colours (2008), told
 /// apart also by the colour-blind, at 60 % on white so that lines stand out.
-const FILLS: [&str; LARGEST + 1] = ["#d9d9d9", "#9ad2f2", "#f0c566", "#66c5ab", "#e0afca", "#f6ef8e"];
+pub const FILLS: [&str; LARGEST + 1] = ["#d9d9d9", "#9ad2f2", "#f0c566", "#66c5ab", "#e0afca", "#f6ef8e"];
 const INK: &str = "#222222";
 
 /// A figure of all independent modes: a row per lowest open interface `k`, in it the modes `k.j`. At most [`LARGEST`] blocks.

@@ -7,6 +7,7 @@ mod figure;
 mod output;
 mod plot;
 mod progress;
+mod report;
 mod results;
 
 use clap::Parser;

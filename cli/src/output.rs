@@ -136,27 +136,16 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// Writes a file that the user has named.
+/// Writes a file that the user has named, or that belongs to a run.
 ///
 /// # Errors
 /// [`Failure::File`]
-pub fn file(path: &Path, text: &str) -> Result<(), Failure> {
+pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let failed = |error: std::io::Error| Failure::File { path: path.into(), problem: error.to_string() };
     // A bare file name has the empty path above it.
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = fill(folder, |file| file.write_all(text.as_bytes())).map_err(failed)?;
+    let file = fill(folder, |file| file.write_all(content.as_ref())).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
-}
-
-/// Writes a picture into a folder that is there.
-///
-/// # Errors
-/// [`Failure::Output`]
-pub fn picture(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
-    let path = folder.join(name);
-    let file = fill(folder, |file| file.write_all(bytes)).map_err(|error| Failure::output(&path, error))?;
-    file.persist(&path).map_err(|error| Failure::output(&path, error.error))?;
     Ok(())
 }
 

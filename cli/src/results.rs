@@ -13,8 +13,6 @@ use std::path::{Path, PathBuf};
 /// A finished run.
 #[derive(Debug)]
 pub struct Results {
-    /// Where it was read from.
-    pub folder: PathBuf,
     /// `summary.json`
     pub summary: Summary,
     /// The column of the summary.
@@ -133,7 +131,7 @@ impl Results {
             let problem = format!("the event at t = {} s is not of {blocks} block(s)", event.t);
             return Err(Failure::results(&folder.join("events.json"), problem));
         }
-        Ok(Results { folder: folder.into(), summary, column, samples, events })
+        Ok(Results { summary, column, samples, events })
     }
 }
 

@@ -4,6 +4,7 @@ mod check;
 mod init;
 mod modes;
 mod plot;
+mod report;
 mod run;
 mod shell;
 mod thresholds;
@@ -27,6 +28,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         }
         Command::Check { scene, json } => check::check(&scene, json),
         Command::Run(run) => run::run(&run),
+        Command::Report { folder, out } => report::report(&folder, out.as_deref()),
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),

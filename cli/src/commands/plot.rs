@@ -11,7 +11,7 @@ use std::path::Path;
 /// Draws the figures of the run in `folder` into `out` and says what it wrote.
 ///
 /// # Errors
-/// [`Failure::Results`] for a folder that is not of a run, [`Failure::Output`] for one that cannot be written.
+/// [`Failure::Results`] for a folder that is not of a run, [`Failure::Output`] and [`Failure::File`] for one that cannot be written.
 pub fn plot(folder: &Path, format: Picture, out: &Path) -> Result<(), Failure> {
     let figures = draw(folder, format, out)?;
     let mut text = format!("wrote {} figures to {}\n", figures.len(), out.display());
@@ -43,7 +43,7 @@ pub fn draw(folder: &Path, format: Picture, out: &Path) -> Result<Vec<Drawn>, Fa
             Picture::Svg => (format!("{}.svg", figure.name), figure.svg.into_bytes()),
             Picture::Png => (format!("{}.png", figure.name), plot::png(&figure)),
         };
-        output::picture(out, &file, &bytes)?;
+        output::file(&out.join(&file), &bytes)?;
         drawn.push(Drawn { file, caption: figure.caption });
     }
     Ok(drawn)

@@ -1,7 +1,7 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::{Dynamics, Picture, Run};
-use crate::commands::{plot, print};
+use crate::commands::{plot, print, report};
 use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
@@ -35,6 +35,11 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     let mut written: Vec<String> = FILES_OF_A_RUN.map(String::from).to_vec();
     if asked.plots {
         written.extend(plot::draw(out, Picture::Svg, out)?.into_iter().map(|drawn| drawn.file));
+    }
+    if asked.report {
+        // Made of the files, as `rocking report` makes it: of one run there is one page.
+        let page = report::write(out, None)?;
+        written.push(page.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()));
     }
     if asked.quiet {
         return Ok(());

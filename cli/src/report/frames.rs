@@ -1,0 +1,242 @@
+//! What the player plays: the state at every output time and on both sides of every event, with the ground's motion.
+//!
+//! A frame is a row of `response.csv`, or the column just before or just after an event: two frames of one time, so that the
+//! player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
+//! written to 1e-10 rad. The ground's displacement is for the eye alone: trapezoids over the rows, less a constant velocity.
+
+use crate::report::html::script;
+use crate::report::number::{fixed, significant};
+use crate::report::outcome::closed;
+use crate::report::sketch::fill;
+use crate::results::{Event, Results};
+use rocking::EventKind;
+use rocking::pattern::Pattern;
+use serde_json::json;
+
+/// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
+const MOST_ROWS: usize = 20_000;
+
+/// Digits behind the point of an angle `[rad]`: what is shown at a row's time is the row to 1e-9 rad.
+const ANGLE_DIGITS: usize = 10;
+
+/// Significant digits of rates, which only shape the curve between two frames.
+const RATE_DIGITS: usize = 7;
+
+/// Digits behind the point of displacements `[m]` and accelerations `[m/s²]`.
+const GROUND_DIGITS: usize = 5;
+
+/// A drift below this share of the largest ground velocity is left: a pulse that ends at rest has none but rounding.
+const NO_DRIFT: f64 = 1e-3;
+
+/// One frame.
+struct Frame<'a> {
+    t: f64,
+    theta: &'a [f64],
+    omega: &'a [f64],
+    pattern: Pattern,
+    /// Ground acceleration `[m/s²]` and displacement `[m]`, `[x, y]` each.
+    ground: [[f64; 2]; 2],
+}
+
+/// Every how many rows one is kept.
+fn stride(results: &Results) -> usize {
+    results.samples.len().div_ceil(MOST_ROWS)
+}
+
+/// All frames in order of time.
+fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
+    let rows = &results.samples;
+    let stride = stride(results);
+    let mut frames = Vec::with_capacity(rows.len() / stride + 2 * results.events.len() + 1);
+    let mut events = results.events.iter().peekable();
+    let last = rows.len() - 1;
+    for (index, row) in rows.iter().enumerate() {
+        while let Some(event) = events.next_if(|event| event.t <= row.t) {
+            frames.extend(sides(event, ground.at(results, index, event.t)));
+        }
+        // Where a row falls on an event, the event has both sides of it.
+        let is_told = frames.last().is_some_and(|frame| frame.t == row.t);
+        if !is_told && (index % stride == 0 || index == last) {
+            let at = ground.at(results, index, row.t);
+            frames.push(Frame {
+                t: row.t,
+                theta: &row.theta,
+                omega: &row.omega,
+                pattern: row.pattern.clone(),
+                ground: at,
+            });
+        }
+    }
+    // Overturning ends the rows; what happened after the last of them belongs to the run all the same.
+    for event in events {
+        frames.extend(sides(event, ground.at(results, last, event.t)));
+    }
+    frames
+}
+
+fn sides(event: &Event, ground: [[f64; 2]; 2]) -> [Frame<'_>; 2] {
+    let side = |signs: &[i8], omega| Frame {
+        t: event.t,
+        theta: &event.theta,
+        omega,
+        pattern: Pattern::from_signs(signs),
+        ground,
+    };
+    [side(&event.before, &event.omega_before), side(&event.after, &event.omega_after)]
+}
+
+/// Displacement of the ground at the rows, for display.
+struct Ground {
+    /// `[m]`, `[x, y]` per row.
+    displacement: Vec<[f64; 2]>,
+    /// Constant velocity taken out, `[x, y]` `[m/s]`.
+    drift: [f64; 2],
+}
+
+impl Ground {
+    /// Integrates twice from rest and takes out the mean velocity of the second half of the run where there is any: what a
+    /// record's base line or a harmonic motion that starts from rest would carry away.
+    fn new(results: &Results) -> Ground {
+        let rows = &results.samples;
+        let (mut velocity, mut displacement) = (vec![[0.0; 2]; rows.len()], vec![[0.0; 2]; rows.len()]);
+        let mut drift = [0.0; 2];
+        for axis in 0..2 {
+            for index in 1..rows.len() {
+                let dt = rows[index].t - rows[index - 1].t;
+                let (before, after) = (rows[index - 1].ground[axis], rows[index].ground[axis]);
+                velocity[index][axis] = velocity[index - 1][axis] + 0.5 * dt * (before + after);
+                displacement[index][axis] = displacement[index - 1][axis]
+                    + dt * (velocity[index - 1][axis] + dt * (before / 3.0 + after / 6.0));
+            }
+            let late = &velocity[rows.len() / 2..];
+            let mean = late.iter().map(|v| v[axis]).sum::<f64>() / late.len().max(1) as f64;
+            let largest = velocity.iter().map(|v| v[axis].abs()).fold(0.0, f64::max);
+            if mean.abs() > NO_DRIFT * largest {
+                drift[axis] = mean;
+                rows.iter().zip(&mut displacement).for_each(|(row, place)| place[axis] -= mean * (row.t - rows[0].t));
+            }
+        }
+        Ground { displacement, drift }
+    }
+
+    /// Acceleration and displacement at `t`, linear between the row `index` and the one before it.
+    fn at(&self, results: &Results, index: usize, t: f64) -> [[f64; 2]; 2] {
+        let rows = &results.samples;
+        let before = index.saturating_sub(1);
+        let dt = rows[index].t - rows[before].t;
+        let share = if dt > 0.0 { ((t - rows[before].t) / dt).clamp(0.0, 1.0) } else { 1.0 };
+        let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
+        [between(rows[before].ground, rows[index].ground), between(self.displacement[before], self.displacement[index])]
+    }
+}
+
+/// The JSON that the player reads; its keys are told in `player.js`.
+pub fn json(results: &Results) -> String {
+    let ground = Ground::new(results);
+    let frames = frames(results, &ground);
+    let column = &results.column;
+    let mut patterns: Vec<&Pattern> = Vec::new();
+    let states: Vec<String> = frames
+        .iter()
+        .map(|frame| {
+            let known = patterns.iter().position(|pattern| **pattern == frame.pattern);
+            let index = known.unwrap_or_else(|| {
+                patterns.push(&frame.pattern);
+                patterns.len() - 1
+            });
+            index.to_string()
+        })
+        .collect();
+    let blocks = 0..column.len();
+    let contact: Vec<f64> = blocks.clone().map(|interface| column.contact_half_width(interface)).collect();
+    let sizes: Vec<[f64; 2]> = column.blocks().iter().map(|block| [block.half_width, block.half_height]).collect();
+    let patterns: Vec<_> = patterns
+        .iter()
+        .map(|pattern| {
+            let mode = pattern.mode();
+            json!({
+                "signs": pattern.signs(),
+                "text": pattern.to_string(),
+                "mode": mode.map(|(label, _)| label.to_string()),
+                "mirrored": mode.is_some_and(|(_, mirrored)| mirrored),
+                "link": pattern.linkage().link_of_block(),
+            })
+        })
+        .collect();
+    let fills: Vec<&str> = (0..=column.len()).map(fill).collect();
+    // A word per event: what a reader of the player's status line is told.
+    let events: Vec<_> = results
+        .events
+        .iter()
+        .map(|event| json!({ "t": event.t, "kind": kind(event.kind), "at": interfaces(event), "mode": event.mode }))
+        .collect();
+    let head = json!({
+        "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
+        "patterns": patterns, "events": events,
+    });
+    let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));
+    let per_block = |number: &dyn Fn(&Frame, usize) -> String| {
+        list(blocks.clone().map(|block| list(frames.iter().map(|frame| number(frame, block)).collect())).collect())
+    };
+    let theta = per_block(&|frame, block| fixed(frame.theta[block], ANGLE_DIGITS));
+    let omega = per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS));
+    // `{:?}` is the shortest text that reads back to the same bits.
+    let t = list(frames.iter().map(|frame| format!("{:?}", frame.t)).collect());
+    let moving = |axis: usize| results.samples.iter().any(|row| row.ground[axis] != 0.0);
+    let channel = |quantity: usize, axis: usize| match moving(axis) {
+        true => list(frames.iter().map(|frame| fixed(frame.ground[quantity][axis], GROUND_DIGITS)).collect()),
+        false => "null".into(),
+    };
+    let [ax, ay, dx, dy] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(quantity, axis)| channel(quantity, axis));
+    let head = head.to_string();
+    let head = head.trim_end_matches('}');
+    script(&format!(
+        "{head},\n\"t\":{t},\n\"theta\":{theta},\n\"omega\":{omega},\n\"pattern\":{},\n\"ax\":{ax},\n\"ay\":{ay},\n\"dx\":{dx},\n\"dy\":{dy}}}",
+        list(states)
+    ))
+}
+
+fn kind(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Start => "start",
+        EventKind::Opening => "opening",
+        EventKind::Impact => "impact",
+        EventKind::Jump => "jump",
+    }
+}
+
+/// Interfaces, from 0, that closed in an impact, or else changed.
+fn interfaces(event: &Event) -> Vec<usize> {
+    if event.kind == EventKind::Impact {
+        return closed(event);
+    }
+    (0..event.after.len()).filter(|&interface| event.before.get(interface) != event.after.get(interface)).collect()
+}
+
+/// What a viewer must know of what is shown.
+pub fn notes(results: &Results) -> String {
+    let mut notes = Vec::new();
+    let moving = [0, 1].map(|axis| results.samples.iter().any(|row| row.ground[axis] != 0.0));
+    if moving[0] || moving[1] {
+        let Ground { drift, .. } = Ground::new(results);
+        let name = |axis: usize| ["horizontal", "vertical"][axis];
+        let taken: Vec<String> = (0..2)
+            .filter(|&axis| drift[axis] != 0.0)
+            .map(|axis| format!("{} m/s {}", significant(drift[axis], 3), name(axis)))
+            .collect();
+        notes.push(if taken.is_empty() {
+            "The ground's displacement is its acceleration, integrated twice over the output rows.".to_string()
+        } else {
+            format!(
+                "The ground's displacement is its acceleration, integrated twice over the output rows, and shown without drift: \
+                 a constant velocity of {} is taken out.",
+                taken.join(" and ")
+            )
+        });
+    }
+    let stride = stride(results);
+    if stride > 1 {
+        notes.push(format!("The run is long: one row in {stride} of response.csv is kept here, and every event."));
+    }
+    notes.iter().map(|note| format!("<p class=\"note\">{note}</p>\n")).collect()
+}

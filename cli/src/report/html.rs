@@ -1,0 +1,62 @@
+//! Text into HTML: escaping, and a template's places filled in one pass.
+
+/// The text as HTML: fit for an element and for a quoted attribute.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for sign in text.chars() {
+        match sign {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            _ => escaped.push(sign),
+        }
+    }
+    escaped
+}
+
+/// JSON as the content of a script element, which ends at `</` and nowhere else.
+pub fn script(json: &str) -> String {
+    // Within JSON these signs stand in strings only.
+    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+}
+
+/// The template with `{{name}}` replaced by the part of that name. What a part says is not searched for places again: a scene
+/// may contain `{{css}}`.
+///
+/// # Panics
+/// If the template names a part that is not there.
+pub fn fill(template: &str, parts: &[(&str, String)]) -> String {
+    let mut pieces = template.split("{{");
+    let mut text = pieces.next().unwrap_or_default().to_string();
+    for piece in pieces {
+        let (name, rest) = piece.split_once("}}").expect("places of the template are closed");
+        let part = parts.iter().find(|(part, _)| *part == name).expect("parts of the template are there");
+        text.push_str(&part.1);
+        text.push_str(rest);
+    }
+    text
+}
+
+/// A list of names and values; values are HTML.
+pub fn definitions(rows: &[(&str, String)]) -> String {
+    let rows = rows.iter().map(|(name, value)| format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n"));
+    format!("<dl>\n{}</dl>\n", rows.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_sign_of_html_survives() {
+        assert_eq!(escape("<a b='1' c=\"2\">&"), "&lt;a b=&#39;1&#39; c=&quot;2&quot;&gt;&amp;");
+        assert_eq!(script("[\"</script>\"]"), "[\"\\u003c/script>\"]");
+    }
+
+    #[test]
+    fn a_part_is_not_searched_for_places() {
+        assert_eq!(fill("<{{a}}|{{b}}>", &[("b", "x".into()), ("a", "{{b}}".into())]), "<{{b}}|x>");
+    }
+}

@@ -1,0 +1,90 @@
+//! What was asked: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
+
+use crate::report::html::{definitions, escape};
+use crate::report::motion;
+use crate::report::number::{percent, significant};
+use crate::results::Results;
+use serde_json::Value;
+use std::fmt::Write as _;
+
+/// The inputs of a run.
+pub fn inputs(results: &Results) -> String {
+    let (summary, column) = (&results.summary, &results.column);
+    let mut text = blocks(results);
+    let peak = |axis: usize| results.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
+    let component = |name: &str, axis: usize| {
+        motion::words(summary.excitation.get(name).unwrap_or(&Value::Null), column.gravity(), peak(axis))
+    };
+    let mut rows = vec![
+        ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
+        ("Gravity", format!("{} m/s²", significant(column.gravity(), 6))),
+        ("Impacts", restitution(&summary.restitution, column.housner_ratio())),
+        ("Friction", summary.friction.map_or("not given".into(), |friction| significant(friction, 4))),
+        ("Ground, horizontal", component("horizontal", 0)),
+        ("Ground, vertical", component("vertical", 1)),
+    ];
+    rows.extend(initial(results).map(|state| ("Initial state", state)));
+    rows.push(("Length of the run", format!("{} s", significant(summary.options.t_end, 6))));
+    text.push_str(&definitions(&rows));
+    let _ = write!(
+        text,
+        "<details><summary>The scene file, <code>{}</code></summary>\n<pre tabindex=\"0\">{}</pre></details>\n",
+        escape(&summary.scene.file.display().to_string()),
+        escape(&summary.scene.text)
+    );
+    text
+}
+
+/// The blocks, the top one first, as the column stands.
+fn blocks(results: &Results) -> String {
+    let mut rows = String::new();
+    for (index, block) in results.column.blocks().iter().enumerate().rev() {
+        let _ = writeln!(
+            rows,
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            index + 1,
+            significant(2.0 * block.half_width, 5),
+            significant(2.0 * block.half_height, 5),
+            significant(block.mass, 5),
+            significant(block.inertia, 5)
+        );
+    }
+    format!(
+        "<div class=\"wide\"><table>\n<caption>Blocks are numbered from the base; the top one stands first, as in the column.</caption>\n\
+         <thead><tr><th scope=\"col\">block</th><th scope=\"col\">width [m]</th><th scope=\"col\">height [m]</th>\
+         <th scope=\"col\">mass [kg]</th><th scope=\"col\">inertia [kg m²]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+/// The contact law; `housner` is the ratio of rates of the column as one body without restitution.
+fn restitution(law: &Value, housner: f64) -> String {
+    let plastic = "angular momentum is conserved about the new pivots, nothing rebounds";
+    if law.as_str() == Some("plastic") {
+        return format!("plastic: {plastic}; as one body the column keeps {} of its rate", percent(housner));
+    }
+    if let Some(eta) = law.get("eta").and_then(Value::as_f64) {
+        return format!(
+            "η = {}: the ratio of rates after and before of the column as one body ({} if plastic)",
+            significant(eta, 5),
+            significant(housner, 4)
+        );
+    }
+    if let Some(factors) = law.get("factors").and_then(Value::as_array) {
+        let factors: Vec<String> = factors.iter().filter_map(Value::as_f64).map(|one| significant(one, 5)).collect();
+        return format!("factors of the plastic relative rate, base first: {}", factors.join(", "));
+    }
+    escape(&law.to_string())
+}
+
+/// The state in the first row, unless it is the column at rest.
+fn initial(results: &Results) -> Option<String> {
+    let first = results.samples.first()?;
+    let list = |values: &[f64]| values.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");
+    let is_zero = |values: &[f64]| values.iter().all(|value| *value == 0.0);
+    let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s")]
+        .into_iter()
+        .filter(|(_, values, _)| !is_zero(values))
+        .map(|(name, values, unit)| format!("{name} = {} {unit}", list(values)))
+        .collect();
+    (!parts.is_empty()).then(|| format!("{}, base first", parts.join("; ")))
+}

@@ -1,0 +1,101 @@
+//! A run as one HTML file that needs nothing else: outcome, validity, animation, figures, inputs, provenance.
+//!
+//! The page is `page.html` with the texts that the files beside this one write, `page.css` and `player.js` put in their places,
+//! and the run's frames as JSON for the player. The same folder gives the same bytes: no time of day, no path of the folder.
+//! What the page says of a run it reads from [`Results`]; it computes no motion.
+
+mod outcome;
+mod validity;
+
+mod inputs;
+mod motion;
+mod provenance;
+
+mod frames;
+mod sketch;
+mod svg;
+
+mod html;
+mod number;
+
+use crate::plot;
+use crate::results::Results;
+use html::escape;
+use std::fmt::Write as _;
+
+/// The page of a run.
+pub fn page(results: &Results) -> String {
+    let figures = plot::figures(results);
+    let figures: Vec<_> = figures.iter().map(|one| (one.name, one.caption.as_str(), one.svg.as_str())).collect();
+    let summary = &results.summary;
+    let title = if summary.title.is_empty() { "A run of rocking" } else { &summary.title };
+    let parts = [
+        ("title", escape(title)),
+        ("version", escape(&summary.version)),
+        ("file", escape(&summary.scene.file.display().to_string())),
+        ("outcome", outcome::sentence(results)),
+        ("verdict", validity::verdict(results)),
+        ("tiles", outcome::tiles(results)),
+        ("peaks", outcome::peaks(results)),
+        ("impacts", outcome::impacts(results)),
+        ("modes", outcome::modes(results)),
+        ("validity", validity::details(results)),
+        ("readout", readout(results.column.len())),
+        ("player-notes", frames::notes(results)),
+        ("figures", section_of(&figures)),
+        ("inputs", inputs::inputs(results)),
+        ("provenance", provenance::provenance(results)),
+        ("css", include_str!("page.css").into()),
+        ("run", frames::json(results)),
+        ("js", include_str!("player.js").into()),
+    ];
+    html::fill(include_str!("page.html"), &parts)
+}
+
+/// Where the player writes each block's angle, top block first.
+fn readout(blocks: usize) -> String {
+    let row = |block| {
+        format!(
+            "<li><svg class=\"swatch\" viewBox=\"0 0 22 10\" aria-hidden=\"true\"><path d=\"M1 5H21\"/></svg>\
+             <span>block {block}</span> <output data-block=\"{block}\"></output></li>\n"
+        )
+    };
+    (1..=blocks).rev().map(row).collect()
+}
+
+/// The section of the figures, `(name, caption, svg)` each; nothing where there are none.
+fn section_of(figures: &[(&str, &str, &str)]) -> String {
+    if figures.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "<section id=\"figures\" aria-labelledby=\"figures-title\">\n<h2 id=\"figures-title\">Figures</h2>\n",
+    );
+    for (name, caption, svg) in figures {
+        let caption = escape(caption);
+        let _ = writeln!(
+            text,
+            "<figure id=\"figure-{name}\">\n<div class=\"paper\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\">{}</div>\n\
+             <figcaption>{caption}</figcaption>\n</figure>",
+            svg::inline(name, svg)
+        );
+    }
+    text.push_str("</section>");
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_of_any_number_are_embedded_with_ids_of_their_own() {
+        assert_eq!(section_of(&[]), "");
+        let svg = "<?xml version=\"1.0\"?>\n<svg><path id=\"a\"/><use href=\"#a\"/></svg>";
+        let figures = ["one", "two"].map(|name| (name, "a < b", svg));
+        let text = section_of(&figures);
+        assert_eq!(text.matches("<figure ").count(), 2);
+        assert!(text.contains("id=\"one-a\"") && text.contains("href=\"#two-a\""), "{text}");
+        assert!(text.contains("<figcaption>a &lt; b</figcaption>") && !text.contains("<?xml"), "{text}");
+    }
+}

@@ -1,0 +1,111 @@
+//! Ground motion in words, from its description in `summary.json`.
+//!
+//! Kinds of motion come with time. What is said of one in full is its name, amplitude and frequency, which most have; every
+//! other number of a description is listed under its own name.
+
+use crate::report::html::escape;
+use crate::report::number::significant;
+use serde_json::{Map, Value};
+use std::f64::consts::TAU;
+
+/// One component of the ground motion; `peak` is its largest size in the rows of the output `[m/s²]`.
+pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
+    let Value::Object(description) = motion else {
+        return "none".into();
+    };
+    let kind = description.get("kind").and_then(Value::as_str).unwrap_or("motion");
+    let name = match kind {
+        "sine-pulse" => "one-sine pulse".into(),
+        "cosine-pulse" => "one-cosine pulse".into(),
+        "ricker" => "Ricker wavelet".into(),
+        "harmonic" => "harmonic motion".into(),
+        kind => escape(&kind.replace('-', " ")),
+    };
+    let mut parts: Vec<String> = Vec::new();
+    if kind == "record" {
+        parts.extend(record(description));
+    }
+    for (key, value) in description.iter().filter(|(key, _)| !told(kind, key)) {
+        parts.extend(parameter(key, value, gravity));
+    }
+    let acceleration = |value: f64| format!("{} m/s² = {} g", significant(value, 4), significant(value / gravity, 4));
+    if !description.contains_key("amplitude") && peak > 0.0 {
+        parts.push(format!("peak {} at output times", acceleration(peak)));
+    }
+    if parts.is_empty() { name } else { format!("{name}: {}", parts.join("; ")) }
+}
+
+/// What is said already, or need not be.
+fn told(kind: &str, key: &str) -> bool {
+    key == "kind" || (kind == "record" && ["samples", "dt", "file"].contains(&key))
+}
+
+fn record(description: &Map<String, Value>) -> Vec<String> {
+    let mut parts = Vec::new();
+    if let Some(file) = description.get("file").and_then(Value::as_str) {
+        parts.push(format!("file <code>{}</code>", escape(file)));
+    }
+    let number = |key: &str| description.get(key).and_then(Value::as_f64);
+    match (number("samples"), number("dt")) {
+        (Some(samples), Some(dt)) => parts.push(format!(
+            "{samples} samples every {} s, {} s long",
+            significant(dt, 6),
+            significant((samples - 1.0).max(0.0) * dt, 5)
+        )),
+        (Some(samples), None) => parts.push(format!("{samples} samples")),
+        _ => {}
+    }
+    parts
+}
+
+/// A parameter by its name; nothing for one that says nothing.
+fn parameter(key: &str, value: &Value, gravity: f64) -> Option<String> {
+    let number = value.as_f64();
+    Some(match (key, number) {
+        ("start" | "phase", Some(0.0)) => return None,
+        (_, None) if value.is_null() => return None,
+        ("amplitude", Some(amplitude)) => {
+            format!("amplitude {} m/s² = {} g", significant(amplitude, 5), significant(amplitude / gravity, 4))
+        }
+        ("omega", Some(omega)) => format!(
+            "ω = {} rad/s, frequency {} Hz, period {} s",
+            significant(omega, 5),
+            significant(omega / TAU, 4),
+            significant(TAU / omega, 4)
+        ),
+        ("start", Some(start)) => format!("from t = {} s on", significant(start, 6)),
+        ("phase", Some(phase)) => format!("phase {} rad", significant(phase, 5)),
+        (key, Some(number)) => format!("{} = {}", escape(&key.replace('_', " ")), significant(number, 6)),
+        (key, None) => {
+            let text = match value {
+                Value::String(text) => text.clone(),
+                Value::Array(list) if list.len() > LONG_LIST => format!("{} numbers", list.len()),
+                other => other.to_string(),
+            };
+            format!("{}: {}", escape(&key.replace('_', " ")), escape(&text))
+        }
+    })
+}
+
+/// Longer lists are counted, not printed.
+const LONG_LIST: usize = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn motions_are_told_in_both_units_and_unknown_ones_by_their_parameters() {
+        let pulse = json!({"kind": "sine-pulse", "amplitude": 4.905, "omega": TAU, "start": 0.0});
+        let told = "one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s";
+        assert_eq!(words(&pulse, 9.81, 1.0), told);
+        let record = json!({"kind": "record", "samples": 2001, "dt": 0.01, "start": 1.5, "file": "a<b"});
+        let told = "record: file <code>a&lt;b</code>; 2001 samples every 0.01 s, 20 s long; from t = 1.5 s on; \
+            peak 4.905 m/s² = 0.5 g at output times";
+        assert_eq!(words(&record, 9.81, 4.905), told);
+        let unknown = json!({"kind": "near-fault", "v_peak": 1.25, "name": "<b>", "list": vec![0.0; 9], "none": null});
+        assert_eq!(words(&unknown, 9.81, 0.0), "near fault: list: 9 numbers; name: &lt;b&gt;; v peak = 1.25");
+        assert_eq!(words(&Value::Null, 9.81, 0.0), "none");
+    }
+}

@@ -1,0 +1,57 @@
+//! Numbers for readers: significant digits, no zeros behind them.
+
+/// The number with so many significant digits; powers of ten where zeros would have to be counted.
+pub fn significant(value: f64, digits: usize) -> String {
+    let rounded = format!("{value:.*e}", digits - 1);
+    let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
+    match exponent {
+        _ if value == 0.0 => "0".into(),
+        Some(exponent @ -4..=6) => {
+            // Read back: 9.99 with two digits is 10.
+            let value: f64 = rounded.parse().unwrap_or(value);
+            trimmed(&format!("{value:.*}", (digits as i32 - 1 - exponent).max(0) as usize))
+        }
+        _ => {
+            let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+            format!("{}e{exponent}", trimmed(mantissa))
+        }
+    }
+}
+
+/// A number with so many digits behind the point, no zeros at their end and no `-0`.
+pub fn fixed(value: f64, digits: usize) -> String {
+    let text = trimmed(&format!("{value:.digits$}"));
+    if text == "-0" { "0".into() } else { text }
+}
+
+/// A share of one as whole percent; what is not quite nothing, or not quite all, says so.
+pub fn percent(share: f64) -> String {
+    match share * 100.0 {
+        percent if percent > 0.0 && percent < 1.0 => "< 1 %".into(),
+        percent if percent > 99.0 && percent < 100.0 => "> 99 %".into(),
+        percent => format!("{percent:.0} %"),
+    }
+}
+
+/// Radians in degrees.
+pub fn degrees(angle: f64) -> String {
+    format!("{}°", significant(angle.to_degrees(), 3))
+}
+
+fn trimmed(text: &str) -> String {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_asked_for() {
+        let texts = [0.1, 1.0 / 3.0, 1e-300, -0.0, -std::f64::consts::PI, 9.996, 1234.5, 123456.0, 1e9, 0.00012345]
+            .map(|value| significant(value, 3));
+        assert_eq!(texts, ["0.1", "0.333", "1e-300", "0", "-3.14", "10", "1230", "123000", "1e9", "0.000123"]);
+        assert_eq!([0.1, -1e-12, 1.0 / 3.0, 2.0].map(|value| fixed(value, 10)), ["0.1", "0", "0.3333333333", "2"]);
+        assert_eq!([0.0, 0.004, 0.95, 0.999, 1.0].map(percent), ["0 %", "< 1 %", "95 %", "> 99 %", "100 %"]);
+    }
+}

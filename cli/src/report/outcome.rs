@@ -1,0 +1,210 @@
+//! What happened: the outcome in a sentence, key figures, peaks, impacts, time in each mode.
+
+use crate::report::html::escape;
+use crate::report::number::{degrees, percent, significant};
+use crate::report::sketch::sketch;
+use crate::results::{Event, Results};
+use rocking::pattern::{ModeLabel, Pattern};
+use rocking::{EventKind, StopReason};
+use std::fmt::Write as _;
+
+/// The outcome with its sign.
+pub fn sentence(results: &Results) -> String {
+    let summary = &results.summary;
+    let t = significant(summary.t_final, 4);
+    let end = significant(summary.options.t_end, 4);
+    let (class, words) = match summary.status {
+        StopReason::Overturned => {
+            let first = summary.overturned_block.map_or(String::new(), |block| match results.column.len() {
+                1 => String::new(),
+                _ => format!(", block {block} first"),
+            });
+            ("overturned", format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."))
+        }
+        StopReason::AtRest if results.events.is_empty() && summary.t_final == 0.0 => {
+            ("stands", format!("The column <strong>stands</strong>: nothing starts it in {end}&nbsp;s."))
+        }
+        StopReason::AtRest => {
+            ("stands", format!("The column <strong>stands</strong>: it comes to rest at t&nbsp;=&nbsp;{t}&nbsp;s."))
+        }
+        StopReason::EndOfTime if results.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
+            ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
+        }
+        StopReason::EndOfTime => (
+            "rocking",
+            format!(
+                "The column <strong>stands</strong>, but is still rocking at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
+            ),
+        ),
+    };
+    // Told apart by shape, not by colour alone.
+    let sign = match class {
+        "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
+        "stands" => "<path d=\"M5 13l5 5L19 7\"/>",
+        _ => "<path d=\"M4 12c3-6 5-6 8 0s5 6 8 0\"/>",
+    };
+    format!(
+        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>"
+    )
+}
+
+/// The figures that are asked for first.
+pub fn tiles(results: &Results) -> String {
+    let summary = &results.summary;
+    let mut tiles = Vec::new();
+    let largest = (0..results.column.len()).max_by(|a, b| summary.peak_theta[*a].total_cmp(&summary.peak_theta[*b]));
+    if let Some(block) = largest {
+        let peak = summary.peak_theta[block];
+        let of = format!("{} rad; {} of α", significant(peak, 4), percent(peak / results.column.slenderness()));
+        tiles.push(("largest angle", degrees(peak), of));
+    }
+    let starts = results.events.iter().filter(|event| event.kind != EventKind::Impact).count();
+    tiles.push(("impacts", summary.impacts.to_string(), format!("{starts} other event(s): starts, openings")));
+    let total: f64 = summary.time_in_mode.values().sum();
+    let most = summary.time_in_mode.iter().max_by(|a, b| a.1.total_cmp(b.1));
+    if let Some((mode, time)) = most {
+        let name = if mode == "rest" { "at rest".to_string() } else { format!("mode {}", escape(mode)) };
+        tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
+    }
+    let peak = |axis: usize| results.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
+    let peaks = [peak(0), peak(1)];
+    let [x, y] = peaks.map(|peak| format!("{} g", significant(peak / results.column.gravity(), 3)));
+    tiles.push(match peaks {
+        [0.0, 0.0] => ("ground acceleration", "none".into(), "the ground does not move".into()),
+        [_, 0.0] => ("peak ground acceleration", x, "horizontal; at output times".into()),
+        _ => ("peak ground acceleration", x, format!("vertical {y}; at output times")),
+    });
+    let tile = |(name, value, note): (&str, String, String)| {
+        format!(
+            "<li><span class=\"name\">{name}</span> <span class=\"value\">{value}</span> <span class=\"note\">{note}</span></li>\n"
+        )
+    };
+    format!("<ul class=\"tiles\">\n{}</ul>\n", tiles.into_iter().map(tile).collect::<String>())
+}
+
+/// Peak angles, top block first.
+pub fn peaks(results: &Results) -> String {
+    let column = &results.column;
+    let mut rows = String::new();
+    for block in (0..column.len()).rev() {
+        let peak = results.summary.peak_theta[block];
+        let slenderness = column.contact_half_width(block).atan2(column.centroid_height(block));
+        let share = peak / slenderness;
+        let _ = writeln!(
+            rows,
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td class=\"share\">{}<span>{}</span></td></tr>",
+            block + 1,
+            significant(peak, 5),
+            degrees(peak),
+            significant(slenderness, 4),
+            bar(share),
+            percent(share)
+        );
+    }
+    format!(
+        "<div class=\"wide\"><table>\n<thead><tr><th scope=\"col\">block</th><th scope=\"col\">peak [rad]</th><th scope=\"col\">peak</th>\
+         <th scope=\"col\">α of stack [rad]</th><th scope=\"col\">peak / α</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+/// A bar of a share of one; longer shares fill it.
+fn bar(share: f64) -> String {
+    format!(
+        "<span class=\"bar\" aria-hidden=\"true\"><i style=\"width:{}%\"></i></span>",
+        significant((share * 100.0).clamp(0.0, 100.0), 3)
+    )
+}
+
+/// Interfaces that closed in an impact, from 0: open before, and without a gap.
+pub fn closed(event: &Event) -> Vec<usize> {
+    let gap = |interface: usize| {
+        let below = if interface == 0 { 0.0 } else { event.theta[interface - 1] };
+        (event.theta[interface] - below).abs()
+    };
+    let was_open = |interface: usize| event.before.get(interface).is_some_and(|state| *state != 0);
+    (0..event.theta.len()).filter(|&interface| was_open(interface) && gap(interface) < CLOSED_GAP).collect()
+}
+
+/// Gaps of an interface that has closed are rounding; hops that the solver follows are above its stick angle, 1e-9 rad `[rad]`.
+const CLOSED_GAP: f64 = 1e-12;
+
+/// How many impacts, where and when.
+pub fn impacts(results: &Results) -> String {
+    let impacts: Vec<&Event> = results.events.iter().filter(|event| event.kind == EventKind::Impact).collect();
+    let (Some(first), Some(last)) = (impacts.first(), impacts.last()) else {
+        return "<p>There is no impact in this run.</p>\n".into();
+    };
+    let words = match impacts.len() {
+        1 => format!("One impact, at t = {} s", significant(first.t, 4)),
+        count => {
+            format!(
+                "{count} impacts, the first at t = {} s, the last at {} s",
+                significant(first.t, 4),
+                significant(last.t, 4)
+            )
+        }
+    };
+    let mut at = vec![0; results.column.len()];
+    impacts.iter().flat_map(|event| closed(event)).for_each(|interface| at[interface] += 1);
+    let share = |interface: usize| format!("<li>interface {}: {}</li>", interface + 1, at[interface]);
+    let shares: String = (0..at.len()).rev().map(share).collect();
+    let counted = if at.len() > 1 {
+        format!("; interfaces that closed, several at once in some:</p>\n<ul class=\"plain\">{shares}</ul>\n")
+    } else {
+        ".</p>\n".into()
+    };
+    format!("<p>{words}{counted}")
+}
+
+/// Modes of a list that are shown at once; the others are brief in most runs.
+const MODES_SHOWN: usize = 8;
+
+/// Time in each mode, the longest first.
+pub fn modes(results: &Results) -> String {
+    let blocks = results.column.len();
+    let total: f64 = results.summary.time_in_mode.values().sum::<f64>().max(f64::MIN_POSITIVE);
+    let mut modes: Vec<(&String, f64)> =
+        results.summary.time_in_mode.iter().map(|(mode, time)| (mode, *time)).collect();
+    modes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let row = |(mode, time): &(&String, f64)| {
+        let pattern = match mode.as_str() {
+            "rest" => Some(Pattern::rest(blocks)),
+            mode => ModeLabel::parse(mode).and_then(|label| label.pattern(blocks)),
+        };
+        let (drawing, signs) = pattern
+            .map_or((String::new(), String::new()), |pattern| (sketch(&results.column, &pattern), typeset(&pattern)));
+        let name = if *mode == "rest" { "rest".to_string() } else { escape(mode) };
+        format!(
+            "<li>{drawing}<span class=\"mode\"><strong>{name}</strong> <span class=\"note\">{signs}</span></span>{}\
+             <span class=\"time\">{} s <span class=\"note\">{}</span></span></li>\n",
+            bar(time / total),
+            milliseconds(*time),
+            percent(time / total)
+        )
+    };
+    let list =
+        |modes: &[(&String, f64)]| format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>());
+    let (shown, others) = modes.split_at(modes.len().min(MODES_SHOWN));
+    let mut text = list(shown);
+    if !others.is_empty() {
+        let time: f64 = others.iter().map(|(_, time)| time).sum();
+        let _ = writeln!(
+            text,
+            "<details><summary>{} more, {} s together</summary>\n{}</details>",
+            others.len(),
+            milliseconds(time),
+            list(others)
+        );
+    }
+    text
+}
+
+/// A time to the millisecond `[s]`.
+fn milliseconds(time: f64) -> String {
+    if time < 0.001 { "< 0.001".into() } else { format!("{time:.3}") }
+}
+
+/// The pattern with a minus as wide as the plus.
+pub fn typeset(pattern: &Pattern) -> String {
+    pattern.to_string().replace('-', "\u{2212}")
+}

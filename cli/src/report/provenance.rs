@@ -1,0 +1,66 @@
+//! What computed the run, and how to have it computed again.
+
+use crate::report::html::{definitions, escape};
+use crate::report::number::{degrees, significant};
+use crate::results::Results;
+
+/// The provenance of a run.
+pub fn provenance(results: &Results) -> String {
+    let (summary, options) = (&results.summary, &results.summary.options);
+    let generic = options.dynamics.as_str() == Some("generic");
+    let dynamics = match options.dynamics.as_str() {
+        Some("generated") if summary.warnings.iter().any(|warning| warning.contains("ran on the generic ones")) => {
+            "generated at build time; generic ones for modes that the build has not got".into()
+        }
+        Some("generated") => "generated at build time".into(),
+        Some("generic") => "generic: hand-written, for any number of blocks".into(),
+        _ => "supplied by the calling program".to_string(),
+    };
+    let modes = summary.time_in_mode.keys().filter(|mode| *mode != "rest").count();
+    let interval = match results.samples.as_slice() {
+        [first, second, ..] => {
+            format!("every {} s, {} rows", significant(second.t - first.t, 6), results.samples.len())
+        }
+        _ => "one row".into(),
+    };
+    let rows = [
+        ("Version", format!("rocking {}", escape(&summary.version))),
+        ("Method", format!("<code>{}</code>", escape(&summary.method))),
+        ("Relative tolerance", significant(options.rtol, 3)),
+        ("Absolute tolerance", format!("{} rad, rad/s", significant(options.atol, 3))),
+        (
+            "Stick angle",
+            format!("{} rad: an interface that would hop by less closes", significant(options.stick_angle, 3)),
+        ),
+        (
+            "Overturning angle",
+            format!("{} rad = {}", significant(options.overturn_angle, 5), degrees(options.overturn_angle)),
+        ),
+        ("Equations", format!("{dynamics}; {modes} mode(s) entered")),
+        ("Output", interval),
+    ];
+    let file = quoted(&summary.scene.file.display().to_string());
+    let flag = if generic { " --dynamics generic" } else { "" };
+    format!(
+        "{}<p>To repeat the run and this page:</p>\n<pre tabindex=\"0\">rocking run {}{flag} --out out --report</pre>\n",
+        definitions(&rows),
+        escape(&file)
+    )
+}
+
+/// A word of a shell's command line.
+fn quoted(word: &str) -> String {
+    let plain = |sign: char| sign.is_alphanumeric() || "-_./+:=@%,".contains(sign);
+    if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_names_stay_one_word() {
+        let words = ["a/b-1.toml", "my scene.toml", "it's"].map(quoted);
+        assert_eq!(words, ["a/b-1.toml", "'my scene.toml'", "'it'\\''s'"]);
+    }
+}
