@@ -4,6 +4,8 @@ mod arguments;
 mod commands;
 mod error;
 mod figure;
+mod ground;
+mod number;
 mod output;
 mod plot;
 mod progress;

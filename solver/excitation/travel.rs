@@ -24,7 +24,7 @@ impl Motion {
     }
 
     /// Largest sizes of acceleration, velocity and displacement up to `until [s]` (PGA, PGV, PGD), at places dense enough to meet
-    /// each crest to a thousandth; a record's at its samples.
+    /// each crest to some millionths; a record's at its samples.
     pub fn peaks(&self, until: f64) -> [f64; 3] {
         let (mut state, mut peaks) = (Travel::default(), [0.0f64; 3]);
         let mut note = |values: [f64; 3]| peaks.iter_mut().zip(values).for_each(|(peak, v)| *peak = peak.max(v.abs()));
@@ -45,7 +45,7 @@ impl Motion {
 }
 
 /// Places per radian at which peaks are sought, and the most per piece.
-const PLACES_PER_RADIAN: f64 = 32.0;
+const PLACES_PER_RADIAN: f64 = 256.0;
 const MOST_PLACES: f64 = 1e5;
 
 /// The ground under way.
@@ -138,6 +138,6 @@ mod tests {
             "{peaks:?}"
         );
         let wavelet = Motion::AntisymmetricRicker { amplitude: 2.0, omega: 4.0, start: 0.0 };
-        assert!((wavelet.peaks(100.0)[0] - 2.0).abs() < 2e-3);
+        assert!((wavelet.peaks(100.0)[0] - 2.0).abs() < 2e-5);
     }
 }

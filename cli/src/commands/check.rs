@@ -2,6 +2,8 @@
 
 use crate::commands::{json, print, thresholds};
 use crate::error::Failure;
+use crate::ground;
+use crate::number::significant;
 use rocking::scene_file::{self, Derived, SceneFile};
 use rocking::{Block, Motion, Restitution, Scene};
 use serde::Serialize;
@@ -105,7 +107,7 @@ impl Findings {
              as one body: slenderness alpha = {:.4} rad ({:.2}°), R = {:.4} m, p = {:.4} rad/s",
             self.blocks.len(),
             whole.stack.height,
-            Short(whole.stack.mass),
+            significant(whole.stack.mass, 6),
             whole.slenderness,
             whole.slenderness.to_degrees(),
             whole.stack.radius(),
@@ -119,14 +121,14 @@ impl Findings {
                 index + 1,
                 2.0 * block.half_width,
                 2.0 * block.half_height,
-                Short(block.mass).to_string(),
-                Short(block.inertia)
+                significant(block.mass, 6),
+                significant(block.inertia, 6)
             );
         }
         if !self.derived.is_empty() {
             text.push_str("derived, not given:\n");
             for Derived { key, value, unit, from } in &self.derived {
-                let _ = writeln!(text, "  {key} = {} {unit}: {from}", Short(*value));
+                let _ = writeln!(text, "  {key} = {} {unit}: {from}", significant(*value, 6));
             }
         }
         text.push_str(
@@ -169,7 +171,8 @@ impl Findings {
         }
         for (component, motion) in components {
             let Some(motion) = motion else { continue };
-            let _ = writeln!(text, "\n{component} ground motion: {}", motion.kind());
+            let words = ground::words(&serde_json::to_value(&motion.motion).unwrap_or_default(), gravity, 0.0);
+            let _ = writeln!(text, "\n{component} ground motion: {words}");
             let _ = writeln!(
                 text,
                 "  PGA {:.4} g ({:.4} m/s²), PGV {:.4} m/s, PGD {:.4} m until {} s",
@@ -220,27 +223,5 @@ impl MotionFindings {
         let [pga, pgv, pgd] = motion.peaks(t_end);
         let end = motion.end();
         MotionFindings { motion: motion.clone(), pga, pgv, pgd, end, left_with: end.map(|end| motion.travel(end)) }
-    }
-
-    /// As the library names it.
-    fn kind(&self) -> String {
-        let value = serde_json::to_value(&self.motion).unwrap_or_default();
-        value["kind"].as_str().unwrap_or_default().to_string()
-    }
-}
-
-/// A number with six digits, without a tail of zeros.
-struct Short(f64);
-
-impl std::fmt::Display for Short {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let value = self.0;
-        if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
-            return write!(f, "{value:.5e}");
-        }
-        let digits = if value == 0.0 { 0 } else { (5 - value.abs().log10().floor() as i32).max(0) as usize };
-        let text = format!("{value:.digits$}");
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-        f.write_str(text)
     }
 }

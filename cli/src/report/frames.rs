@@ -4,8 +4,8 @@
 //! player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
 //! written to 1e-10 rad. The ground's displacement is for the eye alone: trapezoids over the rows, less a constant velocity.
 
+use crate::number::{fixed, significant};
 use crate::report::html::script;
-use crate::report::number::{fixed, significant};
 use crate::report::outcome::closed;
 use crate::report::sketch::fill;
 use crate::results::{Event, Results};

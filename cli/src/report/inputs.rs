@@ -1,8 +1,8 @@
 //! What was asked: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
+use crate::ground;
+use crate::number::{percent, significant};
 use crate::report::html::{definitions, escape};
-use crate::report::motion;
-use crate::report::number::{percent, significant};
 use crate::results::Results;
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -13,7 +13,8 @@ pub fn inputs(results: &Results) -> String {
     let mut text = blocks(results);
     let peak = |axis: usize| results.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
     let component = |name: &str, axis: usize| {
-        motion::words(summary.excitation.get(name).unwrap_or(&Value::Null), column.gravity(), peak(axis))
+        let motion = summary.excitation.get(name).unwrap_or(&Value::Null);
+        escape(&ground::words(motion, column.gravity(), peak(axis)))
     };
     let mut rows = vec![
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),

@@ -8,7 +8,6 @@ mod outcome;
 mod validity;
 
 mod inputs;
-mod motion;
 mod provenance;
 
 mod frames;
@@ -16,7 +15,6 @@ mod sketch;
 mod svg;
 
 mod html;
-mod number;
 
 use crate::plot;
 use crate::results::Results;

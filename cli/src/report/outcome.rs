@@ -1,7 +1,7 @@
 //! What happened: the outcome in a sentence, key figures, peaks, impacts, time in each mode.
 
+use crate::number::{degrees, percent, significant};
 use crate::report::html::escape;
-use crate::report::number::{degrees, percent, significant};
 use crate::report::sketch::sketch;
 use crate::results::{Event, Results};
 use rocking::pattern::{ModeLabel, Pattern};

@@ -1,7 +1,7 @@
 //! What computed the run, and how to have it computed again.
 
+use crate::number::{degrees, significant};
 use crate::report::html::{definitions, escape};
-use crate::report::number::{degrees, significant};
 use crate::results::Results;
 
 /// The provenance of a run.

@@ -1,7 +1,7 @@
 //! A mode in a few pixels: the column with every open interface open by the same angle, as `rocking modes --svg` draws it.
 
 use crate::figure::FILLS;
-use crate::report::number::fixed;
+use crate::number::fixed;
 use rocking::Column;
 use rocking::kinematics::outlines;
 use rocking::pattern::Pattern;

@@ -1,7 +1,7 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations.
 
+use crate::number::{percent, significant};
 use crate::report::html::escape;
-use crate::report::number::{percent, significant};
 use crate::results::Results;
 use std::fmt::Write as _;
 

@@ -1,10 +1,9 @@
-//! Ground motion in words, from its description in `summary.json`.
+//! Ground motion in words, from its description as the library serialises it (in `summary.json`).
 //!
 //! Kinds of motion come with time. What is said of one in full is its name, amplitude and frequency, which most have; every
 //! other number of a description is listed under its own name.
 
-use crate::report::html::escape;
-use crate::report::number::significant;
+use crate::number::significant;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
@@ -17,10 +16,22 @@ pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     let name = match kind {
         "sine-pulse" => "one-sine pulse".into(),
         "cosine-pulse" => "one-cosine pulse".into(),
+        "half-sine" => "half-sine pulse".into(),
+        "type-c" => "type C pulse".into(),
         "ricker" => "Ricker wavelet".into(),
+        "antisymmetric-ricker" => "antisymmetric Ricker wavelet".into(),
+        "mavroeidis-papageorgiou" => "pulse of Mavroeidis and Papageorgiou".into(),
+        "gabor" => "Gabor wavelet".into(),
+        "rectangular" => "rectangular pulse".into(),
+        "double-rectangular" => "double rectangular pulse".into(),
+        "sine-burst" => "harmonic motion that ends".into(),
         "harmonic" => "harmonic motion".into(),
-        kind => escape(&kind.replace('-', " ")),
+        kind => kind.replace('-', " "),
     };
+    if let Some(terms) = description.get("terms").and_then(Value::as_array) {
+        let terms: Vec<String> = terms.iter().map(|term| words(term, gravity, 0.0)).collect();
+        return format!("sum of {}", terms.join(", and "));
+    }
     let mut parts: Vec<String> = Vec::new();
     if kind == "record" {
         parts.extend(record(description));
@@ -43,7 +54,7 @@ fn told(kind: &str, key: &str) -> bool {
 fn record(description: &Map<String, Value>) -> Vec<String> {
     let mut parts = Vec::new();
     if let Some(file) = description.get("file").and_then(Value::as_str) {
-        parts.push(format!("file <code>{}</code>", escape(file)));
+        parts.push(format!("file {file}"));
     }
     let number = |key: &str| description.get(key).and_then(Value::as_f64);
     match (number("samples"), number("dt")) {
@@ -74,15 +85,19 @@ fn parameter(key: &str, value: &Value, gravity: f64) -> Option<String> {
             significant(TAU / omega, 4)
         ),
         ("start", Some(start)) => format!("from t = {} s on", significant(start, 6)),
+        ("velocity", Some(velocity)) => format!("velocity {} m/s", significant(velocity, 5)),
+        ("duration", Some(duration)) => format!("lasting {} s", significant(duration, 6)),
+        ("gamma", Some(gamma)) => format!("γ = {}", significant(gamma, 5)),
+        ("cycles", Some(cycles)) => format!("n = {cycles}"),
         ("phase", Some(phase)) => format!("phase {} rad", significant(phase, 5)),
-        (key, Some(number)) => format!("{} = {}", escape(&key.replace('_', " ")), significant(number, 6)),
+        (key, Some(number)) => format!("{} = {}", key.replace('_', " "), significant(number, 6)),
         (key, None) => {
             let text = match value {
                 Value::String(text) => text.clone(),
                 Value::Array(list) if list.len() > LONG_LIST => format!("{} numbers", list.len()),
                 other => other.to_string(),
             };
-            format!("{}: {}", escape(&key.replace('_', " ")), escape(&text))
+            format!("{}: {text}", key.replace('_', " "))
         }
     })
 }
@@ -101,11 +116,15 @@ mod tests {
         let told = "one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s";
         assert_eq!(words(&pulse, 9.81, 1.0), told);
         let record = json!({"kind": "record", "samples": 2001, "dt": 0.01, "start": 1.5, "file": "a<b"});
-        let told = "record: file <code>a&lt;b</code>; 2001 samples every 0.01 s, 20 s long; from t = 1.5 s on; \
+        let told = "record: file a<b; 2001 samples every 0.01 s, 20 s long; from t = 1.5 s on; \
             peak 4.905 m/s² = 0.5 g at output times";
         assert_eq!(words(&record, 9.81, 4.905), told);
         let unknown = json!({"kind": "near-fault", "v_peak": 1.25, "name": "<b>", "list": vec![0.0; 9], "none": null});
-        assert_eq!(words(&unknown, 9.81, 0.0), "near fault: list: 9 numbers; name: &lt;b&gt;; v peak = 1.25");
+        assert_eq!(words(&unknown, 9.81, 0.0), "near fault: list: 9 numbers; name: <b>; v peak = 1.25");
         assert_eq!(words(&Value::Null, 9.81, 0.0), "none");
+        let sum = json!({"kind": "sum", "terms": [pulse, {"kind": "rectangular", "amplitude": 0.981, "start": 2.0, "duration": 0.5}]});
+        let told = "sum of one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s, and \
+            rectangular pulse: amplitude 0.981 m/s² = 0.1 g; lasting 0.5 s; from t = 2 s on";
+        assert_eq!(words(&sum, 9.81, 0.0), told);
     }
 }
