@@ -216,7 +216,7 @@ impl<'a> Replay<'a> {
             let (arm, height) = (Double::from_f64(column.contact_half_width(interface)), moment / mass);
             let Segment { horizontal, vertical, .. } = self.segment();
             for _ in 0..ROUNDS {
-                let (x, y) = (expand(horizontal, self.t, 2), expand(vertical, self.t, 2));
+                let (x, y) = (expand(&horizontal, self.t, 2), expand(&vertical, self.t, 2));
                 let guard = arm * (self.gravity + y[0]) - (height * x[0]).scale(ground.signum());
                 let slope = arm * y[1] - (height * x[1]).scale(ground.signum());
                 self.t -= guard / slope;

@@ -57,7 +57,7 @@ fn a_new_scene_names_the_record_it_was_given() {
 fn a_check_explains_the_papers_column() {
     let root = common::root();
     let text = common::succeeds(&root, &["check", "scenes/paper-3-blocks-3.00.toml"]);
-    for part in ["p = 2.14", "alpha = 0.25", "sine-pulse", "PGA 0.75", "eta = 0.9", "response.csv"] {
+    for part in ["p = 2.14", "alpha = 0.25", "one-sine pulse", "PGA 0.75", "eta = 0.9", "response.csv"] {
         assert!(text.contains(part), "`{part}` is missing in\n{text}");
     }
     let check = parsed(&common::succeeds(&root, &["check", "scenes/paper-3-blocks-3.00.toml", "--json"]));

@@ -28,7 +28,7 @@ pub fn init(new: &NewScene) -> Result<(), Failure> {
         return Err(Failure::Taken { path: new.file.into() });
     }
     let record = new.record.map(|record| named_from(new.file, record)).transpose()?;
-    output::file(new.file, &scene(usize::from(new.blocks), record.as_deref()))?;
+    output::file(new.file, scene(usize::from(new.blocks), record.as_deref()))?;
     let file = new.file.display();
     print(&format!(
         "wrote {file}: open it in an editor and put in your column and ground motion, then\n\

@@ -81,7 +81,7 @@ pub fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
     if blocks > figure::LARGEST {
         return Err(Failure::CrowdedFigure { blocks, modes, largest: figure::LARGEST });
     }
-    output::file(file, &figure::svg(blocks))?;
+    output::file(file, figure::svg(blocks))?;
     print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", file.display()))
 }
 

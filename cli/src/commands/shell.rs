@@ -30,13 +30,13 @@ pub fn man(folder: Option<&Path>) -> Result<(), Failure> {
     let mut names = vec!["rocking.1".to_string()];
     let commands: Vec<Command> =
         root.get_subcommands().filter(|command| command.get_name() != "help").cloned().collect();
-    output::file(&folder.join("rocking.1"), &page(root)?)?;
+    output::file(&folder.join("rocking.1"), page(root)?)?;
     for command in commands {
         let name = format!("rocking-{}", command.get_name());
         // Its own name would be `run`, as in `man run`.
         let command = command.name(name.clone()).display_name(name.clone());
         names.push(format!("{name}.1"));
-        output::file(&folder.join(format!("{name}.1")), &page(command)?)?;
+        output::file(&folder.join(format!("{name}.1")), page(command)?)?;
     }
     print(&format!("wrote {} to {}\n", names.join(", "), folder.display()))
 }
