@@ -197,7 +197,7 @@ impl<M: Dynamics> System for PerSample<'_, M> {
 
 impl<M: Dynamics> Driven for PerSample<'_, M> {
     fn enter(&mut self, sample: usize) {
-        self.segment = self.segments[sample];
+        self.segment = self.segments[sample].clone();
     }
 
     fn calls(&self) -> usize {
@@ -446,7 +446,7 @@ impl<M: Dynamics> Expanded<'_, M> {
     /// A stretch of so many samples begins at this one.
     fn enter(&mut self, sample: usize, count: usize) {
         match self.moments {
-            None => self.segment = self.segments[sample],
+            None => self.segment = self.segments[sample].clone(),
             Some((tables, record)) => {
                 self.start = sample as f64 * record.dt();
                 self.polynomial = tables[count].fit(&record.accel()[sample..=sample + count], record.dt());
@@ -780,7 +780,7 @@ where
     let expanded = |moments| Expanded {
         mode: &mode,
         segments: &segments,
-        segment: Segment { horizontal: Piece::Zero, ..segments[0] },
+        segment: Segment { horizontal: Piece::Zero, ..segments[0].clone() },
         moments,
         polynomial: [0.0; LARGEST_DEGREE + 1],
         start: 0.0,
