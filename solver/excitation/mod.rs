@@ -3,12 +3,15 @@
 //! A [`Motion`] is given as data; [`Excitation::segments`] lays both components out in time as smooth pieces with known ends,
 //! so that the integrator never steps across a kink or a jump and evaluates one formula without asking for the time.
 
+mod formats;
+mod measures;
 mod piece;
 mod record;
-mod text;
 
+pub use formats::{Format, RecordFile};
+pub use measures::Measures;
 pub use piece::Piece;
-pub use record::{AccelerationUnit, Record, RecordError, TextOptions};
+pub use record::{AccelerationUnit, Record, RecordError, Source, TextOptions};
 
 use crate::dynamics::Ground;
 use serde::Serialize;
