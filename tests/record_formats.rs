@@ -295,7 +295,13 @@ fn headers_vary() {
     ] {
         same(at2, "NPTS=    42, DT=   .0100 SEC,", header);
     }
-    for unit in ["ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz", "ACCELERATION (NO UNIT)", ""] {
+    for unit in [
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz",
+        "ACCELERATION TIME HISTORY IN G",
+        "Acceleration (g)",
+        "ACCELERATION (NO UNIT)",
+        "",
+    ] {
         same(at2, "ACCELERATION TIME SERIES IN UNITS OF G", unit);
     }
     same(at2, "SEC,\n", "SEC,\nremarks below the header\n\n");
@@ -350,6 +356,32 @@ fn headers_vary() {
     ] {
         same(cosmos, from, to);
     }
+}
+
+#[test]
+fn velocities_and_displacements_of_at2_headers_are_refused_and_units_converted() {
+    let text = text("peer/RSN9001_HOLLOW_MIL090.AT2");
+    let with = |line: &str| text.replace("ACCELERATION TIME SERIES IN UNITS OF G", line);
+    for line in
+        ["VELOCITY TIME HISTORY IN UNITS OF CM/SEC", "DISPLACEMENT TIME SERIES IN UNITS OF CM", "Velocity (cm/s)"]
+    {
+        let error = refused(with(line).as_bytes(), &options()).to_string();
+        assert!(error.starts_with("line 3: this is no acceleration"), "{line}: {error}");
+    }
+    let error = refused(with("ACCELERATION TIME SERIES IN UNITS OF FURLONGS").as_bytes(), &options()).to_string();
+    assert!(error.starts_with("line 3: `FURLONGS`") && error.contains("convert"), "{error}");
+    let g = RecordFile::read(text.as_bytes(), &options()).expect("in g");
+    for (line, size) in [
+        ("ACCELERATION TIME SERIES IN UNITS OF CM/S**2", 0.01),
+        ("ACCELERATION TIME HISTORY IN M/S/S", 1.0),
+        ("ACCELERATION (IN/S/S)", 0.0254),
+        ("ACCELERATION TIME SERIES IN UNITS OF MM/SEC2", 0.001),
+    ] {
+        let other = RecordFile::read(with(line).as_bytes(), &options()).expect("known");
+        assert!((other.accel[13] / g.accel[13] * 9.81 / size - 1.0).abs() < 1e-12, "{line}");
+    }
+    let much = RecordFile::read(text.replace("E+00", "E+03").as_bytes(), &options()).expect("read");
+    assert!(much.warnings[0].contains("hardly"), "{:?}", much.warnings);
 }
 
 #[test]

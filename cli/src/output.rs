@@ -132,11 +132,23 @@ impl<'a> Folder<'a> {
 /// # Errors
 /// [`Failure::Figure`]
 pub fn figure(path: &Path, text: &str) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| Failure::Figure { path: path.into(), problem: error.to_string() };
+    put(path, text).map_err(|error| Failure::Figure { path: path.into(), problem: error.to_string() })
+}
+
+/// Writes a record as a table.
+///
+/// # Errors
+/// [`Failure::RecordOutput`]
+pub fn record(path: &Path, text: &str) -> Result<(), Failure> {
+    put(path, text).map_err(|error| Failure::RecordOutput { path: path.into(), problem: error.to_string() })
+}
+
+/// Writes a file beside its place and renames it.
+fn put(path: &Path, text: &str) -> std::io::Result<()> {
     // A bare file name has the empty path above it.
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = fill(folder, |file| file.write_all(text.as_bytes())).map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
+    let file = fill(folder, |file| file.write_all(text.as_bytes()))?;
+    file.persist(path).map_err(|error| error.error)?;
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The commands, a file each.
 
 mod modes;
+mod record;
 mod run;
 mod thresholds;
 
@@ -24,6 +25,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
             let printed = if counts { Printed::Counts } else { Printed::Derivation(format) };
             print(&modes::derive(usize::from(blocks), &mode, printed)?)
         }
+        Command::Record(arguments) => record::record(arguments),
         Command::Thresholds { scene } => print(&thresholds::thresholds(&read(&scene)?)),
     }
 }

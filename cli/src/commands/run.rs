@@ -5,7 +5,7 @@ use crate::commands::print;
 use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
-use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
+use rocking::{DynamicsSource, Motion, Record, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -30,7 +30,8 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(
     })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
-    let warnings = response.warnings(scene.friction);
+    let mut warnings = record_warnings(&scene);
+    warnings.extend(response.warnings(scene.friction));
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
     if quiet {
         return Ok(());
@@ -39,6 +40,20 @@ pub fn run(path: &Path, out: &Path, dynamics: Dynamics, quiet: bool) -> Result<(
         eprintln!("warning: {warning}");
     }
     print(&account(&scene, &response, out))
+}
+
+/// What the files of the scene's records make the user know.
+fn record_warnings(scene: &Scene) -> Vec<String> {
+    let motions = [&scene.excitation.horizontal, &scene.excitation.vertical];
+    let records = motions.into_iter().flatten().filter_map(|motion| match motion {
+        Motion::Record(record) => Some(record),
+        _ => None,
+    });
+    let told = |record: &Record| {
+        let file = record.source().file.clone();
+        record.warnings().iter().map(move |warning| format!("record {file}: {warning}")).collect::<Vec<_>>()
+    };
+    records.flat_map(told).collect()
 }
 
 /// A few lines on what happened.

@@ -122,7 +122,8 @@ fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError
         let upper = text.to_ascii_uppercase();
         let after_units = upper.split_once("UNITS OF").or_else(|| upper.split_once("UNITS:"));
         let series = ["TIME SERIES", "TIME HISTORY", "TIME-SERIES", "TIME-HISTORY", "TIME HISTORIES"];
-        let describes = after_units.is_some() || series.iter().any(|words| upper.contains(words));
+        let quantity = ["ACCEL", "VELOC", "DISPL"].iter().any(|begin| upper.trim_start().starts_with(begin));
+        let describes = quantity || after_units.is_some() || series.iter().any(|words| upper.contains(words));
         if !describes {
             continue;
         }
@@ -136,12 +137,17 @@ fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError
         let name = match after_units {
             // Old headers go on after the unit: `UNITS OF G. FILTER POINTS: ...`.
             Some((_, rest)) => rest.split([' ', ',', ';', ':']).find(|word| !word.is_empty()),
-            None => upper.split_once('(').and_then(|(_, rest)| rest.split(')').next()),
+            // `(G'S)`, or `... IN CM/S/S`.
+            None => {
+                let bracket = upper.split_once('(').and_then(|(_, rest)| rest.split(')').next());
+                let last = upper.rsplit_once(" IN ").and_then(|(_, rest)| rest.split([' ', ',', ';', ':']).next());
+                bracket.filter(|name| AccelerationUnit::parse(name).is_some()).or(last)
+            }
         };
         let Some(name) = name.map(|name| name.trim().trim_end_matches('.')) else { continue };
         match AccelerationUnit::parse(name.trim_matches(['(', ')'])) {
             Some(unit) => return Ok(Some((index + 1, unit))),
-            // Brackets may hold anything; what follows `UNITS OF` is a unit.
+            // Brackets and sentences may hold anything; what follows `UNITS OF` is a unit.
             None if after_units.is_none() => {}
             None => {
                 return Err(RecordError::Header {
@@ -155,9 +161,11 @@ fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError
     Ok(None)
 }
 
-/// Event, station and component of the second line: `event, date, station, component`, parted by commas.
+/// Event, station and component of the second line, or of the one below the mark of old headers: `event, date, station,
+/// component`, parted by commas.
 fn event(above: &[&str]) -> (String, String, String) {
-    let line = above.get(1).map(|line| tidy(line)).unwrap_or_default();
+    let old = above.iter().position(|line| line.to_ascii_uppercase().contains("OLD HEADERS FOLLOW"));
+    let line = above.get(old.map_or(1, |old| old + 1)).map(|line| tidy(line)).unwrap_or_default();
     let parts: Vec<&str> = line.split(',').map(str::trim).collect();
     // A place may stand in brackets after the component: `140 (CDMG STATION 955)`.
     match parts.as_slice() {

@@ -138,6 +138,10 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
     let mut header = None;
     let mut first = 0;
     if let Some((line, text)) = body.first().filter(|(_, text)| is_header(text)) {
+        if body.len() == 1 {
+            let word = words(text).next().expect("lines without words are left out");
+            return Err(unreadable(refused(*line, word)));
+        }
         header = Some((*line, names(text)));
         first = 1;
     }
@@ -145,7 +149,7 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
     let mut values: Vec<(usize, Vec<f64>)> = Vec::with_capacity(body.len());
     for (line, text) in &body[first..] {
         let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(text, *line) };
-        let row = row.map_err(|error| if values.is_empty() && header.is_none() { unreadable(error) } else { error })?;
+        let row = row.map_err(|error| if values.is_empty() { unreadable(error) } else { error })?;
         let expected = values.first().map_or(row.len(), |(_, first)| first.len());
         if row.len() != expected {
             return Err(RecordError::Columns { line: *line, found: row.len(), expected });
