@@ -223,6 +223,33 @@ fn a_file_that_is_cut_off_is_refused() {
 }
 
 #[test]
+fn a_file_that_ends_within_a_number_gives_the_numbers_before_it_where_that_is_allowed() {
+    let text = text("peer/RSN9001_HOLLOW_MIL090.AT2");
+    let cut = &text[..text.rfind("E-").expect("the last sample") + 2];
+    assert!(matches!(refused(cut.as_bytes(), &options()), RecordError::NotANumber { line: 13, .. }));
+    let file = RecordFile::read(cut.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
+    assert_eq!(file.accel.len(), 41);
+    assert!(file.warnings.iter().any(|warning| warning.contains("line 13, is cut off")), "{:?}", file.warnings);
+}
+
+#[test]
+fn the_unit_of_a_cosmos_file_is_that_of_its_integer_header() {
+    let cm = read("cosmos/cm.V2", &options());
+    for (code, size) in [(2, 9.81), (4, 0.01), (7, 0.0254), (10, 0.01), (11, 9.81e-3)] {
+        let text = text("cosmos/cm.V2").replace("       2       1       4", &format!("       2       1{code:8}"));
+        let file = RecordFile::read(text.as_bytes(), &options()).expect("a unit of acceleration");
+        assert!((file.accel[13] / cm.accel[13] * 0.01 / size - 1.0).abs() < 1e-12, "{code}");
+        let told = file.warnings.iter().any(|warning| warning.contains("integer header"));
+        assert_eq!(told, size != 0.01, "{code}: {:?}", file.warnings);
+    }
+    // Where the header is silent, the line before the samples says it.
+    let silent = text("cosmos/cm.V2").replace("       2       1       4", "       2       1    -999");
+    assert_eq!(RecordFile::read(silent.as_bytes(), &options()).expect("the line says it").accel, cm.accel);
+    let mute = silent.replace("units=cm/sec2 (04),", "");
+    assert!(matches!(refused(mute.as_bytes(), &options()), RecordError::Missing { key: "units", .. }));
+}
+
+#[test]
 fn line_ends_marks_and_blank_lines_change_nothing() {
     for (name, options, ..) in cases() {
         let plain = read(name, &options);
@@ -347,6 +374,7 @@ fn headers_vary() {
         ("with 13 text lines", "with 14 text lines"),
         ("No filtering\n", "No filtering\none more line\n"),
         ("units=cm/sec2 (04)", "units=cm/s/s"),
+        ("       2       1       4", "       2       1    -999"),
         ("units=cm/sec2 (04)", "units=cm/sec2(04)"),
         ("units=cm/sec2 (04)", "units= (04)"),
         ("Format=(8F10.5)", "Format= (8F10.5)"),

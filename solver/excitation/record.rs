@@ -377,7 +377,7 @@ impl Record {
 
     /// The record with what is known of its origin, and what the user should know of it.
     #[must_use]
-    pub(super) fn from_source(self, source: Source, warnings: Vec<String>) -> Record {
+    pub(super) fn with_source(self, source: Source, warnings: Vec<String>) -> Record {
         Record { source, warnings, ..self }
     }
 

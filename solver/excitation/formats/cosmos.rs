@@ -19,8 +19,8 @@
 
 use super::numbers::{Block, Layout, number, words};
 use super::{
-    Format, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after, peak_warning, positive_dt,
-    tidy, whole_count,
+    Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
+    peak_warning, positive_dt, tidy, whole_count,
 };
 use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
 
@@ -132,7 +132,8 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let accel: Vec<f64> = samples.values.iter().map(|value| value * scale).collect();
     warnings.extend(samples.warnings);
     let peak = reals.get(PEAK).map(|peak| peak.abs() * scale).filter(|_| reals[PEAK] != UNKNOWN && reals[PEAK] != 0.0);
-    warnings.extend(peak_warning(&accel, peak, channel.find("real-header").map_or(0, |index| index + 1)));
+    let peak_line = channel.find("real-header").map_or(0, |index| index + 1);
+    warnings.extend(peak_warning(&accel, peak, peak_line, PEAK_ROUNDING));
     let direction = match (names[chosen].1.as_str(), integers.get(AZIMUTH)) {
         ("", Some(400.0)) => "Up".into(),
         ("", Some(401.0)) => "Down".into(),
@@ -239,7 +240,7 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: that of the line before the samples, else that of the integer header.
+    /// The unit: that of the integer header, else that of the line before the samples.
     fn unit(
         &self,
         integers: &[f64],
@@ -247,35 +248,30 @@ impl<'t> Channel<'t> {
         warnings: &mut Vec<String>,
     ) -> Result<AccelerationUnit, RecordError> {
         let (line, announced) = (self.announced + 1, self.lines[self.announced]);
-        let unsuited = |name: &str| RecordError::Header {
-            line,
-            problem: format!("`{name}` is no unit of acceleration that is known"),
-            remedy: "use the volume 2 file, in cm/sec2 or g, of the same record",
-        };
-        let coded = integers.get(UNIT).and_then(|code| unit_of(*code));
-        let stated = after(announced, "unit").map(|rest| rest.trim_start_matches(['s', 'S', '=', ':', ' ']));
-        let stated = stated.map(|rest| {
-            let name = rest.split([',', '(']).next().unwrap_or("").trim();
-            let code = rest.split_once('(').and_then(|(_, rest)| leading_number(rest.split(')').next()?));
-            (name, AccelerationUnit::parse(name).or_else(|| code.and_then(unit_of)))
-        });
-        let unit = match stated {
-            Some((name, None)) if !name.is_empty() => return Err(unsuited(name)),
-            Some((_, Some(unit))) => Some(unit),
-            _ => coded,
-        };
-        let unit = match unit {
-            Some(unit) => agreed_unit(unit, line, options)?,
-            None => match (options.units, integers.get(UNIT)) {
-                (Some(own), _) => own,
-                (None, Some(code)) if *code != UNKNOWN => return Err(unsuited(&format!("code {code}"))),
-                (None, _) => return Err(RecordError::Missing { quantity: "unit", key: "units" }),
-            },
-        };
-        if let Some(coded) = coded.filter(|coded| *coded != unit) {
-            warnings.push(format!("the integer header gives the unit {coded} and line {line} {unit}, which is taken"));
+        let rest = after(announced, "unit").unwrap_or("").trim_start_matches(['s', 'S', '=', ':', ' ']);
+        let name = rest.split([',', '(']).next().unwrap_or("").trim();
+        let code = rest.split_once('(').and_then(|(_, rest)| leading_number(rest.split(')').next()?));
+        let stated = AccelerationUnit::parse(name).or_else(|| code.and_then(unit_of));
+        let header = integers.get(UNIT).and_then(|code| unit_of(*code)).zip(self.find("integer-header"));
+        if let Some((unit, index)) = header {
+            let unit = agreed_unit(unit, index + 1, options)?;
+            if let Some(stated) = stated.filter(|stated| stated.in_si(1.0) != unit.in_si(1.0)) {
+                warnings.push(format!(
+                    "the integer header gives the unit {unit}, which is taken, and line {line} {stated}"
+                ));
+            }
+            return Ok(unit);
         }
-        Ok(unit)
+        match (stated, options.units) {
+            (Some(unit), _) => agreed_unit(unit, line, options),
+            (None, _) if !name.is_empty() => Err(RecordError::Header {
+                line,
+                problem: format!("`{name}` is no unit of acceleration that is known"),
+                remedy: "use the volume 2 file, in cm/sec2 or g, of the same record",
+            }),
+            (None, Some(own)) => Ok(own),
+            (None, None) => Err(RecordError::Missing { quantity: "unit", key: "units" }),
+        }
     }
 
     /// The sampling interval: of the real header's candidates the first that goes with the duration of the line before the

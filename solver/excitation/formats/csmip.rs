@@ -14,8 +14,8 @@
 
 use super::numbers::{Block, Layout, number};
 use super::{
-    Format, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after, peak_warning, positive_dt,
-    tidy, whole_count,
+    Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
+    peak_warning, positive_dt, tidy, whole_count,
 };
 use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
 
@@ -166,8 +166,10 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         problem: format!("{problem}: `{}`", brief(lines.get(title).copied().unwrap_or(""))),
         remedy,
     };
+    // Only volume 2 has velocities, whatever its first line says.
+    let corrected = lines.iter().any(|line| series(line) == Some(Series::Other));
     match lines.get(title).and_then(|line| volume(line)) {
-        Some(1) => {
+        Some(1) if !corrected => {
             return Err(refuse(
                 "a volume 1 file holds the uncorrected accelerogram",
                 "use the volume 2 file (.V2) of the same record",
@@ -231,7 +233,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         Some((place, value * unit.in_si(options.gravity)))
     });
     let peak = stated.map(|(_, peak)| peak).filter(|peak| *peak > 0.0);
-    warnings.extend(peak_warning(&accel, peak, stated.map_or(0, |(line, _)| line)));
+    warnings.extend(peak_warning(&accel, peak, stated.map_or(0, |(line, _)| line), PEAK_ROUNDING));
     Ok(RecordFile {
         format: Format::Csmip,
         title: channel.event(),

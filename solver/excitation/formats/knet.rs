@@ -27,6 +27,9 @@ const HEADER_LINES: usize = 17;
 /// Characters before the value.
 const VALUE: usize = 18;
 
+/// Relative difference of the samples' peak and the stated one that is told: the zero may be that of another stretch.
+const PEAK_DIFFERENCE: f64 = 0.05;
+
 /// Rows of eight integers of nine characters.
 const LAYOUT: Layout = Layout { per_row: 8, width: 9 };
 
@@ -64,7 +67,7 @@ fn by_column(line: &str) -> Option<&str> {
 }
 
 /// What follows the name and the unit that belongs to it.
-fn by_name<'t>(line: &'t str, entry: Entry) -> Option<&'t str> {
+fn by_name(line: &str, entry: Entry) -> Option<&str> {
     let line = line.trim_start();
     let name = entry.1.iter().find(|name| line.to_ascii_lowercase().starts_with(**name))?;
     let rest = line[name.len()..].trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '.').trim_start();
@@ -148,7 +151,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let peak = header.find(PEAK).and_then(|(line, value)| Some((line, leading_number(value)?.abs())));
     let stated = peak.map(|(_, peak)| peak * unit.in_si(options.gravity)).filter(|peak| *peak > 0.0);
     let mut warnings = samples.warnings;
-    warnings.extend(peak_warning(&accel, stated, peak.map_or(0, |(line, _)| line)));
+    warnings.extend(peak_warning(&accel, stated, peak.map_or(0, |(line, _)| line), PEAK_DIFFERENCE));
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
     Ok(RecordFile {
         format: Format::KNet,

@@ -107,7 +107,7 @@ impl RecordFile {
     pub fn into_record(self) -> Result<Record, RecordError> {
         let source =
             Source { file: String::new(), title: self.title, station: self.station, component: self.component };
-        Ok(Record::new(self.accel, self.dt, 0.0)?.from_source(source, self.warnings))
+        Ok(Record::new(self.accel, self.dt, 0.0)?.with_source(source, self.warnings))
     }
 
     /// Refuses another channel than the only one.
@@ -130,14 +130,19 @@ impl Format {
 
 /// The format of a file, by its content.
 fn recognise(lines: &[&str]) -> Format {
-    let known: [(Format, fn(&[&str]) -> bool); 5] = [
-        (Format::Cosmos, cosmos::is_one),
-        (Format::Csmip, csmip::is_one),
-        (Format::KNet, knet::is_one),
-        (Format::Dyna, dyna::is_one),
-        (Format::PeerAt2, peer::is_one),
-    ];
-    known.into_iter().find(|(_, is_one)| is_one(lines)).map_or(Format::Table, |(format, _)| format)
+    if cosmos::is_one(lines) {
+        Format::Cosmos
+    } else if csmip::is_one(lines) {
+        Format::Csmip
+    } else if knet::is_one(lines) {
+        Format::KNet
+    } else if dyna::is_one(lines) {
+        Format::Dyna
+    } else if peer::is_one(lines) {
+        Format::PeerAt2
+    } else {
+        Format::Table
+    }
 }
 
 /// The text of a file: UTF-8, UTF-16 with its mark, or else Latin-1, in which every byte is a character.
@@ -241,13 +246,14 @@ fn largest(accel: &[f64]) -> f64 {
     accel.iter().fold(0.0, |peak, a| peak.max(a.abs()))
 }
 
-/// How far the peak of the samples may be from what a header states before the user is told: headers round to three digits.
+/// How far the peak of the samples may be, relatively, from what a header states before the user is told: headers round to
+/// three digits.
 const PEAK_ROUNDING: f64 = 5e-3;
 
-/// The sentence that the samples' peak is not the header's, if so. Both `[m/s²]`.
-fn peak_warning(accel: &[f64], stated: Option<f64>, line: usize) -> Option<String> {
+/// The sentence that the samples' peak is not the header's, by more than the share `allowed`. Both `[m/s²]`.
+fn peak_warning(accel: &[f64], stated: Option<f64>, line: usize, allowed: f64) -> Option<String> {
     let (stated, found) = (stated?, largest(accel));
-    let differs = (found - stated).abs() > PEAK_ROUNDING * found.max(stated);
+    let differs = (found - stated).abs() > allowed * found.max(stated);
     differs.then(|| {
         format!("the samples' peak is {found:.6} m/s² and line {line} states {stated:.6} m/s²; is the file whole?")
     })

@@ -261,12 +261,18 @@ impl Block<'_> {
     fn rows(&self, read: impl Fn(&str, usize) -> Result<Vec<f64>, RecordError>) -> Result<Samples, RecordError> {
         let mut values = Vec::with_capacity(self.declared.min(MOST_RESERVED));
         let mut warnings = Vec::new();
-        for index in self.span.0..self.span.1.min(self.lines.len()) {
+        let end = self.span.1.min(self.lines.len());
+        for index in self.span.0..end {
             match read(self.lines[index], index + 1) {
                 Ok(row) => values.extend(row),
                 Err(_) if values.len() >= self.declared => {
                     warnings.push(format!("text after the last sample is not read, from line {} on", index + 1));
                     break;
+                }
+                Err(_) if self.lenient && self.lines[index + 1..end].iter().all(|line| line.trim().is_empty()) => {
+                    // A file that is cut off ends within a number.
+                    values.extend(words(self.lines[index]).map_while(|word| number(word.text)));
+                    warnings.push(format!("the last number, in line {}, is cut off and not used", index + 1));
                 }
                 Err(error) => return Err(error),
             }

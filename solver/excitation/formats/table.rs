@@ -160,9 +160,8 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         // Some programs put the names into the last remark before the numbers.
         let columns = values.first().map_or(0, |(_, row)| row.len());
         let before = values.first().map_or(0, |(line, _)| line - 1);
-        let remarks =
-            lines.iter().enumerate().take(before).filter(|(index, line)| *index >= options.skip_rows && remark(line));
-        if let Some((index, line)) = remarks.last() {
+        let last = (options.skip_rows..before).rev().map(|index| (index, lines[index])).find(|(_, line)| remark(line));
+        if let Some((index, line)) = last {
             let names = names(line.trim_start().trim_start_matches(['#', '%']));
             let is_one = names.len() == columns && names.iter().any(|column| column.acceleration().is_some());
             header = is_one.then_some((index + 1, names));
