@@ -467,7 +467,7 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         ("0.3 1\n0.2 1\n0.1 1\n", "line 2: time 0.2 s"),
         ("0 1\n0.1\n", "line 2: 1 column(s) where the first row has 2"),
         ("0, 1\n0.1, , 2\n", "line 2, column 5"),
-        ("1 2 3\n4 5 6\n", "3 column(s)"),
+        ("1 2 3\n4 5 6\n", "choose one of 1 to 3 with `column`"),
         ("0.1\n0.2\n", "sampling interval"),
         ("", "0 sample(s)"),
         ("# nothing\n0 1\n", "1 sample(s)"),

@@ -7,11 +7,13 @@ mod formats;
 mod measures;
 mod piece;
 mod record;
+mod unit;
 
 pub use formats::{Format, RecordFile};
 pub use measures::Measures;
 pub use piece::Piece;
-pub use record::{AccelerationUnit, Record, RecordError, Source, TextOptions};
+pub use record::{Record, RecordError, Source, TextOptions};
+pub use unit::AccelerationUnit;
 
 use crate::dynamics::Ground;
 use serde::Serialize;

@@ -2,6 +2,7 @@
 
 mod modes;
 mod record;
+mod records;
 mod run;
 mod thresholds;
 

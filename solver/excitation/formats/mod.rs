@@ -11,7 +11,8 @@ mod numbers;
 mod peer;
 mod table;
 
-use super::record::{AccelerationUnit, Record, RecordError, Source, TextOptions};
+use super::record::{Record, RecordError, Source, TextOptions};
+use super::unit::AccelerationUnit;
 use serde::Serialize;
 use std::fmt;
 

@@ -253,11 +253,9 @@ fn acceleration_column(rows: &Rows, columns: usize, options: &TextOptions) -> Re
     }
     let sure: Vec<usize> =
         without_time.iter().copied().filter(|place| names.get(*place).is_some_and(Column::is_acceleration)).collect();
-    let line = rows.values[0].0;
     match (sure.as_slice(), columns) {
         ([only], _) => Ok(*only),
         ([], 2) => Ok(1),
-        ([], _) if names.is_empty() => Err(RecordError::Columns { line, found: columns, expected: 2 }),
         _ => Err(RecordError::NoColumn { column: String::new(), known: known() }),
     }
 }
