@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use rocking::excitation::AccelerationUnit;
 use std::path::PathBuf;
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
@@ -96,6 +97,11 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Print what is understood of a record file and what it measures, or list the records of a folder.
+    ///
+    /// PEER AT2, ESM and ITACA (DYNA), K-NET and KiK-net, CSMIP V2, COSMOS V2 and tables of text are told apart by their
+    /// content.
+    Record(Record),
     /// Print the completion script of a shell.
     Completions {
         /// The shell.
@@ -132,6 +138,63 @@ pub struct Run {
     /// Print the summary as JSON instead of text.
     #[arg(long, conflicts_with = "quiet")]
     pub json: bool,
+}
+
+/// What is asked of a record, and what its file may not say itself.
+#[derive(Debug, Args)]
+pub struct Record {
+    /// Record file, or a folder of them.
+    #[arg(value_name = "FILE", required_unless_present = "trim")]
+    pub file: Option<PathBuf>,
+    /// Unit of the accelerations where the file is silent: g, m/s2, cm/s2, gal, mg, in/s2, ...
+    #[arg(long, value_parser = unit)]
+    pub units: Option<AccelerationUnit>,
+    /// Sampling interval in s where the file is silent.
+    #[arg(long, value_parser = positive)]
+    pub dt: Option<f64>,
+    /// Channel of a file that has several, by its number.
+    #[arg(long)]
+    pub channel: Option<usize>,
+    /// Column of a table that holds the accelerations, by its name or its number from 1.
+    #[arg(long)]
+    pub column: Option<String>,
+    /// Lines of a table that are not looked at.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub skip_rows: usize,
+    /// Warn rather than fail where samples are missing or the header states another peak.
+    #[arg(long)]
+    pub lenient: bool,
+    /// Multiply the accelerations.
+    #[arg(long, value_name = "F", conflicts_with = "pga", allow_negative_numbers = true, value_parser = finite)]
+    pub scale: Option<f64>,
+    /// Scale to this peak, in g.
+    #[arg(long, value_name = "G", value_parser = positive)]
+    pub pga: Option<f64>,
+    /// Keep what lies between two times, in s from the first sample: `2..8`, `2..`, `..8` or `2 8`.
+    #[arg(long, value_names = ["FROM..TO", "TO"], num_args = 1..=2)]
+    pub trim: Vec<String>,
+    /// Write the record, scaled and trimmed, as a table of time and acceleration (CSV).
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Draw accelerogram, velocity, displacement and the growth of the Arias intensity (SVG, or PNG by the file's name).
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+    /// Print JSON instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "give a number".to_string())?;
+    if value.is_finite() { Ok(value) } else { Err("give a finite number".into()) }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("give a number above zero".into()) })
+}
+
+fn unit(text: &str) -> Result<AccelerationUnit, String> {
+    AccelerationUnit::parse(text).ok_or_else(|| "choose g, m/s2, cm/s2, gal, mg or in/s2".into())
 }
 
 /// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.

@@ -1,7 +1,7 @@
 //! What goes wrong, told so that the place and the remedy are seen.
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
-use rocking::{SceneFileError, SolveError};
+use rocking::{RecordError, SceneFileError, SolveError};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -41,13 +41,47 @@ pub enum Failure {
         /// The file.
         path: PathBuf,
     },
-    /// A record cannot be read.
-    #[error("{}: {problem}", path.display())]
-    Record {
-        /// The record's file.
+    /// A record file or folder cannot be read.
+    #[error("{}: {problem}; check the path and its permissions", path.display())]
+    RecordFile {
+        /// The file or folder.
         path: PathBuf,
-        /// What is wrong, and what to do.
+        /// What the system says.
         problem: String,
+    },
+    /// A record file must be corrected, or more must be said of it.
+    #[error("{}: {}", path.display(), with_dashes(&error.to_string()))]
+    Record {
+        /// The file.
+        path: PathBuf,
+        /// What the library says.
+        error: RecordError,
+    },
+    /// No file of a folder is a record.
+    #[error("{}: none of its {count} file(s) reads as a record{first}; give a folder of record files", path.display())]
+    NoRecords {
+        /// The folder.
+        path: PathBuf,
+        /// Its files.
+        count: usize,
+        /// What is wrong with the first of them.
+        first: String,
+    },
+    /// A window of time is none.
+    #[error("--trim {given}: {problem}; write two times in s from the first sample as `--trim 2..8`, `2..` or `..8`")]
+    Trim {
+        /// What was asked for.
+        given: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// An option needs one record.
+    #[error("--{option} is for a single record and {} is a folder; give one of its files", path.display())]
+    FolderOption {
+        /// The option.
+        option: &'static str,
+        /// The folder.
+        path: PathBuf,
     },
     /// A figure of so many modes would not be read.
     #[error(
@@ -98,6 +132,14 @@ pub struct SceneFailure {
     source_text: Option<NamedSource<String>>,
 }
 
+/// The library names its options; the command line has them with dashes.
+pub fn with_dashes(text: &str) -> String {
+    let options = ["units", "dt", "lenient", "channel", "skip_rows", "column"];
+    options.into_iter().fold(text.to_string(), |text, option| {
+        text.replace(&format!("`{option}`"), &format!("`--{}`", option.replace('_', "-")))
+    })
+}
+
 impl Failure {
     /// The failure of reading a scene, with its text if it can be shown.
     pub fn scene(error: SceneFileError) -> Failure {
@@ -129,7 +171,11 @@ impl Failure {
                 | Failure::Results { .. }
                 | Failure::File { .. }
                 | Failure::Taken { .. }
+                | Failure::RecordFile { .. }
                 | Failure::Record { .. }
+                | Failure::NoRecords { .. }
+                | Failure::Trim { .. }
+                | Failure::FolderOption { .. }
                 | Failure::CrowdedFigure { .. }
                 | Failure::Mode { .. }
         )

@@ -3,18 +3,23 @@
 //! A [`Motion`] is given as data; [`Excitation::segments`] lays both components out in time as smooth pieces with known ends,
 //! so that the integrator never steps across a kink or a jump and evaluates one formula without asking for the time.
 
+mod formats;
+mod measures;
 mod motion;
 mod overlay;
 mod piece;
 mod record;
 mod synthetic;
-mod text;
 mod travel;
+mod unit;
 
+pub use formats::{Format, RecordFile};
+pub use measures::Measures;
 pub use motion::Motion;
 pub use piece::Piece;
-pub use record::{AccelerationUnit, Record, RecordError, TextOptions};
+pub use record::{Record, RecordError, Source, TextOptions};
 pub use synthetic::Synthetic;
+pub use unit::AccelerationUnit;
 
 use crate::dynamics::Ground;
 use overlay::overlay;

@@ -1,24 +1,57 @@
 //! Sampled ground motion: a validated series, linear between samples.
 
+use super::formats::RecordFile;
 use super::overlay::Span;
 use super::piece::Piece;
-use super::text;
+use super::unit::AccelerationUnit;
 use serde::Serialize;
+use serde::ser::SerializeStruct;
 
 /// Ground acceleration sampled at equal intervals, linear between samples, zero outside.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+///
+/// Serialised it tells what describes it, not its samples.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Accelerations `[m/s²]`; where a run is described, their number.
-    #[serde(rename = "samples", serialize_with = "count")]
+    /// Accelerations `[m/s²]`.
     accel: Vec<f64>,
     /// Sampling interval `[s]`.
     dt: f64,
     /// Time of the first sample `[s]`.
     start: f64,
+    /// Factor by which the samples have been multiplied since they were read, dimensionless.
+    scale: f64,
+    source: Source,
+    warnings: Vec<String>,
 }
 
-fn count<S: serde::Serializer>(accel: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_u64(accel.len() as u64)
+/// Where a record comes from; what is not known is empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Source {
+    /// The file, as it was named.
+    pub file: String,
+    /// Event or title.
+    pub title: String,
+    /// Station.
+    pub station: String,
+    /// Direction of the component.
+    pub component: String,
+}
+
+impl Serialize for Record {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Record", 10)?;
+        fields.serialize_field("samples", &self.accel.len())?;
+        fields.serialize_field("dt", &self.dt)?;
+        fields.serialize_field("start", &self.start)?;
+        fields.serialize_field("duration", &self.duration())?;
+        fields.serialize_field("peak", &self.peak())?;
+        fields.serialize_field("scale", &self.scale)?;
+        fields.serialize_field("file", &self.source.file)?;
+        fields.serialize_field("title", &self.source.title)?;
+        fields.serialize_field("station", &self.source.station)?;
+        fields.serialize_field("component", &self.source.component)?;
+        fields.end()
+    }
 }
 
 /// Why a record is refused. Lines and columns count from 1.
@@ -57,12 +90,14 @@ pub enum RecordError {
     /// The file ends before the count in its header is reached.
     #[error(
         "line {line}: the header declares {declared} samples and the file has {found}; is it cut off? \
-         Fetch it again, or correct NPTS"
+         Fetch it again, correct {key}, or use what is there with `lenient`"
     )]
     Fewer {
         /// Line of the header.
         line: usize,
-        /// NPTS.
+        /// The entry that declares it, e.g. NPTS.
+        key: &'static str,
+        /// Samples declared.
         declared: usize,
         /// Samples in the file.
         found: usize,
@@ -76,6 +111,48 @@ pub enum RecordError {
         problem: String,
         /// What to do.
         remedy: &'static str,
+    },
+    /// The largest sample is not the peak of the header.
+    #[error(
+        "line {line} states a peak of {stated:.6} m/s² and the largest sample is {found:.6} m/s²: the file is damaged or \
+         in another unit than it says; fetch it again, or use it as it is with `lenient`"
+    )]
+    Peak {
+        /// Line of the header.
+        line: usize,
+        /// Its peak `[m/s²]`.
+        stated: f64,
+        /// Peak of the samples `[m/s²]`.
+        found: f64,
+    },
+    /// The file has no such channel.
+    #[error("channel {channel} is not in the file; it has {known}")]
+    NoChannel {
+        /// What was asked for.
+        channel: usize,
+        /// Channels of the file.
+        known: String,
+    },
+    /// It is not clear which column holds the accelerations.
+    #[error("{}; choose one of {known} with `column`", no_column(column))]
+    NoColumn {
+        /// What was asked for; empty where nothing was.
+        column: String,
+        /// Columns of the file.
+        known: String,
+    },
+    /// The file begins with something that is neither a known header nor numbers.
+    #[error(
+        "line {line}, column {column}: `{text}` is no number, and the file begins like none of the known formats; skip the \
+         lines before the numbers with `skip_rows`, or give a file of PEER (AT2), ESM, K-NET, CSMIP, COSMOS or a table"
+    )]
+    NoTable {
+        /// Line of the file.
+        line: usize,
+        /// Column of its first character.
+        column: usize,
+        /// What stands there.
+        text: String,
     },
     /// A row has another number of columns than the first.
     #[error(
@@ -99,21 +176,21 @@ pub enum RecordError {
         /// Mean interval of the rows.
         dt: f64,
     },
-    /// Plain text does not say what it is; the scene must.
-    #[error("the file does not say its {quantity}: add `{key}` to the scene")]
+    /// The file does not say what it is; the user must.
+    #[error("the file does not say its {quantity}; give it with `{key}`{}", example(key))]
     Missing {
         /// What is unknown.
         quantity: &'static str,
-        /// The key that says it.
+        /// The option that says it.
         key: &'static str,
     },
-    /// The scene and the file say different things.
-    #[error("`{key}` in the scene says {scene} and line {line} of the file says {file}; remove the key or correct it")]
+    /// The user and the file say different things.
+    #[error("`{key}` is given as {given} and line {line} of the file says {file}; leave `{key}` out or correct it")]
     Contradiction {
-        /// The key of the scene.
+        /// The option.
         key: &'static str,
-        /// What the scene says.
-        scene: String,
+        /// What the user gives.
+        given: String,
         /// Line of the file.
         line: usize,
         /// What the file says.
@@ -132,40 +209,24 @@ pub enum RecordError {
     Silent,
 }
 
-/// Unit of accelerations in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum AccelerationUnit {
-    /// The gravity of the scene: what counts in rocking is the ratio of the two.
-    G,
-    /// m/s²
-    MetrePerSecondSquared,
-    /// cm/s², gal
-    CentimetrePerSecondSquared,
-}
-
-impl AccelerationUnit {
-    /// The unit that a scene names, if there is such a one.
-    pub fn parse(name: &str) -> Option<AccelerationUnit> {
-        match name {
-            "g" => Some(AccelerationUnit::G),
-            "m/s2" | "m/s^2" | "m/s²" => Some(AccelerationUnit::MetrePerSecondSquared),
-            "cm/s2" | "cm/s^2" | "cm/s²" | "gal" => Some(AccelerationUnit::CentimetrePerSecondSquared),
-            _ => None,
-        }
-    }
-
-    /// Its size `[m/s²]` in a scene of this gravity `[m/s²]`.
-    pub fn in_si(self, gravity: f64) -> f64 {
-        match self {
-            AccelerationUnit::G => gravity,
-            AccelerationUnit::MetrePerSecondSquared => 1.0,
-            AccelerationUnit::CentimetrePerSecondSquared => 0.01,
-        }
+fn no_column(column: &str) -> String {
+    if column.is_empty() {
+        "the file has several columns that may be the acceleration".into()
+    } else {
+        format!("there is no column `{column}`")
     }
 }
 
-/// What a scene says of a text file that the file itself may not.
-#[derive(Clone, Copy, Debug, PartialEq)]
+fn example(key: &str) -> &'static str {
+    match key {
+        "units" => " (g, m/s2, cm/s2, gal, mg, ...)",
+        "dt" => " (s)",
+        _ => "",
+    }
+}
+
+/// What a user says of a record file that the file itself may not.
+#[derive(Clone, Debug, PartialEq)]
 pub struct TextOptions {
     /// What one g is `[m/s²]`: the gravity of the scene.
     pub gravity: f64,
@@ -173,11 +234,28 @@ pub struct TextOptions {
     pub dt: Option<f64>,
     /// Unit of the accelerations.
     pub units: Option<AccelerationUnit>,
+    /// Reads a file that has fewer samples than it declares, or another peak than it states, with a warning instead of an
+    /// error; default false.
+    pub lenient: bool,
+    /// Channel of a file that has several: the number that the file gives it, else its place from 1; default the first.
+    pub channel: Option<usize>,
+    /// Lines of a table that are not looked at; default 0.
+    pub skip_rows: usize,
+    /// Column of a table that holds the accelerations: its name, else its number from 1; default the only one that may.
+    pub column: Option<String>,
 }
 
 impl Default for TextOptions {
     fn default() -> TextOptions {
-        TextOptions { gravity: crate::DEFAULT_GRAVITY, dt: None, units: None }
+        TextOptions {
+            gravity: crate::DEFAULT_GRAVITY,
+            dt: None,
+            units: None,
+            lenient: false,
+            channel: None,
+            skip_rows: 0,
+            column: None,
+        }
     }
 }
 
@@ -196,16 +274,51 @@ impl Record {
         if let Some(index) = accel.iter().position(|a| !a.is_finite()) {
             return Err(RecordError::NotFinite { sample: index + 1, value: accel[index] });
         }
-        Ok(Record { accel, dt, start })
+        Ok(Record { accel, dt, start, scale: 1.0, source: Source::default(), warnings: Vec::new() })
     }
 
-    /// Reads a PEER AT2 file or plain text of one or two columns, told apart by content.
+    /// Reads the text of a record file of any format that [`RecordFile`] knows.
     ///
     /// # Errors
     /// [`RecordError`], with line and column.
     pub fn from_text(text: &str, options: TextOptions) -> Result<Record, RecordError> {
-        let series = text::read(text, options)?;
-        Record::new(series.accel, series.dt, 0.0)
+        Record::from_bytes(text.as_bytes(), &options)
+    }
+
+    /// Reads a record file of any format that [`RecordFile`] knows, told apart by content.
+    ///
+    /// # Errors
+    /// [`RecordError`], with line and column.
+    pub fn from_bytes(bytes: &[u8], options: &TextOptions) -> Result<Record, RecordError> {
+        RecordFile::read(bytes, options)?.into_record()
+    }
+
+    /// The record with what is known of its origin, and what the user should know of it.
+    #[must_use]
+    pub(super) fn with_source(self, source: Source, warnings: Vec<String>) -> Record {
+        Record { source, warnings, ..self }
+    }
+
+    /// The record with the name of its file.
+    #[must_use]
+    pub fn named(mut self, file: impl Into<String>) -> Record {
+        self.source.file = file.into();
+        self
+    }
+
+    /// Where it comes from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// What the user should know of the file that it was read from, a sentence each.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Factor by which the samples have been multiplied since they were read.
+    pub fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// Accelerations `[m/s²]`.
@@ -238,7 +351,8 @@ impl Record {
     /// # Errors
     /// [`RecordError::NotFinite`] if a product is not finite.
     pub fn scaled(self, factor: f64) -> Result<Record, RecordError> {
-        Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)
+        let scaled = Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)?;
+        Ok(Record { scale: self.scale * factor, source: self.source, warnings: self.warnings, ..scaled })
     }
 
     /// The record scaled to this peak `[m/s²]`.
@@ -248,6 +362,42 @@ impl Record {
     pub fn scaled_to_peak(self, peak: f64) -> Result<Record, RecordError> {
         let own = self.peak();
         if own == 0.0 { Err(RecordError::Silent) } else { self.scaled(peak / own) }
+    }
+
+    /// The samples from `from` to `to`, both included and counted from the first sample `[s]`; the first of them takes the time
+    /// of the first sample.
+    ///
+    /// # Errors
+    /// [`RecordError::TooShort`] if fewer than two samples are left.
+    ///
+    /// ```
+    /// let record = rocking::Record::new(vec![0.0, 1.0, 2.0, 3.0, 4.0], 0.1, 0.0)?;
+    /// assert_eq!(record.trimmed(0.1, 0.3)?.accel(), [1.0, 2.0, 3.0]);
+    /// # Ok::<(), rocking::RecordError>(())
+    /// ```
+    pub fn trimmed(self, from: f64, to: f64) -> Result<Record, RecordError> {
+        let inside = |sample: usize| {
+            let (time, rounding) = (sample as f64 * self.dt, SAME_SAMPLE * self.dt);
+            time >= from - rounding && time <= to + rounding
+        };
+        let accel: Vec<f64> =
+            (0..self.accel.len()).filter(|sample| inside(*sample)).map(|sample| self.accel[sample]).collect();
+        if accel.len() < 2 {
+            return Err(RecordError::TooShort { count: accel.len() });
+        }
+        Ok(Record { accel, ..self })
+    }
+
+    /// The record as a table that reads back to the same samples and the same interval: time from the first sample `[s]`,
+    /// acceleration `[m/s²]`, a heading that says so.
+    pub fn to_csv(&self) -> String {
+        use std::fmt::Write as _;
+        let mut text = String::from("t [s], a [m/s2]\n");
+        for (sample, a) in self.accel.iter().enumerate() {
+            // `{:?}` is the shortest text that reads back to the same bits.
+            let _ = writeln!(text, "{:?}, {a:?}", sample as f64 * self.dt);
+        }
+        text
     }
 
     /// The record with its first sample at `start [s]`.
@@ -289,6 +439,9 @@ impl Record {
     }
 }
 
+/// Share of an interval by which a time may be off the sample that is meant: times are typed in with few digits.
+const SAME_SAMPLE: f64 = 1e-6;
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,6 +454,14 @@ mod tests {
         assert_eq!(record.pieces().len(), 2);
         assert_eq!(record.clone().scaled_to_peak(1.5).expect("moves").peak(), 1.5);
         assert_eq!(record.duration(), 1.0);
+    }
+
+    #[test]
+    fn a_record_keeps_its_origin_through_scaling_and_trimming() {
+        let record = Record::new(vec![0.0, 2.0, -1.0], 0.5, 0.0).expect("valid").named("x.AT2");
+        let record = record.scaled(3.0).and_then(|record| record.trimmed(0.5, 1.0)).expect("two samples");
+        assert_eq!((record.source().file.as_str(), record.scale(), record.accel()), ("x.AT2", 3.0, &[6.0, -3.0][..]));
+        assert_eq!(record.trimmed(0.7, 9.0), Err(RecordError::TooShort { count: 0 }));
     }
 
     #[test]

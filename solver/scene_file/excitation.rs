@@ -76,16 +76,31 @@ impl Reader<'_> {
         let own = |wrong| self.error(wrong);
         let units = match table.text("units").map_err(own)? {
             None => None,
-            Some((name, _)) => Some(
-                AccelerationUnit::parse(&name)
-                    .ok_or_else(|| own(table.no_such("units", "unit", &name, &["g", "m/s2", "cm/s2", "gal"])))?,
-            ),
+            Some((name, _)) => Some(AccelerationUnit::parse(&name).ok_or_else(|| {
+                own(table.no_such("units", "unit", &name, &["g", "m/s2", "cm/s2", "gal", "mg", "in/s2"]))
+            })?),
         };
         let dt = table.positive("dt").map_err(own)?;
-        let options = TextOptions { gravity, dt, units };
+        let options = TextOptions {
+            gravity,
+            dt,
+            units,
+            lenient: table.flag("lenient").map_err(own)?.unwrap_or(false),
+            channel: table.whole("channel", 1).map_err(own)?.map(|channel| channel as usize),
+            skip_rows: table.whole("skip_rows", 0).map_err(own)?.unwrap_or(0) as usize,
+            column: table.name("column").map_err(own)?,
+        };
         let accel = table.numbers("accel").map_err(own)?;
+        let of_files = ["lenient", "channel", "skip_rows", "column"].into_iter().find(|key| table.has(key));
+        if let Some(key) = of_files.filter(|_| accel.is_some()) {
+            return Err(own(table.wrong(
+                key,
+                "`accel` is given, not a file".into(),
+                "remove it, or give `file` instead",
+            )));
+        }
         let (record, key) = match (table.text("file").map_err(own)?, accel) {
-            (Some((name, _)), None) => (self.record_file(table, &name, options)?, "file"),
+            (Some((name, _)), None) => (self.record_file(table, &name, &options)?, "file"),
             (None, Some(accel)) => {
                 let Some(dt) = dt else { return Err(own(table.missing("dt", "give the sampling interval in s"))) };
                 let scale = units.map_or(1.0, |unit| unit.in_si(gravity));
@@ -119,7 +134,7 @@ impl Reader<'_> {
         Ok(record.starting_at(start))
     }
 
-    fn record_file(&self, table: &Table, name: &str, options: TextOptions) -> Result<Record, SceneFileError> {
+    fn record_file(&self, table: &Table, name: &str, options: &TextOptions) -> Result<Record, SceneFileError> {
         let path = self.file.parent().unwrap_or(Path::new("")).join(name);
         let place = table.find("file");
         let refuse = |problem: String| SceneFileError::Record {
@@ -131,7 +146,8 @@ impl Reader<'_> {
         };
         let bytes = std::fs::read(&path)
             .map_err(|error| refuse(format!("{error}; give the path relative to the scene file")))?;
-        Record::from_text(&String::from_utf8_lossy(&bytes), options).map_err(|error| refuse(error.to_string()))
+        let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
+        Ok(record.named(name))
     }
 }
 

@@ -31,6 +31,7 @@ struct Entry {
 enum Value {
     Text(String),
     Number(f64),
+    Flag(bool),
     Array(Vec<(Value, Place)>),
     Table(Table),
     Other(&'static str),
@@ -41,6 +42,7 @@ impl Value {
         match self {
             Value::Text(_) => "text",
             Value::Number(_) => "a number",
+            Value::Flag(_) => "true or false",
             Value::Array(_) => "a list",
             Value::Table(_) => "a table",
             Value::Other(what) => what,
@@ -163,6 +165,25 @@ impl Table {
                 Err(self.wrong(key, format!("{value} is not finite"), "give a finite number"))
             }
             Some(entry) => Err(self.expected(key, &entry.value, "a number")),
+        }
+    }
+
+    /// True or false.
+    pub fn flag(&mut self, key: &str) -> Result<Option<bool>, Wrong> {
+        match self.ask(key).cloned() {
+            None => Ok(None),
+            Some(Entry { value: Value::Flag(flag), .. }) => Ok(Some(flag)),
+            Some(entry) => Err(self.expected(key, &entry.value, "true or false, without quotes")),
+        }
+    }
+
+    /// A name, or a number in its place, as text.
+    pub fn name(&mut self, key: &str) -> Result<Option<String>, Wrong> {
+        match self.ask(key).cloned() {
+            None => Ok(None),
+            Some(Entry { value: Value::Text(text), .. }) => Ok(Some(text)),
+            Some(Entry { value: Value::Number(number), .. }) => Ok(Some(format!("{number}"))),
+            Some(entry) => Err(self.expected(key, &entry.value, "a name in quotes, or a number")),
         }
     }
 
@@ -292,7 +313,7 @@ fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
             let text = float.as_str().replace("inf", "infinity");
             text.parse().map_or(Value::Other("no number"), Value::Number)
         }
-        DeValue::Boolean(_) => Value::Other("true or false"),
+        DeValue::Boolean(flag) => Value::Flag(flag),
         DeValue::Datetime(_) => Value::Other("a date"),
         DeValue::Array(items) => Value::Array(
             items

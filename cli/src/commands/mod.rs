@@ -4,6 +4,8 @@ mod check;
 mod init;
 mod modes;
 mod plot;
+mod record;
+mod records;
 mod report;
 mod run;
 mod shell;
@@ -30,6 +32,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
+        Command::Record(record) => record::record(record),
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),

@@ -15,7 +15,6 @@ mod energy;
 mod forces;
 mod motion;
 mod phase_portrait;
-#[allow(dead_code, reason = "for whoever has a record to show")]
 mod record;
 mod sheet;
 mod style;

@@ -1,0 +1,265 @@
+//! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
+
+use crate::arguments;
+use crate::commands::{json, print, records};
+use crate::error::{Failure, with_dashes};
+use crate::{output, plot};
+use rocking::excitation::{Measures, RecordFile, TextOptions};
+use rocking::{DEFAULT_GRAVITY, Record, RecordError};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Describes a record file, or lists a folder.
+///
+/// # Errors
+/// [`Failure`]
+pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
+    let window = Window::of(&mut arguments)?;
+    // Only `--trim` may have swallowed the name of the file, and then it is given back.
+    let Some(path) = arguments.file.clone() else {
+        return Err(Failure::Trim { given: arguments.trim.join(" "), problem: "no record file is named".into() });
+    };
+    if path.is_dir() {
+        return records::list(&path, &arguments);
+    }
+    let file = read(&path, &options(&arguments)).map_err(|problem| problem.at(&path))?;
+    let refused = |error: RecordError| Failure::Record { path: path.clone(), error };
+    let mut told = Told::of(&path, &file);
+    let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
+    if let Some(Window { from, to }) = window {
+        record = record.trimmed(from, to).map_err(|error| Failure::Trim {
+            given: arguments.trim.join(" "),
+            problem: format!("{error} ({} s are in the file)", told.duration),
+        })?;
+    }
+    if let Some(factor) = arguments.scale {
+        record = record.scaled(factor).map_err(refused)?;
+    }
+    if let Some(peak) = arguments.pga {
+        record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
+    }
+    told.measure(&record);
+    if let Some(out) = &arguments.out {
+        output::file(out, record.to_csv())?;
+    }
+    if let Some(picture) = &arguments.plot {
+        draw(picture, &path, &record)?;
+    }
+    for warning in &told.warnings {
+        eprintln!("warning: {warning}");
+    }
+    if arguments.json {
+        return json(&told);
+    }
+    let mut text = told.text();
+    if let Some(out) = &arguments.out {
+        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", out.display(), told.samples);
+    }
+    if let Some(picture) = &arguments.plot {
+        let _ = writeln!(text, "wrote {}", picture.display());
+    }
+    print(&text)
+}
+
+/// Draws a record: as pixels into a file whose name says so, else as SVG.
+fn draw(picture: &Path, file: &Path, record: &Record) -> Result<(), Failure> {
+    let title = file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let [velocity, displacement] = [record.velocity(), record.displacement()];
+    let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
+    let is_png = picture.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    if is_png { output::file(picture, plot::png(&figure)) } else { output::file(picture, figure.svg) }
+}
+
+/// Two times `[s]` from the first sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Window {
+    from: f64,
+    to: f64,
+}
+
+impl Window {
+    /// The window of `--trim`. One word can say it all; the next one is then the file.
+    fn of(arguments: &mut arguments::Record) -> Result<Option<Window>, Failure> {
+        if arguments.file.is_none() && arguments.trim.len() == 2 {
+            arguments.file = arguments.trim.pop().map(PathBuf::from);
+        }
+        let given = arguments.trim.join(" ");
+        if given.is_empty() {
+            return Ok(None);
+        }
+        let wrong = |problem: &str| Failure::Trim { given: given.clone(), problem: problem.into() };
+        let (from, to) = ["..", ",", ":", " "]
+            .into_iter()
+            .find_map(|delimiter| given.split_once(delimiter))
+            .ok_or_else(|| wrong("one time is no window"))?;
+        let time = |text: &str, open: f64| match text.trim() {
+            "" => Ok(open),
+            text => text.parse().ok().filter(|time: &f64| time.is_finite()).ok_or_else(|| wrong("that is no time")),
+        };
+        let window = Window { from: time(from, 0.0)?, to: time(to.trim_start_matches(['.', '=']), f64::INFINITY)? };
+        if window.from >= window.to {
+            return Err(wrong("it ends before it begins"));
+        }
+        Ok(Some(window))
+    }
+}
+
+pub fn options(arguments: &arguments::Record) -> TextOptions {
+    TextOptions {
+        gravity: DEFAULT_GRAVITY,
+        dt: arguments.dt,
+        units: arguments.units,
+        lenient: arguments.lenient,
+        channel: arguments.channel,
+        skip_rows: arguments.skip_rows,
+        column: arguments.column.clone(),
+    }
+}
+
+/// Why a file is not read.
+pub enum Problem {
+    System(std::io::Error),
+    Content(RecordError),
+}
+
+impl Problem {
+    pub fn at(self, path: &Path) -> Failure {
+        match self {
+            Problem::System(error) => Failure::RecordFile { path: path.into(), problem: error.to_string() },
+            Problem::Content(error) => Failure::Record { path: path.into(), error },
+        }
+    }
+}
+
+pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
+    let bytes = std::fs::read(path).map_err(Problem::System)?;
+    RecordFile::read(&bytes, options).map_err(Problem::Content)
+}
+
+/// What is told of a record.
+#[derive(Debug, Serialize)]
+pub struct Told {
+    pub file: PathBuf,
+    pub format: rocking::excitation::Format,
+    pub title: String,
+    pub station: String,
+    pub component: String,
+    pub channels: Vec<String>,
+    /// Of the accelerations in the file.
+    pub unit: rocking::excitation::AccelerationUnit,
+    /// Samples that the header declares.
+    pub declared: Option<usize>,
+    /// Peak that the header states `[m/s²]`.
+    pub stated_peak: Option<f64>,
+    /// `[s]`
+    pub dt: f64,
+    pub samples: usize,
+    /// From the first sample to the last `[s]`; told among the measures.
+    #[serde(skip)]
+    pub duration: f64,
+    /// Factor of `--scale` or `--pga`.
+    pub scale: f64,
+    /// What one g is `[m/s²]`.
+    pub gravity: f64,
+    /// Peak acceleration `[g]`.
+    pub pga_g: f64,
+    #[serde(flatten)]
+    pub measures: Option<Measures>,
+    /// Whether the displacement is largest at the end.
+    pub drifts: bool,
+    pub warnings: Vec<String>,
+}
+
+impl Told {
+    pub fn of(path: &Path, file: &RecordFile) -> Told {
+        Told {
+            file: path.into(),
+            format: file.format,
+            title: file.title.clone(),
+            station: file.station.clone(),
+            component: file.component.clone(),
+            channels: file.channels.clone(),
+            unit: file.unit,
+            declared: file.declared,
+            stated_peak: file.stated_peak,
+            dt: file.dt,
+            samples: file.accel.len(),
+            duration: file.accel.len().saturating_sub(1) as f64 * file.dt,
+            scale: 1.0,
+            gravity: DEFAULT_GRAVITY,
+            pga_g: 0.0,
+            measures: None,
+            drifts: false,
+            warnings: file.warnings.iter().map(|warning| with_dashes(warning)).collect(),
+        }
+    }
+
+    /// Takes samples and measures from the record as it is after trimming and scaling.
+    pub fn measure(&mut self, record: &Record) {
+        let measures = record.measures(DEFAULT_GRAVITY);
+        self.samples = record.accel().len();
+        self.duration = record.duration();
+        self.scale = record.scale();
+        self.pga_g = measures.pga / DEFAULT_GRAVITY;
+        self.drifts = measures.drifts();
+        self.measures = Some(measures);
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n", self.file.display());
+        let mut line = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<22}{value}");
+        };
+        let known = |value: &str| if value.is_empty() { "-".to_string() } else { value.to_string() };
+        line("format", self.format.to_string());
+        line("event", known(&self.title));
+        line("station", known(&self.station));
+        line("component", known(&self.component));
+        if self.channels.len() > 1 {
+            line("channels", self.channels.join(", "));
+        }
+        line("unit", self.unit.to_string());
+        line("dt", format!("{} s", five(self.dt)));
+        line("samples", self.samples.to_string());
+        line("duration", format!("{} s", five(self.duration)));
+        if self.scale != 1.0 {
+            line("scaled by", five(self.scale));
+        }
+        let Some(measures) = &self.measures else { return text };
+        let pga = format!("{} g = {} m/s2, at {} s", five(self.pga_g), five(measures.pga), five(measures.pga_time));
+        line("PGA", pga);
+        line("PGV", format!("{} m/s", five(measures.pgv)));
+        let drift = if self.drifts {
+            ", at the end: the record drifts, or is cut while the ground moves; correct its baseline to speak of displacements"
+        } else {
+            ""
+        };
+        line("PGD", format!("{} m{drift}", five(measures.pgd)));
+        line("Arias intensity", format!("{} m/s", five(measures.arias)));
+        let [duration, from, to] =
+            [measures.significant_duration, measures.significant_start, measures.significant_end].map(five);
+        line("significant duration", format!("{duration} s (5-95 %), from {from} s to {to} s"));
+        text
+    }
+}
+
+/// Five digits, without zeros at the end.
+pub fn five(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    if rounded != 0.0 && !(1e-4..1e7).contains(&rounded.abs()) { format!("{rounded:e}") } else { format!("{rounded}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in
+            [(0.123456789, "0.12346"), (0.0, "0"), (7276.0 * 0.005, "36.38"), (1e-9, "1e-9"), (12.0, "12")]
+        {
+            assert_eq!(five(value), text);
+        }
+    }
+}

@@ -1,0 +1,342 @@
+//! COSMOS V1.20: one channel after the other, each with headers that tell their own length.
+//!
+//! ```text
+//! Corrected acceleration    (Format v01.20 with 13 text lines)  Src: ...
+//! ...                                                              as many lines as columns 47-48 say
+//!  100 Integer-header values follow on  10 lines, Format= (10I8)
+//!  ...
+//!  100 Real-header values follow on  17 lines, Format= (6F13.6)
+//!  ...
+//!    4 Comment lines follow, each starting with a "|":
+//! |...
+//!  4000 acceleration pts, approx  20 secs, units=cm/sec2 (04), Format=(8F10.5)
+//!  ...
+//! End-of-data for Chan  1 acceleration
+//! ```
+//!
+//! Values of the headers are counted from 0 here, as the tables of the format's readers do: integer 1 is the physical quantity,
+//! integer 2 the unit, real 61 the sampling interval. -999 stands for what is not known.
+
+use super::numbers::{Block, Layout, number, words};
+use super::{
+    Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
+    peak_warning, positive_dt, tidy, whole_count,
+};
+use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+
+/// The unit among the integers.
+const UNIT: usize = 2;
+
+/// The azimuth among the integers `[°]`; 400 is up, 401 down.
+const AZIMUTH: usize = 53;
+
+/// The sampling interval among the reals `[ms]`: its place in the format's table; one less where somebody counted from 1; and
+/// that of the recorder, which processing may have changed.
+const INTERVALS: [usize; 3] = [61, 60, 33];
+
+/// Size and unit of the peak: real 63.
+const PEAK: usize = 63;
+
+/// What stands for an unknown value.
+const UNKNOWN: f64 = -999.0;
+
+/// Columns of samples where the line before them does not say.
+const LAYOUT: Layout = Layout { per_row: 8, width: 10 };
+
+/// Whether these are the lines of such a file.
+pub fn is_one(lines: &[&str]) -> bool {
+    let mut first = lines.iter().filter(|line| !line.trim().is_empty()).take(2);
+    first.any(|line| title(line))
+        || lines.iter().take(60).any(|line| line.to_ascii_lowercase().contains("integer-header values follow"))
+}
+
+/// Whether a line begins a channel.
+fn title(line: &str) -> bool {
+    line.to_ascii_lowercase().contains("(format v")
+}
+
+/// The quantity of a line that announces samples: `4000 acceleration pts, ...`.
+fn series(line: &str) -> Option<String> {
+    let lower = line.to_ascii_lowercase();
+    let mut words = words(&lower).map(|word| word.text);
+    number(words.next()?)?;
+    let quantity = words.next()?.to_string();
+    let is_series = words.next()?.starts_with("p") && (lower.contains("format") || lower.contains("unit"));
+    is_series.then_some(quantity)
+}
+
+/// `End-of-data for Chan  1 acceleration`
+fn is_end(line: &str) -> bool {
+    let lower = line.trim_start().to_ascii_lowercase();
+    lower.starts_with("end-of-data") || lower.starts_with("end of data")
+}
+
+/// A channel of the file, lines from 0.
+struct Channel<'t> {
+    lines: &'t [&'t str],
+    begin: usize,
+    /// The line before its samples.
+    announced: usize,
+    /// The line after its samples.
+    end: usize,
+}
+
+/// Reads it.
+pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
+    let (channels, others) = channels(lines);
+    if channels.is_empty() {
+        let line = others.first().copied().unwrap_or(0);
+        return Err(RecordError::Header {
+            line: line + 1,
+            problem: match others.first() {
+                Some(line) => format!("this is no acceleration: `{}`", brief(lines[*line])),
+                None => "there is no line `... acceleration pts, ..., units=..., Format=(...)`".into(),
+            },
+            remedy: "use the volume 2 file with the acceleration of the same record",
+        });
+    }
+    let names: Vec<(Option<usize>, String)> = channels.iter().map(Channel::name).collect();
+    let labels: Vec<String> = names
+        .iter()
+        .enumerate()
+        .map(|(place, (number, direction))| {
+            tidy(&format!("{}: {direction}", number.unwrap_or(place + 1))).trim_end_matches(':').to_string()
+        })
+        .collect();
+    let numbers: Vec<Option<usize>> = names.iter().map(|(number, _)| *number).collect();
+    let mut warnings = Vec::new();
+    let chosen = choose(&numbers, &labels, options, &mut warnings)?;
+    let channel = &channels[chosen];
+    if channel.text().first().is_some_and(|line| line.to_ascii_lowercase().contains("uncorrected")) {
+        warnings.push("the file is one of volume 1: the acceleration is not corrected".into());
+    }
+
+    let (line, announced) = (channel.announced + 1, lines[channel.announced]);
+    let remedy = "write it as `4000 acceleration pts, approx 20 secs, units=cm/sec2 (04), Format=(8F10.5)`";
+    let count = words(announced).next().and_then(|word| number(word.text));
+    let declared = whole_count(count, line, announced, remedy)?;
+    let integers = channel.header("integer-header");
+    let reals = channel.header("real-header");
+    let unit = channel.unit(&integers, options, &mut warnings)?;
+    let dt = channel.interval(&reals, declared, options, &mut warnings)?;
+    let block = Block {
+        lines,
+        span: (channel.announced + 1, channel.end),
+        declared,
+        header: (line, "acceleration pts"),
+        layout: Layout::find(after(announced, "format").unwrap_or(announced)).or(Some(LAYOUT)),
+        lenient: options.lenient,
+    };
+    let samples = block.read()?;
+    let scale = unit.in_si(options.gravity);
+    let accel: Vec<f64> = samples.values.iter().map(|value| value * scale).collect();
+    warnings.extend(samples.warnings);
+    let peak = reals.get(PEAK).map(|peak| peak.abs() * scale).filter(|_| reals[PEAK] != UNKNOWN && reals[PEAK] != 0.0);
+    let peak_line = channel.find("real-header").map_or(0, |index| index + 1);
+    warnings.extend(peak_warning(&accel, peak, peak_line, PEAK_ROUNDING));
+    let direction = match (names[chosen].1.as_str(), integers.get(AZIMUTH)) {
+        ("", Some(400.0)) => "Up".into(),
+        ("", Some(401.0)) => "Down".into(),
+        ("", Some(azimuth)) if (0.0..=360.0).contains(azimuth) => format!("{azimuth} deg"),
+        (name, _) => name.into(),
+    };
+    Ok(RecordFile {
+        format: Format::Cosmos,
+        title: channel.text().get(1).map(|line| tidy(line)).unwrap_or_default(),
+        station: channel.station(),
+        component: direction,
+        unit,
+        declared: Some(declared),
+        dt,
+        accel,
+        stated_peak: peak,
+        channels: labels,
+        warnings,
+    })
+}
+
+/// The channels with accelerations, and the lines that announce other things.
+fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
+    let (mut channels, mut others) = (Vec::new(), Vec::new());
+    let mut begin = 0;
+    for (index, line) in lines.iter().enumerate() {
+        if title(line) {
+            begin = index;
+        } else if is_end(line) {
+            begin = index + 1;
+            continue;
+        }
+        let Some(quantity) = series(line) else { continue };
+        if quantity.starts_with("acc") {
+            let ends = |line: &&str| is_end(line) || title(line) || series(line).is_some();
+            let end = lines[index + 1..].iter().position(ends).map_or(lines.len(), |after| index + 1 + after);
+            channels.push(Channel { lines, begin, announced: index, end });
+        } else {
+            others.push(index);
+        }
+    }
+    (channels, others)
+}
+
+/// What follows a word, whatever its case.
+fn after<'t>(line: &'t str, word: &str) -> Option<&'t str> {
+    let at = line.to_ascii_lowercase().find(word)?;
+    Some(&line[at + word.len()..])
+}
+
+impl<'t> Channel<'t> {
+    /// The text header: as many lines as the first one says, or all up to the integers.
+    fn text(&self) -> &'t [&'t str] {
+        let header = &self.lines[self.begin..self.announced];
+        let first = header.first().copied().unwrap_or("");
+        let stated = after(first, "with").and_then(leading_number).filter(|count| (1.0..=99.0).contains(count));
+        // Columns 47 and 48, where the words around are others.
+        let by_column = || number(first.get(46..48)?.trim());
+        let end = self.find("integer-header").map(|index| index - self.begin);
+        let length = end.or(stated.or_else(by_column).map(|count| count as usize)).unwrap_or(0);
+        &header[..length.min(header.len())]
+    }
+
+    /// The line of the header, from 0, in which a word stands.
+    fn find(&self, word: &str) -> Option<usize> {
+        (self.begin..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains(word))
+    }
+
+    /// The values of a header that tells its lines and columns; as many as can be read.
+    fn header(&self, word: &str) -> Vec<f64> {
+        let Some(index) = self.find(word) else { return Vec::new() };
+        let line = self.lines[index];
+        let count = words(line).next().and_then(|word| leading_number(word.text)).unwrap_or(0.0) as usize;
+        let layout = Layout::find(after(line, "format").unwrap_or(line));
+        // The number of lines is stated too, but where the next part begins cannot be wrong.
+        let next = (index + 1..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains("follow"));
+        let end = next.unwrap_or(self.announced);
+        let block = Block {
+            lines: self.lines,
+            span: (index + 1, end),
+            declared: count.clamp(1, 1000),
+            header: (index + 1, "header"),
+            layout,
+            lenient: true,
+        };
+        block.read().map(|found| found.values).unwrap_or_default()
+    }
+
+    /// `Sta Chan   1: 90 deg (Rcrdr Chan  1) Location:`: number and direction.
+    fn name(&self) -> (Option<usize>, String) {
+        let channel = self.text().iter().find_map(|line| {
+            let (number, rest) = after(line, "sta chan").or_else(|| after(line, "chan"))?.split_once(':')?;
+            let number = number.trim().parse().ok()?;
+            let direction = rest.split(['(', ',']).next()?.trim_start().split("   ").next()?;
+            Some((Some(number), tidy(direction)))
+        });
+        channel.unwrap_or_default()
+    }
+
+    /// `Statn No: 05-24436  Code:CE-24436  Tarzana`.
+    fn station(&self) -> String {
+        let line = self.text().iter().find_map(|line| after(line, "statn no:").or_else(|| after(line, "station no:")));
+        let Some(line) = line else { return String::new() };
+        tidy(after(line, "code:").unwrap_or(line))
+    }
+
+    /// The unit: that of the integer header, else that of the line before the samples.
+    fn unit(
+        &self,
+        integers: &[f64],
+        options: &TextOptions,
+        warnings: &mut Vec<String>,
+    ) -> Result<AccelerationUnit, RecordError> {
+        let (line, announced) = (self.announced + 1, self.lines[self.announced]);
+        let rest = after(announced, "unit").unwrap_or("").trim_start_matches(['s', 'S', '=', ':', ' ']);
+        let name = rest.split([',', '(']).next().unwrap_or("").trim();
+        let code = rest.split_once('(').and_then(|(_, rest)| leading_number(rest.split(')').next()?));
+        let stated = AccelerationUnit::parse(name).or_else(|| code.and_then(unit_of));
+        let header = integers.get(UNIT).and_then(|code| unit_of(*code)).zip(self.find("integer-header"));
+        if let Some((unit, index)) = header {
+            let unit = agreed_unit(unit, index + 1, options)?;
+            if let Some(stated) = stated.filter(|stated| stated.in_si(1.0) != unit.in_si(1.0)) {
+                warnings.push(format!(
+                    "the integer header gives the unit {unit}, which is taken, and line {line} {stated}"
+                ));
+            }
+            return Ok(unit);
+        }
+        match (stated, options.units) {
+            (Some(unit), _) => agreed_unit(unit, line, options),
+            (None, _) if !name.is_empty() => Err(RecordError::Header {
+                line,
+                problem: format!("`{name}` is no unit of acceleration that is known"),
+                remedy: "use the volume 2 file, in cm/sec2 or g, of the same record",
+            }),
+            (None, Some(own)) => Ok(own),
+            (None, None) => Err(RecordError::Missing { quantity: "unit", key: "units" }),
+        }
+    }
+
+    /// The sampling interval: of the real header's candidates the first that goes with the duration of the line before the
+    /// samples, which is rounded to seconds.
+    fn interval(
+        &self,
+        reals: &[f64],
+        declared: usize,
+        options: &TextOptions,
+        warnings: &mut Vec<String>,
+    ) -> Result<f64, RecordError> {
+        let line = self.find("real-header").map_or(self.announced + 1, |index| index + 1);
+        let announced = self.lines[self.announced];
+        let duration = number_after(announced, "APPROX").filter(|duration| *duration > 0.0);
+        let candidates: Vec<(usize, f64)> = INTERVALS
+            .into_iter()
+            .filter_map(|place| Some((place, *reals.get(place)?)))
+            .filter(|(_, ms)| *ms > 0.0)
+            .map(|(place, ms)| (place, ms / 1000.0))
+            .collect();
+        let goes = |dt: f64| {
+            duration.is_none_or(|duration| {
+                let difference = (dt * declared as f64 - duration).abs();
+                difference <= 1.0 + DURATION_ROUNDING * duration
+            })
+        };
+        let found = candidates.iter().find(|(_, dt)| goes(*dt)).or(candidates.first());
+        if let Some((place, dt)) = found {
+            if *place != INTERVALS[0] {
+                warnings.push(format!(
+                    "the sampling interval {dt} s is value {place} (from 0) of the real header, not {}",
+                    INTERVALS[0]
+                ));
+            }
+            if !goes(*dt) {
+                let whole = dt * declared as f64;
+                warnings.push(format!(
+                    "{declared} samples at {dt} s last {whole:.2} s, and line {} says {}",
+                    self.announced + 1,
+                    brief(announced)
+                ));
+            }
+        }
+        match (found, options.dt) {
+            (None, Some(dt)) => Ok(dt),
+            (found, _) => {
+                let remedy = "give the sampling interval in ms as value 61 (from 0) of the real header, or with `dt`";
+                let dt = positive_dt(found.map(|(_, dt)| *dt), line, self.lines[line - 1], remedy)?;
+                agreed_dt(dt, line, options)
+            }
+        }
+    }
+}
+
+/// Share of the stated duration by which it may be off.
+const DURATION_ROUNDING: f64 = 0.02;
+
+/// The units of acceleration by their codes (table 2 of the format).
+fn unit_of(code: f64) -> Option<AccelerationUnit> {
+    match code as i64 {
+        2 => Some(AccelerationUnit::G),
+        4 | 10 => Some(AccelerationUnit::CentimetrePerSecondSquared),
+        7 => Some(AccelerationUnit::InchPerSecondSquared),
+        11 => Some(AccelerationUnit::MilliG),
+        12 => Some(AccelerationUnit::MicroG),
+        _ => None,
+    }
+}

@@ -1,0 +1,382 @@
+//! Numbers in record files: as Fortran and spreadsheets print them, between blanks, glued together, or in columns of fixed width.
+//!
+//! Rows are read at blanks first. Where that fails or yields fewer samples than the header declares, they are read by the width
+//! of their columns, which a Fortran format in the file or the format's description gives. Nothing here knows a file format.
+
+use crate::excitation::RecordError;
+
+/// What stands between two numbers of a row.
+pub fn separator(c: char) -> bool {
+    c.is_whitespace() || c == ',' || c == ';'
+}
+
+/// A finite number: `12`, `-.64E-02`, `1.5D+01`, `5.`, and `0.1234-105`, Fortran's way of printing an exponent of three digits
+/// in a field that has no place left for the `E`.
+pub fn number(word: &str) -> Option<f64> {
+    let plain = word.bytes().all(|b| b.is_ascii_digit() || b"+-.eEdD".contains(&b));
+    if !plain {
+        return None;
+    }
+    let value: f64 = match word.replace(['d', 'D'], "e").parse() {
+        Ok(value) => value,
+        Err(_) => {
+            let (mantissa, exponent) = word.split_at_checked(word.len().checked_sub(EXPONENT)?)?;
+            if !(is_exponent(exponent) && is_decimal(mantissa)) {
+                return None;
+            }
+            format!("{mantissa}e{exponent}").parse().ok()?
+        }
+    };
+    value.is_finite().then_some(value)
+}
+
+/// Length of an exponent without letter: a sign and three digits.
+const EXPONENT: usize = 4;
+
+fn is_exponent(text: &str) -> bool {
+    text.len() == EXPONENT && text.starts_with(['+', '-']) && text[1..].bytes().all(|b| b.is_ascii_digit())
+}
+
+/// Digits with a decimal point, without exponent.
+fn is_decimal(text: &str) -> bool {
+    text.contains('.') && !text.contains(['e', 'E', 'd', 'D']) && text.parse::<f64>().is_ok()
+}
+
+/// A word of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Word<'t> {
+    /// Characters before it, plus one.
+    pub column: usize,
+    /// What stands there.
+    pub text: &'t str,
+}
+
+/// The words between separators.
+pub fn words(row: &str) -> impl Iterator<Item = Word<'_>> {
+    let (mut rest, mut column) = (row, 1);
+    std::iter::from_fn(move || {
+        let trimmed = rest.trim_start_matches(separator);
+        column += rest[..rest.len() - trimmed.len()].chars().count();
+        let text = trimmed.split(separator).next().filter(|text| !text.is_empty())?;
+        let word = Word { column, text };
+        column += text.chars().count();
+        rest = &trimmed[text.len()..];
+        Some(word)
+    })
+}
+
+/// The numbers of a word: one, or several that touch because the sign took the blank's place (`-0.1E-02-0.2E-02`).
+///
+/// Glued numbers must have decimal points: a date (`2011-03-11`) is no row of numbers.
+fn glued(text: &str, found: &mut Vec<f64>) -> Option<()> {
+    if let Some(value) = number(text) {
+        found.push(value);
+        return Some(());
+    }
+    let bytes = text.as_bytes();
+    let mut starts = vec![0];
+    starts.extend((1..bytes.len()).filter(|at| b"+-".contains(&bytes[*at]) && !b"eEdD".contains(&bytes[at - 1])));
+    starts.push(bytes.len());
+    if !text.is_ascii() || starts.len() < 3 {
+        return None;
+    }
+    let before = found.len();
+    let mut index = 0;
+    while index + 1 < starts.len() {
+        let piece = &text[starts[index]..starts[index + 1]];
+        let exponent = starts.get(index + 2).map_or("", |end| &text[starts[index + 1]..*end]);
+        let (piece, taken) = if is_exponent(exponent) && is_decimal(piece) {
+            (&text[starts[index]..starts[index + 2]], 2)
+        } else {
+            (piece, 1)
+        };
+        match number(piece).filter(|_| piece.contains('.')) {
+            Some(value) => found.push(value),
+            None => {
+                found.truncate(before);
+                return None;
+            }
+        }
+        index += taken;
+    }
+    Some(())
+}
+
+/// The numbers of a row, split at separators and at signs.
+pub fn split(row: &str, line: usize) -> Result<Vec<f64>, RecordError> {
+    let mut found = Vec::new();
+    for word in words(row) {
+        glued(word.text, &mut found).ok_or_else(|| refused(line, word))?;
+    }
+    Ok(found)
+}
+
+/// The error that a word is no number.
+pub fn refused(line: usize, word: Word) -> RecordError {
+    RecordError::NotANumber { line, column: word.column, text: word.text.chars().take(LONGEST_QUOTE).collect() }
+}
+
+/// Characters of the file that an error repeats at most: a binary file has words of any length.
+const LONGEST_QUOTE: usize = 40;
+
+/// Whether a row has nothing of a number: a heading, a remark, the line that ends a block.
+pub fn is_text(row: &str) -> bool {
+    // Columns that touch are no words that read as numbers, but they are not text either.
+    let mut any = false;
+    if !row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c)) {
+        return false;
+    }
+    for word in words(row) {
+        any = true;
+        // What somebody printed for a number that is none is not text: it must be refused, not skipped.
+        let lower = word.text.trim_start_matches(['+', '-']).to_ascii_lowercase();
+        let undefined = ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*');
+        if undefined || glued(word.text, &mut Vec::new()).is_some() {
+            return false;
+        }
+    }
+    any
+}
+
+/// A Fortran edit descriptor such as `8F10.5`: columns of fixed width.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Numbers in a full row.
+    pub per_row: usize,
+    /// Characters of each.
+    pub width: usize,
+}
+
+impl Layout {
+    /// The first descriptor of numbers in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, `(6(1X,F9.4))` is not one.
+    pub fn find(text: &str) -> Option<Layout> {
+        text.match_indices('(').find_map(|(at, _)| {
+            let (inside, _) = text[at + 1..].split_once(')')?;
+            Layout::parse(inside)
+        })
+    }
+
+    fn parse(descriptor: &str) -> Option<Layout> {
+        let descriptor = descriptor.trim().to_ascii_uppercase();
+        // A scale factor (`1P`) moves the point of what is printed, not the columns.
+        let descriptor = match descriptor.split_once('P') {
+            Some((factor, rest)) if factor.bytes().all(|b| b.is_ascii_digit() || b == b'-') => {
+                rest.trim_start_matches(',').to_string()
+            }
+            _ => descriptor,
+        };
+        let letter = descriptor.find(['F', 'E', 'D', 'G', 'I'])?;
+        let per_row = match &descriptor[..letter] {
+            "" => 1,
+            repeat => repeat.trim().parse().ok()?,
+        };
+        // `ES15.7`, `EN15.7` and the like.
+        let rest = descriptor[letter + 1..].trim_start_matches(['S', 'N']);
+        let digits = rest.split(|c: char| !c.is_ascii_digit()).next()?;
+        let width = digits.parse().ok()?;
+        let sound = (1..=LARGEST_FIELD).contains(&width) && (1..=LARGEST_FIELD).contains(&per_row);
+        sound.then_some(Layout { per_row, width })
+    }
+
+    /// The numbers of a row, by columns.
+    pub fn row(self, row: &str, line: usize) -> Result<Vec<f64>, RecordError> {
+        let mut found = Vec::new();
+        let mut rest = row.trim_end();
+        let mut column = 1;
+        while !rest.is_empty() {
+            let end = rest.char_indices().nth(self.width).map_or(rest.len(), |(at, _)| at);
+            let (field, after) = rest.split_at(end);
+            let text = field.trim_matches(separator);
+            let lead = field.chars().take_while(|c| separator(*c)).count();
+            let value = number(text).ok_or_else(|| refused(line, Word { column: column + lead, text }))?;
+            found.push(value);
+            column += self.width;
+            rest = after;
+        }
+        Ok(found)
+    }
+}
+
+/// Widest field and fullest row that a format is believed to have: what is beyond is a misread header.
+const LARGEST_FIELD: usize = 200;
+
+/// Samples of a block, and where they stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples {
+    /// As printed, in the unit of the file.
+    pub values: Vec<f64>,
+    /// What the user should know of them.
+    pub warnings: Vec<String>,
+}
+
+/// A block of samples that a header announces.
+#[derive(Clone, Copy, Debug)]
+pub struct Block<'t> {
+    /// All lines of the file.
+    pub lines: &'t [&'t str],
+    /// Its first line and the one after its last, counted from 0.
+    pub span: (usize, usize),
+    /// How many samples the header declares.
+    pub declared: usize,
+    /// Where it does so: the line, from 1, and the name of the entry.
+    pub header: (usize, &'static str),
+    /// Columns to read by where blanks do not part the numbers.
+    pub layout: Option<Layout>,
+    /// Whether what is missing is accepted.
+    pub lenient: bool,
+}
+
+impl Block<'_> {
+    /// Reads it: at blanks, else by columns.
+    ///
+    /// # Errors
+    /// [`RecordError::NotANumber`], [`RecordError::Fewer`]
+    pub fn read(&self) -> Result<Samples, RecordError> {
+        let at_blanks = self.rows(split);
+        if at_blanks.as_ref().is_ok_and(|found| found.values.len() >= self.declared) {
+            return at_blanks;
+        }
+        let by_columns = self.layout.map(|layout| self.rows(|row, line| layout.row(row, line)));
+        let found = match (at_blanks, by_columns) {
+            (_, Some(Ok(columns))) if columns.values.len() >= self.declared => return Ok(columns),
+            (Ok(blanks), _) => blanks,
+            (Err(_), Some(Ok(columns))) => columns,
+            (Err(error), _) => return Err(error),
+        };
+        self.fewer(found)
+    }
+
+    fn fewer(&self, mut found: Samples) -> Result<Samples, RecordError> {
+        let ((line, key), declared, count) = (self.header, self.declared, found.values.len());
+        if !self.lenient {
+            return Err(RecordError::Fewer { line, key, declared, found: count });
+        }
+        found
+            .warnings
+            .push(format!("{count} samples where line {line} ({key}) declares {declared}; all of them are used"));
+        Ok(found)
+    }
+
+    /// All rows; what follows the declared number is dropped, and told.
+    fn rows(&self, read: impl Fn(&str, usize) -> Result<Vec<f64>, RecordError>) -> Result<Samples, RecordError> {
+        let mut values = Vec::with_capacity(self.declared.min(MOST_RESERVED));
+        let mut warnings = Vec::new();
+        let end = self.span.1.min(self.lines.len());
+        for index in self.span.0..end {
+            match read(self.lines[index], index + 1) {
+                Ok(row) => values.extend(row),
+                Err(_) if values.len() >= self.declared => {
+                    warnings.push(format!("text after the last sample is not read, from line {} on", index + 1));
+                    break;
+                }
+                Err(_) if self.lenient && self.lines[index + 1..end].iter().all(|line| line.trim().is_empty()) => {
+                    // A file that is cut off ends within a number.
+                    values.extend(words(self.lines[index]).map_while(|word| number(word.text)));
+                    warnings.push(format!("the last number, in line {}, is cut off and not used", index + 1));
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        if values.len() > self.declared {
+            let ((line, key), count) = (self.header, values.len());
+            warnings.push(format!(
+                "{count} samples where line {line} ({key}) declares {0}; the first {0} are used",
+                self.declared
+            ));
+            values.truncate(self.declared);
+        }
+        Ok(Samples { values, warnings })
+    }
+}
+
+/// Memory asked for ahead of reading, in numbers: a header may declare anything.
+const MOST_RESERVED: usize = 1 << 20;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_as_fortran_prints_them() {
+        for (text, value) in [
+            ("12", 12.0),
+            ("-.64E-02", -0.0064),
+            ("1.5D+01", 15.0),
+            ("2.5d-3", 0.0025),
+            ("5.", 5.0),
+            ("+.5", 0.5),
+            ("0.1234-105", 0.1234e-105),
+            ("-.1234+002", -12.34),
+        ] {
+            assert_eq!(number(text), Some(value), "{text}");
+        }
+        for text in
+            ["", ".", "-", "nan", "inf", "1e999", "0x10", "--1", "1.2.3", "12-105", "1.5-10", "1.5E2-105", "é-105"]
+        {
+            assert_eq!(number(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn glued_columns_part_at_their_signs() {
+        assert_eq!(split("-0.1E-02-0.2E-02", 1), Ok(vec![-0.001, -0.002]));
+        assert_eq!(split(" 0.5-0.25  1.-2.", 1), Ok(vec![0.5, -0.25, 1.0, -2.0]));
+        assert_eq!(split("0.1234-105-0.5678-106 -.5+100", 1), Ok(vec![0.1234e-105, -0.5678e-106, -0.5e100]));
+        assert_eq!(split("0.1234-0.105", 1), Ok(vec![0.1234, -0.105]));
+        let error = |text: &str| RecordError::NotANumber { line: 3, column: 3, text: text.into() };
+        for text in ["2011-03-11", "1.5-", "0.5-x", "0.5--0.5"] {
+            assert_eq!(split(&format!("1 {text}"), 3), Err(error(text)), "{text}");
+        }
+    }
+
+    #[test]
+    fn columns_count_characters_not_bytes() {
+        assert_eq!(split("é 1", 2), Err(RecordError::NotANumber { line: 2, column: 1, text: "é".into() }));
+        let found: Vec<Word> = words("é; b").collect();
+        assert_eq!(found, [Word { column: 1, text: "é" }, Word { column: 4, text: "b" }]);
+    }
+
+    #[test]
+    fn descriptors_tell_width_and_row() {
+        for (text, per_row, width) in [
+            ("in cm/sec2. (8f10.6)", 8, 10),
+            ("units=cm/sec2 (04), Format=(5E15.7)", 5, 15),
+            ("Format= (10I8)", 10, 8),
+            ("(1P5E15.7)", 5, 15),
+            ("(1F15.6E)", 1, 15),
+            ("(F12.4)", 1, 12),
+            ("(6ES14.5)", 6, 14),
+        ] {
+            assert_eq!(Layout::find(text), Some(Layout { per_row, width }), "{text}");
+        }
+        for text in ["", "(04)", "(cm)", "(8f)", "(0F10.5)", "(9F999.5)", "8f10.6", "(99999999999999999999F3)"] {
+            assert_eq!(Layout::find(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn columns_of_fixed_width_need_no_blanks() {
+        let layout = Layout { per_row: 3, width: 5 };
+        assert_eq!(layout.row("12.3445.67 -8.9", 1), Ok(vec![12.34, 45.67, -8.9]));
+        assert_eq!(layout.row("  1.0  2.0   ", 1), Ok(vec![1.0, 2.0]));
+        assert_eq!(
+            layout.row("  1.0  2,x", 4),
+            Err(RecordError::NotANumber { line: 4, column: 8, text: "2,x".into() })
+        );
+    }
+
+    #[test]
+    fn a_block_is_read_by_columns_where_blanks_do_not_part_it() {
+        let lines = ["head", "12.3445.67 -8.9", "  1.0"];
+        let layout = Some(Layout { per_row: 3, width: 5 });
+        let block = Block { lines: &lines, span: (1, 3), declared: 4, header: (1, "NPTS"), layout, lenient: false };
+        assert_eq!(block.read().expect("four").values, [12.34, 45.67, -8.9, 1.0]);
+        let longer = Block { declared: 9, ..block };
+        assert_eq!(longer.read(), Err(RecordError::Fewer { line: 1, key: "NPTS", declared: 9, found: 4 }));
+        let lenient = Block { lenient: true, ..longer }.read().expect("four");
+        assert!(lenient.values.len() == 4 && lenient.warnings[0].contains("declares 9"), "{lenient:?}");
+        let shorter = Block { declared: 2, ..block }.read().expect("two");
+        assert_eq!(shorter.values, [12.34, 45.67]);
+        assert!(shorter.warnings[0].contains("4 samples"), "{shorter:?}");
+    }
+}

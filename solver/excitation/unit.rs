@@ -1,0 +1,122 @@
+//! Units of acceleration: their names in files and scenes, and their size.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Unit of accelerations in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum AccelerationUnit {
+    /// The gravity of the scene: what counts in rocking is the ratio of the two.
+    #[serde(rename = "g")]
+    G,
+    /// Thousandth of it.
+    #[serde(rename = "mg")]
+    MilliG,
+    /// Millionth of it.
+    #[serde(rename = "microg")]
+    MicroG,
+    /// m/s²
+    #[serde(rename = "m/s2")]
+    MetrePerSecondSquared,
+    /// cm/s², gal
+    #[serde(rename = "cm/s2")]
+    CentimetrePerSecondSquared,
+    /// mm/s²
+    #[serde(rename = "mm/s2")]
+    MillimetrePerSecondSquared,
+    /// in/s²
+    #[serde(rename = "in/s2")]
+    InchPerSecondSquared,
+    /// ft/s²
+    #[serde(rename = "ft/s2")]
+    FootPerSecondSquared,
+}
+
+impl AccelerationUnit {
+    /// The unit of this name, if there is such a one: `g`, `m/s2`, `CM/SEC**2`, `cm/s/s`, `gal`, `in/sec^2`, ...
+    ///
+    /// ```
+    /// use rocking::excitation::AccelerationUnit;
+    /// assert_eq!(AccelerationUnit::parse("cm/sec/sec"), AccelerationUnit::parse("Gal"));
+    /// assert_eq!(AccelerationUnit::parse("cm/s"), None);
+    /// ```
+    pub fn parse(name: &str) -> Option<AccelerationUnit> {
+        let name = name.trim().to_lowercase().replace([' ', '*', '^', '·', '.', '(', ')'], "");
+        let name = name.replace("sec", "s").replace('²', "2").replace("s-2", "/s2").replace("//", "/");
+        let length = match name.as_str() {
+            "g" | "g's" | "gs" => return Some(AccelerationUnit::G),
+            "mg" | "millig" | "milli-g" => return Some(AccelerationUnit::MilliG),
+            "microg" | "micro-g" | "µg" | "μg" => return Some(AccelerationUnit::MicroG),
+            "gal" | "gals" => return Some(AccelerationUnit::CentimetrePerSecondSquared),
+            other => other
+                .strip_suffix("/s/s")
+                .or_else(|| other.strip_suffix("/s2"))
+                .or_else(|| other.strip_suffix("/ss"))?,
+        };
+        match length {
+            "m" => Some(AccelerationUnit::MetrePerSecondSquared),
+            "cm" => Some(AccelerationUnit::CentimetrePerSecondSquared),
+            "mm" => Some(AccelerationUnit::MillimetrePerSecondSquared),
+            "in" | "inch" => Some(AccelerationUnit::InchPerSecondSquared),
+            "ft" | "feet" => Some(AccelerationUnit::FootPerSecondSquared),
+            _ => None,
+        }
+    }
+
+    /// Its size `[m/s²]` in a scene of this gravity `[m/s²]`.
+    pub fn in_si(self, gravity: f64) -> f64 {
+        match self {
+            AccelerationUnit::G => gravity,
+            AccelerationUnit::MilliG => gravity * 1e-3,
+            AccelerationUnit::MicroG => gravity * 1e-6,
+            AccelerationUnit::MetrePerSecondSquared => 1.0,
+            AccelerationUnit::CentimetrePerSecondSquared => 0.01,
+            AccelerationUnit::MillimetrePerSecondSquared => 0.001,
+            // By definition of the inch and the foot (1959).
+            AccelerationUnit::InchPerSecondSquared => 0.0254,
+            AccelerationUnit::FootPerSecondSquared => 0.3048,
+        }
+    }
+}
+
+impl fmt::Display for AccelerationUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            AccelerationUnit::G => "g",
+            AccelerationUnit::MilliG => "mg",
+            AccelerationUnit::MicroG => "micro-g",
+            AccelerationUnit::MetrePerSecondSquared => "m/s²",
+            AccelerationUnit::CentimetrePerSecondSquared => "cm/s²",
+            AccelerationUnit::MillimetrePerSecondSquared => "mm/s²",
+            AccelerationUnit::InchPerSecondSquared => "in/s²",
+            AccelerationUnit::FootPerSecondSquared => "ft/s²",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_go_by_many_names() {
+        for (names, unit) in [
+            (&["g", "G", "g's"][..], AccelerationUnit::G),
+            (&["mg", "milli-g"], AccelerationUnit::MilliG),
+            (&["m/s2", "m/s²", "m/s^2", "M/S**2", "m/s/s", "m/sec2", "m s-2"], AccelerationUnit::MetrePerSecondSquared),
+            (
+                &["cm/s2", "cm/sec/sec", "CM/SEC**2", "cm/sec^2", "gal", "Gals", "cm/s/s"],
+                AccelerationUnit::CentimetrePerSecondSquared,
+            ),
+            (&["in/s/s", "in/sec2"], AccelerationUnit::InchPerSecondSquared),
+        ] {
+            for name in names {
+                assert_eq!(AccelerationUnit::parse(name), Some(unit), "{name}");
+            }
+            assert_eq!(AccelerationUnit::parse(&unit.to_string()), Some(unit));
+        }
+        for name in ["", "cm/s", "m", "counts", "g/10", "cm/s3", "/s2", "s2"] {
+            assert_eq!(AccelerationUnit::parse(name), None, "{name}");
+        }
+    }
+}

@@ -1,0 +1,689 @@
+//! Record files of every known format are understood as their layouts say, in all their variants, or refused with a place and
+//! a remedy; no bytes make the readers panic.
+//!
+//! `tests/records/` holds one invented motion, `motion.csv`, written in every format. A file must give that motion within half a
+//! unit of the last digit that it prints.
+
+use proptest::prelude::*;
+use rocking::excitation::{AccelerationUnit, Format, RecordFile, TextOptions};
+use rocking::{Record, RecordError};
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/records")
+}
+
+fn bytes(name: &str) -> Vec<u8> {
+    std::fs::read(folder().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn text(name: &str) -> String {
+    bytes(name).iter().map(|byte| char::from(*byte)).collect()
+}
+
+fn read(name: &str, options: &TextOptions) -> RecordFile {
+    RecordFile::read(&bytes(name), options).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn refused(bytes: &[u8], options: &TextOptions) -> RecordError {
+    RecordFile::read(bytes, options).expect_err("it must be refused")
+}
+
+/// The motion of all files `[m/s²]`.
+fn motion() -> Vec<f64> {
+    let rows = text("motion.csv");
+    let value = |row: &str| row.split_once(',').and_then(|(_, a)| a.trim().parse::<f64>().ok());
+    let motion: Vec<f64> = rows.lines().filter_map(value).map(|a| a / 100.0).collect();
+    assert_eq!(motion.len(), 42);
+    motion
+}
+
+fn options() -> TextOptions {
+    TextOptions::default()
+}
+
+fn channel(channel: usize) -> TextOptions {
+    TextOptions { channel: Some(channel), ..options() }
+}
+
+/// A file, how it is read, its format, and half a unit of its last digit `[m/s²]`, a tenth added for rounding in the sums.
+type Case = (&'static str, TextOptions, Format, f64);
+
+fn cases() -> Vec<Case> {
+    let gal = || TextOptions { units: AccelerationUnit::parse("gal"), ..options() };
+    // Seven digits of up to 0.25 g; fourteen decimals less the zero; five decimals of cm/s².
+    let (e7, f5) = (0.55 * 1e-7 * 9.81, 0.55e-7);
+    // Half a count of 3920/6182761 cm/s², and as much again of the mean.
+    let count = 0.55 * 2.0 * 3920.0 / 6_182_761.0 * 0.01;
+    vec![
+        ("motion.csv", options(), Format::Table, f5),
+        ("peer/RSN9001_HOLLOW_MIL090.AT2", options(), Format::PeerAt2, e7),
+        ("peer/RSN9001_HOLLOW_MIL000.AT2", options(), Format::PeerAt2, e7),
+        ("peer/RSN9001_HOLLOW_MIL-UP.AT2", options(), Format::PeerAt2, e7),
+        ("peer/nrc-processed.AT2", options(), Format::PeerAt2, e7),
+        // Thirteen decimals, cut rather than rounded.
+        ("peer/touching.AT2", options(), Format::PeerAt2, 1.1e-13 * 9.81),
+        ("peer/dos-latin1-d-exponents.AT2", options(), Format::PeerAt2, 0.55e-4 * 0.01),
+        ("dyna/itaca-43.DAT", options(), Format::Dyna, f5),
+        ("dyna/XX.MIB..HNE.D.55.ASC", options(), Format::Dyna, 0.55e-4 * 0.01),
+        ("dyna/XX.MIB..HNE.D.64.ASC", options(), Format::Dyna, f5),
+        ("dyna/any-order-lower-case.asc", options(), Format::Dyna, f5),
+        ("knet/XXX0010103040506.EW", options(), Format::KNet, count),
+        ("knet/XXXH020103040506.UD2", options(), Format::KNet, count),
+        ("csmip/one-channel.v2", options(), Format::Csmip, f5),
+        ("csmip/three-channels.V2", channel(3), Format::Csmip, f5),
+        ("cosmos/cm.V2", options(), Format::Cosmos, f5),
+        ("cosmos/g.V2", options(), Format::Cosmos, e7),
+        ("cosmos/inch-touching.V2", options(), Format::Cosmos, 0.55e-5 * 0.0254),
+        ("cosmos/milli-g.V2", options(), Format::Cosmos, 0.55e-3 * 9.81e-3),
+        ("cosmos/two-channels.V2", channel(2), Format::Cosmos, f5),
+        ("table/one-column.txt", TextOptions { dt: Some(0.01), ..gal() }, Format::Table, f5),
+        ("table/semicolons-decimal-commas.csv", options(), Format::Table, f5),
+        ("table/tabs-milliseconds.tsv", options(), Format::Table, 0.55e-5 * 9.81e-3),
+        ("table/blanks-rounded-times.txt", options(), Format::Table, 0.55e-9 * 9.81),
+        ("table/skip-rows.txt", TextOptions { skip_rows: 2, ..gal() }, Format::Table, f5),
+        ("table/three-columns.csv", TextOptions { column: Some("up".into()), ..options() }, Format::Table, f5),
+        ("table/three-columns.csv", TextOptions { column: Some("3".into()), ..options() }, Format::Table, f5),
+    ]
+}
+
+#[test]
+fn the_same_motion_reads_from_every_format() {
+    let motion = motion();
+    let mean = motion.iter().sum::<f64>() / motion.len() as f64;
+    for (name, options, format, tolerance) in cases() {
+        let file = read(name, &options);
+        assert_eq!((file.format, file.accel.len()), (format, motion.len()), "{name}");
+        assert!((file.dt - 0.01).abs() < 1e-15, "{name}: dt = {}", file.dt);
+        assert_eq!(file.warnings, [""; 0], "{name}");
+        assert!(file.declared.is_none_or(|declared| declared == motion.len()), "{name}");
+        // The zero of these instruments is the mean.
+        let zero = if format == Format::KNet { mean } else { 0.0 };
+        for (sample, (read, wanted)) in file.accel.iter().zip(&motion).enumerate() {
+            let off = (read - (wanted - zero)).abs();
+            assert!(off <= tolerance, "{name}, sample {}: {read} is off by {off:e}, allowed {tolerance:e}", sample + 1);
+        }
+    }
+}
+
+#[test]
+fn files_say_where_they_come_from() {
+    let told = |name: &str, options: &TextOptions| {
+        let file = read(name, options);
+        (file.title, file.station, file.component, file.unit.to_string())
+    };
+    let own = |title: &str, station: &str, component: &str, unit: &str| {
+        (title.to_string(), station.to_string(), component.to_string(), unit.to_string())
+    };
+    assert_eq!(
+        told("peer/RSN9001_HOLLOW_MIL090.AT2", &options()),
+        own("Hollow Creek-01, 3/4/2001", "Mill Bridge", "090", "g")
+    );
+    assert_eq!(
+        told("peer/dos-latin1-d-exponents.AT2", &options()),
+        own("Arroyo Seco, 3/4/2001", "Estación Peña", "090", "cm/s²")
+    );
+    assert_eq!(
+        told("dyna/any-order-lower-case.asc", &options()),
+        own("HOLLOW CREEK XX-2001-0007 20010304", "XX.MIB (MILL_BRIDGE)", "HNE", "cm/s²")
+    );
+    assert_eq!(told("knet/XXX0010103040506.EW", &options()), own("2001/03/04 05:06:07", "XXX001", "E-W", "cm/s²"));
+    assert_eq!(told("knet/XXXH020103040506.UD2", &options()).2, "U-D surface (6)");
+    assert_eq!(
+        told("csmip/three-channels.V2", &channel(2)),
+        own("HOLLOW CREEK EARTHQUAKE", "99123 MILL BRIDGE - NORTH ABUTMENT", "UP", "cm/s²")
+    );
+    assert_eq!(
+        told("cosmos/two-channels.V2", &channel(2)),
+        own("HOLLOW CREEK Earthquake of Sun Mar 4, 2001 05:06 UTC", "XX-MIB Mill Bridge", "Up", "cm/s²")
+    );
+    assert_eq!(read("csmip/three-channels.V2", &channel(2)).channels, ["1: 90 DEG", "2: UP", "3: 360 DEG"]);
+    assert_eq!(read("cosmos/two-channels.V2", &channel(2)).channels, ["1: 90 deg", "2: Up"]);
+    let peak = read("csmip/one-channel.v2", &options()).stated_peak.expect("stated");
+    assert!((peak - 2.39336).abs() < 1e-12);
+}
+
+#[test]
+fn one_of_several_channels_is_chosen_by_number() {
+    for name in ["csmip/three-channels.V2", "cosmos/two-channels.V2"] {
+        let first = read(name, &options());
+        assert!(first.warnings[0].contains("channels (1: 90"), "{:?}", first.warnings);
+        assert_eq!(first.accel, read(name, &channel(1)).accel);
+        assert!((first.accel[13] / motion()[13] - 0.5).abs() < 1e-6, "{name}: the first channel is half the motion");
+        assert_eq!(read(name, &channel(1)).warnings, [""; 0]);
+        let error = refused(&bytes(name), &channel(4)).to_string();
+        assert!(error.contains("channel 4") && error.contains("1: 90"), "{error}");
+    }
+    assert!((read("csmip/three-channels.V2", &channel(2)).accel[13] / motion()[13] + 0.25).abs() < 1e-6);
+    // A header's own numbers go before places.
+    let renumbered = text("csmip/three-channels.V2").replace("CHAN  1:", "CHAN  7:").replace("CHAN  3:", "CHAN  1:");
+    let chosen = RecordFile::read(renumbered.as_bytes(), &channel(1)).expect("channel 1 is the last now");
+    assert_eq!(chosen.component, "360 DEG");
+    let error = refused(&bytes("peer/nrc-processed.AT2"), &channel(2));
+    assert!(matches!(error, RecordError::NoChannel { channel: 2, .. }), "{error}");
+}
+
+#[test]
+fn what_is_no_acceleration_is_refused_with_advice() {
+    for (name, line, parts) in [
+        ("peer/velocity.VT2", 3, ["no acceleration", ".AT2"]),
+        ("dyna/spectrum.ASC", 49, ["no acceleration", ".ACC"]),
+        ("dyna/spectrum-untold.ASC", 64, ["response spectrum", ".ACC"]),
+        ("csmip/uncorrected.V1", 1, ["volume 1", "volume 2"]),
+        ("cosmos/velocity.V2", 48, ["no acceleration", "acceleration of the same record"]),
+        ("cosmos/counts.V0", 48, ["counts", "volume 2"]),
+    ] {
+        let error = refused(&bytes(name), &options()).to_string();
+        assert!(error.starts_with(&format!("line {line}:")), "{name}: {error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{name}: {error}");
+    }
+}
+
+/// Files with a declared count: name, the text that declares it, how another count is written.
+fn counted() -> [(&'static str, &'static str, fn(usize) -> String); 5] {
+    [
+        ("peer/RSN9001_HOLLOW_MIL090.AT2", "NPTS=    42", |n| format!("NPTS=    {n}")),
+        ("dyna/XX.MIB..HNE.D.64.ASC", "NDATA: 42", |n| format!("NDATA: {n}")),
+        ("knet/XXX0010103040506.EW", "Duration Time(s)  0.42", |n| format!("Duration Time(s)  {}", n as f64 / 100.0)),
+        ("csmip/one-channel.v2", "42 points of accel", |n| format!("{n} points of accel")),
+        ("cosmos/cm.V2", "42 acceleration pts", |n| format!("{n} acceleration pts")),
+    ]
+}
+
+#[test]
+fn fewer_samples_than_declared_are_an_error_unless_lenient_and_more_are_a_warning() {
+    for (name, count, other) in counted() {
+        let text = text(name);
+        assert!(text.contains(count), "{name}");
+        let more = text.replace(count, &other(45));
+        let error = refused(more.as_bytes(), &options());
+        assert!(matches!(error, RecordError::Fewer { declared: 45, found: 42, .. }), "{name}: {error}");
+        assert!(error.to_string().contains("lenient"), "{error}");
+        let lenient = TextOptions { lenient: true, ..options() };
+        let file = RecordFile::read(more.as_bytes(), &lenient).expect("lenient");
+        assert_eq!(file.accel.len(), 42, "{name}");
+        assert!(file.warnings.iter().any(|warning| warning.contains("45")), "{name}: {:?}", file.warnings);
+
+        let fewer = RecordFile::read(text.replace(count, &other(40)).as_bytes(), &options()).expect("the first 40");
+        assert_eq!((fewer.accel.len(), fewer.declared), (40, Some(40)), "{name}");
+        assert!(fewer.warnings.iter().any(|warning| warning.contains("42 samples")), "{name}: {:?}", fewer.warnings);
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_off_is_refused() {
+    for (name, ..) in counted() {
+        let text = text(name);
+        // Within the last rows of the acceleration: the files of several blocks are cut there too.
+        let place = text.find("/&").or(text.find("End-of-data")).or(text.find("points of veloc")).unwrap_or(text.len());
+        let cut = if name.starts_with("csmip") { text.find("points of veloc").expect("follows") } else { place };
+        let error = refused(&text.as_bytes()[..cut - 90], &options());
+        assert!(matches!(error, RecordError::Fewer { declared: 42, .. }), "{name}: {error}");
+    }
+}
+
+#[test]
+fn a_file_that_ends_within_a_number_gives_the_numbers_before_it_where_that_is_allowed() {
+    let text = text("peer/RSN9001_HOLLOW_MIL090.AT2");
+    let cut = &text[..text.rfind("E-").expect("the last sample") + 2];
+    assert!(matches!(refused(cut.as_bytes(), &options()), RecordError::NotANumber { line: 13, .. }));
+    let file = RecordFile::read(cut.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
+    assert_eq!(file.accel.len(), 41);
+    assert!(file.warnings.iter().any(|warning| warning.contains("line 13, is cut off")), "{:?}", file.warnings);
+}
+
+#[test]
+fn the_unit_of_a_cosmos_file_is_that_of_its_integer_header() {
+    let cm = read("cosmos/cm.V2", &options());
+    for (code, size) in [(2, 9.81), (4, 0.01), (7, 0.0254), (10, 0.01), (11, 9.81e-3)] {
+        let text = text("cosmos/cm.V2").replace("       2       1       4", &format!("       2       1{code:8}"));
+        let file = RecordFile::read(text.as_bytes(), &options()).expect("a unit of acceleration");
+        assert!((file.accel[13] / cm.accel[13] * 0.01 / size - 1.0).abs() < 1e-12, "{code}");
+        let told = file.warnings.iter().any(|warning| warning.contains("integer header"));
+        assert_eq!(told, size != 0.01, "{code}: {:?}", file.warnings);
+    }
+    // Where the header is silent, the line before the samples says it.
+    let silent = text("cosmos/cm.V2").replace("       2       1       4", "       2       1    -999");
+    assert_eq!(RecordFile::read(silent.as_bytes(), &options()).expect("the line says it").accel, cm.accel);
+    let mute = silent.replace("units=cm/sec2 (04),", "");
+    assert!(matches!(refused(mute.as_bytes(), &options()), RecordError::Missing { key: "units", .. }));
+}
+
+#[test]
+fn line_ends_marks_and_blank_lines_change_nothing() {
+    for (name, options, ..) in cases() {
+        let plain = read(name, &options);
+        let unix = text(name).replace("\r\n", "\n");
+        for (what, other) in [
+            ("LF", unix.clone()),
+            ("CRLF", unix.replace('\n', "\r\n")),
+            ("CR", unix.trim_end().replace('\n', "\r")),
+            ("blank lines at the end", format!("{unix}\n  \n\n")),
+            ("no line end at the end", unix.trim_end().to_string()),
+            ("Ctrl-Z", format!("{unix}\u{1a}")),
+        ] {
+            // Read as it is distributed: one byte a character.
+            let latin: Vec<u8> = other.chars().map(|c| u8::try_from(u32::from(c)).expect("Latin-1")).collect();
+            assert_eq!(RecordFile::read(&latin, &options), Ok(plain.clone()), "{name} with {what}");
+            let marked = [b"\xef\xbb\xbf", other.as_bytes()].concat();
+            assert_eq!(RecordFile::read(&marked, &options), Ok(plain.clone()), "{name} with {what} and a mark");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_a_finite_number_is_named_with_line_and_column() {
+    for (name, sample, line, column) in [
+        ("peer/RSN9001_HOLLOW_MIL090.AT2", ".1513094E+00", 6, 64),
+        ("dyna/XX.MIB..HNE.D.64.ASC", "148.434530", 74, 1),
+        ("knet/XXX0010103040506.EW", "212771", 19, 13),
+        ("csmip/one-channel.v2", "148.43453", 48, 12),
+        ("cosmos/cm.V2", "148.43453", 50, 12),
+        ("table/three-columns.csv", "148.43453\n", 11, 17),
+    ] {
+        let text = text(name);
+        assert!(text.contains(sample), "{name}");
+        for word in ["nan", "inf", "1e999", "********", "0x1f"] {
+            let broken = text.replacen(
+                sample,
+                &format!("{word:>0$}{1}", sample.trim().len(), &sample[sample.trim().len()..]),
+                1,
+            );
+            let error = refused(broken.as_bytes(), &TextOptions { column: Some("3".into()), ..options() });
+            let column = column + sample.trim().len().saturating_sub(word.len());
+            let expected = RecordError::NotANumber { line, column, text: word.into() };
+            assert_eq!(error, expected, "{name}");
+        }
+    }
+}
+
+#[test]
+fn headers_vary() {
+    let unix = |name: &str| text(name).replace("\r\n", "\n");
+    let same = |name: &str, from: &str, to: &str| {
+        let text = unix(name);
+        assert!(text.contains(from), "{name}: {from}");
+        let plain = RecordFile::read(text.as_bytes(), &options()).expect("it reads");
+        let other = RecordFile::read(text.replace(from, to).as_bytes(), &options());
+        let other = other.unwrap_or_else(|error| panic!("{name}: {to}: {error}"));
+        assert_eq!((other.format, other.dt, other.accel), (plain.format, plain.dt, plain.accel), "{name}: {to}");
+    };
+    let at2 = "peer/RSN9001_HOLLOW_MIL090.AT2";
+    for header in [
+        "NPTS=42 DT=.01",
+        "NPTS = 42 , DT = .01",
+        "NPTS=42,DT=.01SEC",
+        "npts= 42, dt= 1.0E-02 sec",
+        "DT= .0100 SEC, NPTS= 42",
+        "  42 0.01 NPTS, DT, FILTER 3",
+        "  42    0.0100    NPTS, DT",
+        "0.0100   42   DT, NPTS",
+        "NPTS: 42 DT: 0.01",
+    ] {
+        same(at2, "NPTS=    42, DT=   .0100 SEC,", header);
+    }
+    for unit in [
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz",
+        "ACCELERATION TIME HISTORY IN G",
+        "Acceleration (g)",
+        "ACCELERATION (NO UNIT)",
+        "",
+    ] {
+        same(at2, "ACCELERATION TIME SERIES IN UNITS OF G", unit);
+    }
+    same(at2, "SEC,\n", "SEC,\nremarks below the header\n\n");
+    let dyna = "dyna/XX.MIB..HNE.D.64.ASC";
+    for (from, to) in [
+        ("UNITS: cm/s^2", "UNITS:"),
+        ("UNITS: cm/s^2", "Units : CM/S^2"),
+        ("UNITS: cm/s^2", "UNITS: cm/s2"),
+        ("HEADER_FORMAT: DYNA 1.2\n", ""),
+        ("LOCATION:\n", "LOCATION: 00\nDATE: 2001-03-04 05:06:07\nUSER6: 1 2 3\n\n"),
+        ("PGA_CM/S^2: -239.335550", "PGA_CM/S^2: 239.3"),
+        ("PGA_CM/S^2: -239.335550", "PGA_CM/S^2:"),
+        ("DATA_TYPE: ACCELERATION\n", ""),
+        ("SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S:1.0D-02"),
+    ] {
+        same(dyna, from, to);
+    }
+    let knet = "knet/XXX0010103040506.EW";
+    for (from, to) in [
+        ("Sampling Freq(Hz) 100Hz", "Sampling Freq(Hz) 100"),
+        ("Sampling Freq(Hz) 100Hz", "Sampling Freq(Hz)\t100Hz"),
+        ("Scale Factor      3920(gal)/6182761", "Scale Factor  3920(gal)/6182761"),
+        ("Scale Factor      3920(gal)/6182761", "Scale Factor      3920 (gal) / 6182761"),
+        ("Max. Acc. (gal)", "Max. Acc.(gal) "),
+        ("Memo.\n", "Memo.             a remark\n"),
+        ("Dir.              E-W", "Dir.  E-W"),
+    ] {
+        same(knet, from, to);
+    }
+    let csmip = "csmip/one-channel.v2";
+    for (from, to) in [
+        ("in cm/sec2. (8f10.5)", "in cm/sec2."),
+        ("in cm/sec2. (8f10.5)", "in cm/sec/sec. (8F10.5)"),
+        ("spaced at  .010 sec", "spaced at 0.010 sec"),
+        ("spaced at  .010 sec,", "spaced,"),
+        ("CHAN  1: 90 DEG\n", "CHAN  1: 90 DEG\nONE MORE LINE\n"),
+        ("/&  ---", "---"),
+    ] {
+        same(csmip, from, to);
+    }
+    let cosmos = "cosmos/cm.V2";
+    for (from, to) in [
+        ("with 13 text lines", "with 14 text lines"),
+        ("No filtering\n", "No filtering\none more line\n"),
+        ("units=cm/sec2 (04)", "units=cm/s/s"),
+        ("       2       1       4", "       2       1    -999"),
+        ("units=cm/sec2 (04)", "units=cm/sec2(04)"),
+        ("units=cm/sec2 (04)", "units= (04)"),
+        ("Format=(8F10.5)", "Format= (8F10.5)"),
+        (" 100 Real-header values follow on  17 lines", " 100 Real-header values follow on  20 lines"),
+        ("   4 Comment lines follow", "   4 Comment line(s) follow"),
+        ("acceleration pts, approx   0 secs", "accel points"),
+    ] {
+        same(cosmos, from, to);
+    }
+}
+
+#[test]
+fn velocities_and_displacements_of_at2_headers_are_refused_and_units_converted() {
+    let text = text("peer/RSN9001_HOLLOW_MIL090.AT2");
+    let with = |line: &str| text.replace("ACCELERATION TIME SERIES IN UNITS OF G", line);
+    for line in
+        ["VELOCITY TIME HISTORY IN UNITS OF CM/SEC", "DISPLACEMENT TIME SERIES IN UNITS OF CM", "Velocity (cm/s)"]
+    {
+        let error = refused(with(line).as_bytes(), &options()).to_string();
+        assert!(error.starts_with("line 3: this is no acceleration"), "{line}: {error}");
+    }
+    let error = refused(with("ACCELERATION TIME SERIES IN UNITS OF FURLONGS").as_bytes(), &options()).to_string();
+    assert!(error.starts_with("line 3: `FURLONGS`") && error.contains("convert"), "{error}");
+    let g = RecordFile::read(text.as_bytes(), &options()).expect("in g");
+    for (line, size) in [
+        ("ACCELERATION TIME SERIES IN UNITS OF CM/S**2", 0.01),
+        ("ACCELERATION TIME HISTORY IN M/S/S", 1.0),
+        ("ACCELERATION (IN/S/S)", 0.0254),
+        ("ACCELERATION TIME SERIES IN UNITS OF MM/SEC2", 0.001),
+    ] {
+        let other = RecordFile::read(with(line).as_bytes(), &options()).expect("known");
+        assert!((other.accel[13] / g.accel[13] * 9.81 / size - 1.0).abs() < 1e-12, "{line}");
+    }
+    let much = RecordFile::read(text.replace("E+00", "E+03").as_bytes(), &options()).expect("read");
+    assert!(much.warnings[0].contains("hardly"), "{:?}", much.warnings);
+}
+
+#[test]
+fn a_sampling_interval_that_is_not_where_it_belongs_is_found_by_the_duration() {
+    let text = text("cosmos/cm.V2").replace("approx   0 secs", "approx  42 secs");
+    // 42 samples in 42 s: the interval is 1000 ms. It stands one place early, and 0.42 at its own.
+    let (own, early) = ("  -999.000000    10.000000     0.420000", "  1000.000000     0.420000     0.420000");
+    assert!(text.contains(own));
+    let shifted = RecordFile::read(text.replace(own, early).as_bytes(), &options());
+    let shifted = shifted.expect("an interval");
+    assert_eq!(shifted.dt, 1.0, "{:?}", shifted.warnings);
+    assert!(shifted.warnings[0].contains("value 60"), "{:?}", shifted.warnings);
+}
+
+#[test]
+fn the_peak_of_a_header_is_checked() {
+    let text = text("dyna/XX.MIB..HNE.D.64.ASC").replace("PGA_CM/S^2: -239.335550", "PGA_CM/S^2: 23.9");
+    let error = refused(text.as_bytes(), &options());
+    assert!(matches!(error, RecordError::Peak { line: 39, stated, .. } if (stated - 0.239).abs() < 1e-12), "{error}");
+    let file = RecordFile::read(text.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
+    assert!(file.warnings[0].contains("line 39"), "{:?}", file.warnings);
+}
+
+#[test]
+fn the_user_may_repeat_what_a_file_says_but_not_contradict_it() {
+    for (name, own, ..) in cases() {
+        let file = read(name, &own);
+        let repeated = TextOptions { dt: Some(file.dt), units: Some(file.unit), ..own.clone() };
+        assert_eq!(RecordFile::read(&bytes(name), &repeated), Ok(file.clone()), "{name}");
+        if own.dt.is_none() {
+            let error = refused(&bytes(name), &TextOptions { dt: Some(0.02), ..own.clone() });
+            assert!(matches!(error, RecordError::Contradiction { key: "dt", .. }), "{name}: {error}");
+        }
+        if own.units.is_none() {
+            let other = TextOptions { units: AccelerationUnit::parse("ft/s2"), ..own };
+            let error = refused(&bytes(name), &other);
+            assert!(matches!(error, RecordError::Contradiction { key: "units", .. }), "{name}: {error}");
+        }
+    }
+}
+
+#[test]
+fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
+    let g = TextOptions { units: Some(AccelerationUnit::G), ..options() };
+    let error = |text: &str, options: &TextOptions| refused(text.as_bytes(), options).to_string();
+    let several = error(&text("table/three-columns.csv"), &options());
+    assert!(several.contains("t, h1, up") && several.contains("`column`"), "{several}");
+    let absent = TextOptions { column: Some("h3".into()), ..options() };
+    assert!(error(&text("table/three-columns.csv"), &absent).contains("no column `h3`"));
+    let title = error(&text("table/skip-rows.txt"), &g);
+    assert!(title.contains("skip_rows") && title.contains("line 1, column 1: `Invented`"), "{title}");
+    for (text, part) in [
+        ("0 1\n0.1 1\n0.25 1\n0.3 1\n", "line 3: time 0.25 s is not on the grid"),
+        ("0 1\n0.1 1\n0.1 1\n", "line 2"),
+        ("0.3 1\n0.2 1\n0.1 1\n", "line 2: time 0.2 s"),
+        ("0 1\n0.1\n", "line 2: 1 column(s) where the first row has 2"),
+        ("0, 1\n0.1, , 2\n", "line 2, column 5"),
+        ("1 2 3\n4 5 6\n", "choose one of 1 to 3 with `column`"),
+        ("0.1\n0.2\n", "sampling interval"),
+        ("", "0 sample(s)"),
+        ("# nothing\n0 1\n", "1 sample(s)"),
+        ("t [s], v [m/s]\n0, 1\n0.1, 2\n", "`m/s` of column `v`"),
+        ("t, a, b\n0, 1\n0.1, 2\n", "line 1: 3 name(s) above 2 column(s)"),
+        ("2011-03-11 0.1\n2011-03-12 0.2\n", "line 1, column 1: `2011-03-11`"),
+    ] {
+        let error = error(text, &g);
+        assert!(error.contains(part), "{text}: {error}");
+    }
+    assert_eq!(
+        refused(b"0.1\n0.2\n", &TextOptions { dt: Some(0.1), ..options() }),
+        RecordError::Missing { quantity: "unit", key: "units" }
+    );
+    // Times of three decimals at 256 Hz are off by up to half a thousandth, an eighth of the interval; at 100 Hz they are exact.
+    let times = |rate: f64| (0..200).map(|k| format!("{:.3} 1\n", f64::from(k) / rate)).collect::<String>();
+    assert!(matches!(refused(times(256.0).as_bytes(), &g), RecordError::Uneven { .. }));
+    assert_eq!(RecordFile::read(times(100.0).as_bytes(), &g).expect("even").accel.len(), 200);
+}
+
+#[test]
+fn numpy_headings_in_remarks_are_read() {
+    let text = "# t [s]  a [m/s^2]\n0.000e+00 1.000e+00\n1.000e-02 -2.000e+00\n2.000e-02 0.000e+00\n";
+    let file = RecordFile::read(text.as_bytes(), &options()).expect("named");
+    assert_eq!((file.accel, file.dt), (vec![1.0, -2.0, 0.0], 0.01));
+}
+
+#[test]
+fn exponents_of_three_digits_need_no_letter() {
+    let text = "A\nB\nACCELERATION IN UNITS OF G\nNPTS= 5, DT= .01\n  0.1234-105 -0.1E-02-0.2E-02\n.5D-1 -.25+001\n";
+    let file = RecordFile::read(text.as_bytes(), &TextOptions { gravity: 1.0, ..options() }).expect("five");
+    assert_eq!(file.accel, [0.1234e-105, -0.001, -0.002, 0.05, -2.5]);
+}
+
+#[test]
+fn every_record_beside_the_project_has_the_peak_of_its_readme() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/records");
+    let Ok(readme) = std::fs::read_to_string(folder.join("README.md")) else {
+        println!("skipped: {} is not there", folder.display());
+        return;
+    };
+    let mut count = 0;
+    // | file | event | dt (s) | samples | units | PGA (g) | peak at |
+    for row in readme.lines().filter(|line| line.starts_with('|')) {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        let [name, _, dt, samples, units, peak, peak_time] = cells.as_slice() else { continue };
+        let (Ok(peak), Ok(dt), Ok(samples)) = (peak.parse::<f64>(), dt.parse::<f64>(), samples.parse::<usize>()) else {
+            continue;
+        };
+        let units = units.contains("columns").then_some(AccelerationUnit::G);
+        let bytes = std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let record = Record::from_bytes(&bytes, &TextOptions { units, ..options() });
+        let record = record.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!((record.accel().len(), record.warnings()), (samples, &[][..]), "{name}");
+        assert!((record.dt() - dt).abs() < 1e-12, "{name}: {}", record.dt());
+        let measures = record.measures(9.81);
+        assert!((measures.pga / 9.81 - peak).abs() < 5e-5, "{name}: {}", measures.pga / 9.81);
+        let time: f64 = peak_time.trim_end_matches('s').trim().parse().expect("a time");
+        assert!((measures.pga_time - time).abs() < 1e-9, "{name}: {}", measures.pga_time);
+        count += 1;
+    }
+    assert_eq!(count, 6, "the table of {}", folder.display());
+}
+
+#[test]
+fn a_record_remembers_its_origin_where_a_run_is_described() {
+    let record = read("dyna/XX.MIB..HNE.D.64.ASC", &options()).into_record().expect("valid");
+    let record = record.named("XX.MIB..HNE.D.64.ASC").scaled(2.0).expect("finite");
+    let json = serde_json::to_value(rocking::Motion::Record(record)).expect("described");
+    assert_eq!(json["kind"], "record");
+    assert_eq!((&json["samples"], &json["scale"], &json["component"]), (&42.into(), &2.0.into(), &"HNE".into()));
+    assert_eq!((&json["file"], &json["station"]), (&"XX.MIB..HNE.D.64.ASC".into(), &"XX.MIB (MILL_BRIDGE)".into()));
+    assert!((json["peak"].as_f64().expect("a number") - 4.786_711).abs() < 1e-9);
+    assert!(json.get("accel").is_none());
+}
+
+/// Files that mutations begin with: all fixtures.
+fn fixtures() -> Vec<Vec<u8>> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder()).expect("the fixtures") {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            for entry in std::fs::read_dir(path).expect("readable") {
+                found.push(std::fs::read(entry.expect("readable").path()).expect("readable"));
+            }
+        }
+    }
+    assert!(found.len() > 25);
+    found
+}
+
+/// Reads with several options; what is read has finite samples and a positive interval.
+fn survives(bytes: &[u8]) {
+    let units = Some(AccelerationUnit::CentimetrePerSecondSquared);
+    let wide = TextOptions { lenient: true, dt: Some(0.01), units, channel: Some(2), ..options() };
+    let table = TextOptions { skip_rows: 3, column: Some("2".into()), units, ..options() };
+    let lenient = TextOptions { lenient: true, ..options() };
+    for options in [options(), lenient, wide, table] {
+        match RecordFile::read(bytes, &options) {
+            Ok(file) => {
+                assert!(file.accel.iter().all(|a| a.is_finite()), "{file:?}");
+                assert!(file.dt > 0.0 && file.dt.is_finite(), "{file:?}");
+                let _ = file.into_record().map(|record| record.measures(9.81));
+            }
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    }
+}
+
+/// What happens to files: bytes change, lines are doubled, dropped or cut.
+#[derive(Clone, Debug)]
+enum Mutation {
+    Byte(usize, u8),
+    Cut(usize),
+    Double(usize),
+    Drop(usize),
+    Insert(usize, Vec<u8>),
+}
+
+fn mutation() -> impl Strategy<Value = Mutation> {
+    let scrap = prop::sample::select(vec![
+        "-",
+        ".",
+        "E",
+        "NaN",
+        "9e999",
+        "NPTS= 9999999999999",
+        "(8F10.5)",
+        "\u{fc}",
+        "\0",
+        ":",
+        "/&",
+    ]);
+    prop_oneof![
+        (any::<usize>(), any::<u8>()).prop_map(|(at, byte)| Mutation::Byte(at, byte)),
+        any::<usize>().prop_map(Mutation::Cut),
+        any::<usize>().prop_map(Mutation::Double),
+        any::<usize>().prop_map(Mutation::Drop),
+        (any::<usize>(), scrap).prop_map(|(at, scrap)| Mutation::Insert(at, scrap.as_bytes().to_vec())),
+    ]
+}
+
+fn mutate(mut bytes: Vec<u8>, mutations: &[Mutation]) -> Vec<u8> {
+    for mutation in mutations {
+        if bytes.is_empty() {
+            break;
+        }
+        let length = bytes.len();
+        let line = |bytes: &[u8], at: usize| {
+            let at = at % length;
+            let start = bytes[..at].iter().rposition(|b| *b == b'\n').map_or(0, |place| place + 1);
+            let end = bytes[at..].iter().position(|b| *b == b'\n').map_or(length, |place| at + place + 1);
+            start..end
+        };
+        match mutation {
+            Mutation::Byte(at, byte) => bytes[at % length] = *byte,
+            Mutation::Cut(at) => bytes.truncate(at % length),
+            Mutation::Double(at) => {
+                let range = line(&bytes, *at);
+                let copy = bytes[range.clone()].to_vec();
+                bytes.splice(range.end..range.end, copy);
+            }
+            Mutation::Drop(at) => {
+                let range = line(&bytes, *at);
+                bytes.drain(range);
+            }
+            Mutation::Insert(at, scrap) => {
+                let at = at % length;
+                bytes.splice(at..at, scrap.iter().copied());
+            }
+        }
+    }
+    bytes
+}
+
+proptest! {
+    // A failing case is printed with what it takes to repeat it; no file of regressions is kept.
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arbitrary_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        survives(&bytes);
+    }
+
+    #[test]
+    fn arbitrary_text_of_the_formats_never_panics(
+        words in prop::collection::vec(prop::sample::select(vec![
+            "NPTS=", "DT=", "7", "0.01", "-1.5E-2", "\n", "\n", " ", "\t", ",", ";", "(Format v01.20 with 13 text lines)",
+            "100 Integer-header values follow on 10 lines, Format= (10I8)", "Real-header values follow", "|",
+            "4 acceleration pts, approx 2 secs, units=g (02), Format=(8F10.5)", "End-of-data",
+            "CORRECTED ACCELEROGRAM", "3 points of accel data equally spaced at .01 sec, in cm/sec2. (8f10.6)", "/&", "Chan 1: Up",
+            "Origin Time", "Sampling Freq(Hz) 100Hz", "Scale Factor      3920(gal)/6182761", "Duration Time(s)  1", "Dir.", "Memo.",
+            "NDATA: 3", "SAMPLING_INTERVAL_S: 0.01", "UNITS: cm/s^2", "PGA_CM/S^2:", "STREAM:", "t [s]", "a [g]", "#", "é",
+        ]), 0..60)
+    ) {
+        survives(words.concat().as_bytes());
+    }
+
+    #[test]
+    fn damaged_files_never_panic(
+        file in any::<prop::sample::Index>(),
+        mutations in prop::collection::vec(mutation(), 1..6),
+    ) {
+        let files = fixtures();
+        survives(&mutate(file.get(&files).clone(), &mutations));
+    }
+
+    #[test]
+    fn a_written_record_reads_back_to_the_last_bit(
+        accel in prop::collection::vec(prop::num::f64::NORMAL | prop::num::f64::ZERO | prop::num::f64::SUBNORMAL, 2..200),
+        dt in 1e-6..10.0_f64,
+    ) {
+        let record = Record::new(accel, dt, 0.0).expect("valid");
+        let back = Record::from_text(&record.to_csv(), options()).expect("readable");
+        prop_assert_eq!(back.dt().to_bits(), record.dt().to_bits());
+        let bits = |record: &Record| record.accel().iter().map(|a| a.to_bits()).collect::<Vec<_>>();
+        prop_assert_eq!(bits(&back), bits(&record));
+    }
+}
