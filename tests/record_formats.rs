@@ -179,8 +179,11 @@ fn what_is_no_acceleration_is_refused_with_advice() {
     }
 }
 
+/// The header's words for a number of samples.
+type Counting = fn(usize) -> String;
+
 /// Files with a declared count: name, the text that declares it, how another count is written.
-fn counted() -> [(&'static str, &'static str, fn(usize) -> String); 5] {
+fn counted() -> [(&'static str, &'static str, Counting); 5] {
     [
         ("peer/RSN9001_HOLLOW_MIL090.AT2", "NPTS=    42", |n| format!("NPTS=    {n}")),
         ("dyna/XX.MIB..HNE.D.64.ASC", "NDATA: 42", |n| format!("NDATA: {n}")),

@@ -134,7 +134,7 @@ fn bad_input_is_refused_with_its_place() {
     }
     refused(here.path(), &["record", &at2, "--pga", "1", "--scale", "2"], &["cannot be used with"]);
     refused(here.path(), &["record", &at2, "--units", "knots"], &["knots", "choose g, m/s2"]);
-    refused(here.path(), &["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "--out"]);
+    refused(here.path(), &["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "choose a file"]);
     refused(here.path(), &["record", &at2, "--channel", "2"], &["channel 2"]);
 }
 
@@ -220,8 +220,8 @@ fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
     for (keys, parts) in [
         ("file = \"short.AT2\"", ["line 6", "declares 50"]),
         ("file = \"short.AT2\"\nlenient = \"yes\"", ["line 7", "give true or false"]),
-        ("file = \"short.AT2\"\nchannel = 0", ["line 7", "give a whole number, 1 or more"]),
-        ("file = \"short.AT2\"\nskip_rows = 1.5", ["line 7", "no whole number"]),
+        ("file = \"short.AT2\"\nchannel = 0", ["line 7", "give a whole number from 1 on"]),
+        ("file = \"short.AT2\"\nskip_rows = 1.5", ["line 7", "out of range"]),
         ("accel = [0.0, 1.0]\ndt = 0.1\nlenient = true", ["line 8", "give `file` instead"]),
         ("file = \"short.AT2\"\nlenient = true\ndt = 0.02", ["line 6", "`dt` is given as 0.02 s"]),
     ] {

@@ -52,7 +52,7 @@ pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
     if arguments.json {
         return json(&told);
     }
-    let mut text = told.text();
+    let mut text = format!("{}{}\n", told.text(), plot::terminal::series(record.accel()));
     if let Some(out) = &arguments.out {
         let _ = writeln!(text, "wrote {} ({} samples, m/s2)", out.display(), told.samples);
     }

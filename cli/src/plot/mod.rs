@@ -18,6 +18,7 @@ mod phase_portrait;
 mod record;
 mod sheet;
 mod style;
+pub mod terminal;
 mod time_history;
 
 use crate::results::Results;
