@@ -53,6 +53,7 @@ pub mod generic;
 pub mod kinematics;
 pub mod mode;
 pub mod ode;
+pub mod outcome;
 mod phase;
 pub mod program;
 pub mod response;
@@ -67,7 +68,7 @@ pub use excitation::{Excitation, Motion, Record, RecordError};
 pub use mode::Mode;
 pub use response::{Event, EventKind, Impulse, Response, Sample, StopReason, Work};
 pub use rocking_codegen::{GroundMotion, pattern};
-pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions};
+pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions, Wanted};
 
 pub use scene_file::SceneFileError;
 pub use simulate::{SolveError, simulate, simulate_observed};

@@ -88,9 +88,8 @@ mod tests {
     fn potential(column: &Column, theta: &[f64]) -> f64 {
         let gap = |i: usize| theta[i] - if i == 0 { 0.0 } else { theta[i - 1] };
         let signs: Vec<i8> = (0..theta.len()).map(|i| if gap(i) < 0.0 { -1 } else { 1 }).collect();
-        let energy = |pattern: &Pattern, theta: &[f64]| {
-            Posture::new(column, pattern, theta).potential_energy(column.gravity())
-        };
+        let energy =
+            |pattern: &Pattern, theta: &[f64]| Posture::new(column, pattern, theta).potential_energy(column.gravity());
         energy(&Pattern::from_signs(&signs), theta) - energy(&Pattern::rest(theta.len()), &vec![0.0; theta.len()])
     }
 

@@ -34,6 +34,8 @@ pub enum Ended {
     Opening(usize, Interface),
     /// The ground acceleration jumped.
     Jump,
+    /// The ground has come to rest for good, and the column cannot overturn any more.
+    Certain,
     /// The angle of this block (from zero) reached the overturning angle.
     Overturned(usize),
     /// Nothing can start the column any more.
@@ -222,7 +224,12 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         }
         self.run.segment += 1;
         self.stepper.enter(self.run.segments[self.run.segment].clone());
-        self.segment().jumps.then_some(Ended::Jump)
+        if self.segment().jumps {
+            return Some(Ended::Jump);
+        }
+        // The phase goes on as it would have: an answer that is not certain yet is that of a full run.
+        let (theta, omega) = self.per_block(&self.x);
+        self.run.is_certain_to_stand(&theta, &omega).then_some(Ended::Certain)
     }
 
     /// Decides how many roots of each gap lie at the start, by how it came to be open.
@@ -257,11 +264,11 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
 
     /// Whether contact forces are of use in this phase: for guards of closed interfaces, or for the record.
     fn reads_forces(&self) -> bool {
-        !self.closed.is_empty() || self.run.scene.options.record_forces
+        !self.closed.is_empty() || self.run.scene.records_forces()
     }
 
     fn note_forces(&mut self) {
-        if self.run.scene.options.record_forces {
+        if self.run.scene.records_forces() {
             self.run.history.note_forces(&self.forces);
         }
     }

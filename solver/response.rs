@@ -15,6 +15,8 @@ pub enum StopReason {
     AtRest,
     /// The time asked for is over.
     EndOfTime,
+    /// It cannot overturn any more, by energy, though it may still rock; only where nothing but the outcome is wanted.
+    Stands,
 }
 
 /// What happened at an event.

@@ -34,7 +34,7 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
         }
         let start = earliest_start(run, &segment);
         let until = start.map_or(segment.end, |(t, _, _)| t);
-        if run.scene.options.record_forces {
+        if run.scene.records_forces() {
             note_forces(run, &segment, until);
         }
         output_until(run, until);

@@ -110,6 +110,18 @@ pub enum DynamicsSource {
     Supplied(Equations),
 }
 
+/// What a run is to find.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Wanted {
+    /// History, events, peaks, forces.
+    #[default]
+    Everything,
+    /// Whether and how the column overturns: no rows, no forces, and the run ends as soon as the answer is certain
+    /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]). Peaks are those up to there.
+    Outcome,
+}
+
 /// How a scene is solved.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolveOptions {
@@ -132,6 +144,8 @@ pub struct SolveOptions {
     /// Whether friction demand and smallest normal forces are recorded: the default. Without, contact forces are evaluated
     /// only where a closed interface may open.
     pub record_forces: bool,
+    /// What the run is to find.
+    pub wanted: Wanted,
 }
 
 impl Default for SolveOptions {
@@ -146,6 +160,7 @@ impl Default for SolveOptions {
             overturn_angle: FRAC_PI_2,
             dynamics: DynamicsSource::default(),
             record_forces: true,
+            wanted: Wanted::default(),
         }
     }
 }
@@ -215,6 +230,11 @@ impl Scene {
             Method::Auto => Method::Dop853,
             named => named,
         }
+    }
+
+    /// Whether friction demand and normal forces are recorded.
+    pub(crate) fn records_forces(&self) -> bool {
+        self.options.record_forces && self.options.wanted == Wanted::Everything
     }
 
     /// A scene with this column at rest, no ground motion, plastic impacts and default options.

@@ -6,10 +6,11 @@ use crate::excitation::{Excitation, Segment};
 use crate::generated;
 use crate::kinematics::Posture;
 use crate::mode::Mode;
+use crate::outcome::Barrier;
 use crate::phase::Ended;
 use crate::response::{Event, EventKind, Impulse, Response, Sample, Separation, StopReason, Work, mode_name};
 use crate::rest;
-use crate::scene::{DynamicsSource, Scene, SceneError};
+use crate::scene::{DynamicsSource, Scene, SceneError, Wanted};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::{Interface, Pattern};
 use std::collections::{BTreeMap, HashMap};
@@ -28,6 +29,13 @@ const LONGEST_HOLD: f64 = 1e-2;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
 const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
+
+/// Share of the barrier that must be missing from the energy: its roundings are a millionth of that, and runs that pass so close to
+/// the top take many seconds over it.
+const CERTAINTY: f64 = 1e-6;
+
+/// Relative tolerances of a step by which a run may have gained energy, over some hundred steps.
+const DRIFT: f64 = 1e3;
 
 /// Why a run could not be finished.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -108,11 +116,15 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
     let mut run = Run::new(scene, Box::new(progress));
     run.begin()?;
     loop {
+        if run.is_certain_to_stand(&run.theta, &run.omega) {
+            return Ok(run.finish(StopReason::Stands, None));
+        }
         let ended = if run.pattern.dof() == 0 { run.rest()? } else { run.move_on()? };
         match ended {
             Ended::Closing(interfaces) => run.impact(&interfaces)?,
             Ended::Opening(interface, side) => run.release(interface, side, EventKind::Opening)?,
             Ended::Jump => run.jump()?,
+            Ended::Certain => return Ok(run.finish(StopReason::Stands, None)),
             Ended::Overturned(block) => return Ok(run.finish(StopReason::Overturned, Some(block))),
             Ended::AtRest => return Ok(run.finish(StopReason::AtRest, None)),
             Ended::EndOfTime => return Ok(run.finish(StopReason::EndOfTime, None)),
@@ -142,6 +154,8 @@ pub(crate) struct Run<'a> {
     pub history: History,
     pub progress: Box<dyn FnMut(f64) + 'a>,
     kappa: Vec<f64>,
+    /// Where nothing but the outcome is wanted and the ground comes to rest before the end: what it takes to overturn from then on.
+    barrier: Option<Barrier>,
     modes: HashMap<Pattern, Rc<Mode>>,
     events_at_once: usize,
     used_generic: bool,
@@ -184,9 +198,12 @@ impl<'a> Run<'a> {
             separations: Vec::new(),
             time_in_mode: BTreeMap::new(),
         };
+        let segments = Excitation::segments(&scene.excitation, scene.options.t_end);
+        let comes_to_rest = scene.options.wanted == Wanted::Outcome && segments.last().is_some_and(Segment::is_quiet);
+        let barrier = comes_to_rest.then(|| scene.column.barrier(scene.options.overturn_angle));
         Run {
             scene,
-            segments: Excitation::segments(&scene.excitation, scene.options.t_end),
+            segments,
             segment: 0,
             t: 0.0,
             theta: or_zero(&scene.initial.theta),
@@ -199,6 +216,7 @@ impl<'a> Run<'a> {
             history,
             progress,
             kappa: scene.restitution.factors(&scene.column),
+            barrier,
             modes: HashMap::new(),
             events_at_once: 0,
             used_generic: false,
@@ -380,6 +398,21 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Whether the ground has come to rest for good and the column, with these angles and rates, is in the box of its barrier with
+    /// too little energy to leave it.
+    pub fn is_certain_to_stand(&self, theta: &[f64], omega: &[f64]) -> bool {
+        let Some(Barrier { energy, angle }) = self.barrier else { return false };
+        if self.segment + 1 < self.segments.len() || theta.iter().any(|theta| theta.abs() > angle) {
+            return false;
+        }
+        let column = &self.scene.column;
+        let posture = Posture::new(column, &self.pattern, theta);
+        let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
+        let potential = posture.potential_energy(column.gravity()) - rest::energy(column).potential;
+        let slack = energy * CERTAINTY.max(DRIFT * self.scene.options.rtol);
+        potential + kinetic < energy - slack
+    }
+
     fn kinetic_energy(&self, pattern: &Pattern, omega: &[f64]) -> f64 {
         let posture = Posture::new(&self.scene.column, pattern, &self.theta);
         posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega)
@@ -463,7 +496,7 @@ impl<'a> Run<'a> {
 
     /// The next output time `[s]`, if there is one up to the end.
     pub fn next_output(&self) -> Option<f64> {
-        let dt = self.scene.output_dt?;
+        let dt = self.scene.output_dt.filter(|_| self.scene.options.wanted == Wanted::Everything)?;
         let t = self.history.next_sample as f64 * dt;
         // The last row is not lost to the rounding of a product.
         (t <= self.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
@@ -497,7 +530,7 @@ impl<'a> Run<'a> {
                 self.sample(t, theta, omega);
             }
         }
-        if !self.scene.options.record_forces {
+        if !self.scene.records_forces() {
             self.history.friction_demand.clear();
             self.history.min_normal_force.clear();
         }

@@ -92,7 +92,7 @@ impl<V: StateVector> Phase<'_, '_, V> {
 
     /// Notes the forces in the step, from its start, middle and end; the end becomes the next start.
     fn note_step(&mut self, t: f64, h: f64) {
-        if self.run.scene.options.record_forces {
+        if self.run.scene.records_forces() {
             self.weigh_inside(t, h, 0.5);
             self.run.history.note_step([&self.start_forces, &self.forces, &self.end_forces]);
             std::mem::swap(&mut self.start_forces, &mut self.end_forces);

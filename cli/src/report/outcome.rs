@@ -27,6 +27,9 @@ pub fn sentence(results: &Results) -> String {
         StopReason::AtRest => {
             ("stands", format!("The column <strong>stands</strong>: it comes to rest at t&nbsp;=&nbsp;{t}&nbsp;s."))
         }
+        StopReason::Stands => {
+            ("stands", "The column <strong>stands</strong>: it has too little energy left to overturn.".to_string())
+        }
         StopReason::EndOfTime if results.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
