@@ -62,6 +62,7 @@ pub mod scalar;
 pub mod scene;
 pub mod scene_file;
 pub mod simulate;
+pub mod sweep;
 
 pub use column::{Block, Column, ColumnError, Stack};
 pub use excitation::{Excitation, Motion, Record, RecordError};
@@ -72,6 +73,7 @@ pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError,
 
 pub use scene_file::SceneFileError;
 pub use simulate::{SolveError, simulate, simulate_observed};
+pub use sweep::Sweep;
 
 /// Gravity where a scene does not say otherwise `[m/s²]`.
 pub const DEFAULT_GRAVITY: f64 = 9.81;

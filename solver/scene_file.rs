@@ -4,13 +4,17 @@
 //! closed, refuses what nobody asked for. Units are converted here and nowhere else.
 
 mod excitation;
+mod sweep;
 mod table;
+mod template;
 
 use crate::column::{Block, Column};
 use crate::scene::{Method, Restitution, Scene, SceneError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use table::{Place, Table};
+use template::Records;
+pub use template::{Setting, Template};
 
 /// Why a scene file is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -108,13 +112,9 @@ impl SceneFile {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_toml(text: &str, file: &Path) -> Result<SceneFile, SceneFileError> {
-        let reader = Reader { text, file };
-        let mut root = Table::parse(text).map_err(|wrong| reader.error(wrong))?;
-        let mut derived = Vec::new();
-        let scene = reader.scene(&mut root, &mut derived)?;
-        root.close().map_err(|wrong| reader.error(wrong))?;
-        scene.check().map_err(|error| reader.refused(&root, error))?;
-        Ok(SceneFile { scene, derived })
+        let reader = Reader { text, file, records: None };
+        let root = Table::parse(text).map_err(|wrong| reader.error(wrong))?;
+        reader.read(root)
     }
 }
 
@@ -142,9 +142,20 @@ type Wrong = table::Wrong;
 struct Reader<'t> {
     text: &'t str,
     file: &'t Path,
+    /// Records read before, where scenes are read again and again.
+    records: Option<&'t Records>,
 }
 
 impl Reader<'_> {
+    /// The whole file.
+    fn read(&self, mut root: Table) -> Result<SceneFile, SceneFileError> {
+        let mut derived = Vec::new();
+        let scene = self.scene(&mut root, &mut derived)?;
+        root.close().map_err(|wrong| self.error(wrong))?;
+        scene.check().map_err(|error| self.refused(&root, error))?;
+        Ok(SceneFile { scene, derived })
+    }
+
     fn line(&self, place: &Place) -> usize {
         self.text.as_bytes().iter().take(place.start).filter(|byte| **byte == b'\n').count() + 1
     }
@@ -182,7 +193,7 @@ impl Reader<'_> {
         scene.title = title;
         scene.friction = root.number("friction").map_err(own)?.map(|(value, _)| value);
         scene.restitution = restitution(root).map_err(own)?;
-        scene.excitation = self.excitation(root, gravity)?;
+        scene.excitation = self.excitation(root, &scene.column)?;
         if let Some(mut initial) = root.table("initial").map_err(own)? {
             for (key, values) in [("theta", &mut scene.initial.theta), ("omega", &mut scene.initial.omega)] {
                 *values = initial.numbers(key).map_err(own)?.unwrap_or_default();

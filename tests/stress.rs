@@ -68,6 +68,7 @@ fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>)
     }
     let status = match response.status {
         StopReason::Overturned => "overturned",
+        StopReason::Stands => "stands",
         StopReason::AtRest => "at rest",
         StopReason::EndOfTime => "end of time",
     };

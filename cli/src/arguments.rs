@@ -1,5 +1,6 @@
 //! What can be asked on the command line.
 
+use crate::commands::sweep::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::excitation::AccelerationUnit;
@@ -102,6 +103,18 @@ pub enum Command {
     /// PEER AT2, ESM and ITACA (DYNA), K-NET and KiK-net, CSMIP V2, COSMOS V2 and tables of text are told apart by their
     /// content.
     Record(Record),
+    /// Run many scenes made from one by axes over its keys; a table with a row each.
+    ///
+    /// A sweep that was cut off goes on where it was when it is started again.
+    Sweep(Sweep),
+    /// Join the tables of all shards of a sweep.
+    Merge {
+        /// The table to write (CSV).
+        out: PathBuf,
+        /// The tables of the shards, in any order.
+        #[arg(required = true)]
+        shards: Vec<PathBuf>,
+    },
     /// Print the completion script of a shell.
     Completions {
         /// The shell.
@@ -195,6 +208,28 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn unit(text: &str) -> Result<AccelerationUnit, String> {
     AccelerationUnit::parse(text).ok_or_else(|| "choose g, m/s2, cm/s2, gal, mg or in/s2".into())
+}
+
+/// `rocking sweep`.
+#[derive(Debug, Args)]
+pub struct Sweep {
+    /// Sweep file (TOML).
+    pub file: PathBuf,
+    /// Table of the results (CSV).
+    #[arg(long, value_name = "FILE", default_value = "sweep.csv")]
+    pub out: PathBuf,
+    /// Run the K-th of M parts only; `rocking merge` joins their tables.
+    #[arg(long, value_name = "K/M", value_parser = Shard::parse)]
+    pub shard: Option<Shard>,
+    /// Threads; as many as the machine has unless given.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print nothing but errors.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Print the counts of outcomes as JSON instead of text.
+    #[arg(long, conflicts_with = "quiet")]
+    pub json: bool,
 }
 
 /// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.

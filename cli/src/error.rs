@@ -83,6 +83,14 @@ pub enum Failure {
         /// The folder.
         path: PathBuf,
     },
+    /// A table is not the next part of a sweep.
+    #[error("{}: {problem}; give the tables of all shards of one sweep", path.display())]
+    Shards {
+        /// The table.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
     /// A figure of so many modes would not be read.
     #[error(
         "--svg: a column of {blocks} blocks has {modes} modes, too many for a figure; draw up to {largest} blocks, \
@@ -171,6 +179,7 @@ impl Failure {
                 | Failure::Results { .. }
                 | Failure::File { .. }
                 | Failure::Taken { .. }
+                | Failure::Shards { .. }
                 | Failure::RecordFile { .. }
                 | Failure::Record { .. }
                 | Failure::NoRecords { .. }

@@ -45,3 +45,33 @@ impl Progress {
         }
     }
 }
+
+/// A bar over the points of a sweep, with their rate and the time that is left.
+pub struct Points(Option<ProgressBar>);
+
+impl Points {
+    /// Over `count` points of which `known` are there; `quiet` shows nothing.
+    pub fn new(count: usize, known: usize, quiet: bool) -> Points {
+        let is_seen = !quiet && std::io::stderr().is_terminal();
+        Points(is_seen.then(|| {
+            let bar = ProgressBar::new(count as u64).with_position(known as u64);
+            bar.reset_eta();
+            let style = ProgressStyle::with_template("{wide_bar} {human_pos}/{human_len} {per_sec} {eta}");
+            bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        }))
+    }
+
+    /// So many points are there.
+    pub fn reached(&self, count: usize) {
+        if let Some(bar) = &self.0 {
+            bar.set_position(count as u64);
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::table::{Table, Wrong};
 use super::{Reader, SceneFileError};
+use crate::column::Column;
 use crate::excitation::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -24,14 +25,28 @@ const KINDS: [&str; 14] = [
     "record",
 ];
 
+/// What amplitudes and frequencies may be multiples of.
+#[derive(Clone, Copy)]
+struct Scales {
+    /// `[m/s²]`
+    gravity: f64,
+    /// The acceleration that opens the base of the column at rest, `g tan α` `[m/s²]`.
+    uplift: f64,
+    /// Frequency parameter of the column as one body `[rad/s]`.
+    p: f64,
+}
+
 impl Reader<'_> {
     /// The ground motion of a scene.
-    pub(super) fn excitation(&self, root: &mut Table, gravity: f64) -> Result<Excitation, SceneFileError> {
+    pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
+        let whole = column.stack(0);
+        let scales =
+            Scales { gravity: column.gravity(), uplift: whole.uplift_acceleration(), p: whole.frequency_parameter() };
         let own = |wrong| self.error(wrong);
         let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
         let mut component = |name: &str| -> Result<Option<Motion>, SceneFileError> {
             let Some(mut table) = table.table(name).map_err(own)? else { return Ok(None) };
-            let motion = self.motion(&mut table, gravity)?;
+            let motion = self.motion(&mut table, scales)?;
             table.close().map_err(own)?;
             Ok(Some(motion))
         };
@@ -40,24 +55,24 @@ impl Reader<'_> {
         Ok(excitation)
     }
 
-    fn motion(&self, table: &mut Table, gravity: f64) -> Result<Motion, SceneFileError> {
+    fn motion(&self, table: &mut Table, scales: Scales) -> Result<Motion, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let Some((kind, _)) = table.text("kind").map_err(own)? else {
             return Err(own(table.missing("kind", &format!("choose one of {}", KINDS.join(", ")))));
         };
         match kind.as_str() {
-            "sum" => self.sum(table, gravity),
+            "sum" => self.sum(table, scales),
             "record" => {
                 let start = start(table).map_err(own)?;
-                self.record(table, start, gravity).map(Motion::Record)
+                self.record(table, start, scales).map(Motion::Record)
             }
-            "synthetic" => synthetic(table, gravity).map(Motion::Record).map_err(own),
-            _ => pulse(table, &kind, gravity).map_err(own),
+            "synthetic" => synthetic(table, scales).map(Motion::Record).map_err(own),
+            _ => pulse(table, &kind, scales).map_err(own),
         }
     }
 
     /// `[[excitation.horizontal.term]]`, each as a component.
-    fn sum(&self, table: &mut Table, gravity: f64) -> Result<Motion, SceneFileError> {
+    fn sum(&self, table: &mut Table, scales: Scales) -> Result<Motion, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let mut tables = table.tables("term").map_err(own)?.unwrap_or_default();
         if tables.is_empty() {
@@ -65,15 +80,16 @@ impl Reader<'_> {
             return Err(own(table.missing("term", &remedy)));
         }
         let mut term = |table: &mut Table| {
-            let motion = self.motion(table, gravity)?;
+            let motion = self.motion(table, scales)?;
             table.close().map_err(own)?;
             Ok(motion)
         };
         Ok(Motion::Sum { terms: tables.iter_mut().map(&mut term).collect::<Result<_, _>>()? })
     }
 
-    fn record(&self, table: &mut Table, start: f64, gravity: f64) -> Result<Record, SceneFileError> {
+    fn record(&self, table: &mut Table, start: f64, scales: Scales) -> Result<Record, SceneFileError> {
         let own = |wrong| self.error(wrong);
+        let gravity = scales.gravity;
         let units = match table.text("units").map_err(own)? {
             None => None,
             Some((name, _)) => Some(AccelerationUnit::parse(&name).ok_or_else(|| {
@@ -136,6 +152,10 @@ impl Reader<'_> {
 
     fn record_file(&self, table: &Table, name: &str, options: &TextOptions) -> Result<Record, SceneFileError> {
         let path = self.file.parent().unwrap_or(Path::new("")).join(name);
+        let kept = || (path.clone(), format!("{options:?}"));
+        if let Some(record) = self.records.and_then(|records| records.get(&kept())) {
+            return Ok(record.named(name));
+        }
         let place = table.find("file");
         let refuse = |problem: String| SceneFileError::Record {
             file: self.file.into(),
@@ -147,6 +167,9 @@ impl Reader<'_> {
         let bytes = std::fs::read(&path)
             .map_err(|error| refuse(format!("{error}; give the path relative to the scene file")))?;
         let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
+        if let Some(records) = self.records {
+            records.keep(kept(), &record);
+        }
         Ok(record.named(name))
     }
 }
@@ -159,15 +182,24 @@ fn phase(table: &mut Table) -> Result<f64, Wrong> {
     Ok(table.number("phase")?.map_or(0.0, |(value, _)| value))
 }
 
-fn amplitude(table: &mut Table, gravity: f64) -> Result<f64, Wrong> {
-    table.one_of(&[("amplitude", &|a| a), ("amplitude_g", &|a| a * gravity)])
+fn amplitude(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {
+    table.one_of(&[
+        ("amplitude", &|a| a),
+        ("amplitude_g", &|a| a * scales.gravity),
+        ("amplitude_uplift", &|a| a * scales.uplift),
+    ])
 }
 
-fn omega(table: &mut Table) -> Result<f64, Wrong> {
-    let omega =
-        table.one_of(&[("omega", &|omega| omega), ("frequency", &|f| TAU * f), ("period", &|period| TAU / period)])?;
+fn omega(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {
+    let keys: [(&str, &dyn Fn(f64) -> f64); 4] = [
+        ("omega", &|omega| omega),
+        ("frequency", &|f| TAU * f),
+        ("period", &|period| TAU / period),
+        ("omega_p", &|omega| omega * scales.p),
+    ];
+    let omega = table.one_of(&keys)?;
     if !(omega.is_finite() && omega > 0.0) {
-        let key = ["omega", "frequency", "period"].into_iter().find(|key| table.has(key)).unwrap_or("omega");
+        let key = keys.iter().map(|(key, _)| *key).find(|key| table.has(key)).unwrap_or("omega");
         return Err(table.wrong(key, "it must be above zero".into(), "give a finite number above zero"));
     }
     Ok(omega)
@@ -179,21 +211,22 @@ fn needed(table: &mut Table, key: &str, remedy: &str) -> Result<f64, Wrong> {
 }
 
 /// A pulse told by its velocity: `(velocity, omega, phase, gamma)`.
-fn velocity_pulse(table: &mut Table, gravity: f64) -> Result<(f64, f64, f64, f64), Wrong> {
-    let omega = omega(table)?;
+fn velocity_pulse(table: &mut Table, scales: Scales) -> Result<(f64, f64, f64, f64), Wrong> {
+    let omega = omega(table, scales)?;
     let velocity = table.one_of(&[
         ("velocity", &|v| v),
         ("amplitude", &|a| a / omega),
-        ("amplitude_g", &|a| a * gravity / omega),
+        ("amplitude_g", &|a| a * scales.gravity / omega),
+        ("amplitude_uplift", &|a| a * scales.uplift / omega),
     ])?;
     let gamma = needed(table, "gamma", "give the number of oscillations in the envelope, e.g. 2")?;
     Ok((velocity, omega, phase(table)?, gamma))
 }
 
 /// A motion by a formula.
-fn pulse(table: &mut Table, kind: &str, gravity: f64) -> Result<Motion, Wrong> {
+fn pulse(table: &mut Table, kind: &str, scales: Scales) -> Result<Motion, Wrong> {
     let start = start(table)?;
-    let mut wave = || Ok::<_, Wrong>((amplitude(table, gravity)?, omega(table)?));
+    let mut wave = || Ok::<_, Wrong>((amplitude(table, scales)?, omega(table, scales)?));
     Ok(match kind {
         "sine-pulse" | "one-sine" | "type-a" => {
             let (amplitude, omega) = wave()?;
@@ -222,15 +255,15 @@ fn pulse(table: &mut Table, kind: &str, gravity: f64) -> Result<Motion, Wrong> {
             Motion::AntisymmetricRicker { amplitude, omega, start }
         }
         "mavroeidis-papageorgiou" => {
-            let (velocity, omega, phase, gamma) = velocity_pulse(table, gravity)?;
+            let (velocity, omega, phase, gamma) = velocity_pulse(table, scales)?;
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma }
         }
         "gabor" => {
-            let (velocity, omega, phase, gamma) = velocity_pulse(table, gravity)?;
+            let (velocity, omega, phase, gamma) = velocity_pulse(table, scales)?;
             Motion::Gabor { velocity, omega, start, phase, gamma }
         }
         "rectangular" | "double-rectangular" => {
-            let amplitude = amplitude(table, gravity)?;
+            let amplitude = amplitude(table, scales)?;
             let duration = needed(table, "duration", "give it in s")?;
             match kind {
                 "rectangular" => Motion::Rectangular { amplitude, start, duration },
@@ -250,9 +283,9 @@ fn pulse(table: &mut Table, kind: &str, gravity: f64) -> Result<Motion, Wrong> {
 }
 
 /// Filtered noise from a seed.
-fn synthetic(table: &mut Table, gravity: f64) -> Result<Record, Wrong> {
+fn synthetic(table: &mut Table, scales: Scales) -> Result<Record, Wrong> {
     let start = start(table)?;
-    let pga = table.one_of(&[("pga", &|a| a), ("pga_g", &|a| a * gravity)])?;
+    let pga = table.one_of(&[("pga", &|a| a), ("pga_g", &|a| a * scales.gravity)])?;
     let mut synthetic = Synthetic { pga, seed: table.whole("seed", 0)?.unwrap_or(0), ..Synthetic::default() };
     for (key, number) in [
         ("duration", &mut synthetic.duration),

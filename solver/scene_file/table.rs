@@ -1,5 +1,6 @@
 //! A TOML table that knows where everything stands, and what has been asked for.
 
+use super::template::Setting;
 use toml::de::{DeTable, DeValue};
 
 /// A stretch of the file, in bytes.
@@ -110,6 +111,73 @@ impl Table {
     /// Whether the file gives this key.
     pub fn has(&self, key: &str) -> bool {
         self.entries.iter().any(|entry| entry.key == key)
+    }
+
+    /// Gives a key, under its dotted name, another value or its first; tables on the way are made. `block[2].mass` is of the second
+    /// block. `None` if something else stands where a table should.
+    pub fn set(&mut self, key: &str, value: &Setting) -> Option<()> {
+        let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+        let (name, index) = match first.split_once('[') {
+            Some((name, index)) => (name, Some(index.strip_suffix(']')?.parse::<usize>().ok()?.checked_sub(1)?)),
+            None => (first, None),
+        };
+        let Some(rest) = rest else {
+            let value = match value {
+                Setting::Number(number) => Value::Number(*number),
+                Setting::Text(text) => Value::Text(text.clone()),
+            };
+            let place = self.find(name);
+            self.entries.retain(|entry| entry.key != name && !are_alternatives(&entry.key, name));
+            self.entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+            return Some(());
+        };
+        if !self.has(name) && index.is_none() {
+            let (place, dotted) = (self.place(), self.dotted(name));
+            let value =
+                Value::Table(Table { name: dotted, place: place.clone(), entries: Vec::new(), asked: Vec::new() });
+            self.entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+        }
+        match (&mut self.entries.iter_mut().find(|entry| entry.key == name)?.value, index) {
+            (Value::Table(table), None) => table.set(rest, value),
+            (Value::Array(items), Some(index)) => match items.get_mut(index)? {
+                (Value::Table(table), _) => table.set(rest, value),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// Full names of the keys of this table and those within that are called `name`.
+    pub fn named(&self, name: &str) -> Vec<String> {
+        let of_entry = |entry: &Entry| {
+            let mut found = if entry.key == name { vec![self.dotted(name)] } else { Vec::new() };
+            if let Value::Table(table) = &entry.value {
+                found.extend(table.named(name));
+            }
+            found
+        };
+        self.entries.iter().flat_map(of_entry).collect()
+    }
+
+    /// The keys, in the order of the file.
+    pub fn keys(&self) -> Vec<String> {
+        self.entries.iter().map(|entry| entry.key.clone()).collect()
+    }
+
+    /// A value or a list of them.
+    pub fn settings(&mut self, key: &str) -> Result<Option<Vec<Setting>>, Wrong> {
+        let single = |value: &Value| match value {
+            Value::Number(number) if number.is_finite() => Some(Setting::Number(*number)),
+            Value::Text(text) => Some(Setting::Text(text.clone())),
+            _ => None,
+        };
+        let Some(entry) = self.ask(key).cloned() else { return Ok(None) };
+        let values = match &entry.value {
+            Value::Array(items) => items.iter().map(|(item, _)| single(item)).collect(),
+            Value::Table(_) => return Ok(None),
+            value => single(value).map(|value| vec![value]),
+        };
+        values.map(Some).ok_or_else(|| self.expected(key, &entry.value, "finite numbers or texts"))
     }
 
     /// Where a dotted key stands; the nearest table where it is not given.
@@ -326,6 +394,20 @@ fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
         ),
         DeValue::Table(table) => Value::Table(Table::from_tree(name, place, table)),
     }
+}
+
+/// Keys of which a table takes one: where one is set, the others go.
+const ALTERNATIVES: [&[&str]; 6] = [
+    &["amplitude", "amplitude_g", "amplitude_uplift", "velocity"],
+    &["omega", "frequency", "period", "omega_p"],
+    &["scale", "pga_g"],
+    &["pga", "pga_g"],
+    &["density", "mass"],
+    &["eta", "factors", "law"],
+];
+
+fn are_alternatives(a: &str, b: &str) -> bool {
+    ALTERNATIVES.iter().any(|group| group.contains(&a) && group.contains(&b))
 }
 
 /// Whole numbers that a double keeps.

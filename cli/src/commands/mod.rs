@@ -9,6 +9,7 @@ mod records;
 mod report;
 mod run;
 mod shell;
+pub mod sweep;
 mod thresholds;
 
 use crate::arguments::{Arguments, Command};
@@ -42,6 +43,8 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         }
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&read(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&read(&scene)?)),
+        Command::Sweep(asked) => sweep::sweep(&asked),
+        Command::Merge { out, shards } => sweep::merge(&out, &shards),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),
     }

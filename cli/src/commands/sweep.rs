@@ -1,0 +1,336 @@
+//! `rocking sweep` and `rocking merge`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on
+//! where it was.
+//!
+//! Rows go in order into a hidden file beside the table, whose name holds a fingerprint of all that decides them. What is found there
+//! is kept up to its last whole line. The table gets its name when all rows are there.
+
+use crate::arguments;
+use crate::commands::{json, print};
+use crate::error::Failure;
+use crate::progress::Points;
+use rocking::sweep::{Ask, Fate, Row, Sweep};
+use serde::Serialize;
+use std::fs::File;
+use std::io::{BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Points run together: enough to keep all threads busy, few enough that little is lost when a sweep is cut off.
+const BATCH: usize = 4096;
+
+/// Runs a sweep, or what is left of it.
+///
+/// # Errors
+/// [`Failure`]
+pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
+    let sweep = Sweep::from_file(&asked.file).map_err(Failure::scene)?;
+    let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
+    let columns = Columns::of(&sweep)?;
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.unwrap_or(0)).build();
+    let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
+    let failed = |error: std::io::Error| Failure::File { path: asked.out.clone(), problem: error.to_string() };
+    let mut table =
+        Growing::open(&asked.out, &columns.header(), fingerprint(&sweep, &range, &asked.file)?, range.clone())
+            .map_err(failed)?;
+    let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
+    let resumed = table.next - range.start;
+    while table.next < range.end {
+        let batch = table.next..range.end.min(table.next + BATCH);
+        let rows = threads.install(|| sweep.rows(batch));
+        table.append(rows.iter().map(|row| columns.line(row))).map_err(failed)?;
+        bar.reached(table.next - range.start);
+    }
+    bar.finish();
+    table.close().map_err(failed)?;
+    if asked.quiet {
+        return Ok(());
+    }
+    let tally = Tally::of(&asked.out, &columns).map_err(failed)?;
+    if asked.json {
+        return json(&tally);
+    }
+    let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
+    print(&format!("{tally}wrote {} row(s){resumed} to {}\n", range.len(), asked.out.display()))
+}
+
+/// Joins the tables of all shards of a sweep, in the order of their points.
+///
+/// # Errors
+/// [`Failure::Shards`] for tables that do not belong together, [`Failure::File`]
+pub fn merge(out: &Path, shards: &[PathBuf]) -> Result<(), Failure> {
+    let mut tables = Vec::new();
+    for path in shards {
+        let broken = |problem: &str| Failure::Shards { path: path.clone(), problem: problem.into() };
+        let mut lines = BufReader::new(File::open(path).map_err(|error| broken(&error.to_string()))?).lines();
+        let header = lines.next().and_then(Result::ok).ok_or_else(|| broken("there is no header"))?;
+        let first = lines.next().and_then(Result::ok);
+        let first = first.and_then(|line| line.split(',').next().and_then(|index| index.parse::<usize>().ok()));
+        let first = first.ok_or_else(|| broken("the first row has no index"))?;
+        tables.push((first, header, path));
+    }
+    tables.sort();
+    let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
+    let folder = out.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let merged = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+    let mut writer = BufWriter::new(merged);
+    let mut next = 0;
+    for (place, (first, header, path)) in tables.iter().enumerate() {
+        let broken = |problem: String| Failure::Shards { path: (*path).clone(), problem };
+        if *header != tables[0].1 {
+            return Err(broken("its columns are not those of the others".into()));
+        }
+        if *first != next {
+            return Err(broken(format!("it begins with point {first} where {next} is due")));
+        }
+        let file = File::open(path).map_err(|error| broken(error.to_string()))?;
+        for line in BufReader::new(file).lines().skip(usize::from(place > 0)) {
+            let line = line.map_err(|error| broken(error.to_string()))?;
+            writeln!(writer, "{line}").map_err(failed)?;
+            next += usize::from(line != *header);
+        }
+    }
+    let merged = writer.into_inner().map_err(|error| failed(error.into_error()))?;
+    merged.persist(out).map_err(|error| failed(error.error))?;
+    print(&format!("wrote {next} row(s) of {} table(s) to {}\n", tables.len(), out.display()))
+}
+
+/// A part of a sweep, for one of several machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    number: usize,
+    count: usize,
+}
+
+impl Shard {
+    /// Reads `K/M`.
+    ///
+    /// # Errors
+    /// What to write instead.
+    pub fn parse(text: &str) -> Result<Shard, String> {
+        let numbers = text.split_once('/').and_then(|(k, m)| Some((k.parse().ok()?, m.parse().ok()?)));
+        match numbers {
+            Some((number, count)) if number >= 1 && number <= count => Ok(Shard { number, count }),
+            _ => Err("write K/M, the K-th of M parts, e.g. 2/8".into()),
+        }
+    }
+
+    /// Its points: parts differ by one point at most.
+    fn of(self, points: usize) -> Range<usize> {
+        let edge = |number: usize| (points as u128 * number as u128 / self.count as u128) as usize;
+        edge(self.number - 1)..edge(self.number)
+    }
+}
+
+/// The columns of a table.
+#[derive(Debug)]
+struct Columns {
+    keys: Vec<String>,
+    /// Blocks of the largest column, where peaks are asked for.
+    blocks: usize,
+    ask: Ask,
+}
+
+impl Columns {
+    fn of(sweep: &Sweep) -> Result<Columns, Failure> {
+        let keys: Vec<String> = sweep.axes.iter().map(|axis| axis.key.clone()).collect();
+        let base = sweep.template.with(std::iter::empty()).map_err(Failure::scene)?;
+        let counts = sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
+        let largest = counts.filter_map(|count| count.to_string().parse().ok()).max();
+        Ok(Columns { keys, blocks: largest.unwrap_or(base.column.len()), ask: sweep.ask })
+    }
+
+    fn header(&self) -> String {
+        let mut names = vec!["index".to_string()];
+        names.extend(self.keys.iter().map(|key| quoted(key)));
+        names.extend(["outcome", "impacts", "block", "overturned_at"].map(String::from));
+        if self.ask == Ask::Peaks {
+            names.extend((1..=self.blocks).map(|block| format!("peak_{block}")));
+            names.push("last_mode".into());
+        }
+        names.push("error".into());
+        names.join(",")
+    }
+
+    fn line(&self, row: &Row) -> String {
+        let mut cells = vec![row.index.to_string()];
+        cells.extend(row.settings.iter().map(|setting| quoted(&setting.to_string())));
+        let peaks = if self.ask == Ask::Peaks { self.blocks + 1 } else { 0 };
+        match &row.result {
+            Ok(outcome) => {
+                cells.push(outcome.fate.name().into());
+                cells.push(outcome.impacts.to_string());
+                cells.push(outcome.block.map_or(String::new(), |block| block.to_string()));
+                cells.push(outcome.overturned_at.map_or(String::new(), |t| format!("{t:?}")));
+                if self.ask == Ask::Peaks {
+                    let peak =
+                        |block: usize| outcome.peaks.get(block).map_or(String::new(), |peak| format!("{peak:?}"));
+                    cells.extend((0..self.blocks).map(peak));
+                    cells.push(outcome.last_mode.clone().unwrap_or_default());
+                }
+                cells.push(String::new());
+            }
+            Err(error) => {
+                cells.push("error".into());
+                cells.extend(std::iter::repeat_n(String::new(), 3 + peaks));
+                cells.push(quoted(&error.to_string()));
+            }
+        }
+        cells.join(",")
+    }
+}
+
+/// A cell of CSV on one line.
+fn quoted(text: &str) -> String {
+    let text = text.replace(['\n', '\r'], " ");
+    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+}
+
+/// A table under way.
+#[derive(Debug)]
+struct Growing {
+    file: BufWriter<File>,
+    part: PathBuf,
+    out: PathBuf,
+    /// The point whose row is due.
+    next: usize,
+}
+
+impl Growing {
+    /// Goes on with what is there, or begins.
+    fn open(out: &Path, header: &str, fingerprint: u64, range: Range<usize>) -> std::io::Result<Growing> {
+        if out.is_dir() {
+            return Err(std::io::Error::new(std::io::ErrorKind::IsADirectory, "a folder has this name"));
+        }
+        let name = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
+        let mut file = File::options().read(true).write(true).create(true).truncate(false).open(&part)?;
+        let (mut kept, mut rows) = (0u64, 0usize);
+        let mut line = Vec::new();
+        let mut reader = BufReader::new(&mut file);
+        while reader.read_until(b'\n', &mut line)? > 0 && line.ends_with(b"\n") {
+            kept += line.len() as u64;
+            rows += 1;
+            line.clear();
+        }
+        file.set_len(kept)?;
+        file.seek(SeekFrom::End(0))?;
+        let mut file = BufWriter::new(file);
+        if rows == 0 {
+            writeln!(file, "{header}")?;
+            file.flush()?;
+        }
+        Ok(Growing { file, part, out: out.into(), next: range.start + rows.saturating_sub(1) })
+    }
+
+    fn append(&mut self, lines: impl Iterator<Item = String>) -> std::io::Result<()> {
+        for line in lines {
+            writeln!(self.file, "{line}")?;
+            self.next += 1;
+        }
+        self.file.flush()
+    }
+
+    /// Gives the table its name.
+    fn close(mut self) -> std::io::Result<()> {
+        self.file.flush()?;
+        std::fs::rename(&self.part, &self.out)
+    }
+}
+
+/// A number that changes with all that decides the rows: version, scene, axes, records, range.
+fn fingerprint(sweep: &Sweep, range: &Range<usize>, file: &Path) -> Result<u64, Failure> {
+    let mut hash = Fnv::default();
+    hash.add(env!("CARGO_PKG_VERSION").as_bytes());
+    hash.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
+    hash.add(sweep.template.text().as_bytes());
+    hash.add(format!("{range:?}").as_bytes());
+    for axis in &sweep.axes {
+        hash.add(axis.key.as_bytes());
+        for value in &axis.values {
+            hash.add(value.to_string().as_bytes());
+            let path = sweep.template.file().parent().unwrap_or(Path::new("")).join(value.to_string());
+            // Another record of the same name gives other rows.
+            if axis.key.ends_with(".file") {
+                hash.add(&std::fs::read(path).unwrap_or_default());
+            }
+        }
+    }
+    Ok(hash.0)
+}
+
+/// Fowler, Noll & Vo's hash, 1a, of 64 bits: the same in every version and on every machine.
+#[derive(Debug)]
+struct Fnv(u64);
+
+impl Default for Fnv {
+    fn default() -> Fnv {
+        Fnv(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fnv {
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes.iter().chain(b"\0") {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+/// How many rows have which outcome.
+#[derive(Debug, Default, Serialize)]
+struct Tally {
+    no_uplift: usize,
+    rocks: usize,
+    overturns: usize,
+    errors: usize,
+}
+
+impl Tally {
+    /// Of a table.
+    fn of(path: &Path, columns: &Columns) -> std::io::Result<Tally> {
+        let mut tally = Tally::default();
+        for row in csv::Reader::from_path(path)?.records() {
+            let row = row?;
+            let name = row.get(columns.keys.len() + 1).unwrap_or_default();
+            let count =
+                match [Fate::NoUplift, Fate::Rocks, Fate::Overturns].into_iter().find(|fate| fate.name() == name) {
+                    Some(Fate::NoUplift) => &mut tally.no_uplift,
+                    Some(Fate::Rocks) => &mut tally.rocks,
+                    Some(Fate::Overturns) => &mut tally.overturns,
+                    None => &mut tally.errors,
+                };
+            *count += 1;
+        }
+        Ok(tally)
+    }
+}
+
+impl std::fmt::Display for Tally {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Tally { no_uplift, rocks, overturns, errors } = self;
+        writeln!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}, errors {errors}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_cover_all_points_once() {
+        for (points, count) in [(10, 3), (7, 7), (3, 5), (1_000_003, 64)] {
+            let parts: Vec<Range<usize>> = (1..=count).map(|number| Shard { number, count }.of(points)).collect();
+            assert_eq!((parts[0].start, parts[count - 1].end), (0, points));
+            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
+            let lengths: Vec<usize> = parts.iter().map(Range::len).collect();
+            assert!(lengths.iter().max().zip(lengths.iter().min()).is_some_and(|(most, least)| most - least <= 1));
+        }
+        assert!(["0/3", "4/3", "1", "a/b", "1/0"].iter().all(|text| Shard::parse(text).is_err()));
+    }
+
+    #[test]
+    fn cells_stay_on_one_line() {
+        assert_eq!(quoted("a \"b\", c\nd"), "\"a \"\"b\"\", c d\"");
+    }
+}

@@ -1,0 +1,155 @@
+//! Sweep files: a base scene, axes over its keys, and what is asked of each run.
+
+use super::table::{Table, Wrong};
+use super::template::{Setting, Template};
+use super::{Reader, SceneFileError};
+use crate::sweep::{Ask, Axis, Combine, Sweep};
+use std::path::Path;
+
+/// Points beyond which a sweep is taken for a mistake.
+const MOST_POINTS: usize = 1_000_000_000_000;
+
+/// Values of one axis beyond which it is taken for a mistake: they are kept.
+const MOST_VALUES: f64 = 1e7;
+
+impl Sweep {
+    /// Reads a sweep from a TOML file; its base scene is found relative to it, records relative to the base scene.
+    ///
+    /// # Errors
+    /// [`SceneFileError`], with file, line, key and remedy.
+    pub fn from_file(file: &Path) -> Result<Sweep, SceneFileError> {
+        let text = super::text(file)?;
+        let reader = Reader { text: &text, file, records: None };
+        let own = |wrong| reader.error(wrong);
+        let mut root = Table::parse(&text).map_err(own)?;
+        let base = match root.text("scene").map_err(own)? {
+            Some((name, _)) => file.parent().unwrap_or(Path::new("")).join(name),
+            None => return Err(own(root.missing("scene", "name the base scene: scene = \"base.toml\""))),
+        };
+        let combine = match root.text("combine").map_err(own)? {
+            None => Combine::Cartesian,
+            Some((name, _)) => Combine::parse(&name)
+                .ok_or_else(|| own(root.no_such("combine", "way to combine axes", &name, &["cartesian", "paired"])))?,
+        };
+        let ask = match root.text("ask").map_err(own)? {
+            None => Ask::default(),
+            Some((name, _)) => {
+                Ask::parse(&name).ok_or_else(|| own(root.no_such("ask", "question", &name, &["outcome", "peaks"])))?
+            }
+        };
+        let template = Template::from_file(&base)?;
+        let Some(mut table) = root.table("axes").map_err(own)? else {
+            return Err(own(root.missing("axes", "add [axes] with a line for each key that varies")));
+        };
+        let mut axes = Vec::new();
+        read_axes(&mut table, "", &template, &mut axes).map_err(own)?;
+        root.close().map_err(own)?;
+        if axes.is_empty() {
+            return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
+        }
+        let sweep = Sweep { template, axes, combine, ask };
+        let lengths: Vec<usize> = sweep.axes.iter().map(|axis| axis.values.len()).collect();
+        let problem = match combine {
+            Combine::Paired if lengths.iter().any(|length| *length != lengths[0]) => {
+                Some((format!("the axes have {lengths:?} values"), "paired axes must be equally long"))
+            }
+            Combine::Cartesian if product(&lengths).is_none_or(|points| points > MOST_POINTS) => {
+                Some(("there are more than 1e12 points".to_string(), "give the axes fewer values"))
+            }
+            _ => None,
+        };
+        match problem {
+            Some((problem, remedy)) => Err(own(root.wrong("axes", problem, remedy))),
+            None => Ok(sweep),
+        }
+    }
+}
+
+fn product(lengths: &[usize]) -> Option<usize> {
+    lengths.iter().try_fold(1usize, |product, length| product.checked_mul(*length))
+}
+
+/// The axes of a table, those of tables within under their dotted names.
+fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<Axis>) -> Result<(), Wrong> {
+    for key in table.keys() {
+        let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
+        if let Some(values) = table.settings(&key)? {
+            axes.push(axis(table, &key, &path, values, template)?);
+            continue;
+        }
+        let Some(mut inner) = table.table(&key)? else { continue };
+        if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
+            let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
+            axes.push(axis(table, &key, &path, values, template)?);
+        } else {
+            read_axes(&mut inner, &path, template, axes)?;
+        }
+        inner.close()?;
+    }
+    Ok(())
+}
+
+fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &Template) -> Result<Axis, Wrong> {
+    if values.is_empty() {
+        return Err(table.wrong(key, "the axis has no values".into(), "give it some, or remove it"));
+    }
+    let Some(name) = template.full_name(path) else {
+        let remedy = "write the full name in quotes, e.g. \"excitation.horizontal.amplitude_g\"";
+        return Err(table.wrong(key, "the base scene has several keys of this name".into(), remedy));
+    };
+    Ok(Axis { key: name, values })
+}
+
+/// `{ from, to, steps, scale }`; without steps, whole numbers.
+fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
+    let mut end = |key: &str| match table.number(key)? {
+        Some((value, _)) => Ok(value),
+        None => Err(table.missing(key, "give both ends of the axis")),
+    };
+    let (from, to) = (end("from")?, end("to")?);
+    let is_log = match table.text("scale")? {
+        None => false,
+        Some((name, _)) if name == "linear" || name == "log" => name == "log",
+        Some((name, _)) => return Err(table.no_such("scale", "scale", &name, &["linear", "log"])),
+    };
+    let steps = match table.whole("steps", 1)? {
+        Some(steps) => steps as f64,
+        None if (to - from).fract() == 0.0 => (to - from).abs() + 1.0,
+        None => return Err(table.missing("steps", "say how many values the axis has, both ends among them")),
+    };
+    if steps > MOST_VALUES {
+        return Err(table.wrong("steps", format!("{steps} values are too many"), "give at most 1e7"));
+    }
+    if is_log && !(from > 0.0 && to > 0.0) {
+        return Err(table.wrong("scale", "a logarithmic axis has no zero".into(), "let both ends be above zero"));
+    }
+    let value = |step: usize| {
+        let share = if steps > 1.0 { step as f64 / (steps - 1.0) } else { 0.0 };
+        Setting::Number(match (share, is_log) {
+            (0.0, _) => from,
+            (1.0, _) => to,
+            (share, false) => from + share * (to - from),
+            (share, true) => libm::exp(libm::log(from) + share * (libm::log(to) - libm::log(from))),
+        })
+    };
+    Ok((0..steps as usize).map(value).collect())
+}
+
+/// The files of a folder beside the base scene, in the order of their names.
+fn folder(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
+    let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
+    let path = template.file().parent().unwrap_or(Path::new("")).join(&name);
+    let failed = |error: std::io::Error| {
+        table.wrong("folder", format!("{}: {error}", path.display()), "give the folder relative to the base scene")
+    };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(&path).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let file = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_file() && !file.starts_with('.') {
+            files.push(Path::new(&name).join(file).to_string_lossy().into_owned());
+        }
+    }
+    files.sort();
+    Ok(files.into_iter().map(Setting::Text).collect())
+}

@@ -1,0 +1,122 @@
+//! A scene file with some of its keys replaced: what sweeps are made of.
+
+use super::table::{Table, Wrong};
+use super::{Reader, SceneFileError};
+use crate::excitation::Record;
+use crate::scene::Scene;
+use std::collections::HashMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// A value that a key is given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Setting {
+    /// In the unit of the key.
+    Number(f64),
+    /// A name, or the path of a file.
+    Text(String),
+}
+
+/// Numbers so that they read back exactly.
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Setting::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => write!(f, "{number}"),
+            Setting::Number(number) => write!(f, "{number:?}"),
+            Setting::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+/// A scene file read once, of which many scenes are made.
+#[derive(Debug)]
+pub struct Template {
+    text: String,
+    file: PathBuf,
+    root: Table,
+    records: Records,
+}
+
+impl Template {
+    /// Reads the file; it must be a scene as it stands.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn from_file(file: &Path) -> Result<Template, SceneFileError> {
+        let text = super::text(file)?;
+        let root = Table::parse(&text).map_err(|wrong| Reader { text: &text, file, records: None }.error(wrong))?;
+        let template = Template { text, file: file.into(), root, records: Records::default() };
+        template.with(std::iter::empty())?;
+        Ok(template)
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The file.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// The scene with these keys, under their dotted names, set to these values. What they replace goes: `amplitude_g` takes the
+    /// place of `amplitude`.
+    ///
+    /// # Errors
+    /// [`SceneFileError`], as if the file had the values.
+    pub fn with<'s>(
+        &self,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+    ) -> Result<Scene, SceneFileError> {
+        let reader = Reader { text: &self.text, file: &self.file, records: Some(&self.records) };
+        let mut root = self.root.clone();
+        for (key, value) in settings {
+            root.set(key, value).ok_or_else(|| {
+                let (place, key) = (root.find(key), key.to_string());
+                let problem = "the scene has no such table".into();
+                let remedy =
+                    "name a key as in a scene file, e.g. `excitation.horizontal.amplitude_g` or `block[2].mass`";
+                reader.error(Wrong { place, key, problem, remedy: remedy.into() })
+            })?;
+        }
+        reader.read(root).map(|read| read.scene)
+    }
+
+    /// The full name of a key: as it is if it has a point, otherwise that of the only key in the scene called so, or where a scene
+    /// would have it. `None` if there are several.
+    pub fn full_name(&self, key: &str) -> Option<String> {
+        if key.contains('.') {
+            return Some(key.into());
+        }
+        let table = match key {
+            "title" | "gravity" | "friction" => return Some(key.into()),
+            "blocks" | "half_width" | "half_height" | "density" | "mass" => "column",
+            "eta" => "restitution",
+            "t_end" | "method" | "rtol" | "atol" | "step" | "stick_angle" | "overturn_angle" => "solver",
+            _ => "excitation.horizontal",
+        };
+        match &self.root.named(key)[..] {
+            [] => Some(format!("{table}.{key}")),
+            [name] => Some(name.clone()),
+            _ => None,
+        }
+    }
+}
+
+/// Records by their files and what was said of them, kept between scenes.
+#[derive(Debug, Default)]
+pub(super) struct Records(Mutex<HashMap<(PathBuf, String), Record>>);
+
+impl Records {
+    /// A record read before.
+    pub fn get(&self, key: &(PathBuf, String)) -> Option<Record> {
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(key).cloned()
+    }
+
+    /// Keeps a record.
+    pub fn keep(&self, key: (PathBuf, String), record: &Record) {
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(key, record.clone());
+    }
+}

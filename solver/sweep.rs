@@ -1,0 +1,221 @@
+//! Many scenes from one: axes over the keys of a base scene, a row of results for each point.
+//!
+//! A sweep is data: the point of any index is found without the others, so that ranges of them can be run anywhere, in any order
+//! and again, and always give the same rows. Points run in parallel; a scene that cannot be read or solved is a row with its error.
+
+use crate::response::{EventKind, Response, StopReason};
+use crate::scene::{Scene, Wanted};
+use crate::scene_file::{SceneFileError, Setting, Template};
+use crate::simulate::{SolveError, simulate};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// A key of the scene and the values it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Dotted name, e.g. `excitation.horizontal.amplitude_g`.
+    pub key: String,
+    /// In the unit of the key.
+    pub values: Vec<Setting>,
+}
+
+/// How axes make points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Combine {
+    /// Each value with each of the others; the last axis runs fastest.
+    #[default]
+    Cartesian,
+    /// The first values together, then the second ones, and so on.
+    Paired,
+}
+
+impl Combine {
+    /// The way of this name.
+    pub fn parse(name: &str) -> Option<Combine> {
+        match name {
+            "cartesian" => Some(Combine::Cartesian),
+            "paired" => Some(Combine::Paired),
+            _ => None,
+        }
+    }
+}
+
+/// What is asked of each run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ask {
+    /// Whether and how it overturns; a run ends when that is certain.
+    #[default]
+    Outcome,
+    /// Largest angles and the mode at the end as well; a run goes on to its end.
+    Peaks,
+}
+
+impl Ask {
+    /// The question of this name.
+    pub fn parse(name: &str) -> Option<Ask> {
+        match name {
+            "outcome" => Some(Ask::Outcome),
+            "peaks" => Some(Ask::Peaks),
+            _ => None,
+        }
+    }
+}
+
+/// A base scene and what varies.
+#[derive(Debug)]
+pub struct Sweep {
+    /// The base scene.
+    pub template: Template,
+    /// What varies.
+    pub axes: Vec<Axis>,
+    /// How the axes make points.
+    pub combine: Combine,
+    /// What is asked.
+    pub ask: Ask,
+}
+
+/// What became of the column at one point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// Nothing opened.
+    NoUplift,
+    /// It rocked and stands.
+    Rocks,
+    /// It overturned.
+    Overturns,
+}
+
+impl Fate {
+    /// As in a table: `no-uplift`, `rocks`, `overturns`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fate::NoUplift => "no-uplift",
+            Fate::Rocks => "rocks",
+            Fate::Overturns => "overturns",
+        }
+    }
+}
+
+/// The result of one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// What became of it.
+    pub fate: Fate,
+    /// Impacts up to overturning, or to the end of the run; where only the outcome is asked and the column stands, up to where that
+    /// was certain.
+    pub impacts: usize,
+    /// The block that overturned first, from 1.
+    pub block: Option<usize>,
+    /// When the column overturned `[s]`.
+    pub overturned_at: Option<f64>,
+    /// Largest angle of each block over the slenderness of the stack that begins with it, base first; only if peaks are asked for.
+    pub peaks: Vec<f64>,
+    /// Label of the mode at the end, `rest` where nothing moves; only if peaks are asked for.
+    pub last_mode: Option<String>,
+}
+
+/// Why a point has no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PointError {
+    /// Its scene is not valid.
+    #[error(transparent)]
+    Scene(#[from] SceneFileError),
+    /// Its run could not be finished.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// A point and what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Number of the point, from zero.
+    pub index: usize,
+    /// Values of the axes, in their order.
+    pub settings: Vec<Setting>,
+    /// What came of it.
+    pub result: Result<Outcome, PointError>,
+}
+
+impl Sweep {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        match self.combine {
+            Combine::Cartesian => lengths.product(),
+            Combine::Paired => lengths.min().unwrap_or(0),
+        }
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Values of the axes at a point, in their order.
+    pub fn settings(&self, index: usize) -> Vec<&Setting> {
+        let mut rest = index;
+        let mut settings: Vec<&Setting> = self
+            .axes
+            .iter()
+            .rev()
+            .map(|axis| match self.combine {
+                Combine::Paired => &axis.values[index],
+                Combine::Cartesian => {
+                    let value = &axis.values[rest % axis.values.len()];
+                    rest /= axis.values.len();
+                    value
+                }
+            })
+            .collect();
+        settings.reverse();
+        settings
+    }
+
+    /// The scene of a point.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn scene(&self, index: usize) -> Result<Scene, SceneFileError> {
+        let keys = self.axes.iter().map(|axis| axis.key.as_str());
+        let mut scene = self.template.with(keys.zip(self.settings(index)))?;
+        scene.output_dt = None;
+        scene.options.record_forces = false;
+        scene.options.wanted = if self.ask == Ask::Outcome { Wanted::Outcome } else { Wanted::Everything };
+        Ok(scene)
+    }
+
+    /// Runs a point.
+    pub fn row(&self, index: usize) -> Row {
+        let result = self.scene(index).map_err(PointError::from).and_then(|scene| {
+            let response = simulate(&scene)?;
+            Ok(self.outcome(&scene, &response))
+        });
+        Row { index, settings: self.settings(index).into_iter().cloned().collect(), result }
+    }
+
+    /// Runs a range of points on all threads of the present rayon pool; rows in the order of their points.
+    pub fn rows(&self, range: Range<usize>) -> Vec<Row> {
+        range.into_par_iter().map(|index| self.row(index)).collect()
+    }
+
+    fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
+        let has_overturned = response.status == StopReason::Overturned;
+        let started_tilted = scene.initial.theta.iter().chain(&scene.initial.omega).any(|value| *value != 0.0);
+        let has_moved = started_tilted || response.events.iter().any(|event| event.kind != EventKind::Jump);
+        let with_peaks = self.ask == Ask::Peaks;
+        let share = |(block, peak): (usize, &f64)| peak / scene.column.stack(block).slenderness();
+        let last_mode = || response.events.last().map_or("rest".to_string(), |event| event.mode.clone());
+        Outcome {
+            fate: match (has_overturned, has_moved) {
+                (true, _) => Fate::Overturns,
+                (false, true) => Fate::Rocks,
+                (false, false) => Fate::NoUplift,
+            },
+            impacts: response.impacts(),
+            block: response.overturned_block,
+            overturned_at: response.overturned_at(),
+            peaks: if with_peaks { response.peak_theta.iter().enumerate().map(share).collect() } else { Vec::new() },
+            last_mode: with_peaks.then(last_mode),
+        }
+    }
+}
