@@ -147,7 +147,7 @@ pub struct Response {
     pub samples: Vec<Sample>,
     /// Events in order of time.
     pub events: Vec<Event>,
-    /// Largest size of each block's angle `[rad]`.
+    /// Largest size of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
     /// rest for good is in it until `t_end`.
