@@ -245,3 +245,18 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
         assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2, "something was written for {sweep}");
     }
 }
+
+/// What the README shows is a sweep, with its axes shortened.
+#[test]
+fn the_sweep_of_the_readme_runs() {
+    let readme = include_str!("../../README.md");
+    let sweep = readme
+        .split("```toml\n")
+        .map(|part| part.split("```").next().unwrap_or(""))
+        .find(|text| text.contains("[axes]"));
+    let sweep = sweep.expect("the README shows a sweep").replace("steps = 100", "steps = 2");
+    let folder = folder(&sweep);
+    let rows = rows(&table(folder.path(), &[]));
+    assert_eq!(rows.len(), 17);
+    assert!(rows[1..].iter().all(|row| row[4] != "error"), "{rows:?}");
+}

@@ -138,7 +138,12 @@ impl Table {
             let (place, dotted) = (self.place(), self.dotted(name));
             let table = Table { name: dotted.into(), place: place.clone(), entries: Arc::default(), asked: Vec::new() };
             let value = Value::Table(table);
-            Arc::make_mut(&mut self.entries).push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+            Arc::make_mut(&mut self.entries).push(Entry {
+                key: name.into(),
+                key_place: place.clone(),
+                value_place: place,
+                value,
+            });
         }
         let entries = Arc::make_mut(&mut self.entries);
         match (&mut entries.iter_mut().find(|entry| *entry.key == *name)?.value, index) {
