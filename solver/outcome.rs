@@ -31,9 +31,9 @@ pub struct Barrier {
     pub angle: f64,
 }
 
-/// Rounds of golden sections: each takes 0.62 of what is left, so that the place is known to some 1e-5, the energy to the
+/// Rounds of golden sections: each takes 0.62 of what is left, so that the place is known to some millionths, the energy to the
 /// square of that.
-const ROUNDS: usize = 22;
+const ROUNDS: usize = 28;
 
 impl Column {
     /// The barrier against overturning by `overturn_angle [rad]`.
