@@ -271,6 +271,9 @@ fn a_unit_that_somebody_counted_from_one_is_found_by_the_line_before_the_samples
         assert_eq!(file.accel, cm.accel, "{integers}");
         assert!(file.warnings.iter().any(|warning| warning.contains("value 1 (from 0)")), "{:?}", file.warnings);
     }
+    // A quantity of another code there is no unit that the line contradicts.
+    let other = text("cosmos/cm.V2").replace("       2       1       4", "       2       2    -999");
+    assert_eq!(RecordFile::read(other.as_bytes(), &options()).expect("the line says it").accel, cm.accel);
 }
 
 #[test]

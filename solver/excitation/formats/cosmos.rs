@@ -241,8 +241,8 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: of the integer header's candidates the first that goes with the line before the samples, else the first; that
-    /// of the line where the header has none.
+    /// The unit: of the integer header's candidates the first that goes with the line before the samples, else the one in its
+    /// place; that of the line where nothing stands there.
     fn unit(
         &self,
         integers: &[f64],
@@ -257,7 +257,8 @@ impl<'t> Channel<'t> {
         let candidates: Vec<(usize, AccelerationUnit)> =
             UNITS.into_iter().filter_map(|place| Some((place, unit_of(*integers.get(place)?)?))).collect();
         let goes = |unit: AccelerationUnit| stated.is_none_or(|stated| stated == unit);
-        let found = candidates.iter().find(|(_, unit)| goes(*unit)).or(candidates.first());
+        let found = candidates.iter().find(|(_, unit)| goes(*unit));
+        let found = found.or(candidates.iter().find(|(place, _)| *place == UNITS[0]));
         if let Some(((place, unit), index)) = found.zip(self.find("integer-header")) {
             let unit = agreed_unit(*unit, index + 1, options)?;
             if *place != UNITS[0] {
