@@ -182,8 +182,8 @@ pub fn json(results: &Results) -> String {
     let omega = per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS));
     // `{:?}` is the shortest text that reads back to the same bits.
     let t = list(frames.iter().map(|frame| format!("{:?}", frame.t)).collect());
-    let moving = |axis: usize| results.samples.iter().any(|row| row.ground[axis] != 0.0);
-    let channel = |quantity: usize, axis: usize| match moving(axis) {
+    let peaks = results.peak_ground_acceleration();
+    let channel = |quantity: usize, axis: usize| match peaks[axis] > 0.0 {
         true => list(frames.iter().map(|frame| fixed(frame.ground[quantity][axis], GROUND_DIGITS)).collect()),
         false => "null".into(),
     };
@@ -216,8 +216,7 @@ fn interfaces(event: &Event) -> Vec<usize> {
 /// What a viewer must know of what is shown.
 pub fn notes(results: &Results) -> String {
     let mut notes = Vec::new();
-    let moving = [0, 1].map(|axis| results.samples.iter().any(|row| row.ground[axis] != 0.0));
-    if moving[0] || moving[1] {
+    if results.peak_ground_acceleration() != [0.0; 2] {
         let Ground { drift, .. } = Ground::new(results);
         let name = |axis: usize| ["horizontal", "vertical"][axis];
         let taken: Vec<String> = (0..2)
