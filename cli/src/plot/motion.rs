@@ -76,9 +76,7 @@ impl Motion<'_> {
     /// Slenderness of the stack that stands on each interface, base first `[rad]`: `α_i = atan(c_i / h_Pi)`.
     pub fn slenderness(&self) -> Vec<f64> {
         let column = &self.results.column;
-        (0..column.len())
-            .map(|interface| column.contact_half_width(interface).atan2(column.centroid_height(interface)))
-            .collect()
+        (0..column.len()).map(|interface| column.stack(interface).slenderness()).collect()
     }
 
     /// Whether the column overturned.

@@ -92,6 +92,11 @@ pub struct Panel {
 }
 
 impl Panel {
+    /// A panel over the width of the sheet.
+    pub fn wide(top: f64, height: f64, x: Axis, y: Option<Axis>) -> Panel {
+        Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
+    }
+
     /// Where a pair of values is on paper.
     pub fn place(&self, [x, y]: Point) -> Point {
         let up = self.y.as_ref().map_or(0.0, |axis| axis.share(y));
