@@ -25,6 +25,7 @@ use crate::results::Results;
 use motion::Motion;
 use sheet::Sheet;
 
+pub use motion::FALL;
 pub use record::record;
 
 /// A figure: a stand-alone SVG document, and what it is made of.

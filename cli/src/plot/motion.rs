@@ -92,7 +92,7 @@ impl Motion<'_> {
         falling.filter(|_| self.overturned()).map(|knot| knot.t)
     }
 
-    /// What the run ended with, to be written at its time; none where time was over first.
+    /// What the run ended with, to be written at its time; none where time was over first, or nothing began.
     pub fn ending(&self) -> Option<(f64, String)> {
         let summary = &self.results.summary;
         match (summary.status, summary.overturned_block) {
@@ -100,7 +100,9 @@ impl Motion<'_> {
                 Some((summary.t_final, format!("overturned (block {block})")))
             }
             (StopReason::Overturned, _) => Some((summary.t_final, "overturned".into())),
-            (StopReason::AtRest, _) if summary.t_final < self.end => Some((summary.t_final, "at rest".into())),
+            (StopReason::AtRest, _) if summary.t_final > 0.0 && summary.t_final < self.end => {
+                Some((summary.t_final, "at rest".into()))
+            }
             _ => None,
         }
     }

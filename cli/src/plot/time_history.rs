@@ -273,6 +273,10 @@ fn caption(motion: &Motion) -> String {
         let verb = if motion.overturned() { "" } else { "is " };
         caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
     }
-    caption.push_str(&format!(" {} impact(s).", summary.impacts));
+    if motion.results.events.is_empty() {
+        caption.push_str(" Nothing sets the column in motion.");
+    } else {
+        caption.push_str(&format!(" {} impact(s).", summary.impacts));
+    }
     caption
 }

@@ -5,12 +5,13 @@
 //! written to 1e-10 rad. The ground's displacement is for the eye alone: trapezoids over the rows, less a constant velocity.
 
 use crate::number::{fixed, significant};
+use crate::plot;
 use crate::report::html::script;
 use crate::report::outcome::closed;
 use crate::report::sketch::fill;
 use crate::results::{Event, Results};
-use rocking::EventKind;
 use rocking::pattern::Pattern;
+use rocking::{EventKind, StopReason};
 use serde_json::json;
 
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
@@ -130,7 +131,7 @@ impl Ground {
     }
 }
 
-/// The JSON that the player reads; its keys are told in `player.js`.
+/// The JSON that the player reads; its keys are told in `player/state.js`.
 pub fn json(results: &Results) -> String {
     let ground = Ground::new(results);
     let frames = frames(results, &ground);
@@ -172,7 +173,7 @@ pub fn json(results: &Results) -> String {
         .collect();
     let head = json!({
         "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
-        "patterns": patterns, "events": events,
+        "patterns": patterns, "events": events, "angles": largest_shown(results),
     });
     let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {
@@ -194,6 +195,13 @@ pub fn json(results: &Results) -> String {
         "{head},\n\"t\":{t},\n\"theta\":{theta},\n\"omega\":{omega},\n\"pattern\":{},\n\"ax\":{ax},\n\"ay\":{ay},\n\"dx\":{dx},\n\"dy\":{dy}}}",
         list(states)
     ))
+}
+
+/// The largest angle that the player's curves show, as in the figures `[rad]`; none where the column stands, and all are shown.
+fn largest_shown(results: &Results) -> Option<f64> {
+    let column = &results.column;
+    let slenderness = (0..column.len()).map(|interface| column.stack(interface).slenderness());
+    (results.summary.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
 fn kind(kind: EventKind) -> &'static str {

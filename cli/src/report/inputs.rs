@@ -1,8 +1,9 @@
 //! What was asked: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
+use crate::markup::escape;
 use crate::number::{percent, significant};
-use crate::report::html::{definitions, escape};
+use crate::report::html::definitions;
 use crate::results::Results;
 use serde_json::Value;
 use std::fmt::Write as _;

@@ -1,7 +1,7 @@
 //! What happened: the outcome in a sentence, key figures, peaks, impacts, time in each mode.
 
+use crate::markup::escape;
 use crate::number::{degrees, percent, significant};
-use crate::report::html::escape;
 use crate::report::sketch::sketch;
 use crate::results::{Event, Results, longest_first};
 use rocking::pattern::{ModeLabel, Pattern};

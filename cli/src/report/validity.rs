@@ -1,7 +1,7 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations.
 
+use crate::markup::escape;
 use crate::number::{percent, significant};
-use crate::report::html::escape;
 use crate::results::Results;
 use std::fmt::Write as _;
 
