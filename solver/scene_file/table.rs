@@ -80,7 +80,7 @@ impl Table {
                 place,
                 key,
                 problem,
-                remedy: "correct the line; text stands in quotes, lists in brackets".into(),
+                remedy: format!("correct the line; {}", hint(error.message(), line)),
             });
         }
         let place = tree.span();
@@ -425,9 +425,21 @@ fn are_alternatives(a: &str, b: &str) -> bool {
 /// Whole numbers that a double keeps.
 const LARGEST_WHOLE: f64 = 9e15;
 
-/// Whether `written` may be a slip for `key`.
+/// What is mostly wrong with a line that is not TOML.
+fn hint(message: &str, line: &str) -> &'static str {
+    if message.contains("duplicate key") && line.starts_with('[') {
+        "a table stands once, but as many [[block]] as there are blocks"
+    } else if line.contains('\\') {
+        "a path with backslashes stands in single quotes"
+    } else {
+        "decimals have a point, text stands in quotes, lists in brackets"
+    }
+}
+
+/// Whether `written` may be a slip for `key`, or the end of its name.
 fn is_slip(key: &str, written: &str) -> bool {
-    distance(key, written) <= 1 + written.len() / 4
+    let is_end = key.strip_suffix(written).is_some_and(|start| start.ends_with('_'));
+    is_end || distance(key, written) <= 1 + written.len() / 4
 }
 
 /// Edit distance of two short keys.
