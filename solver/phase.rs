@@ -349,14 +349,16 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         self.stepper.accept();
         self.interpolated = false;
         self.note_peaks(h);
-        self.advance(if h == self.segment().end - t { self.segment().end } else { t + h });
-        let (x, slope) = (self.x.clone(), self.slope.clone());
+        let end = if h == self.segment().end - t { self.segment().end } else { t + h };
         if self.reads_forces() {
-            self.weigh(self.run.t, &x, &slope);
-            self.note_forces();
+            let (x, slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
+            self.weigh(end, &x, &slope);
+            self.end_forces.clone_from(&self.forces);
+            self.note_step(t, h);
+            self.forces.clone_from(&self.end_forces);
         }
+        self.advance(end);
         if is_mistaken {
-            self.start_forces.clone_from(&self.forces);
             self.margins = self.closed.iter().map(|&i| self.margin(i)).collect();
             return None;
         }

@@ -590,3 +590,25 @@ fn regression_a_dip_beside_the_end_or_between_equal_ends_is_found() {
         }
     }
 }
+
+/// The fall of an overturning block takes a Taylor step of half a radian: the moment in which its contact parts lies inside, and in the
+/// step that ends at overturning.
+#[test]
+fn regression_forces_inside_long_steps_are_seen() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/paper-1-block-6.32.toml");
+    let scene = Scene::from_file(&file).expect("valid");
+    let fall = |method: Method| {
+        let mut scene = scene.clone();
+        (scene.options.method, scene.options.step) = (method, 1e-4);
+        let response = run(&scene);
+        assert_eq!(response.status, rocking::StopReason::Overturned);
+        (response.min_normal_force[0], response.friction_demand[0])
+    };
+    let weight = scene.column.mass_above(0) * scene.column.gravity();
+    let (expected, demand) = fall(Method::RungeKutta4);
+    assert!(expected < 0.0 && demand.is_infinite(), "{expected}, {demand}");
+    for method in Method::ACCURATE {
+        let (found, demand) = fall(method);
+        assert!((found - expected).abs() < 1e-3 * weight && demand.is_infinite(), "{method:?}: {found} for {expected}");
+    }
+}
