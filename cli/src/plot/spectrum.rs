@@ -13,7 +13,6 @@ mod outline;
 mod scale;
 
 use super::Figure;
-use super::axis::brief;
 use super::curve::{self, Frame, Point};
 use super::sheet::{Anchor, Key, LEFT, Mark, RIGHT, Sheet, WIDTH, text_width};
 use super::style::{self, Stroke};
@@ -32,12 +31,11 @@ const TICK: f64 = 4.0;
 /// Most panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
 const MOST_COLUMNS: usize = 4;
 /// Heights of panels by how many stand beside one another `[px]`.
-const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 300.0, 250.0, 240.0];
+const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 320.0, 300.0, 300.0];
 const MINIMUM_HEIGHT: f64 = 300.0;
 
-/// The least that overturns, on the cells: with a light edge, to be seen on all of them.
-const LEAST: Stroke = Stroke::solid("#000000", 1.1);
-const LEAST_EDGE: Stroke = Stroke::solid("#ffffff", 2.4);
+/// The least that overturns, along the edge of cells: below it lie light ones.
+const LEAST: Stroke = Stroke::solid("#000000", 1.3);
 const GRID: Stroke = Stroke::solid(style::FAINT, 0.9);
 /// Hatching of points without a result.
 const HATCH: Stroke = Stroke::solid(style::INK, 0.8);
@@ -50,14 +48,14 @@ const LINES: usize = 7;
 const UPLIFT: &str = "amplitude_uplift";
 
 impl Class {
-    /// Okabe and Ito's hues on a scale of lightness, the darker the more violent: 100, 87, 72, 55, 34 and 12 of 100.
+    /// Okabe and Ito's hues on a scale of lightness, the darker the more violent: 100, 87, 72, 58, 41 and 12 of 100.
     fn fill(self) -> &'static str {
         match self {
             Class::NoUplift => "#ffffff",
             Class::Rocks => "#cfdde9",
             Class::AfterMore => "#e6a52c",
-            Class::AfterTwo => "#d55e00",
-            Class::AfterOne => "#00548c",
+            Class::AfterTwo => "#dd6a12",
+            Class::AfterOne => "#0065a0",
             Class::AtOnce => "#1f1b2e",
             Class::Error => "#f3d6e4",
         }
@@ -67,7 +65,7 @@ impl Class {
         match self {
             Class::NoUplift => "no uplift",
             Class::Rocks => "rocks and stands",
-            Class::AfterMore => "overturns after 3 impacts or more",
+            Class::AfterMore => "after 3 impacts or more",
             Class::AfterTwo => "after 2 impacts",
             Class::AfterOne => "after 1 impact",
             Class::AtOnce => "without impact",
@@ -134,20 +132,21 @@ impl Place<'_> {
         }
     }
 
+    /// The label of the upward axis, left of its numbers.
+    fn label_upwards(&self, sheet: &mut Sheet, text: String) {
+        let widths = self.y_ticks().into_iter().map(|(_, number)| text_width(&number, style::NUMBER));
+        let right = self.frame.left - TICK - 14.0 - widths.fold(0.0, f64::max);
+        let at = [right.max(16.0), self.frame.top + 0.5 * self.frame.height];
+        sheet.marks.push(Mark::Words { at, text, size: style::LABEL, anchor: Anchor::Middle, upwards: true });
+    }
+
     fn x_ticks(&self) -> Vec<(f64, String)> {
-        self.x.ticks((self.frame.width / 60.0).clamp(2.0, 6.0) as usize)
+        self.x.ticks((self.frame.width / 48.0).clamp(2.0, 6.0) as usize)
     }
 
     fn y_ticks(&self) -> Vec<(f64, String)> {
         self.y.ticks((self.frame.height / 50.0).clamp(2.0, 6.0) as usize)
     }
-}
-
-/// The label of an upward axis, left of its numbers.
-fn label_upwards(sheet: &mut Sheet, frame: &Frame, text: &str) {
-    let at = [frame.left - LEFT + 22.0, frame.top + 0.5 * frame.height];
-    let (text, size) = (text.to_string(), style::LABEL);
-    sheet.marks.push(Mark::Words { at, text, size, anchor: Anchor::Middle, upwards: true });
 }
 
 /// The figure of all panels.
@@ -176,12 +175,10 @@ fn spectrum(grid: &Grid) -> Figure {
         );
         cells(&mut sheet, &place, &grid.panels[panel]);
         let least = staircase(&place, &grid.minimum(panel));
-        for stroke in [&LEAST_EDGE, &LEAST] {
-            sheet.marks.push(Mark::Lines { runs: least.clone(), stroke: stroke.clone() });
-        }
+        sheet.marks.push(Mark::Lines { runs: least, stroke: LEAST });
         place.axes(&mut sheet, [is_lowest, column == 0]);
         if column == 0 {
-            label_upwards(&mut sheet, &frame, &y.label());
+            place.label_upwards(&mut sheet, y.label());
         }
         bottom = frame.bottom().max(bottom);
     }
@@ -199,22 +196,23 @@ fn spectrum(grid: &Grid) -> Figure {
     Figure::new("overturning-spectrum", caption, sheet)
 }
 
-/// The classes that occur, with their shares of all cells, and the line.
+/// The classes that occur with their shares of all cells, those that overturn after the line of the least that does; the first of
+/// them says that they do.
 fn legend(grid: &Grid) -> Vec<(Key, String)> {
-    let shares = Class::ALL.map(|class| (class, Grid::share(&grid.panels, |found| found == class)));
-    let overturning = shares.iter().find(|(class, share)| class.overturns() && *share > 0.0).map(|(class, _)| *class);
-    let mut entries = Vec::new();
-    for (class, share) in shares.into_iter().filter(|(_, share)| *share > 0.0) {
-        let name = match class.name() {
-            // What overturns is told once.
-            name if Some(class) == overturning && class != Class::AfterMore => format!("overturns {name}"),
-            name => name.to_string(),
-        };
-        entries.push((Key::Fill(class.fill()), format!("{name}, {}", percent(share))));
-    }
-    if overturning.is_some() {
+    let shown = |class: &Class| Grid::share(&grid.panels, |found| found == *class) > 0.0;
+    let entry = |class: Class| {
+        let share = percent(Grid::share(&grid.panels, |found| found == class));
+        (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
+    };
+    let (overturning, others): (Vec<Class>, Vec<Class>) =
+        Class::ALL.into_iter().rev().filter(shown).partition(|class| class.overturns());
+    let mut entries: Vec<_> = others.into_iter().rev().map(entry).collect();
+    if !overturning.is_empty() {
         entries.push((Key::Line(LEAST), "least that overturns".into()));
     }
+    let first = entries.len();
+    entries.extend(overturning.into_iter().map(entry));
+    entries.iter_mut().skip(first).take(1).for_each(|(_, name)| name.insert_str(0, "overturns "));
     entries
 }
 
@@ -296,7 +294,7 @@ fn minimum(grid: &Grid) -> Figure {
         }
     }
     place.axes(&mut sheet, [true, true]);
-    label_upwards(&mut sheet, &frame, &format!("Least {} that overturns", y.label()));
+    place.label_upwards(&mut sheet, format!("Least {} that overturns", y.label()));
     let below = [LEFT + 0.5 * frame.width, frame.bottom() + NUMBERS + 12.0];
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
     sheet.height = match entries.is_empty() {
@@ -335,6 +333,13 @@ fn shortened(text: &str, width: f64) -> String {
     kept
 }
 
+/// A share in whole percent, small ones to a tenth.
 fn percent(share: f64) -> String {
-    if share > 0.0 && share < 5e-4 { "< 0.1 %".into() } else { format!("{} %", brief((1000.0 * share).round() / 10.0)) }
+    let percent = 100.0 * share;
+    match percent {
+        0.0 => "0 %".into(),
+        _ if percent < 0.1 => "below 0.1 %".into(),
+        _ if percent < 1.0 => format!("{percent:.1} %"),
+        _ => format!("{percent:.0} %"),
+    }
 }

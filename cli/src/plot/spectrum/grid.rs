@@ -100,6 +100,17 @@ pub enum NoSpectrum {
     },
 }
 
+/// Where the values of an axis are.
+#[derive(Clone, Debug, PartialEq)]
+enum Span {
+    /// In these columns.
+    X(Vec<usize>),
+    /// In these rows.
+    Y(Vec<usize>),
+    /// In panels of their own: so many values.
+    Panels(usize),
+}
+
 /// What the axes of a sweep span.
 #[derive(Clone, Debug)]
 pub struct Plane {
@@ -109,10 +120,8 @@ pub struct Plane {
     pub y: Scale,
     /// A title for each panel; empty if there is nothing to say.
     pub titles: Vec<String>,
-    /// The two axes among all.
-    places: [usize; 2],
-    /// Values of each axis and their numbers in order of appearance.
-    numbers: Vec<HashMap<String, usize>>,
+    /// Of each axis, where its values are, in their order.
+    spans: Vec<Span>,
 }
 
 impl Plane {
@@ -149,10 +158,19 @@ impl Plane {
             };
             titles = titles.iter().flat_map(|above| values.iter().map(move |value| with(above, value))).collect();
         }
-        let numbered = |(_, values): &(String, Vec<String>)| {
-            values.iter().enumerate().map(|(number, value)| (value.clone(), number)).collect()
-        };
-        Ok(Plane { x, y, titles, places: [x_place, y_place], numbers: axes.iter().map(numbered).collect() })
+        let spans = axes.iter().enumerate().map(|(place, (_, values))| {
+            let along = |scale: &Scale| {
+                let cells = numbers(values).into_iter().flatten().map(|number| scale.place(number));
+                cells.map(|cell| cell.expect("the scale is made of these values")).collect()
+            };
+            match place {
+                _ if place == x_place => Span::X(along(&x)),
+                _ if place == y_place => Span::Y(along(&y)),
+                _ => Span::Panels(values.len()),
+            }
+        });
+        let spans = spans.collect();
+        Ok(Plane { x, y, titles, spans })
     }
 
     /// Points of the whole grid.
@@ -169,17 +187,17 @@ impl Plane {
         if rows == points { Ok(()) } else { Err(NoSpectrum::NoGrid { rows, points }) }
     }
 
-    /// Panel, column and row of a point.
-    fn place<'v>(&self, settings: impl Iterator<Item = &'v str>) -> Option<[usize; 3]> {
-        let mut found = [0; 3];
-        for ((axis, numbers), value) in self.numbers.iter().enumerate().zip(settings) {
-            match self.places.iter().position(|place| *place == axis) {
-                Some(0) => found[1] = self.x.place(value.parse().ok()?)?,
-                Some(_) => found[2] = self.y.place(value.parse().ok()?)?,
-                None => found[0] = found[0] * numbers.len() + numbers.get(value)?,
+    /// Panel, column and row of the point at which the axes have their values of these numbers.
+    fn place(&self, numbers: &[usize]) -> [usize; 3] {
+        let [mut panel, mut column, mut row] = [0; 3];
+        for (span, number) in self.spans.iter().zip(numbers) {
+            match span {
+                Span::X(columns) => column = columns[*number],
+                Span::Y(rows) => row = rows[*number],
+                Span::Panels(count) => panel = panel * count + number,
             }
         }
-        Some(found)
+        [panel, column, row]
     }
 }
 
@@ -208,25 +226,29 @@ impl Grid {
         };
         let mut axes: Vec<(String, Vec<String>)> =
             header.iter().take(outcome).skip(1).map(|key| (key.into(), Vec::new())).collect();
-        let mut seen = vec![HashMap::new(); axes.len()];
-        let mut rows = Vec::new();
+        let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
+        // Numbers of the values of all rows, as many for each as there are axes.
+        let (mut numbers, mut classes) = (Vec::new(), Vec::new());
         for row in reader.records() {
             let row = row.map_err(failed)?;
             for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
-                seen.entry(value.to_string()).or_insert_with(|| axis.1.push(value.into()));
+                let number = seen.get(value).copied().unwrap_or_else(|| {
+                    axis.1.push(value.into());
+                    seen.insert(value.into(), axis.1.len() - 1);
+                    axis.1.len() - 1
+                });
+                numbers.push(number);
             }
             let class = Class::of(&row[outcome], &row[impacts]);
-            let class = class.ok_or_else(|| broken(format!("row {} has outcome `{}`", rows.len(), &row[outcome])))?;
-            rows.push((row, class));
+            classes.push(class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?);
         }
         let plane = Plane::of(&axes)?;
-        plane.expects(rows.len())?;
-        let cells = plane.x.values.len() * plane.y.values.len();
-        let mut panels = vec![vec![None; cells]; plane.titles.len()];
-        for (row, class) in &rows {
-            if let Some([panel, x, y]) = plane.place(row.iter().skip(1).take(axes.len())) {
-                panels[panel][y * plane.x.values.len() + x] = Some(*class);
-            }
+        plane.expects(classes.len())?;
+        let columns = plane.x.values.len();
+        let mut panels = vec![vec![None; columns * plane.y.values.len()]; plane.titles.len()];
+        for (numbers, class) in numbers.chunks_exact(axes.len()).zip(classes) {
+            let [panel, x, y] = plane.place(numbers);
+            panels[panel][y * columns + x] = Some(class);
         }
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
         // As many rows as cells, but some twice and others not at all.
@@ -266,7 +288,7 @@ mod tests {
             plane.titles,
             ["1 block, file = a", "1 block, file = b", "3 blocks, file = a", "3 blocks, file = b"]
         );
-        assert_eq!(plane.place(["3", "0.9", "1e-6", "1", "b"].into_iter()), Some([3, 1, 0]));
+        assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
         assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
         assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes { count: 1 }));
         assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes { count: 0 }));
