@@ -74,9 +74,8 @@ fn contains(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 /// from the bottom: the fill painted last.
 fn shown(figure: &str, panels: usize, columns: usize, rows: usize) -> Vec<Vec<String>> {
     let document = Document::parse(figure).expect("XML");
-    let paths: Vec<(Vec<Vec<[f64; 2]>>, &str, &str)> = document
-        .descendants()
-        .filter(|node| node.has_tag_name("path"))
+    let drawn = document.descendants().filter(|node| node.has_tag_name("path"));
+    let paths: Vec<_> = drawn
         .map(|node| {
             let attribute = |name: &str| node.attribute(name).unwrap_or_default();
             (parts(attribute("d")), attribute("fill"), attribute("stroke"))

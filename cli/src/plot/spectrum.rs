@@ -28,6 +28,8 @@ const TITLE: f64 = 24.0;
 const NUMBERS: f64 = 26.0;
 const GAP: f64 = 14.0;
 const TICK: f64 = 4.0;
+/// How far a number may reach beyond the left end of its axis where another panel is.
+const BESIDE: f64 = 2.0;
 /// Most panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
 const MOST_COLUMNS: usize = 4;
 /// Heights of panels by how many stand beside one another `[px]`.
@@ -113,13 +115,15 @@ impl Place<'_> {
         self.at([self.x.edges[column], self.y.edges[row]])
     }
 
-    /// Frame, ticks and, if wanted, numbers.
+    /// Frame, ticks and, if wanted, numbers of each axis; what has no numbers upwards has a panel on its left.
     fn axes(&self, sheet: &mut Sheet, numbers: [bool; 2]) {
         sheet.outline(&self.frame);
         for (value, text) in self.x_ticks() {
             let [x, y] = self.at([self.x.share(value), 0.0]);
             sheet.line([x, y], [x, y + TICK], &style::THIN);
-            if numbers[0] {
+            // The numbers of neighbours must not run together.
+            let is_beside = numbers[1] || x - 0.5 * text_width(&text, style::NUMBER) > self.frame.left - BESIDE;
+            if numbers[0] && is_beside {
                 sheet.words([x, y + TICK + 14.0], &text, style::NUMBER, Anchor::Middle);
             }
         }
