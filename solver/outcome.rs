@@ -31,8 +31,9 @@ pub struct Barrier {
     pub angle: f64,
 }
 
-/// Rounds of golden sections: each takes 0.62 of what is left, so that the place is known to a millionth, the energy to its square.
-const ROUNDS: usize = 30;
+/// Rounds of golden sections: each takes 0.62 of what is left, so that the place is known to some millionths, the energy to the
+/// square of that.
+const ROUNDS: usize = 28;
 
 impl Column {
     /// The barrier against overturning by `overturn_angle [rad]`.
@@ -41,7 +42,7 @@ impl Column {
     /// use rocking::Column;
     /// let column = Column::equal_blocks(1, 0.4, 1.6, 1000.0, 9.81)?;
     /// let (barrier, stack) = (column.barrier(std::f64::consts::FRAC_PI_2), column.stack(0));
-    /// assert!((barrier.angle - stack.slenderness()).abs() < 1e-5);
+    /// assert!((barrier.angle - stack.slenderness()).abs() < 1e-4);
     /// assert!((barrier.energy / (stack.mass * 9.81 * (stack.radius() - 1.6)) - 1.0).abs() < 1e-9);
     /// # Ok::<(), rocking::ColumnError>(())
     /// ```

@@ -147,7 +147,7 @@ pub struct Response {
     pub samples: Vec<Sample>,
     /// Events in order of time.
     pub events: Vec<Event>,
-    /// Largest size of each block's angle `[rad]`.
+    /// Largest size of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
     /// rest for good is in it until `t_end`.
@@ -181,7 +181,7 @@ impl Response {
         let mut warnings = Vec::new();
         if let Some(first) = self.separations.first() {
             warnings.push(format!(
-                "{} separation(s), the first at t = {} s: a block would leave its contact, which the model cannot follow; \
+                "{} separation(s), the first at t = {:.4} s: a block would leave its contact, which the model cannot follow; \
                  what comes after is not reliable",
                 self.separations.len(),
                 first.t
@@ -190,8 +190,9 @@ impl Response {
         for (index, normal) in self.min_normal_force.iter().enumerate() {
             if *normal < 0.0 {
                 warnings.push(format!(
-                    "interface {}: the normal force falls to {normal} N: the contact would part, which the model excludes",
-                    index + 1
+                    "interface {}: the normal force falls to {} N: the contact would part, which the model excludes",
+                    index + 1,
+                    four_digits(*normal)
                 ));
             }
         }
@@ -220,6 +221,12 @@ impl Response {
         }
         warnings
     }
+}
+
+/// A number other than zero for a sentence: four digits or those before the point, whichever are more.
+fn four_digits(value: f64) -> String {
+    let decimals = (3.0 - value.abs().log10().floor()).clamp(0.0, 17.0);
+    format!("{value:.*}", decimals as usize)
 }
 
 /// The label of a pattern's mode, `rest` where nothing moves, and whether the pattern is its mirror image.

@@ -117,8 +117,8 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns: no rows, no forces, and the run ends as soon as the answer is certain
-    /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]). Peaks are those up to there.
+    /// Whether and how the column overturns: no rows, peaks or forces, and the run ends as soon as the answer is certain
+    /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
 }
 

@@ -255,7 +255,7 @@ fn block(table: &mut Table, count: f64, derived: &mut Vec<Derived>) -> Result<Bl
     let mut derive = |key: String, value: f64, unit: &'static str, from: String| {
         derived.push(Derived { key, value, unit, from });
     };
-    let size = |table: &mut Table, key: &str| match table.positive(key)? {
+    let size = |table: &mut Table, key: &'static str| match table.positive(key)? {
         Some(value) => Ok(value),
         None => Err(table.missing(key, "give it in m")),
     };

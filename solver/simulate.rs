@@ -530,6 +530,9 @@ impl<'a> Run<'a> {
                 self.sample(t, theta, omega);
             }
         }
+        if self.scene.options.wanted == Wanted::Outcome {
+            self.history.peak_theta.clear();
+        }
         if !self.scene.records_forces() {
             self.history.friction_demand.clear();
             self.history.min_normal_force.clear();

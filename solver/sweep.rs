@@ -195,7 +195,12 @@ impl Sweep {
 
     /// Runs a range of points on all threads of the present rayon pool; rows in the order of their points.
     pub fn rows(&self, range: Range<usize>) -> Vec<Row> {
-        range.into_par_iter().map(|index| self.row(index)).collect()
+        self.lines(range, |row| row)
+    }
+
+    /// As [`Sweep::rows`], with what `made` makes of each row on the thread that has run it.
+    pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(Row) -> T + Sync) -> Vec<T> {
+        range.into_par_iter().map(|index| made(self.row(index))).collect()
     }
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {

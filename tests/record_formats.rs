@@ -183,11 +183,10 @@ fn what_is_no_acceleration_is_refused_with_advice() {
 type Counting = fn(usize) -> String;
 
 /// Files with a declared count: name, the text that declares it, how another count is written.
-fn counted() -> [(&'static str, &'static str, Counting); 5] {
+fn counted() -> [(&'static str, &'static str, Counting); 4] {
     [
         ("peer/RSN9001_HOLLOW_MIL090.AT2", "NPTS=    42", |n| format!("NPTS=    {n}")),
         ("dyna/XX.MIB..HNE.D.64.ASC", "NDATA: 42", |n| format!("NDATA: {n}")),
-        ("knet/XXX0010103040506.EW", "Duration Time(s)  0.42", |n| format!("Duration Time(s)  {}", n as f64 / 100.0)),
         ("csmip/one-channel.v2", "42 points of accel", |n| format!("{n} points of accel")),
         ("cosmos/cm.V2", "42 acceleration pts", |n| format!("{n} acceleration pts")),
     ]
@@ -229,10 +228,52 @@ fn a_file_that_is_cut_off_is_refused() {
 fn a_file_that_ends_within_a_number_gives_the_numbers_before_it_where_that_is_allowed() {
     let text = text("peer/RSN9001_HOLLOW_MIL090.AT2");
     let cut = &text[..text.rfind("E-").expect("the last sample") + 2];
-    assert!(matches!(refused(cut.as_bytes(), &options()), RecordError::NotANumber { line: 13, .. }));
+    assert!(matches!(refused(cut.as_bytes(), &options()), RecordError::Fewer { line: 4, declared: 42, found: 41, .. }));
+    // Without its exponent the last number is another one.
+    let other = &text[..text.rfind("E-").expect("the last sample")];
+    assert_eq!(refused(other.as_bytes(), &options()), refused(cut.as_bytes(), &options()));
     let file = RecordFile::read(cut.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
     assert_eq!(file.accel.len(), 41);
     assert!(file.warnings.iter().any(|warning| warning.contains("line 13, is cut off")), "{:?}", file.warnings);
+}
+
+#[test]
+fn the_duration_of_a_knet_header_is_no_count_of_samples() {
+    let name = "knet/XXX0010103040506.EW";
+    let plain = read(name, &options());
+    assert!(plain.warnings.is_empty() && plain.declared.is_none(), "{:?}", plain.warnings);
+    for duration in ["0", "1", "60", "300", "0.40"] {
+        let other = text(name).replace("Duration Time(s)  0.42", &format!("Duration Time(s)  {duration}"));
+        let file = RecordFile::read(other.as_bytes(), &options()).expect("nominal");
+        assert_eq!(file.accel, plain.accel, "{duration}");
+        let told = |warning: &String| warning.contains("42 samples at 0.01 s are 0.420000 s, and line 12 says");
+        assert!(file.warnings.iter().any(told), "{duration}: {:?}", file.warnings);
+    }
+    let silent = text(name).replace("Duration Time(s)  0.42", "Duration Time(s)  ");
+    assert_eq!(RecordFile::read(silent.as_bytes(), &options()), Ok(plain));
+    // A file that is too short and ends within a number is cut off.
+    let whole = text(name);
+    let cut = &whole[..whole.trim_end().len() - 2];
+    assert!(matches!(
+        refused(cut.as_bytes(), &options()),
+        RecordError::Fewer { line: 12, declared: 42, found: 41, .. }
+    ));
+    let lenient = RecordFile::read(cut.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
+    assert_eq!(lenient.accel.len(), 41);
+}
+
+#[test]
+fn a_unit_that_somebody_counted_from_one_is_found_by_the_line_before_the_samples() {
+    let cm = read("cosmos/cm.V2", &options());
+    for integers in ["       2       4    -999", "       2       4       2"] {
+        let text = text("cosmos/cm.V2").replace("       2       1       4", integers);
+        let file = RecordFile::read(text.as_bytes(), &options()).expect("a unit of acceleration");
+        assert_eq!(file.accel, cm.accel, "{integers}");
+        assert!(file.warnings.iter().any(|warning| warning.contains("value 1 (from 0)")), "{:?}", file.warnings);
+    }
+    // A quantity of another code there is no unit that the line contradicts.
+    let other = text("cosmos/cm.V2").replace("       2       1       4", "       2       2    -999");
+    assert_eq!(RecordFile::read(other.as_bytes(), &options()).expect("the line says it").accel, cm.accel);
 }
 
 #[test]
@@ -322,6 +363,8 @@ fn headers_vary() {
         "  42    0.0100    NPTS, DT",
         "0.0100   42   DT, NPTS",
         "NPTS: 42 DT: 0.01",
+        "NPTS, DT: 42 .01",
+        "NPTS, DT = 42, .01 SEC",
     ] {
         same(at2, "NPTS=    42, DT=   .0100 SEC,", header);
     }
@@ -329,6 +372,8 @@ fn headers_vary() {
         "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz",
         "ACCELERATION TIME HISTORY IN G",
         "Acceleration (g)",
+        "Acceleration time series, units: [g]",
+        "units = g",
         "ACCELERATION (NO UNIT)",
         "",
     ] {
@@ -345,6 +390,7 @@ fn headers_vary() {
         ("PGA_CM/S^2: -239.335550", "PGA_CM/S^2: 239.3"),
         ("PGA_CM/S^2: -239.335550", "PGA_CM/S^2:"),
         ("DATA_TYPE: ACCELERATION\n", ""),
+        ("HEADER_FORMAT: DYNA 1.2\nDATA_TYPE: ACCELERATION\n", ""),
         ("SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S:1.0D-02"),
     ] {
         same(dyna, from, to);
@@ -355,8 +401,12 @@ fn headers_vary() {
         ("Sampling Freq(Hz) 100Hz", "Sampling Freq(Hz)\t100Hz"),
         ("Scale Factor      3920(gal)/6182761", "Scale Factor  3920(gal)/6182761"),
         ("Scale Factor      3920(gal)/6182761", "Scale Factor      3920 (gal) / 6182761"),
+        ("Scale Factor      3920(gal)/6182761", "Scale Factor      3920gal/6182761"),
+        ("Scale Factor      3920(gal)/6182761", "Scale Factor      3920/6182761"),
         ("Max. Acc. (gal)", "Max. Acc.(gal) "),
         ("Memo.\n", "Memo.             a remark\n"),
+        ("Memo.\n", "Memo.             a remark\nof two lines\n"),
+        ("Memo.\n", ""),
         ("Dir.              E-W", "Dir.  E-W"),
     ] {
         same(knet, from, to);
@@ -364,6 +414,7 @@ fn headers_vary() {
     let csmip = "csmip/one-channel.v2";
     for (from, to) in [
         ("in cm/sec2. (8f10.5)", "in cm/sec2."),
+        ("in cm/sec2. (8f10.5)", "in cm/sec2. 8F10.5"),
         ("in cm/sec2. (8f10.5)", "in cm/sec/sec. (8F10.5)"),
         ("spaced at  .010 sec", "spaced at 0.010 sec"),
         ("spaced at  .010 sec,", "spaced,"),
@@ -472,11 +523,14 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         ("0, 1\n0.1, , 2\n", "line 2, column 5"),
         ("1 2 3\n4 5 6\n", "choose one of 1 to 3 with `column`"),
         ("0.1\n0.2\n", "sampling interval"),
-        ("", "0 sample(s)"),
+        ("", "the file is empty"),
+        (" \n# nothing\n", "the file is empty"),
         ("# nothing\n0 1\n", "1 sample(s)"),
         ("t [s], v [m/s]\n0, 1\n0.1, 2\n", "`m/s` of column `v`"),
         ("t, a, b\n0, 1\n0.1, 2\n", "line 1: 3 name(s) above 2 column(s)"),
         ("2011-03-11 0.1\n2011-03-12 0.2\n", "line 1, column 1: `2011-03-11`"),
+        ("PK\u{3}\u{4}\u{0}", "a ZIP archive or a spreadsheet; unpack it, or save it as text or CSV"),
+        ("1\n2\u{0}\u{0}\n3\n", "the file is no text"),
     ] {
         let error = error(text, &g);
         assert!(error.contains(part), "{text}: {error}");
@@ -489,6 +543,29 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let times = |rate: f64| (0..200).map(|k| format!("{:.3} 1\n", f64::from(k) / rate)).collect::<String>();
     assert!(matches!(refused(times(256.0).as_bytes(), &g), RecordError::Uneven { .. }));
     assert_eq!(RecordFile::read(times(100.0).as_bytes(), &g).expect("even").accel.len(), 200);
+}
+
+#[test]
+fn tables_are_read_as_spreadsheets_and_scripts_write_them() {
+    let column = |column: &str| TextOptions { column: Some(column.into()), ..options() };
+    for (text, options) in [
+        ("t [s];a [m/s2]\n0,00;1,0\n0,01;-2,5\n0,02;0,0\n", options()),
+        ("t [s] a [m/s2]\n0,00 1,0\n0,01 -2,5\n0,02 0,0\n", options()),
+        ("\"t [s]\";\"a [m/s2]\"\n\"0,00\";\"1,0\"\n\"0,01\";\"-2,5\"\n\"0,02\";\"0,0\"\n", options()),
+        ("\"t [s]\",\"a [m/s2]\"\n\"0.00\",\"1.0\"\n\"0.01\",\"-2.5\"\n\"0.02\",\"0.0\"\n", options()),
+        ("Accelerogram of a station\n\nt [s], a [m/s2]\n0, 1\n.01, -2.5D0\n.02, 0\n", options()),
+        ("// t, a\nt, a\n[s], [m/s2]\n0, 1,\n.01, -2.5,\n.02, 0,\n", options()),
+        ("Uhrzeit [s]; h1 [g]; up [m/s2]\n0; 7; 1\n.01; 8; -2.5\n.02; 9; 0\n", column("up [m/s2]")),
+    ] {
+        let file = RecordFile::read(text.as_bytes(), &options).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!((file.accel, file.dt), (vec![1.0, -2.5, 0.0], 0.01), "{text}");
+    }
+    // Numbers of rows are no times where a column of times follows them, and another component is none either.
+    let units = |name: &str| TextOptions { units: Some(AccelerationUnit::MetrePerSecondSquared), ..column(name) };
+    for text in ["1 0.00 1\n2 0.01 -2.5\n3 0.02 0\n", "0.00 5 1\n0.01 -1 -2.5\n0.02 3 0\n"] {
+        let file = RecordFile::read(text.as_bytes(), &units("3")).expect("a time and a column");
+        assert_eq!((file.accel, file.dt), (vec![1.0, -2.5, 0.0], 0.01), "{text}");
+    }
 }
 
 #[test]

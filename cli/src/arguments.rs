@@ -8,12 +8,16 @@ use std::path::PathBuf;
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
 #[derive(Debug, Parser)]
-#[command(name = "rocking", version)]
+#[command(name = "rocking", version, after_help = FIRST_STEPS)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
 }
+
+/// For whoever has never used it.
+const FIRST_STEPS: &str = "To begin: `rocking init` writes scene.toml; put in your column and ground motion, then\n\
+    `rocking check scene.toml` and `rocking run scene.toml --report`.";
 
 /// A command.
 #[derive(Debug, Subcommand)]

@@ -3,6 +3,7 @@
 //! Both show the posture in which every open interface is open by the same angle δ, `θ_i = δ Σ_{k≤i} s_k`: the signs are the
 //! pattern's, the sizes nobody's. Corners and pivots come from [`rocking::kinematics`]; nothing here moves.
 
+use crate::number::fixed;
 use rocking::kinematics::{Outline, Vec2, outlines};
 use rocking::pattern::{Interface, ModeLabel, Pattern, modes};
 use rocking::{Column, DEFAULT_GRAVITY};
@@ -39,6 +40,11 @@ fn leans(pattern: &Pattern) -> Vec<i32> {
         Some(*lean)
     };
     pattern.0.iter().scan(0, sum).collect()
+}
+
+/// Angles of the blocks `[rad]` where every open interface is open by `tilt_deg`, base first, length N.
+pub fn posture(pattern: &Pattern, tilt_deg: f64) -> Vec<f64> {
+    leans(pattern).into_iter().map(|lean| (f64::from(lean) * tilt_deg).to_radians()).collect()
 }
 
 /// The blocks that move as one, base first; the first group stays with the ground if interface 1 is closed.
@@ -86,10 +92,10 @@ pub fn svg(blocks: usize) -> String {
     let column = Column::equal_blocks(blocks, COLUMN[0], COLUMN[1], 1.0, DEFAULT_GRAVITY).expect("sizes above zero");
     let tilt_deg = TILT_DEG.min(LEAN_DEG / blocks as f64);
     let drawings: Vec<Drawing> = modes(blocks)
-        .map(|(label, pattern)| {
-            let theta: Vec<f64> =
-                leans(&pattern).iter().map(|&lean| (f64::from(lean) * tilt_deg).to_radians()).collect();
-            Drawing { blocks: outlines(&column, &pattern, &theta), label, pattern }
+        .map(|(label, pattern)| Drawing {
+            blocks: outlines(&column, &pattern, &posture(&pattern, tilt_deg)),
+            label,
+            pattern,
         })
         .collect();
     Page::lay_out(&drawings, tilt_deg)
@@ -237,19 +243,7 @@ impl Page {
     }
 }
 
-/// A coordinate `[px]` to a hundredth, the same text on every machine; no `-0`.
+/// A coordinate `[px]` to a hundredth, the same text on every machine.
 fn number(value: f64) -> String {
-    let hundredths = (value * 100.0).round() + 0.0;
-    format!("{}", hundredths / 100.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn coordinates_have_two_digits_and_no_negative_zero() {
-        let texts = [0.1, 1.0 / 3.0, 1e-300, -0.0, -0.004, -std::f64::consts::PI, 120.0].map(number);
-        assert_eq!(texts, ["0.1", "0.33", "0", "0", "0", "-3.14", "120"]);
-    }
+    fixed(value, 2)
 }

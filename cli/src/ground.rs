@@ -7,7 +7,7 @@ use crate::number::significant;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
-/// One component of the ground motion; `peak` is its largest size in the rows of the output `[m/s²]`.
+/// One component of the ground motion; `peak` is its largest size in the run `[m/s²]`, told where the description has none itself.
 pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     let Value::Object(description) = motion else {
         return "none".into();
@@ -30,7 +30,8 @@ pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     };
     if let Some(terms) = description.get("terms").and_then(Value::as_array) {
         let terms: Vec<String> = terms.iter().map(|term| words(term, gravity, 0.0)).collect();
-        return format!("sum of {}", terms.join(", and "));
+        let peak = if peak > 0.0 { format!("; peak {}", acceleration(peak, gravity)) } else { String::new() };
+        return format!("sum of {}{peak}", terms.join(", and "));
     }
     let mut parts: Vec<String> = Vec::new();
     if kind == "record" {
@@ -39,22 +40,33 @@ pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     for (key, value) in description.iter().filter(|(key, _)| !told(kind, key)) {
         parts.extend(parameter(key, value, gravity));
     }
-    let acceleration = |value: f64| format!("{} m/s² = {} g", significant(value, 4), significant(value / gravity, 4));
-    if !description.contains_key("amplitude") && peak > 0.0 {
-        parts.push(format!("peak {} at output times", acceleration(peak)));
+    let has_size = description.contains_key("amplitude") || description.contains_key("peak");
+    if !has_size && peak > 0.0 {
+        parts.push(format!("peak {}", acceleration(peak, gravity)));
     }
     if parts.is_empty() { name } else { format!("{name}: {}", parts.join("; ")) }
 }
 
-/// What is said already, or need not be.
-fn told(kind: &str, key: &str) -> bool {
-    key == "kind" || (kind == "record" && ["samples", "dt", "file"].contains(&key))
+fn acceleration(value: f64, gravity: f64) -> String {
+    format!("{} m/s² = {} g", significant(value, 5), significant(value / gravity, 4))
 }
 
+/// Keys of a record that [`record`] tells.
+const OF_A_RECORD: [&str; 7] = ["samples", "dt", "duration", "file", "title", "station", "component"];
+
+/// What is said already, or need not be.
+fn told(kind: &str, key: &str) -> bool {
+    key == "kind" || (kind == "record" && OF_A_RECORD.contains(&key))
+}
+
+/// Where a record comes from, as far as that is known, and its sampling.
 fn record(description: &Map<String, Value>) -> Vec<String> {
     let mut parts = Vec::new();
-    if let Some(file) = description.get("file").and_then(Value::as_str) {
-        parts.push(format!("file {file}"));
+    for (key, before) in [("title", ""), ("station", "station "), ("component", "component "), ("file", "file ")] {
+        let text = description.get(key).and_then(Value::as_str).unwrap_or_default();
+        if !text.is_empty() {
+            parts.push(format!("{before}{text}"));
+        }
     }
     let number = |key: &str| description.get(key).and_then(Value::as_f64);
     match (number("samples"), number("dt")) {
@@ -73,11 +85,10 @@ fn record(description: &Map<String, Value>) -> Vec<String> {
 fn parameter(key: &str, value: &Value, gravity: f64) -> Option<String> {
     let number = value.as_f64();
     Some(match (key, number) {
-        ("start" | "phase", Some(0.0)) => return None,
+        ("start" | "phase", Some(0.0)) | ("scale", Some(1.0)) => return None,
         (_, None) if value.is_null() => return None,
-        ("amplitude", Some(amplitude)) => {
-            format!("amplitude {} m/s² = {} g", significant(amplitude, 5), significant(amplitude / gravity, 4))
-        }
+        ("amplitude" | "peak", Some(size)) => format!("{key} {}", acceleration(size, gravity)),
+        ("scale", Some(scale)) => format!("scaled by {}", significant(scale, 5)),
         ("omega", Some(omega)) => format!(
             "ω = {} rad/s, frequency {} Hz, period {} s",
             significant(omega, 5),
@@ -115,10 +126,10 @@ mod tests {
         let pulse = json!({"kind": "sine-pulse", "amplitude": 4.905, "omega": TAU, "start": 0.0});
         let told = "one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s";
         assert_eq!(words(&pulse, 9.81, 1.0), told);
-        let record = json!({"kind": "record", "samples": 2001, "dt": 0.01, "start": 1.5, "file": "a<b"});
-        let told = "record: file a<b; 2001 samples every 0.01 s, 20 s long; from t = 1.5 s on; \
-            peak 4.905 m/s² = 0.5 g at output times";
-        assert_eq!(words(&record, 9.81, 4.905), told);
+        let record = json!({"kind": "record", "samples": 2001, "dt": 0.01, "duration": 20.0, "start": 1.5, "scale": 1.0, "peak": 4.905,
+            "file": "a<b", "title": "Friuli", "station": "", "component": "0"});
+        let told = "record: Friuli; component 0; file a<b; 2001 samples every 0.01 s, 20 s long; peak 4.905 m/s² = 0.5 g; from t = 1.5 s on";
+        assert_eq!(words(&record, 9.81, 4.8), told);
         let unknown = json!({"kind": "near-fault", "v_peak": 1.25, "name": "<b>", "list": vec![0.0; 9], "none": null});
         assert_eq!(words(&unknown, 9.81, 0.0), "near fault: list: 9 numbers; name: <b>; v peak = 1.25");
         assert_eq!(words(&Value::Null, 9.81, 0.0), "none");
@@ -126,5 +137,6 @@ mod tests {
         let told = "sum of one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s, and \
             rectangular pulse: amplitude 0.981 m/s² = 0.1 g; lasting 0.5 s; from t = 2 s on";
         assert_eq!(words(&sum, 9.81, 0.0), told);
+        assert_eq!(words(&sum, 9.81, 9.81), format!("{told}; peak 9.81 m/s² = 1 g"));
     }
 }

@@ -5,6 +5,7 @@ mod commands;
 mod error;
 mod figure;
 mod ground;
+mod markup;
 mod number;
 mod output;
 mod plot;

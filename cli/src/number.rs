@@ -24,11 +24,12 @@ pub fn fixed(value: f64, digits: usize) -> String {
     if text == "-0" { "0".into() } else { text }
 }
 
-/// A share of one as whole percent; what is not quite nothing, or not quite all, says so.
+/// A share of one in percent, with a digit behind the point near nothing and near all; what is not quite either says so.
 pub fn percent(share: f64) -> String {
     match share * 100.0 {
-        percent if percent > 0.0 && percent < 1.0 => "< 1 %".into(),
-        percent if percent > 99.0 && percent < 100.0 => "> 99 %".into(),
+        percent if percent > 0.0 && percent < 0.1 => "< 0.1 %".into(),
+        percent if percent > 99.9 && percent < 100.0 => "> 99.9 %".into(),
+        percent if percent.abs() < 9.95 || (percent > 99.0 && percent < 100.0) => format!("{} %", fixed(percent, 1)),
         percent => format!("{percent:.0} %"),
     }
 }
@@ -52,6 +53,8 @@ mod tests {
             .map(|value| significant(value, 3));
         assert_eq!(texts, ["0.1", "0.333", "1e-300", "0", "-3.14", "10", "1230", "123000", "1e9", "0.000123"]);
         assert_eq!([0.1, -1e-12, 1.0 / 3.0, 2.0].map(|value| fixed(value, 10)), ["0.1", "0", "0.3333333333", "2"]);
-        assert_eq!([0.0, 0.004, 0.95, 0.999, 1.0].map(percent), ["0 %", "< 1 %", "95 %", "> 99 %", "100 %"]);
+        let texts = [0.0, 4e-5, 0.004, -0.0213, 0.0997, 0.95, 0.996, 0.9999, 1.0, 1.234].map(percent);
+        let expected = ["0 %", "< 0.1 %", "0.4 %", "-2.1 %", "10 %", "95 %", "99.6 %", "> 99.9 %", "100 %", "123 %"];
+        assert_eq!(texts, expected);
     }
 }

@@ -34,6 +34,8 @@ struct Summary<'a> {
     friction: Option<f64>,
     restitution: &'a rocking::Restitution,
     excitation: &'a rocking::Excitation,
+    /// Of the ground, horizontal and vertical, until `t_end` `[m/s²]`: rows may miss it.
+    peak_ground_acceleration: [f64; 2],
     initial: &'a rocking::Initial,
 }
 
@@ -105,6 +107,8 @@ impl<'a> Folder<'a> {
             friction: scene.friction,
             restitution: &scene.restitution,
             excitation: &scene.excitation,
+            peak_ground_acceleration: [&scene.excitation.horizontal, &scene.excitation.vertical]
+                .map(|motion| motion.as_ref().map_or(0.0, |motion| motion.peaks(scene.options.t_end)[0])),
             initial: &scene.initial,
         };
         let files = [

@@ -55,6 +55,15 @@ pub struct Summary {
     /// As the library serialises them: `kind` and parameters.
     pub excitation: serde_json::Value,
     pub restitution: serde_json::Value,
+    /// Horizontal and vertical `[m/s²]`; runs of earlier versions have none.
+    peak_ground_acceleration: Option<[f64; 2]>,
+}
+
+/// Times in the modes `[s]`, the longest first.
+pub fn longest_first(time_in_mode: &BTreeMap<String, f64>) -> Vec<(&str, f64)> {
+    let mut modes: Vec<_> = time_in_mode.iter().map(|(mode, time)| (mode.as_str(), *time)).collect();
+    modes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    modes
 }
 
 /// The scene file of a run.
@@ -122,8 +131,7 @@ impl Results {
         let column = Column::new(summary.column.blocks.clone(), summary.column.gravity);
         let column = column.map_err(|error| broken(error.to_string()))?;
         let blocks = column.len();
-        let lengths = [summary.peak_theta.len()];
-        if lengths.iter().any(|length| *length != blocks) {
+        if summary.peak_theta.len() != blocks {
             return Err(broken(format!("peak_theta has not {blocks} numbers")));
         }
         let samples = samples(&folder.join("response.csv"), blocks)?;
@@ -132,6 +140,12 @@ impl Results {
             return Err(Failure::results(&folder.join("events.json"), problem));
         }
         Ok(Results { summary, column, samples, events })
+    }
+
+    /// Peak acceleration of the ground, horizontal and vertical `[m/s²]`: of the motion itself, or else of the rows.
+    pub fn peak_ground_acceleration(&self) -> [f64; 2] {
+        let of_rows = |axis: usize| self.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
+        self.summary.peak_ground_acceleration.unwrap_or_else(|| [of_rows(0), of_rows(1)])
     }
 }
 

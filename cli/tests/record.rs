@@ -120,8 +120,8 @@ fn bad_input_is_refused_with_its_place() {
     refused(here.path(), &["record", "short.AT2"], &["short.AT2", "line 4", "declares 50", "has 42", "`--lenient`"]);
     assert_eq!(json(here.path(), &["record", "short.AT2", "--lenient"])["samples"], 42);
     refused(here.path(), &["record", "nan.AT2"], &["nan.AT2", "line 5, column 13", "`NaN`", "mend or remove"]);
-    refused(here.path(), &["record", "binary"], &["binary", "line 1, column 1", "known formats"]);
-    refused(here.path(), &["record", "empty"], &["empty", "0 sample(s)"]);
+    refused(here.path(), &["record", "binary"], &["binary", "no text", "save it as text"]);
+    refused(here.path(), &["record", "empty"], &["empty", "the file is empty"]);
     refused(here.path(), &["record", "none.AT2"], &["none.AT2", "check the path"]);
     refused(here.path(), &["record"], &["<FILE>"]);
     refused(here.path(), &["record", "--trim", "1..2"], &["no record file is named"]);

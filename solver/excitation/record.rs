@@ -63,6 +63,15 @@ pub enum RecordError {
         /// Samples found.
         count: usize,
     },
+    /// The file has nothing in it, or nothing but remarks.
+    #[error("the file is empty, or has nothing but remarks; fetch or write it again")]
+    Empty,
+    /// The file is no text.
+    #[error("the file is no text: it is {kind}; unpack it, or save it as text or CSV")]
+    NoText {
+        /// What it is.
+        kind: &'static str,
+    },
     /// The sampling interval is no time.
     #[error("dt = {dt}: the sampling interval must be a finite number above zero (s)")]
     Interval {

@@ -11,7 +11,7 @@
 //!
 //! Both are stepped by Newmark's method with constant average acceleration. The same seed gives the same record on every machine.
 
-use super::record::{Record, RecordError};
+use super::record::{Record, RecordError, Source};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 use std::f64::consts::TAU;
@@ -91,7 +91,11 @@ impl Synthetic {
             let [total, _] = second.driven_by(-filtered);
             accel.push(total);
         }
-        Record::new(accel, self.dt, 0.0)?.scaled_to_peak(self.pga)
+        let title = format!("synthetic, seed {}, {} Hz, damping {}", self.seed, self.frequency, self.damping);
+        let source = Source { title, ..Source::default() };
+        // The factor is of the noise, and tells nobody anything.
+        let scaled = Record::new(accel, self.dt, 0.0)?.scaled_to_peak(self.pga)?;
+        Ok(Record::new(scaled.accel().to_vec(), self.dt, 0.0)?.with_source(source, Vec::new()))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{Found, Phase};
 use crate::dynamics::StateVector;
 use crate::event::{first_crossing, first_root, largest_size};
+use crate::scene::Wanted;
 
 impl<V: StateVector> Phase<'_, '_, V> {
     /// The first event inside the step just accepted, and where it is in it, 0 to 1.
@@ -112,6 +113,9 @@ impl<V: StateVector> Phase<'_, '_, V> {
 
     /// Notes the largest angles of the step just taken, those inside it among them.
     pub(super) fn note_peaks(&mut self, h: f64) {
+        if self.run.scene.options.wanted == Wanted::Outcome {
+            return;
+        }
         for link in 0..self.dof {
             let blocks = self.links.iter().zip(&self.run.history.peak_theta).filter(|(own, _)| **own == link + 1);
             let known = blocks.fold(f64::INFINITY, |least, (_, peak)| least.min(*peak));

@@ -44,7 +44,7 @@ impl Reader<'_> {
             Scales { gravity: column.gravity(), uplift: whole.uplift_acceleration(), p: whole.frequency_parameter() };
         let own = |wrong| self.error(wrong);
         let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
-        let mut component = |name: &str| -> Result<Option<Motion>, SceneFileError> {
+        let mut component = |name: &'static str| -> Result<Option<Motion>, SceneFileError> {
             let Some(mut table) = table.table(name).map_err(own)? else { return Ok(None) };
             let motion = self.motion(&mut table, scales)?;
             table.close().map_err(own)?;
@@ -191,7 +191,7 @@ fn amplitude(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {
 }
 
 fn omega(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {
-    let keys: [(&str, &dyn Fn(f64) -> f64); 4] = [
+    let keys: [(&'static str, &dyn Fn(f64) -> f64); 4] = [
         ("omega", &|omega| omega),
         ("frequency", &|f| TAU * f),
         ("period", &|period| TAU / period),
@@ -206,7 +206,7 @@ fn omega(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {
 }
 
 /// A number above zero that must be there.
-fn needed(table: &mut Table, key: &str, remedy: &str) -> Result<f64, Wrong> {
+fn needed(table: &mut Table, key: &'static str, remedy: &str) -> Result<f64, Wrong> {
     table.positive(key)?.ok_or_else(|| table.missing(key, remedy))
 }
 

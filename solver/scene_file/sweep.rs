@@ -77,7 +77,7 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             axes.push(axis(table, &key, &path, values, template)?);
             continue;
         }
-        let Some(mut inner) = table.table(&key)? else { continue };
+        let Some(mut inner) = table.table(key.clone())? else { continue };
         if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
             let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
             axes.push(axis(table, &key, &path, values, template)?);
@@ -102,7 +102,7 @@ fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &T
 
 /// `{ from, to, steps, scale }`; without steps, whole numbers.
 fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
-    let mut end = |key: &str| match table.number(key)? {
+    let mut end = |key: &'static str| match table.number(key)? {
         Some((value, _)) => Ok(value),
         None => Err(table.missing(key, "give both ends of the axis")),
     };

@@ -1,6 +1,8 @@
 //! A TOML table that knows where everything stands, and what has been asked for.
 
 use super::template::Setting;
+use std::borrow::Cow;
+use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
 /// A stretch of the file, in bytes.
@@ -22,7 +24,7 @@ pub struct Wrong {
 /// A value and its places.
 #[derive(Clone, Debug)]
 struct Entry {
-    key: String,
+    key: Arc<str>,
     key_place: Place,
     value_place: Place,
     value: Value,
@@ -30,10 +32,10 @@ struct Entry {
 
 #[derive(Clone, Debug)]
 enum Value {
-    Text(String),
+    Text(Arc<str>),
     Number(f64),
     Flag(bool),
-    Array(Vec<(Value, Place)>),
+    Array(Arc<Vec<(Value, Place)>>),
     Table(Table),
     Other(&'static str),
 }
@@ -55,11 +57,12 @@ impl Value {
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Dotted name, empty at the root.
-    name: String,
+    name: Arc<str>,
     place: Place,
-    entries: Vec<Entry>,
+    /// Shared: a table is read again for each scene of a sweep.
+    entries: Arc<Vec<Entry>>,
     /// Keys that a reader has asked for: what a scene knows here.
-    asked: Vec<String>,
+    asked: Vec<Cow<'static, str>>,
 }
 
 impl Table {
@@ -77,25 +80,24 @@ impl Table {
                 place,
                 key,
                 problem,
-                remedy: "correct the line; text stands in quotes, lists in brackets".into(),
+                remedy: format!("correct the line; {}", hint(error.message(), line)),
             });
         }
         let place = tree.span();
-        Ok(Table::from_tree(String::new(), place, tree.into_inner()))
+        Ok(Table::from_tree("", place, tree.into_inner()))
     }
 
-    fn from_tree(name: String, place: Place, tree: DeTable<'_>) -> Table {
+    fn from_tree(name: &str, place: Place, tree: DeTable<'_>) -> Table {
         let mut entries = Vec::new();
         for (key, value) in tree {
             let (key_place, value_place) = (key.span(), value.span());
-            let key = key.into_inner().into_owned();
-            let dotted = dot(&name, &key);
-            let value = value_from_tree(dotted, value_place.clone(), value.into_inner());
-            entries.push(Entry { key, key_place, value_place, value });
+            let key = key.into_inner();
+            let value = value_from_tree(&dot(name, &key), value_place.clone(), value.into_inner());
+            entries.push(Entry { key: key.into(), key_place, value_place, value });
         }
         // In the order of the file, so that of several faults the first is named.
         entries.sort_by_key(|entry| entry.key_place.start);
-        Table { name, place, entries, asked: Vec::new() }
+        Table { name: name.into(), place, entries: Arc::new(entries), asked: Vec::new() }
     }
 
     /// The full name of a key of this table.
@@ -110,7 +112,7 @@ impl Table {
 
     /// Whether the file gives this key.
     pub fn has(&self, key: &str) -> bool {
-        self.entries.iter().any(|entry| entry.key == key)
+        self.entries.iter().any(|entry| *entry.key == *key)
     }
 
     /// Gives a key, under its dotted name, another value or its first; tables on the way are made. `block[2].mass` is of the second
@@ -124,22 +126,29 @@ impl Table {
         let Some(rest) = rest else {
             let value = match value {
                 Setting::Number(number) => Value::Number(*number),
-                Setting::Text(text) => Value::Text(text.clone()),
+                Setting::Text(text) => Value::Text(text.as_str().into()),
             };
             let place = self.find(name);
-            self.entries.retain(|entry| entry.key != name && !are_alternatives(&entry.key, name));
-            self.entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+            let entries = Arc::make_mut(&mut self.entries);
+            entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
+            entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
             return Some(());
         };
         if !self.has(name) && index.is_none() {
             let (place, dotted) = (self.place(), self.dotted(name));
-            let value =
-                Value::Table(Table { name: dotted, place: place.clone(), entries: Vec::new(), asked: Vec::new() });
-            self.entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+            let table = Table { name: dotted.into(), place: place.clone(), entries: Arc::default(), asked: Vec::new() };
+            let value = Value::Table(table);
+            Arc::make_mut(&mut self.entries).push(Entry {
+                key: name.into(),
+                key_place: place.clone(),
+                value_place: place,
+                value,
+            });
         }
-        match (&mut self.entries.iter_mut().find(|entry| entry.key == name)?.value, index) {
+        let entries = Arc::make_mut(&mut self.entries);
+        match (&mut entries.iter_mut().find(|entry| *entry.key == *name)?.value, index) {
             (Value::Table(table), None) => table.set(rest, value),
-            (Value::Array(items), Some(index)) => match items.get_mut(index)? {
+            (Value::Array(items), Some(index)) => match Arc::make_mut(items).get_mut(index)? {
                 (Value::Table(table), _) => table.set(rest, value),
                 _ => None,
             },
@@ -150,7 +159,7 @@ impl Table {
     /// Full names of the keys of this table and those within that are called `name`.
     pub fn named(&self, name: &str) -> Vec<String> {
         let of_entry = |entry: &Entry| {
-            let mut found = if entry.key == name { vec![self.dotted(name)] } else { Vec::new() };
+            let mut found = if *entry.key == *name { vec![self.dotted(name)] } else { Vec::new() };
             if let Value::Table(table) = &entry.value {
                 found.extend(table.named(name));
             }
@@ -161,17 +170,17 @@ impl Table {
 
     /// The keys, in the order of the file.
     pub fn keys(&self) -> Vec<String> {
-        self.entries.iter().map(|entry| entry.key.clone()).collect()
+        self.entries.iter().map(|entry| entry.key.to_string()).collect()
     }
 
     /// A value or a list of them.
     pub fn settings(&mut self, key: &str) -> Result<Option<Vec<Setting>>, Wrong> {
         let single = |value: &Value| match value {
             Value::Number(number) if number.is_finite() => Some(Setting::Number(*number)),
-            Value::Text(text) => Some(Setting::Text(text.clone())),
+            Value::Text(text) => Some(Setting::Text(text.to_string())),
             _ => None,
         };
-        let Some(entry) = self.ask(key).cloned() else { return Ok(None) };
+        let Some(entry) = self.ask(key.to_string()).cloned() else { return Ok(None) };
         let values = match &entry.value {
             Value::Array(items) => items.iter().map(|(item, _)| single(item)).collect(),
             Value::Table(_) => return Ok(None),
@@ -183,7 +192,7 @@ impl Table {
     /// Where a dotted key stands; the nearest table where it is not given.
     pub fn find(&self, key: &str) -> Place {
         let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
-        match (self.entries.iter().find(|entry| entry.key == first), rest) {
+        match (self.entries.iter().find(|entry| *entry.key == *first), rest) {
             (Some(Entry { value: Value::Table(table), .. }), Some(rest)) => table.find(rest),
             (Some(entry), _) => entry.key_place.start..entry.value_place.end.max(entry.key_place.end),
             (None, _) => self.place(),
@@ -197,16 +206,21 @@ impl Table {
 
     /// The error that a key is not given, or that it is misspelt.
     pub fn missing(&self, key: &str, remedy: &str) -> Wrong {
-        let mut unasked = self.entries.iter().filter(|entry| !self.asked.contains(&entry.key));
+        let mut unasked = self.entries.iter().filter(|entry| !self.has_asked(&entry.key));
         if let Some(misspelt) = unasked.find(|entry| is_slip(key, &entry.key)) {
             return self.unknown(misspelt, format!("did you mean `{key}`?"));
         }
         Wrong { place: self.place(), key: self.dotted(key), problem: "it is missing".into(), remedy: remedy.into() }
     }
 
-    fn ask(&mut self, key: &str) -> Option<&Entry> {
+    fn ask(&mut self, key: impl Into<Cow<'static, str>>) -> Option<&Entry> {
         self.asked.push(key.into());
-        self.entries.iter().find(|entry| entry.key == key)
+        let key = self.asked.last()?;
+        self.entries.iter().find(|entry| *entry.key == **key)
+    }
+
+    fn has_asked(&self, key: &str) -> bool {
+        self.asked.iter().any(|asked| asked == key)
     }
 
     fn expected(&self, key: &str, found: &Value, wanted: &str) -> Wrong {
@@ -214,16 +228,16 @@ impl Table {
     }
 
     /// Text.
-    pub fn text(&mut self, key: &str) -> Result<Option<(String, Place)>, Wrong> {
+    pub fn text(&mut self, key: &'static str) -> Result<Option<(String, Place)>, Wrong> {
         match self.ask(key).cloned() {
             None => Ok(None),
-            Some(Entry { value: Value::Text(text), value_place, .. }) => Ok(Some((text, value_place))),
+            Some(Entry { value: Value::Text(text), value_place, .. }) => Ok(Some((text.to_string(), value_place))),
             Some(entry) => Err(self.expected(key, &entry.value, "text in quotes")),
         }
     }
 
     /// A finite number.
-    pub fn number(&mut self, key: &str) -> Result<Option<(f64, Place)>, Wrong> {
+    pub fn number(&mut self, key: &'static str) -> Result<Option<(f64, Place)>, Wrong> {
         match self.ask(key).cloned() {
             None => Ok(None),
             Some(Entry { value: Value::Number(value), value_place, .. }) if value.is_finite() => {
@@ -237,7 +251,7 @@ impl Table {
     }
 
     /// True or false.
-    pub fn flag(&mut self, key: &str) -> Result<Option<bool>, Wrong> {
+    pub fn flag(&mut self, key: &'static str) -> Result<Option<bool>, Wrong> {
         match self.ask(key).cloned() {
             None => Ok(None),
             Some(Entry { value: Value::Flag(flag), .. }) => Ok(Some(flag)),
@@ -246,17 +260,17 @@ impl Table {
     }
 
     /// A name, or a number in its place, as text.
-    pub fn name(&mut self, key: &str) -> Result<Option<String>, Wrong> {
+    pub fn name(&mut self, key: &'static str) -> Result<Option<String>, Wrong> {
         match self.ask(key).cloned() {
             None => Ok(None),
-            Some(Entry { value: Value::Text(text), .. }) => Ok(Some(text)),
+            Some(Entry { value: Value::Text(text), .. }) => Ok(Some(text.to_string())),
             Some(Entry { value: Value::Number(number), .. }) => Ok(Some(format!("{number}"))),
             Some(entry) => Err(self.expected(key, &entry.value, "a name in quotes, or a number")),
         }
     }
 
     /// A finite number above zero.
-    pub fn positive(&mut self, key: &str) -> Result<Option<f64>, Wrong> {
+    pub fn positive(&mut self, key: &'static str) -> Result<Option<f64>, Wrong> {
         match self.number(key)? {
             Some((value, _)) if value <= 0.0 => {
                 Err(self.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
@@ -266,20 +280,20 @@ impl Table {
     }
 
     /// A list of finite numbers.
-    pub fn numbers(&mut self, key: &str) -> Result<Option<Vec<f64>>, Wrong> {
+    pub fn numbers(&mut self, key: &'static str) -> Result<Option<Vec<f64>>, Wrong> {
         let items = match self.ask(key).cloned() {
             None => return Ok(None),
             Some(Entry { value: Value::Array(items), .. }) => items,
             Some(entry) => return Err(self.expected(key, &entry.value, "a list of numbers")),
         };
         let mut numbers = Vec::with_capacity(items.len());
-        for (index, (item, place)) in items.into_iter().enumerate() {
+        for (index, (item, place)) in items.iter().enumerate() {
             match item {
-                Value::Number(value) if value.is_finite() => numbers.push(value),
+                Value::Number(value) if value.is_finite() => numbers.push(*value),
                 other => {
                     let what = if let Value::Number(value) = other { format!("{value}") } else { other.what().into() };
                     let problem = format!("number {} of the list is {what}", index + 1);
-                    let key = self.dotted(key);
+                    let (place, key) = (place.clone(), self.dotted(key));
                     return Err(Wrong { place, key, problem, remedy: "give finite numbers".into() });
                 }
             }
@@ -288,7 +302,7 @@ impl Table {
     }
 
     /// A whole number from `least` on.
-    pub fn whole(&mut self, key: &str, least: u32) -> Result<Option<u64>, Wrong> {
+    pub fn whole(&mut self, key: &'static str, least: u32) -> Result<Option<u64>, Wrong> {
         match self.number(key)? {
             Some((value, _)) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(
                 self.wrong(key, format!("{value} is out of range"), &format!("give a whole number from {least} on"))
@@ -306,7 +320,7 @@ impl Table {
     }
 
     /// Exactly one of several keys, each with its conversion.
-    pub fn one_of(&mut self, keys: &[(&str, &dyn Fn(f64) -> f64)]) -> Result<f64, Wrong> {
+    pub fn one_of(&mut self, keys: &[(&'static str, &dyn Fn(f64) -> f64)]) -> Result<f64, Wrong> {
         let mut found: Option<(&str, f64)> = None;
         for (key, convert) in keys {
             let Some((value, _)) = self.number(key)? else { continue };
@@ -315,45 +329,45 @@ impl Table {
             }
             found = Some((key, convert(value)));
         }
-        let names: Vec<String> = keys.iter().map(|(key, _)| format!("`{key}`")).collect();
-        found
-            .map(|(_, value)| value)
-            .ok_or_else(|| self.missing(keys[0].0, &format!("give one of {}", names.join(", "))))
+        found.map(|(_, value)| value).ok_or_else(|| {
+            let names: Vec<String> = keys.iter().map(|(key, _)| format!("`{key}`")).collect();
+            self.missing(keys[0].0, &format!("give one of {}", names.join(", ")))
+        })
     }
 
     /// A table within.
-    pub fn table(&mut self, key: &str) -> Result<Option<Table>, Wrong> {
-        match self.ask(key).cloned() {
+    pub fn table(&mut self, key: impl Into<Cow<'static, str>>) -> Result<Option<Table>, Wrong> {
+        let key = key.into();
+        match self.ask(key.clone()).cloned() {
             None => Ok(None),
             Some(Entry { value: Value::Table(mut table), key_place, .. }) => {
                 table.place = key_place;
                 Ok(Some(table))
             }
-            Some(entry) => Err(self.expected(key, &entry.value, &format!("a table: [{}]", self.dotted(key)))),
+            Some(entry) => Err(self.expected(&key, &entry.value, &format!("a table: [{}]", self.dotted(&key)))),
         }
     }
 
     /// An array of tables.
-    pub fn tables(&mut self, key: &str) -> Result<Option<Vec<Table>>, Wrong> {
+    pub fn tables(&mut self, key: &'static str) -> Result<Option<Vec<Table>>, Wrong> {
         let items = match self.ask(key).cloned() {
             None => return Ok(None),
             Some(Entry { value: Value::Array(items), .. }) => items,
             Some(entry) => return Err(self.expected(key, &entry.value, &format!("tables: [[{}]]", self.dotted(key)))),
         };
-        let as_table = |(index, (item, place)): (usize, (Value, Place))| match item {
-            Value::Table(mut table) => {
-                table.place = place;
-                table.name = format!("{}[{}]", self.dotted(key), index + 1);
-                Ok(table)
+        let as_table = |(index, (item, place)): (usize, &(Value, Place))| match item {
+            Value::Table(table) => {
+                let name = format!("{}[{}]", self.dotted(key), index + 1).into();
+                Ok(Table { name, place: place.clone(), ..table.clone() })
             }
-            other => Err(self.expected(key, &other, &format!("tables: [[{}]]", self.dotted(key)))),
+            other => Err(self.expected(key, other, &format!("tables: [[{}]]", self.dotted(key)))),
         };
-        items.into_iter().enumerate().map(as_table).collect::<Result<Vec<Table>, Wrong>>().map(Some)
+        items.iter().enumerate().map(as_table).collect::<Result<Vec<Table>, Wrong>>().map(Some)
     }
 
     /// Refuses keys that nobody asked for.
     pub fn close(&self) -> Result<(), Wrong> {
-        let Some(unknown) = self.entries.iter().find(|entry| !self.asked.contains(&entry.key)) else { return Ok(()) };
+        let Some(unknown) = self.entries.iter().find(|entry| !self.has_asked(&entry.key)) else { return Ok(()) };
         let nearest = self.asked.iter().min_by_key(|known| distance(known, &unknown.key));
         let remedy = match nearest.filter(|known| is_slip(known, &unknown.key)) {
             Some(known) => format!("did you mean `{known}`?"),
@@ -372,9 +386,9 @@ fn dot(name: &str, key: &str) -> String {
     if name.is_empty() { key.into() } else { format!("{name}.{key}") }
 }
 
-fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
+fn value_from_tree(name: &str, place: Place, value: DeValue<'_>) -> Value {
     match value {
-        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::String(text) => Value::Text(text.into()),
         DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
             .map_or(Value::Other("too large a number"), |n| Value::Number(n as f64)),
         DeValue::Float(float) => {
@@ -383,15 +397,13 @@ fn value_from_tree(name: String, place: Place, value: DeValue<'_>) -> Value {
         }
         DeValue::Boolean(flag) => Value::Flag(flag),
         DeValue::Datetime(_) => Value::Other("a date"),
-        DeValue::Array(items) => Value::Array(
-            items
-                .into_iter()
-                .map(|item| {
-                    let place = item.span();
-                    (value_from_tree(name.clone(), place.clone(), item.into_inner()), place)
-                })
-                .collect(),
-        ),
+        DeValue::Array(items) => {
+            let item = |item: toml::Spanned<DeValue>| {
+                let place = item.span();
+                (value_from_tree(name, place.clone(), item.into_inner()), place)
+            };
+            Value::Array(Arc::new(items.into_iter().map(item).collect()))
+        }
         DeValue::Table(table) => Value::Table(Table::from_tree(name, place, table)),
     }
 }
@@ -413,9 +425,21 @@ fn are_alternatives(a: &str, b: &str) -> bool {
 /// Whole numbers that a double keeps.
 const LARGEST_WHOLE: f64 = 9e15;
 
-/// Whether `written` may be a slip for `key`.
+/// What is mostly wrong with a line that is not TOML.
+fn hint(message: &str, line: &str) -> &'static str {
+    if message.contains("duplicate key") && line.starts_with('[') {
+        "a table stands once, but as many [[block]] as there are blocks"
+    } else if line.contains('\\') {
+        "a path with backslashes stands in single quotes"
+    } else {
+        "decimals have a point, text stands in quotes, lists in brackets"
+    }
+}
+
+/// Whether `written` may be a slip for `key`, or the end of its name.
 fn is_slip(key: &str, written: &str) -> bool {
-    distance(key, written) <= 1 + written.len() / 4
+    let is_end = key.strip_suffix(written).is_some_and(|start| start.ends_with('_'));
+    is_end || distance(key, written) <= 1 + written.len() / 4
 }
 
 /// Edit distance of two short keys.

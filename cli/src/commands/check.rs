@@ -3,7 +3,7 @@
 use crate::commands::{json, print, thresholds};
 use crate::error::Failure;
 use crate::ground;
-use crate::number::significant;
+use crate::number::{fixed, significant};
 use rocking::scene_file::{self, Derived, SceneFile};
 use rocking::{Block, Motion, Restitution, Scene};
 use serde::Serialize;
@@ -52,6 +52,9 @@ struct MotionFindings {
     /// Velocity and displacement with which the ground is left there `[m/s]`, `[m]`.
     left_with: Option<[f64; 2]>,
 }
+
+/// A column beyond this `[m]` has most likely been given in cm or mm; the tallest of stone have some thirty.
+const TALL: f64 = 60.0;
 
 impl Findings {
     fn of(scene: &Scene, derived: Vec<Derived>) -> Findings {
@@ -113,6 +116,9 @@ impl Findings {
             whole.stack.radius(),
             whole.frequency_parameter
         );
+        if whole.stack.height > TALL {
+            text.push_str("note: no column is as tall; sizes are in m\n");
+        }
         text.push_str("\nblock  width [m]  height [m]  mass [kg]     inertia [kg m²]   (base first)\n");
         for (index, block) in self.blocks.iter().enumerate() {
             let _ = writeln!(
@@ -186,7 +192,9 @@ impl Findings {
                 (Some(end), Some([velocity, displacement])) => {
                     let _ = writeln!(
                         text,
-                        "  ends at {end:.4} s; the ground is left with {velocity:.4} m/s, displaced by {displacement:.4} m"
+                        "  ends at {end:.4} s; the ground is left with {} m/s, displaced by {} m",
+                        fixed(velocity, 4),
+                        fixed(displacement, 4)
                     );
                     if end > scene.options.t_end {
                         let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");

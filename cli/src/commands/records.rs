@@ -97,7 +97,9 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
         components.sort_by_key(|listed| listed.direction);
         Group { record, components }
     });
-    let folder = Folder { folder: path, groups: groups.collect(), unread };
+    let mut groups: Vec<Group> = groups.collect();
+    groups.sort_by_cached_key(|group| by_number(&group.record));
+    let folder = Folder { folder: path, groups, unread };
     if arguments.json { json(&folder) } else { print(&folder.text()) }
 }
 
@@ -159,6 +161,14 @@ impl Folder<'_> {
 const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
 const HORIZONTAL: [&str; 8] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T"];
 
+/// The order of names that a number tells apart: RSN77 before RSN125.
+fn by_number(name: &str) -> (String, u64, String) {
+    let start = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
+    let (text, rest) = name.split_at(start);
+    let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    (text.into(), rest[..end].parse().unwrap_or(u64::MAX), rest.into())
+}
+
 /// What the components of a record have in common in their names, and what names the component.
 ///
 /// `RSN125_FRIULI.A_A-TMZ-UP.AT2`: RSN125, UP; `XXX0010103040506.EW`: EW; `XX.MIB..HNE.D.ASC`: HNE; `ELC180.AT2`: ELC, 180.
@@ -173,7 +183,7 @@ fn record_and_component(file: &str) -> (std::borrow::Cow<'_, str>, &str) {
     let (common, component) = component_of_stem(stem);
     let digits = stem.get(3..).map_or(0, |rest| rest.bytes().take_while(u8::is_ascii_digit).count());
     if digits > 0 && stem[..3].eq_ignore_ascii_case("RSN") {
-        return (stem[..3 + digits].into(), component);
+        return (stem[..3 + digits].to_ascii_uppercase().into(), component);
     }
     // Network, station and channel code parted by points.
     let parts: Vec<&str> = stem.split('.').collect();
@@ -201,6 +211,12 @@ fn component_of_stem(stem: &str) -> (&str, &str) {
     let upper = stem.to_ascii_uppercase();
     let parted = |start: usize| stem[..start].ends_with(['-', '_', ' ', '.']);
     let common = |start: usize| stem[..start].trim_end_matches(['-', '_', ' ', '.']);
+    let last =
+        upper.rsplit(['-', '_', ' ', '.']).next().filter(|last| last.len() < stem.len() && is_channel_code(last));
+    if let Some(code) = last {
+        let start = stem.len() - code.len();
+        return (common(start), &stem[start..]);
+    }
     let named = VERTICAL.into_iter().chain(HORIZONTAL).find_map(|ending| {
         let start = upper.strip_suffix(ending)?.len();
         // One letter, or two, may be part of a name where nothing parts them from it.
@@ -240,6 +256,8 @@ mod tests {
             ("RSN125_FRIULI.A_A-TMZ-UP.AT2", "RSN125", "UP", true),
             ("RSN77_SFERN_PULDWN.AT2", "RSN77", "DWN", true),
             ("RSN9_X-VER.AT2", "RSN9", "VER", true),
+            ("RSN8500_VIRGINIA_HNZ.AT2", "RSN8500", "HNZ", true),
+            ("rsn8500_virginia_hne.at2", "RSN8500", "hne", false),
             ("ELC180.AT2", "ELC", "180", false),
             ("ELC-UP.AT2", "ELC", "UP", true),
             ("I-ELC-V.AT2", "I-ELC", "V", true),
@@ -255,6 +273,9 @@ mod tests {
             assert_eq!((&*found, ending), (record, component), "{file}");
             assert_eq!(direction(ending, "") == Direction::Vertical, vertical, "{file}");
         }
+        let mut names = ["RSN1004", "X", "RSN77", "RSN125"];
+        names.sort_by_key(|name| by_number(name));
+        assert_eq!(names, ["RSN77", "RSN125", "RSN1004", "X"]);
         assert_eq!(direction("", "Up"), Direction::Vertical);
         assert_eq!(direction("", "U-D surface (6)"), Direction::Vertical);
         assert_eq!(direction("", "90 Deg"), Direction::Horizontal);

@@ -5,6 +5,7 @@ use crate::commands::{plot, print, report};
 use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
+use crate::results::longest_first;
 use rocking::{DynamicsSource, Motion, Record, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -71,6 +72,9 @@ fn record_warnings(scene: &Scene) -> Vec<String> {
     records.flat_map(told).collect()
 }
 
+/// Modes of which the time is told; the others are brief in most runs, and in `summary.json`.
+const MODES_TOLD: usize = 8;
+
 /// A few lines on what happened.
 fn account(scene: &Scene, response: &Response) -> String {
     let outcome = match (response.status, response.overturned_block) {
@@ -79,7 +83,13 @@ fn account(scene: &Scene, response: &Response) -> String {
         _ => format!("stands at t = {:.4} s, still rocking", response.t_final),
     };
     let peaks: Vec<String> = response.peak_theta.iter().map(|angle| format!("{angle:.5}")).collect();
-    let modes: Vec<String> = response.time_in_mode.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
+    let modes = longest_first(&response.time_in_mode);
+    let (told, others) = modes.split_at(modes.len().min(MODES_TOLD));
+    let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
+    if !others.is_empty() {
+        let time: f64 = others.iter().map(|(_, time)| time).sum();
+        modes.push(format!("{} others {time:.3} s", others.len()));
+    }
     let mut text = String::new();
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", scene.title);

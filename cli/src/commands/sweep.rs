@@ -14,9 +14,13 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
-/// Points run together: enough to keep all threads busy, few enough that little is lost when a sweep is cut off.
-const BATCH: usize = 4096;
+/// Points run together at first. Batches grow and shrink to take [`PATIENCE`]: long enough to keep all threads busy, short enough that
+/// little is lost when a sweep is cut off. Rows do not depend on them.
+const BATCH: usize = 256;
+const MOST: usize = 1 << 16;
+const PATIENCE: Duration = Duration::from_millis(250);
 
 /// Runs a sweep, or what is left of it.
 ///
@@ -37,11 +41,14 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
             .map_err(failed)?;
     let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
     let resumed = table.next - range.start;
+    let mut size = BATCH;
     while table.next < range.end {
-        let batch = table.next..range.end.min(table.next + BATCH);
-        let rows = threads.install(|| sweep.rows(batch));
-        table.append(rows.iter().map(|row| columns.line(row))).map_err(failed)?;
+        let begun = Instant::now();
+        let batch = table.next..range.end.min(table.next + size);
+        let lines = threads.install(|| sweep.lines(batch, |row| columns.line(&row)));
+        table.append(lines.into_iter()).map_err(failed)?;
         bar.reached(table.next - range.start);
+        size = if begun.elapsed() < PATIENCE { (2 * size).min(MOST) } else { (size / 2).max(BATCH) };
     }
     bar.finish();
     table.close().map_err(failed)?;

@@ -16,18 +16,22 @@ pub struct Axis {
 /// Room beyond the values, as a share of their range.
 const ROOM: f64 = 0.06;
 
+/// How far an axis reaches to both sides of zero where all values are zero: its numbers are short, and nothing looks like motion.
+const STILL: f64 = 0.1;
+
 impl Axis {
     /// From `range[0]` to `range[1]`, with at least so many ticks.
     pub fn over(label: &str, range: [f64; 2], ticks: usize) -> Axis {
         Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
     }
 
-    /// Around all `values` with some room; at least `least` to both sides of their middle, for where nothing happens.
-    pub fn around(label: &str, values: impl IntoIterator<Item = f64>, least: f64, ticks: usize) -> Axis {
+    /// Around all `values` with some room; around zero where nothing happens.
+    pub fn around(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Axis {
         let [low, high] = span(values);
         let middle = 0.5 * (low + high);
         // A constant far from zero still has two ends.
-        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(least).max(1e-6 * middle.abs());
+        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(1e-6 * middle.abs());
+        let reach = if reach > 0.0 { reach } else { STILL };
         Axis::over(label, [middle - reach, middle + reach], ticks)
     }
 
@@ -127,7 +131,9 @@ mod tests {
 
     #[test]
     fn an_axis_without_values_has_a_range() {
-        let axis = Axis::around("", [0.0, 0.0], 0.1, 3);
-        assert_eq!((axis.range, axis.share(0.0)), ([-0.1, 0.1], 0.5));
+        for values in [&[][..], &[0.0, 0.0]] {
+            let axis = Axis::around("", values.iter().copied(), 3);
+            assert_eq!((axis.range, axis.share(0.0)), ([-0.1, 0.1], 0.5));
+        }
     }
 }

@@ -4,9 +4,9 @@ use super::Figure;
 use super::axis::{Axis, brief};
 use super::curve::Point;
 use super::motion::Motion;
-use super::sheet::{Anchor, Key, Sheet};
+use super::sheet::{Anchor, Key, Panel, Sheet};
 use super::style::{self, Stroke};
-use super::time_history::{mark_ending, time_axis, wide};
+use super::time_history::{mark_ending, time_axis};
 use rocking::Sample;
 use rocking::pattern::Pattern;
 
@@ -44,12 +44,12 @@ pub fn draw(motion: &Motion) -> Figure {
         value if value >= 2e3 => (1e-3, "kJ"),
         _ => (1.0, "J"),
     };
-    let axis = Axis::around(&format!("Energy [{unit}]"), values.iter().map(|value| value * factor), 1e-9, 5);
+    let axis = Axis::around(&format!("Energy [{unit}]"), values.iter().map(|value| value * factor), 5);
 
     let mut sheet = Sheet::new("Kinetic, potential and total energy over time");
     let entries: Vec<_> = KINDS.map(|(name, stroke)| (Key::Line(stroke), name.to_string())).into();
     let top = sheet.legend(0.0, &entries) + 4.0;
-    let panel = wide(top, HEIGHT, time_axis(motion), Some(axis));
+    let panel = Panel::wide(top, HEIGHT, time_axis(motion), Some(axis));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));

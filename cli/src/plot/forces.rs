@@ -6,7 +6,7 @@ use super::curve::{self, Point};
 use super::motion::Motion;
 use super::sheet::{Anchor, Key, Panel, Sheet};
 use super::style::{self, Stroke};
-use super::time_history::{mark_ending, time_axis, wide};
+use super::time_history::{mark_ending, time_axis};
 
 /// Heights `[px]`.
 const NORMAL: f64 = 190.0;
@@ -38,7 +38,7 @@ pub fn draw(motion: &Motion) -> Figure {
     let normals = contacts.iter().flat_map(|contact| &contact.normal).map(|point| point[1]);
     let normals = normals.map(|normal| normal.clamp(-1.0, LARGEST_NORMAL)).chain([0.0, 1.0]);
     let label = "Normal force N/W";
-    let normal = wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 0.1, 3)));
+    let normal = Panel::wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 3)));
     sheet.axes(&normal);
     sheet.label_upwards(&normal);
     sheet.level(&normal, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -53,7 +53,7 @@ pub fn draw(motion: &Motion) -> Figure {
     let most = LARGEST_DEMAND.max(summary.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
     let least = summary.friction.unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
-    let friction = wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
+    let friction = Panel::wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
     sheet.label_upwards(&friction);
     for (interface, contact) in contacts.iter().enumerate() {

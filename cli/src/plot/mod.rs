@@ -27,7 +27,7 @@ use crate::results::Results;
 use motion::Motion;
 use sheet::Sheet;
 
-#[allow(unused_imports, reason = "for whoever has a record to show")]
+pub use motion::FALL;
 pub use record::record;
 
 /// A figure: a stand-alone SVG document, and what it is made of.

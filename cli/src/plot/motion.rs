@@ -76,9 +76,7 @@ impl Motion<'_> {
     /// Slenderness of the stack that stands on each interface, base first `[rad]`: `α_i = atan(c_i / h_Pi)`.
     pub fn slenderness(&self) -> Vec<f64> {
         let column = &self.results.column;
-        (0..column.len())
-            .map(|interface| column.contact_half_width(interface).atan2(column.centroid_height(interface)))
-            .collect()
+        (0..column.len()).map(|interface| column.stack(interface).slenderness()).collect()
     }
 
     /// Whether the column overturned.
@@ -94,7 +92,7 @@ impl Motion<'_> {
         falling.filter(|_| self.overturned()).map(|knot| knot.t)
     }
 
-    /// What the run ended with, to be written at its time; none where time was over first.
+    /// What the run ended with, to be written at its time; none where time was over first, or nothing began.
     pub fn ending(&self) -> Option<(f64, String)> {
         let summary = &self.results.summary;
         match (summary.status, summary.overturned_block) {
@@ -102,7 +100,9 @@ impl Motion<'_> {
                 Some((summary.t_final, format!("overturned (block {block})")))
             }
             (StopReason::Overturned, _) => Some((summary.t_final, "overturned".into())),
-            (StopReason::AtRest, _) if summary.t_final < self.end => Some((summary.t_final, "at rest".into())),
+            (StopReason::AtRest, _) if summary.t_final > 0.0 && summary.t_final < self.end => {
+                Some((summary.t_final, "at rest".into()))
+            }
             _ => None,
         }
     }

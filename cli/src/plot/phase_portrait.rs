@@ -35,8 +35,8 @@ pub fn draw(motion: &Motion) -> Figure {
     });
     let width = (WIDTH - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
     let height = if blocks == 1 { 0.62 * width } else { 1.15 * width.min(240.0) };
-    let x = Axis::around("Angle θ [rad]", angles, 1e-6, if across == 1 { 5 } else { 2 });
-    let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 1e-6, 4);
+    let x = Axis::around("Angle θ [rad]", angles, if across == 1 { 5 } else { 2 });
+    let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 4);
 
     for block in 0..blocks {
         let (row, place) = (block / across, block % across);

@@ -3,9 +3,8 @@
 use super::Figure;
 use super::axis::{Axis, brief};
 use super::curve::Point;
-use super::sheet::{Anchor, Sheet};
+use super::sheet::{Anchor, Panel, Sheet};
 use super::style::{self, Stroke};
-use super::time_history::wide;
 
 /// Heights `[px]`.
 const HEIGHT: f64 = 118.0;
@@ -30,8 +29,8 @@ pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64
     let mut top = GAP;
     let mut peaks = Vec::new();
     for (label, values) in quantities {
-        let axis = Axis::around(label, values.iter().copied(), 1e-9, 3);
-        let panel = wide(top, HEIGHT, time.unnumbered(), Some(axis));
+        let axis = Axis::around(label, values.iter().copied(), 3);
+        let panel = Panel::wide(top, HEIGHT, time.unnumbered(), Some(axis));
         sheet.axes(&panel);
         sheet.label_upwards(&panel);
         sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -39,7 +38,7 @@ pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64
         peaks.push(values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs())));
         top = panel.frame.bottom() + GAP;
     }
-    let panel = wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5)));
+    let panel = Panel::wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     let percent: Vec<f64> = build_up.iter().map(|share| 100.0 * share).collect();

@@ -7,6 +7,7 @@
 use super::axis::{self, Axis};
 use super::curve::{self, Frame, Point};
 use super::style::{self, Stroke};
+use crate::markup::escape;
 use kuva::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::axis::add_axes_and_grid;
@@ -92,6 +93,11 @@ pub struct Panel {
 }
 
 impl Panel {
+    /// A panel over the width of the sheet.
+    pub fn wide(top: f64, height: f64, x: Axis, y: Option<Axis>) -> Panel {
+        Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
+    }
+
     /// Where a pair of values is on paper.
     pub fn place(&self, [x, y]: Point) -> Point {
         let up = self.y.as_ref().map_or(0.0, |axis| axis.share(y));
@@ -257,7 +263,9 @@ impl Sheet {
         let drawn = SvgBackend::new().with_pretty(true).render_scene(&self.scene());
         // Its root has no view box: the sheet would not scale.
         let body = drawn.split_once('>').map_or("", |(_, body)| body);
-        let (height, title, caption) = (self.height, escape(&self.title), escape(caption));
+        // Signs that XML does not know, as a file's name may have them.
+        let visible = |text: &str| escape(&text.replace(char::is_control, ""));
+        let (height, title, caption) = (self.height, visible(&self.title), visible(caption));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
              viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
@@ -393,10 +401,4 @@ pub fn text_width(text: &str, size: u32) -> f64 {
         _ => 0.62,
     };
     f64::from(size) * text.chars().map(em).sum::<f64>()
-}
-
-/// For the value of an XML attribute.
-fn escape(text: &str) -> String {
-    let visible: String = text.chars().filter(|sign| !sign.is_control()).collect();
-    visible.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

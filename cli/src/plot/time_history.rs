@@ -4,8 +4,10 @@ use super::Figure;
 use super::axis::{Axis, brief, span, subscript};
 use super::curve::{Frame, Point};
 use super::motion::{FALL, Motion, Stretch, over_time};
-use super::sheet::{Anchor, Key, LEFT, Panel, RIGHT, Sheet, WIDTH, corners};
+use super::sheet::{Anchor, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
+use crate::number::percent;
+use crate::results::longest_first;
 use rocking::Sample;
 
 /// Heights `[px]`.
@@ -34,11 +36,6 @@ pub fn time_axis(motion: &Motion) -> Axis {
     Axis::over("Time [s]", [0.0, motion.end], 6)
 }
 
-/// A panel over the width of the sheet.
-pub fn wide(top: f64, height: f64, x: Axis, y: Option<Axis>) -> Panel {
-    Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
-}
-
 /// Ground acceleration in parts of gravity, from `top` down. Returns where it ends.
 fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     let gravity = motion.results.column.gravity();
@@ -46,10 +43,7 @@ fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
         [0, 1].map(|direction| over_time(motion.samples, |sample: &Sample| sample.ground[direction] / gravity)).into();
     let vertical = directions[1].iter().any(|point| point[1] != 0.0);
     let values = directions.iter().flatten().map(|point| point[1]);
-    // Where the ground is still, the axis says so at one glance.
-    let still = directions.iter().flatten().all(|point| point[1] == 0.0);
-    let values = values.chain(if still { [-0.1, 0.1] } else { [0.0; 2] });
-    let axis = Axis::around("Ground acc. [g]", values, 1e-6, 3);
+    let axis = Axis::around("Ground acc. [g]", values.chain([0.0]), 3);
     let mut top = top;
     let strokes = [Stroke::solid(style::GROUND, 1.5), Stroke::dashed("#e69f00", 1.5, &[6.0, 3.0])];
     if vertical {
@@ -57,7 +51,7 @@ fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
         let entries: Vec<_> = strokes.iter().cloned().map(Key::Line).zip(names).collect();
         top = sheet.legend(top - GAP, &entries) + 2.0;
     }
-    let panel = wide(top, GROUND, time_axis(motion).unnumbered(), Some(axis));
+    let panel = Panel::wide(top, GROUND, time_axis(motion).unnumbered(), Some(axis));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -96,7 +90,7 @@ fn angles_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
     let limit = if motion.overturned() { FALL } else { f64::INFINITY };
     let values = curves.iter().flatten().map(|point| point[1].clamp(-limit, limit));
     let label = if curves.len() == 1 { "Angle θ/α" } else { "Angles θᵢ/αᵢ" };
-    let panel = wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 1e-6, 4)));
+    let panel = Panel::wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 4)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -120,7 +114,7 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, anchor: An
 
 /// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
 fn strip(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
-    let panel = wide(top, TICKS + BAND, time_axis(motion), None);
+    let panel = Panel::wide(top, TICKS + BAND, time_axis(motion), None);
     let band = Frame { top: top + TICKS, height: BAND, ..panel.frame };
     draw_band(sheet, motion, &panel, &band);
     let impacts: Vec<Vec<Point>> =
@@ -209,10 +203,9 @@ fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
 
 /// The modes of a run, those that last longest first; `rest` last.
 fn modes(motion: &Motion) -> Vec<String> {
-    let mut modes: Vec<(&String, f64)> =
-        motion.results.summary.time_in_mode.iter().map(|(mode, time)| (mode, *time)).collect();
-    modes.sort_by(|a, b| (a.0 == "rest").cmp(&(b.0 == "rest")).then(b.1.total_cmp(&a.1)));
-    modes.into_iter().map(|(mode, _)| mode.clone()).collect()
+    let (resting, moving): (Vec<_>, Vec<_>) =
+        longest_first(&motion.results.summary.time_in_mode).into_iter().partition(|(mode, _)| *mode == "rest");
+    moving.into_iter().chain(resting).map(|(mode, _)| mode.to_string()).collect()
 }
 
 fn mode_fill(mode: &str, rank: usize) -> &'static str {
@@ -225,11 +218,7 @@ const LISTED: usize = 24;
 fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     let times = &motion.results.summary.time_in_mode;
     let total: f64 = times.values().sum();
-    let share = |time: f64| match 100.0 * time / total {
-        percent if percent < 0.1 => "< 0.1 %".into(),
-        percent if percent < 10.0 => format!("{percent:.1} %"),
-        percent => format!("{percent:.0} %"),
-    };
+    let share = |time: f64| percent(time / total);
     let modes = modes(motion);
     let (resting, moving): (Vec<&String>, Vec<&String>) = modes.iter().partition(|mode| *mode == "rest");
     let mut entries = vec![(Key::None, "Time in mode:".to_string())];
@@ -284,6 +273,10 @@ fn caption(motion: &Motion) -> String {
         let verb = if motion.overturned() { "" } else { "is " };
         caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
     }
-    caption.push_str(&format!(" {} impact(s).", summary.impacts));
+    if motion.results.events.is_empty() {
+        caption.push_str(" Nothing sets the column in motion.");
+    } else {
+        caption.push_str(&format!(" {} impact(s).", summary.impacts));
+    }
     caption
 }

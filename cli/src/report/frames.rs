@@ -5,12 +5,13 @@
 //! written to 1e-10 rad. The ground's displacement is for the eye alone: trapezoids over the rows, less a constant velocity.
 
 use crate::number::{fixed, significant};
+use crate::plot;
 use crate::report::html::script;
 use crate::report::outcome::closed;
 use crate::report::sketch::fill;
 use crate::results::{Event, Results};
-use rocking::EventKind;
 use rocking::pattern::Pattern;
+use rocking::{EventKind, StopReason};
 use serde_json::json;
 
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
@@ -130,7 +131,7 @@ impl Ground {
     }
 }
 
-/// The JSON that the player reads; its keys are told in `player.js`.
+/// The JSON that the player reads; its keys are told in `player/state.js`.
 pub fn json(results: &Results) -> String {
     let ground = Ground::new(results);
     let frames = frames(results, &ground);
@@ -172,7 +173,7 @@ pub fn json(results: &Results) -> String {
         .collect();
     let head = json!({
         "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
-        "patterns": patterns, "events": events,
+        "patterns": patterns, "events": events, "angles": largest_shown(results),
     });
     let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {
@@ -182,8 +183,8 @@ pub fn json(results: &Results) -> String {
     let omega = per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS));
     // `{:?}` is the shortest text that reads back to the same bits.
     let t = list(frames.iter().map(|frame| format!("{:?}", frame.t)).collect());
-    let moving = |axis: usize| results.samples.iter().any(|row| row.ground[axis] != 0.0);
-    let channel = |quantity: usize, axis: usize| match moving(axis) {
+    let peaks = results.peak_ground_acceleration();
+    let channel = |quantity: usize, axis: usize| match peaks[axis] > 0.0 {
         true => list(frames.iter().map(|frame| fixed(frame.ground[quantity][axis], GROUND_DIGITS)).collect()),
         false => "null".into(),
     };
@@ -194,6 +195,13 @@ pub fn json(results: &Results) -> String {
         "{head},\n\"t\":{t},\n\"theta\":{theta},\n\"omega\":{omega},\n\"pattern\":{},\n\"ax\":{ax},\n\"ay\":{ay},\n\"dx\":{dx},\n\"dy\":{dy}}}",
         list(states)
     ))
+}
+
+/// The largest angle that the player's curves show, as in the figures `[rad]`; none where the column stands, and all are shown.
+fn largest_shown(results: &Results) -> Option<f64> {
+    let column = &results.column;
+    let slenderness = (0..column.len()).map(|interface| column.stack(interface).slenderness());
+    (results.summary.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
 fn kind(kind: EventKind) -> &'static str {
@@ -216,8 +224,7 @@ fn interfaces(event: &Event) -> Vec<usize> {
 /// What a viewer must know of what is shown.
 pub fn notes(results: &Results) -> String {
     let mut notes = Vec::new();
-    let moving = [0, 1].map(|axis| results.samples.iter().any(|row| row.ground[axis] != 0.0));
-    if moving[0] || moving[1] {
+    if results.peak_ground_acceleration() != [0.0; 2] {
         let Ground { drift, .. } = Ground::new(results);
         let name = |axis: usize| ["horizontal", "vertical"][axis];
         let taken: Vec<String> = (0..2)

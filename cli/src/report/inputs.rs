@@ -1,8 +1,9 @@
 //! What was asked: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
+use crate::markup::escape;
 use crate::number::{percent, significant};
-use crate::report::html::{definitions, escape};
+use crate::report::html::definitions;
 use crate::results::Results;
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -11,10 +12,10 @@ use std::fmt::Write as _;
 pub fn inputs(results: &Results) -> String {
     let (summary, column) = (&results.summary, &results.column);
     let mut text = blocks(results);
-    let peak = |axis: usize| results.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
+    let peaks = results.peak_ground_acceleration();
     let component = |name: &str, axis: usize| {
         let motion = summary.excitation.get(name).unwrap_or(&Value::Null);
-        escape(&ground::words(motion, column.gravity(), peak(axis)))
+        escape(&ground::words(motion, column.gravity(), peaks[axis]))
     };
     let mut rows = vec![
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),

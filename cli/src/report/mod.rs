@@ -1,7 +1,7 @@
 //! A run as one HTML file that needs nothing else: outcome, validity, animation, figures, inputs, provenance.
 //!
-//! The page is `page.html` with the texts that the files beside this one write, `page.css` and `player.js` put in their places,
-//! and the run's frames as JSON for the player. The same folder gives the same bytes: no time of day, no path of the folder.
+//! The page is `page.html` with the texts that the files beside this one write, `page.css` and the files of `player/` put in their
+//! places, and the run's frames as JSON for the player. The same folder gives the same bytes: no time of day, no path of the folder.
 //! What the page says of a run it reads from [`Results`]; it computes no motion.
 
 mod outcome;
@@ -16,9 +16,9 @@ mod svg;
 
 mod html;
 
+use crate::markup::escape;
 use crate::plot;
 use crate::results::Results;
-use html::escape;
 use std::fmt::Write as _;
 
 /// The page of a run.
@@ -45,10 +45,18 @@ pub fn page(results: &Results) -> String {
         ("provenance", provenance::provenance(results)),
         ("css", include_str!("page.css").into()),
         ("run", frames::json(results)),
-        ("js", include_str!("player.js").into()),
+        ("js", PLAYER.join("\n")),
     ];
     html::fill(include_str!("page.html"), &parts)
 }
+
+/// The player: one module of the page, in the order of its parts.
+const PLAYER: [&str; 4] = [
+    include_str!("player/state.js"),
+    include_str!("player/stage.js"),
+    include_str!("player/strip.js"),
+    include_str!("player/controls.js"),
+];
 
 /// Where the player writes each block's angle, top block first.
 fn readout(blocks: usize) -> String {

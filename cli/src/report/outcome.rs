@@ -1,9 +1,9 @@
 //! What happened: the outcome in a sentence, key figures, peaks, impacts, time in each mode.
 
+use crate::markup::escape;
 use crate::number::{degrees, percent, significant};
-use crate::report::html::escape;
 use crate::report::sketch::sketch;
-use crate::results::{Event, Results};
+use crate::results::{Event, Results, longest_first};
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::{EventKind, StopReason};
 use std::fmt::Write as _;
@@ -58,24 +58,23 @@ pub fn tiles(results: &Results) -> String {
     let largest = (0..results.column.len()).max_by(|a, b| summary.peak_theta[*a].total_cmp(&summary.peak_theta[*b]));
     if let Some(block) = largest {
         let peak = summary.peak_theta[block];
-        let of = format!("{} rad; {} of α", significant(peak, 4), percent(peak / results.column.slenderness()));
+        let of =
+            format!("{} rad; {} of the column's α", significant(peak, 4), percent(peak / results.column.slenderness()));
         tiles.push(("largest angle", degrees(peak), of));
     }
     let starts = results.events.iter().filter(|event| event.kind != EventKind::Impact).count();
     tiles.push(("impacts", summary.impacts.to_string(), format!("{starts} other event(s): starts, openings")));
     let total: f64 = summary.time_in_mode.values().sum();
-    let most = summary.time_in_mode.iter().max_by(|a, b| a.1.total_cmp(b.1));
-    if let Some((mode, time)) = most {
+    if let Some((mode, time)) = longest_first(&summary.time_in_mode).first().copied() {
         let name = if mode == "rest" { "at rest".to_string() } else { format!("mode {}", escape(mode)) };
         tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
     }
-    let peak = |axis: usize| results.samples.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max);
-    let peaks = [peak(0), peak(1)];
+    let peaks = results.peak_ground_acceleration();
     let [x, y] = peaks.map(|peak| format!("{} g", significant(peak / results.column.gravity(), 3)));
     tiles.push(match peaks {
         [0.0, 0.0] => ("ground acceleration", "none".into(), "the ground does not move".into()),
-        [_, 0.0] => ("peak ground acceleration", x, "horizontal; at output times".into()),
-        _ => ("peak ground acceleration", x, format!("vertical {y}; at output times")),
+        [_, 0.0] => ("peak ground acceleration", x, "horizontal".into()),
+        _ => ("peak ground acceleration", x, format!("horizontal; vertical {y}")),
     });
     let tile = |(name, value, note): (&str, String, String)| {
         format!(
@@ -91,7 +90,7 @@ pub fn peaks(results: &Results) -> String {
     let mut rows = String::new();
     for block in (0..column.len()).rev() {
         let peak = results.summary.peak_theta[block];
-        let slenderness = column.contact_half_width(block).atan2(column.centroid_height(block));
+        let slenderness = column.stack(block).slenderness();
         let share = peak / slenderness;
         let _ = writeln!(
             rows,
@@ -166,11 +165,9 @@ const MODES_SHOWN: usize = 8;
 pub fn modes(results: &Results) -> String {
     let blocks = results.column.len();
     let total: f64 = results.summary.time_in_mode.values().sum::<f64>().max(f64::MIN_POSITIVE);
-    let mut modes: Vec<(&String, f64)> =
-        results.summary.time_in_mode.iter().map(|(mode, time)| (mode, *time)).collect();
-    modes.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let row = |(mode, time): &(&String, f64)| {
-        let pattern = match mode.as_str() {
+    let modes = longest_first(&results.summary.time_in_mode);
+    let row = |(mode, time): &(&str, f64)| {
+        let pattern = match *mode {
             "rest" => Some(Pattern::rest(blocks)),
             mode => ModeLabel::parse(mode).and_then(|label| label.pattern(blocks)),
         };
@@ -186,7 +183,7 @@ pub fn modes(results: &Results) -> String {
         )
     };
     let list =
-        |modes: &[(&String, f64)]| format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>());
+        |modes: &[(&str, f64)]| format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>());
     let (shown, others) = modes.split_at(modes.len().min(MODES_SHOWN));
     let mut text = list(shown);
     if !others.is_empty() {

@@ -1,7 +1,8 @@
 //! What computed the run, and how to have it computed again.
 
+use crate::markup::escape;
 use crate::number::{degrees, significant};
-use crate::report::html::{definitions, escape};
+use crate::report::html::definitions;
 use crate::results::Results;
 
 /// The provenance of a run.

@@ -1,6 +1,6 @@
 //! A mode in a few pixels: the column with every open interface open by the same angle, as `rocking modes --svg` draws it.
 
-use crate::figure::FILLS;
+use crate::figure::{FILLS, posture};
 use crate::number::fixed;
 use rocking::Column;
 use rocking::kinematics::outlines;
@@ -26,16 +26,7 @@ pub fn fill(link: usize) -> &'static str {
 
 /// The column in a pattern, as SVG for a line of text.
 pub fn sketch(column: &Column, pattern: &Pattern) -> String {
-    let tilt = TILT_DEG.min(LEAN_DEG / column.len() as f64).to_radians();
-    let mut lean = 0.0;
-    let theta: Vec<f64> = pattern
-        .0
-        .iter()
-        .map(|state| {
-            lean += tilt * f64::from(state.sign());
-            lean
-        })
-        .collect();
+    let theta = posture(pattern, TILT_DEG.min(LEAN_DEG / column.len() as f64));
     let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
     let widest = column.blocks().iter().map(|block| block.half_width).fold(0.0, f64::max);
     let reach = ROOM * height + widest;

@@ -1,12 +1,15 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations.
 
+use crate::markup::escape;
 use crate::number::{percent, significant};
-use crate::report::html::escape;
 use crate::results::Results;
 use std::fmt::Write as _;
 
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
 const UNUSUAL_FRICTION: f64 = 1.0;
+
+/// More warnings are folded: the verdict has told what they come to.
+const WARNINGS_SHOWN: usize = 5;
 
 /// What a run says of the model's limits.
 enum Verdict {
@@ -68,6 +71,9 @@ fn judge(results: &Results) -> Verdict {
             significant(demand, 3),
             significant(available, 3)
         )),
+        (true, None) if demand == 0.0 => {
+            Verdict::Holds("no block leaves its contact, and no joint needs any friction".into())
+        }
         (true, None) => Verdict::Conditional(format!(
             "no block leaves its contact, and {} needs a friction coefficient of {}{}",
             named(&[worst]),
@@ -129,7 +135,7 @@ pub fn details(results: &Results) -> String {
             "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}{share}</td><td>{}</td></tr>",
             if slides { " class=\"beyond\"" } else { "" },
             interface + 1,
-            demand.map_or("no limit".into(), |demand| significant(demand, 3)),
+            demand.map_or("none is enough".into(), |demand| significant(demand, 3)),
             force.map_or("not finite".into(), |force| significant(force, 4)),
             significant(weight, 4),
         );
@@ -168,7 +174,11 @@ pub fn details(results: &Results) -> String {
     text.push_str(&separations);
     if !summary.warnings.is_empty() {
         let list: String = summary.warnings.iter().map(|warning| format!("<li>{}</li>", escape(warning))).collect();
-        let _ = writeln!(text, "<h3>Warnings of the run</h3>\n<ul class=\"warnings\">{list}</ul>");
+        let list = format!("<ul class=\"warnings\">{list}</ul>");
+        let _ = match summary.warnings.len() {
+            0..=WARNINGS_SHOWN => writeln!(text, "<h3>Warnings of the run</h3>\n{list}"),
+            count => writeln!(text, "<details><summary>{count} warnings of the run</summary>\n{list}</details>"),
+        };
     }
     text
 }

@@ -24,8 +24,9 @@ use super::{
 };
 use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
 
-/// The unit among the integers.
-const UNIT: usize = 2;
+/// The unit among the integers: its place in the format's table, and one less where somebody counted from 1. What stands there
+/// otherwise, 1 for accelerations, is no unit of theirs.
+const UNITS: [usize; 2] = [2, 1];
 
 /// The azimuth among the integers `[°]`; 400 is up, 401 down.
 const AZIMUTH: usize = 53;
@@ -122,7 +123,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let block = Block {
         lines,
         span: (channel.announced + 1, channel.end),
-        declared,
+        declared: Some(declared),
         header: (line, "acceleration pts"),
         layout: Layout::find(after(announced, "format").unwrap_or(announced)).or(Some(LAYOUT)),
         lenient: options.lenient,
@@ -214,7 +215,7 @@ impl<'t> Channel<'t> {
         let block = Block {
             lines: self.lines,
             span: (index + 1, end),
-            declared: count.clamp(1, 1000),
+            declared: Some(count.clamp(1, 1000)),
             header: (index + 1, "header"),
             layout,
             lenient: true,
@@ -240,7 +241,8 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: that of the integer header, else that of the line before the samples.
+    /// The unit: of the integer header's candidates the first that goes with the line before the samples, else the one in its
+    /// place; that of the line where nothing stands there.
     fn unit(
         &self,
         integers: &[f64],
@@ -252,10 +254,18 @@ impl<'t> Channel<'t> {
         let name = rest.split([',', '(']).next().unwrap_or("").trim();
         let code = rest.split_once('(').and_then(|(_, rest)| leading_number(rest.split(')').next()?));
         let stated = AccelerationUnit::parse(name).or_else(|| code.and_then(unit_of));
-        let header = integers.get(UNIT).and_then(|code| unit_of(*code)).zip(self.find("integer-header"));
-        if let Some((unit, index)) = header {
-            let unit = agreed_unit(unit, index + 1, options)?;
-            if let Some(stated) = stated.filter(|stated| stated.in_si(1.0) != unit.in_si(1.0)) {
+        let candidates: Vec<(usize, AccelerationUnit)> =
+            UNITS.into_iter().filter_map(|place| Some((place, unit_of(*integers.get(place)?)?))).collect();
+        let goes = |unit: AccelerationUnit| stated.is_none_or(|stated| stated == unit);
+        let found = candidates.iter().find(|(_, unit)| goes(*unit));
+        let found = found.or(candidates.iter().find(|(place, _)| *place == UNITS[0]));
+        if let Some(((place, unit), index)) = found.zip(self.find("integer-header")) {
+            let unit = agreed_unit(*unit, index + 1, options)?;
+            if *place != UNITS[0] {
+                warnings
+                    .push(format!("the unit {unit} is value {place} (from 0) of the integer header, not {}", UNITS[0]));
+            }
+            if let Some(stated) = stated.filter(|_| !goes(unit)) {
                 warnings.push(format!(
                     "the integer header gives the unit {unit}, which is taken, and line {line} {stated}"
                 ));

@@ -216,7 +216,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let block = Block {
         lines,
         span: (channel.announced + 1, channel.end),
-        declared,
+        declared: Some(declared),
         header: (line, "points of accel data"),
         layout: Layout::find(announced).or(Some(LAYOUT)),
         lenient: options.lenient,
@@ -261,8 +261,10 @@ fn unit(announced: &str) -> Unit<'_> {
     let Some(at) = lower.rfind(" in ").or_else(|| lower.rfind(",in ")) else { return Unit::Silent };
     let rest = &announced[at + " in ".len()..];
     let rest = rest.trim_start().strip_prefix("units of").unwrap_or(rest).trim_start();
-    let name = rest.split(['(', ',', ';']).next().unwrap_or("").trim().trim_end_matches('.').trim_end();
-    match AccelerationUnit::parse(name) {
+    let name = rest.split(['(', ',', ';']).next().unwrap_or("").trim();
+    // A descriptor may follow without brackets: `in cm/sec2. 8F10.3`.
+    let word = name.split_whitespace().next().unwrap_or("").trim_end_matches('.');
+    match AccelerationUnit::parse(name).or_else(|| AccelerationUnit::parse(word)) {
         Some(unit) => Unit::Known(unit),
         None if name.is_empty() => Unit::Silent,
         None => Unit::Unknown(name),

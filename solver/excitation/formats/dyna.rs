@@ -28,12 +28,12 @@ const PEAK_DIFFERENCE: [f64; 2] = [1e-3, 1e-2];
 /// Whether these are the lines of such a file.
 pub fn is_one(lines: &[&str]) -> bool {
     let header = Header::of(lines);
-    ["SAMPLING_INTERVAL_S", "NDATA", "HEADER_FORMAT"].iter().filter(|key| header.find(key).is_some()).count() >= 2
-        || (header.find("STREAM").is_some() && header.entries.len() >= FEWEST_KEYS)
+    KEYS.iter().filter(|key| header.find(key).is_some()).count() >= 2
 }
 
-/// Keys of a header that has lost the ones that name the format.
-const FEWEST_KEYS: usize = 8;
+/// Keys of which a header has two at least, whatever it has lost.
+const KEYS: [&str; 7] =
+    ["SAMPLING_INTERVAL_S", "NDATA", "STREAM", "HEADER_FORMAT", "DATA_TYPE", "EVENT_ID", "STATION_CODE"];
 
 /// `KEY: value` lines.
 struct Header<'t> {
@@ -82,6 +82,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
             return Err(wrong(line, problem, "use the acceleration file (.ACC) of the same record"));
         }
     }
+    refuse_spectrum(lines, header.end)?;
     let remedy = "give it as `SAMPLING_INTERVAL_S: 0.005` and `NDATA: 4000`";
     let place = header.end.max(1);
     let (dt_line, dt) = header
@@ -100,11 +101,10 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
             }
         },
     };
-    refuse_spectrum(lines, header.end, declared)?;
     let block = Block {
         lines,
         span: (header.end, lines.len()),
-        declared,
+        declared: Some(declared),
         header: (count_line, "NDATA"),
         layout: None,
         lenient: options.lenient,
@@ -162,12 +162,10 @@ fn rounding(value: &str) -> f64 {
     0.5 * 0.1_f64.powi(decimals as i32)
 }
 
-/// Response spectra have the same header and rows of period and ordinate, as many as declared.
-fn refuse_spectrum(lines: &[&str], first: usize, declared: usize) -> Result<(), RecordError> {
-    let rows: Vec<usize> =
-        lines[first..].iter().map(|line| words(line).count()).filter(|columns| *columns > 0).collect();
-    let pairs = !rows.is_empty() && rows.iter().all(|columns| *columns == 2);
-    if pairs && rows.len() * 2 != declared && rows.len() > 1 {
+/// Response spectra have the same header and rows of period and ordinate; histories have one number a row.
+fn refuse_spectrum(lines: &[&str], first: usize) -> Result<(), RecordError> {
+    let mut rows = lines[first..].iter().map(|line| words(line).count()).filter(|columns| *columns > 0).peekable();
+    if rows.peek().is_some() && rows.all(|columns| columns == 2) {
         return Err(RecordError::Header {
             line: first + 1,
             problem: "rows of two columns: a response spectrum, not an acceleration history".into(),

@@ -14,11 +14,11 @@
 //! ```
 //!
 //! The acceleration is the integer times the scale factor; the instrument's zero is the mean of the record, which is removed.
+//! The duration is a nominal one and no count of samples: all of them are read, and the user is told where it differs. Only a
+//! file that is too short and ends within a number is taken for cut off.
 
-use super::numbers::{Block, Layout, is_text};
-use super::{
-    Format, RecordFile, agreed_dt, agreed_unit, brief, leading_number, peak_warning, positive_dt, tidy, whole_count,
-};
+use super::numbers::{Block, Layout, is_text, number, split};
+use super::{Format, RecordFile, agreed_dt, agreed_unit, brief, leading_number, peak_warning, positive_dt, tidy};
 use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
 
 /// Lines of the header.
@@ -126,31 +126,43 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     })?;
     let unit = agreed_unit(unit, scale_line, options)?;
 
-    let remedy = "write it as `Duration Time(s)  60`";
-    let (count_line, duration) = header.wanted(DURATION, remedy)?;
-    let count = leading_number(duration).map(|duration| (duration / dt).round());
-    let declared = whole_count(count, count_line, lines[count_line - 1], remedy)?;
-
-    // Remarks may need more than the line of the memo.
-    let mut start = (first + HEADER_LINES - 1).max(scale_line);
-    while start < lines.len() && (is_text(lines[start]) || lines[start].trim().is_empty() || has_words(lines[start])) {
+    // Somebody may have removed the memo, and remarks may need more than its line.
+    let is_row = |line: &str| split(line, 1).is_ok_and(|row| !row.is_empty());
+    let memo = first + HEADER_LINES;
+    let mut start = scale_line;
+    while start < lines.len() && if start < memo { !is_row(lines[start]) } else { is_remark(lines[start]) } {
         start += 1;
     }
+    let (duration_line, duration) = header.find(DURATION).unwrap_or_default();
     let block = Block {
         lines,
         span: (start, lines.len()),
-        declared,
-        header: (count_line, "Duration Time"),
+        declared: None,
+        header: (duration_line, "Duration Time"),
         layout: Some(LAYOUT),
         lenient: options.lenient,
     };
     let samples = block.read()?;
+    let count = samples.values.len();
+    let mut warnings = samples.warnings;
+    if let Some(duration) = leading_number(duration) {
+        let nominal = (duration / dt).round() as usize;
+        if samples.cut && count < nominal && !options.lenient {
+            let (line, key) = block.header;
+            return Err(RecordError::Fewer { line, key, declared: nominal, found: count });
+        }
+        if count != nominal {
+            warnings.push(format!(
+                "{count} samples at {dt} s are {:.6} s, and line {duration_line} says {duration} s; is the file whole?",
+                count as f64 * dt
+            ));
+        }
+    }
     let scale = scale * unit.in_si(options.gravity);
-    let mean = samples.values.iter().sum::<f64>() / samples.values.len().max(1) as f64;
+    let mean = samples.values.iter().sum::<f64>() / count.max(1) as f64;
     let accel: Vec<f64> = samples.values.iter().map(|value| (value - mean) * scale).collect();
     let peak = header.find(PEAK).and_then(|(line, value)| Some((line, leading_number(value)?.abs())));
     let stated = peak.map(|(_, peak)| peak * unit.in_si(options.gravity)).filter(|peak| *peak > 0.0);
-    let mut warnings = samples.warnings;
     warnings.extend(peak_warning(&accel, stated, peak.map_or(0, |(line, _)| line), PEAK_DIFFERENCE));
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
     Ok(RecordFile {
@@ -159,7 +171,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         station: header.find(STATION).map(|(_, value)| tidy(value)).unwrap_or_default(),
         component: component.clone(),
         unit,
-        declared: Some(declared),
+        declared: None,
         dt,
         accel,
         stated_peak: stated,
@@ -168,19 +180,20 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     })
 }
 
-/// A line of the header: it begins with letters.
-fn has_words(line: &str) -> bool {
-    line.trim_start().starts_with(|c: char| c.is_alphabetic())
-        && !line.trim_start().to_ascii_lowercase().starts_with("nan")
+/// A line without samples.
+fn is_remark(line: &str) -> bool {
+    line.trim().is_empty() || is_text(line)
 }
 
-/// `3920(gal)/6182761`: unit, and its size for one count.
+/// `3920(gal)/6182761`: unit, and its size for one count. The unit is gal where it is not named.
 fn factor(text: &str) -> Option<(AccelerationUnit, f64)> {
-    let (full, rest) = text.split_once('(')?;
-    let (unit, counts) = rest.split_once(')')?;
-    let counts = leading_number(counts.trim().strip_prefix('/')?)?;
-    let scale = leading_number(full)? / counts;
-    (scale.is_finite() && scale > 0.0).then_some((AccelerationUnit::parse(unit)?, scale))
+    let (full, counts) = text.split_once('/')?;
+    let full = full.trim();
+    let end = full.find(|c: char| c.is_alphabetic() || c == '(').unwrap_or(full.len());
+    let (full, unit) = (full[..end].trim(), full[end..].trim());
+    let unit = AccelerationUnit::parse(if unit.is_empty() { "gal" } else { unit })?;
+    let scale = number(full)? / leading_number(counts)?;
+    (scale.is_finite() && scale > 0.0).then_some((unit, scale))
 }
 
 /// KiK-net numbers its six instruments: three in the borehole, three at the surface.

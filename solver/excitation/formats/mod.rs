@@ -88,7 +88,7 @@ impl RecordFile {
     /// # Ok::<(), rocking::RecordError>(())
     /// ```
     pub fn read(bytes: &[u8], options: &TextOptions) -> Result<RecordFile, RecordError> {
-        let text = decode(bytes);
+        let text = decode(bytes)?;
         let lines = lines(&text);
         let file = match recognise(&lines) {
             Format::PeerAt2 => peer::read(&lines, options),
@@ -96,6 +96,7 @@ impl RecordFile {
             Format::KNet => knet::read(&lines, options),
             Format::Csmip => csmip::read(&lines, options),
             Format::Cosmos => cosmos::read(&lines, options),
+            Format::Table if text.contains('\0') => Err(RecordError::NoText { kind: "binary" }),
             Format::Table => table::read(&lines, options),
         }?;
         file.of_one_channel(options)
@@ -146,22 +147,27 @@ fn recognise(lines: &[&str]) -> Format {
     }
 }
 
-/// The text of a file: UTF-8, UTF-16 with its mark, or else Latin-1, in which every byte is a character.
-fn decode(bytes: &[u8]) -> String {
-    let sixteen = |from: fn([u8; 2]) -> u16| {
-        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| from([pair[0], pair[1]])).collect();
+/// The text of a file: UTF-8, UTF-16, or else Latin-1, in which every byte is a character.
+fn decode(bytes: &[u8]) -> Result<String, RecordError> {
+    let sixteen = |bytes: &[u8], from: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| from([pair[0], pair[1]])).collect();
         String::from_utf16_lossy(&units)
     };
     let text = match bytes {
-        [0xff, 0xfe, ..] => sixteen(u16::from_le_bytes),
-        [0xfe, 0xff, ..] => sixteen(u16::from_be_bytes),
+        [b'P', b'K', 3, 4, ..] => return Err(RecordError::NoText { kind: "a ZIP archive or a spreadsheet" }),
+        [0x1f, 0x8b, ..] => return Err(RecordError::NoText { kind: "compressed (gzip)" }),
+        [0xff, 0xfe, text @ ..] => sixteen(text, u16::from_le_bytes),
+        [0xfe, 0xff, text @ ..] => sixteen(text, u16::from_be_bytes),
+        // Without its mark, UTF-16 has zeros for the upper halves of plain letters.
+        [1..=255, 0, 1..=255, 0, ..] => sixteen(bytes, u16::from_le_bytes),
+        [0, 1..=255, 0, 1..=255, ..] => sixteen(bytes, u16::from_be_bytes),
         _ => match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
             Ok(text) => text.to_string(),
             Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
         },
     };
     // Old files end with Ctrl-Z, cut ones with zeros.
-    text.trim_end_matches(['\u{1a}', '\0']).to_string()
+    Ok(text.trim_end_matches(['\u{1a}', '\0']).to_string())
 }
 
 /// The lines of a text that ends them with LF, CRLF, or CR alone.
@@ -294,10 +300,19 @@ mod tests {
 
     #[test]
     fn text_is_read_whatever_its_bytes() {
-        assert_eq!(decode(b"\xef\xbb\xbf1\n"), "1\n");
-        assert_eq!(decode(b"Sa\xf3 1\n"), "Saó 1\n");
-        assert_eq!(decode(b"\xff\xfe1\x00\n\x00"), "1\n");
-        assert_eq!(decode(b"1\n\x1a"), "1\n");
+        for bytes in [
+            &b"\xef\xbb\xbf12\n"[..],
+            b"\xff\xfe1\x002\x00\n\x00",
+            b"1\x002\x00\n\x00",
+            b"\x001\x002\x00\n",
+            b"12\n\x1a",
+        ] {
+            assert_eq!(decode(bytes).as_deref(), Ok("12\n"), "{bytes:?}");
+        }
+        assert_eq!(decode(b"Sa\xf3 1\n").as_deref(), Ok("Saó 1\n"));
+        for bytes in [&b"PK\x03\x04..."[..], b"\x1f\x8b\x08"] {
+            assert!(matches!(decode(bytes), Err(RecordError::NoText { .. })), "{bytes:?}");
+        }
         assert_eq!(lines("a\r\nb\n"), ["a", "b"]);
         assert_eq!(lines("a\rb"), ["a", "b"]);
     }

@@ -1,7 +1,8 @@
 //! Numbers in record files: as Fortran and spreadsheets print them, between blanks, glued together, or in columns of fixed width.
 //!
 //! Rows are read at blanks first. Where that fails or yields fewer samples than the header declares, they are read by the width
-//! of their columns, which a Fortran format in the file or the format's description gives. Nothing here knows a file format.
+//! of their columns, which a Fortran format in the file or the format's description gives. The columns also tell where a file
+//! that is cut off ends within a number: what is left of it may read as another one. Nothing here knows a file format.
 
 use crate::excitation::RecordError;
 
@@ -148,12 +149,17 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The first descriptor of numbers in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, `(6(1X,F9.4))` is not one.
+    /// The first descriptor of numbers in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, `(6(1X,F9.4))` is not one;
+    /// without brackets a word that can be nothing else, `8F10.3`.
     pub fn find(text: &str) -> Option<Layout> {
-        text.match_indices('(').find_map(|(at, _)| {
+        let in_brackets = text.match_indices('(').find_map(|(at, _)| {
             let (inside, _) = text[at + 1..].split_once(')')?;
             Layout::parse(inside)
-        })
+        });
+        let alone = |word: &str| word.starts_with(|c: char| c.is_ascii_digit()) && number(word).is_none();
+        let bare =
+            || text.split([' ', ',', '=']).filter(|word| alone(word) && word.contains('.')).find_map(Layout::parse);
+        in_brackets.or_else(bare)
     }
 
     fn parse(descriptor: &str) -> Option<Layout> {
@@ -205,6 +211,8 @@ const LARGEST_FIELD: usize = 200;
 pub struct Samples {
     /// As printed, in the unit of the file.
     pub values: Vec<f64>,
+    /// Whether the last row ended within a number, which is left out.
+    pub cut: bool,
     /// What the user should know of them.
     pub warnings: Vec<String>,
 }
@@ -216,8 +224,8 @@ pub struct Block<'t> {
     pub lines: &'t [&'t str],
     /// Its first line and the one after its last, counted from 0.
     pub span: (usize, usize),
-    /// How many samples the header declares.
-    pub declared: usize,
+    /// How many samples the header declares; where it does not, all are read.
+    pub declared: Option<usize>,
     /// Where it does so: the line, from 1, and the name of the entry.
     pub header: (usize, &'static str),
     /// Columns to read by where blanks do not part the numbers.
@@ -232,22 +240,26 @@ impl Block<'_> {
     /// # Errors
     /// [`RecordError::NotANumber`], [`RecordError::Fewer`]
     pub fn read(&self) -> Result<Samples, RecordError> {
+        let enough = |found: &Samples| found.values.len() >= self.declared.unwrap_or(0);
         let at_blanks = self.rows(split);
-        if at_blanks.as_ref().is_ok_and(|found| found.values.len() >= self.declared) {
+        if at_blanks.as_ref().is_ok_and(enough) {
             return at_blanks;
         }
         let by_columns = self.layout.map(|layout| self.rows(|row, line| layout.row(row, line)));
         let found = match (at_blanks, by_columns) {
-            (_, Some(Ok(columns))) if columns.values.len() >= self.declared => return Ok(columns),
+            (_, Some(Ok(columns))) if enough(&columns) => return Ok(columns),
             (Ok(blanks), _) => blanks,
             (Err(_), Some(Ok(columns))) => columns,
             (Err(error), _) => return Err(error),
         };
-        self.fewer(found)
+        match self.declared {
+            Some(declared) => self.fewer(found, declared),
+            None => Ok(found),
+        }
     }
 
-    fn fewer(&self, mut found: Samples) -> Result<Samples, RecordError> {
-        let ((line, key), declared, count) = (self.header, self.declared, found.values.len());
+    fn fewer(&self, mut found: Samples, declared: usize) -> Result<Samples, RecordError> {
+        let ((line, key), count) = (self.header, found.values.len());
         if !self.lenient {
             return Err(RecordError::Fewer { line, key, declared, found: count });
         }
@@ -259,13 +271,17 @@ impl Block<'_> {
 
     /// All rows; what follows the declared number is dropped, and told.
     fn rows(&self, read: impl Fn(&str, usize) -> Result<Vec<f64>, RecordError>) -> Result<Samples, RecordError> {
-        let mut values = Vec::with_capacity(self.declared.min(MOST_RESERVED));
+        let declared = self.declared.unwrap_or(usize::MAX);
+        let mut values = Vec::with_capacity(self.declared.unwrap_or(0).min(MOST_RESERVED));
         let mut warnings = Vec::new();
         let end = self.span.1.min(self.lines.len());
+        let cut = self.cut();
         for index in self.span.0..end {
-            match read(self.lines[index], index + 1) {
+            let line = self.lines[index];
+            let row = cut.filter(|(place, _)| *place == index).map_or(line, |(_, whole)| whole);
+            match read(row, index + 1) {
                 Ok(row) => values.extend(row),
-                Err(_) if values.len() >= self.declared => {
+                Err(_) if values.len() >= declared => {
                     warnings.push(format!("text after the last sample is not read, from line {} on", index + 1));
                     break;
                 }
@@ -277,16 +293,47 @@ impl Block<'_> {
                 Err(error) => return Err(error),
             }
         }
-        if values.len() > self.declared {
+        if let Some((index, _)) = cut {
+            warnings.push(format!("the last number, in line {}, is cut off and not used", index + 1));
+        }
+        if values.len() > declared {
             let ((line, key), count) = (self.header, values.len());
             warnings.push(format!(
-                "{count} samples where line {line} ({key}) declares {0}; the first {0} are used",
-                self.declared
+                "{count} samples where line {line} ({key}) declares {declared}; the first {declared} are used"
             ));
-            values.truncate(self.declared);
+            values.truncate(declared);
         }
-        Ok(Samples { values, warnings })
+        Ok(Samples { values, cut: cut.is_some(), warnings })
     }
+
+    /// The last row and what is whole of it, where it ends within a number: the rows above end all their numbers with their
+    /// columns, or a blank before, and the last row does not.
+    fn cut(&self) -> Option<(usize, &str)> {
+        let width = self.layout?.width;
+        let after = self.span.1.min(self.lines.len());
+        let mut rows = (self.span.0..after).rev().filter(|index| !self.lines[*index].trim().is_empty());
+        let last = rows.next()?;
+        let above: Vec<usize> = rows.take(ROWS_ABOVE).flat_map(|index| ends(self.lines[index])).collect();
+        let place = above.first()? % width;
+        let in_columns = [0, width - 1].contains(&place) && above.iter().all(|end| end % width == place);
+        let row = self.lines[last];
+        let end = ends(row).last()?;
+        let is_number = words(row).last()?.text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        if !in_columns || end % width == place || !is_number {
+            return None;
+        }
+        let whole = end.checked_sub(place).map_or(0, |over| end - over % width);
+        let bytes = row.char_indices().nth(whole).map_or(row.len(), |(at, _)| at);
+        Some((last, &row[..bytes]))
+    }
+}
+
+/// Rows whose columns are compared with those of the last one.
+const ROWS_ABOVE: usize = 3;
+
+/// The columns in which the words of a row end.
+fn ends(row: &str) -> impl Iterator<Item = usize> {
+    words(row).map(|word| word.column - 1 + word.text.chars().count())
 }
 
 /// Memory asked for ahead of reading, in numbers: a header may declare anything.
@@ -346,10 +393,12 @@ mod tests {
             ("(1F15.6E)", 1, 15),
             ("(F12.4)", 1, 12),
             ("(6ES14.5)", 6, 14),
+            ("at 0.005 sec, in cm/sec2. 8F10.3", 8, 10),
         ] {
             assert_eq!(Layout::find(text), Some(Layout { per_row, width }), "{text}");
         }
-        for text in ["", "(04)", "(cm)", "(8f)", "(0F10.5)", "(9F999.5)", "8f10.6", "(99999999999999999999F3)"] {
+        for text in ["", "(04)", "(cm)", "(8f)", "(0F10.5)", "(9F999.5)", "2 F10", "1.5E10", "(99999999999999999999F3)"]
+        {
             assert_eq!(Layout::find(text), None, "{text}");
         }
     }
@@ -369,14 +418,37 @@ mod tests {
     fn a_block_is_read_by_columns_where_blanks_do_not_part_it() {
         let lines = ["head", "12.3445.67 -8.9", "  1.0"];
         let layout = Some(Layout { per_row: 3, width: 5 });
-        let block = Block { lines: &lines, span: (1, 3), declared: 4, header: (1, "NPTS"), layout, lenient: false };
+        let block =
+            Block { lines: &lines, span: (1, 3), declared: Some(4), header: (1, "NPTS"), layout, lenient: false };
         assert_eq!(block.read().expect("four").values, [12.34, 45.67, -8.9, 1.0]);
-        let longer = Block { declared: 9, ..block };
+        let longer = Block { declared: Some(9), ..block };
         assert_eq!(longer.read(), Err(RecordError::Fewer { line: 1, key: "NPTS", declared: 9, found: 4 }));
         let lenient = Block { lenient: true, ..longer }.read().expect("four");
         assert!(lenient.values.len() == 4 && lenient.warnings[0].contains("declares 9"), "{lenient:?}");
-        let shorter = Block { declared: 2, ..block }.read().expect("two");
+        let all = Block { declared: None, ..block }.read().expect("four");
+        assert_eq!(all.values.len(), 4);
+        let shorter = Block { declared: Some(2), ..block }.read().expect("two");
         assert_eq!(shorter.values, [12.34, 45.67]);
         assert!(shorter.warnings[0].contains("4 samples"), "{shorter:?}");
+    }
+
+    #[test]
+    fn what_is_left_of_a_number_is_none() {
+        let layout = Some(Layout { per_row: 2, width: 10 });
+        let block = |lines: &[&str]| {
+            let block =
+                Block { lines, span: (0, lines.len()), declared: Some(4), header: (1, "NPTS"), layout, lenient: false };
+            block.read()
+        };
+        let fewer = |found| Err(RecordError::Fewer { line: 1, key: "NPTS", declared: 4, found });
+        // .5E-03 without its exponent would be a thousand times itself.
+        assert_eq!(block(&["    .2E-02   -.1E-02", "    .3E-02    .5"]), fewer(3));
+        assert_eq!(block(&["    .2E-02   -.1E-02", "    .3E-02    .5E"]), fewer(3));
+        assert_eq!(block(&["    .2E-02   -.1E-02", "    .3"]), fewer(2));
+        assert_eq!(block(&["   .2E-02   -.1E-02 ", "   .3E-02    .5"]), fewer(3));
+        // Numbers that stand in no columns may have any length.
+        for rows in [["    .2E-02   -.1E-02", "    .3E-02    .5E-03"], [".2E-02 -.1E-02", ".3 .5"], ["1 2", "3 4"]] {
+            assert_eq!(block(&rows).expect("four").values.len(), 4, "{rows:?}");
+        }
     }
 }

@@ -11,7 +11,7 @@
 //! Records processed for the Nuclear Regulatory Commission have seven lines: the old headers, then one with the count. So the
 //! count is sought by pattern, the last one among the first ten lines, and the unit in the lines above it.
 
-use super::numbers::{Block, Layout, is_text, words};
+use super::numbers::{Block, Layout, is_text, number, words};
 use super::{Format, RecordFile, agreed_dt, agreed_unit, brief, largest, number_after, positive_dt, tidy, whole_count};
 use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
 
@@ -67,7 +67,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let block = Block {
         lines,
         span: (first, lines.len()),
-        declared,
+        declared: Some(declared),
         header: (line, "NPTS"),
         layout: Some(LAYOUT),
         lenient: options.lenient,
@@ -100,27 +100,25 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
 /// A peak in g that no instrument has recorded on the ground; more is a file in other units.
 const UNBELIEVABLE: f64 = 20.0;
 
-/// `NPTS= 4000, DT= .01 SEC`, or numbers in the order in which the names after them stand: `4000 .01 NPTS, DT`.
+/// `NPTS= 4000, DT= .01 SEC`, or numbers in the order of the names before or after them: `4000 .01 NPTS, DT`.
 fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
     let (count, dt) = (number_after(line, "NPTS"), number_after(line, "DT"));
-    if line.contains(['=', ':']) || count.is_some() {
-        return (count, dt);
-    }
+    let mut numbers = words(line).filter_map(|word| number(word.text));
+    let (None, Some(first), Some(second)) = (count, numbers.next(), numbers.next()) else { return (count, dt) };
     let upper = line.to_ascii_uppercase();
-    let mut numbers = words(&upper).map_while(|word| super::numbers::number(word.text));
-    let (first, second) = (numbers.next(), numbers.next());
     let place = |name: &str| upper.split(|c: char| !c.is_ascii_alphanumeric()).position(|word| word == name);
     match (place("NPTS"), place("DT")) {
-        (Some(count), Some(dt)) if dt < count => (second, first),
-        _ => (first, second),
+        (Some(count), Some(dt)) if dt < count => (Some(second), Some(first)),
+        _ => (Some(first), Some(second)),
     }
 }
 
 /// The unit that the lines above the header name, nearest line first: `... IN UNITS OF G`, `... TIME HISTORY (G'S): ...`.
 fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
     for (index, text) in above.iter().enumerate().rev() {
-        let upper = text.to_ascii_uppercase();
-        let after_units = upper.split_once("UNITS OF").or_else(|| upper.split_once("UNITS:"));
+        let upper = tidy(text).to_ascii_uppercase().replace("UNITS=", "UNITS =");
+        let after_units =
+            ["UNITS OF", "UNITS IN", "UNITS:", "UNITS ="].iter().find_map(|words| upper.split_once(words));
         let series = ["TIME SERIES", "TIME HISTORY", "TIME-SERIES", "TIME-HISTORY", "TIME HISTORIES"];
         let quantity = ["ACCEL", "VELOC", "DISPL"].iter().any(|begin| upper.trim_start().starts_with(begin));
         let describes = quantity || after_units.is_some() || series.iter().any(|words| upper.contains(words));
@@ -139,13 +137,13 @@ fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError
             Some((_, rest)) => rest.split([' ', ',', ';', ':']).find(|word| !word.is_empty()),
             // `(G'S)`, or `... IN CM/S/S`.
             None => {
-                let bracket = upper.split_once('(').and_then(|(_, rest)| rest.split(')').next());
+                let bracket = upper.split_once(['(', '[']).and_then(|(_, rest)| rest.split([')', ']']).next());
                 let last = upper.rsplit_once(" IN ").and_then(|(_, rest)| rest.split([' ', ',', ';', ':']).next());
                 bracket.filter(|name| AccelerationUnit::parse(name).is_some()).or(last)
             }
         };
         let Some(name) = name.map(|name| name.trim().trim_end_matches('.')) else { continue };
-        match AccelerationUnit::parse(name.trim_matches(['(', ')'])) {
+        match AccelerationUnit::parse(name.trim_matches(['(', ')', '[', ']'])) {
             Some(unit) => return Ok(Some((index + 1, unit))),
             // Brackets and sentences may hold anything; what follows `UNITS OF` is a unit.
             None if after_units.is_none() => {}

@@ -7,8 +7,9 @@
 //! 0.01, 0.034
 //! ```
 //!
-//! Blanks, tabs, commas and semicolons part the columns; where semicolons or tabs do, commas may be decimal. Without names the
-//! first of several columns is the time. Equal intervals are required: nothing is resampled here.
+//! Blanks, tabs, commas and semicolons part the columns; where another than the comma does, commas may be decimal. Lines of text
+//! above the names are titles. Without names the time is the column before the accelerations that runs evenly, else the first.
+//! Equal intervals are required: nothing is resampled here.
 
 use super::numbers::{Word, refused, split, words};
 use super::{Format, RecordFile, agreed_unit, tidy};
@@ -39,6 +40,16 @@ impl Column {
         let name = self.name.to_lowercase();
         ["t", "s", "sec", "secs", "seconds", "zeit", "temps", "tempo", "tiempo"].contains(&name.as_str())
             || name.starts_with("time")
+            || self.second().is_some()
+    }
+
+    /// The size of its unit, if that is one of time `[s]`.
+    fn second(&self) -> Option<f64> {
+        match self.unit.to_lowercase().as_str() {
+            "s" | "sec" | "secs" | "seconds" => Some(1.0),
+            "ms" | "msec" => Some(1e-3),
+            _ => None,
+        }
     }
 
     fn acceleration(&self) -> Option<AccelerationUnit> {
@@ -94,8 +105,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let dt = match time {
         None => options.dt.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?,
         Some(time) => {
-            let unit = rows.header.as_ref().map_or("", |(_, names)| names[time].unit.as_str());
-            let second = if unit.eq_ignore_ascii_case("ms") || unit.eq_ignore_ascii_case("msec") { 1e-3 } else { 1.0 };
+            let second = rows.header.as_ref().and_then(|(_, names)| names[time].second()).unwrap_or(1.0);
             interval(&rows.values, time, second, options)?
         }
     };
@@ -135,20 +145,20 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .map(|(index, line)| (index + 1, &line[..content(line)]))
         .filter(|(_, line)| words(line).next().is_some())
         .collect();
-    let mut header = None;
-    let mut first = 0;
-    if let Some((line, text)) = body.first().filter(|(_, text)| is_header(text)) {
-        if body.len() == 1 {
-            let word = words(text).next().expect("lines without words are left out");
-            return Err(unreadable(refused(*line, word)));
-        }
-        header = Some((*line, names(text)));
-        first = 1;
+    let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
+    // The last line of text above the numbers names the columns; those before it are titles.
+    let first = body.iter().take_while(|(_, text)| is_header(text)).count();
+    if first == body.len() {
+        let word = words(first_text).next().expect("lines without words are left out");
+        return Err(unreadable(refused(*first_line, word)));
     }
-    let decimal_comma = has_decimal_commas(&body[first.min(body.len())..]);
+    let mut header = first.checked_sub(1).map(|last| (body[last].0, names(body[last].1)));
+    let decimal_comma = has_decimal_commas(&body[first..]);
     let mut values: Vec<(usize, Vec<f64>)> = Vec::with_capacity(body.len());
     for (line, text) in &body[first..] {
-        let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(text, *line) };
+        // Spreadsheets may put every cell between quotes.
+        let text = text.replace('"', " ");
+        let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(&text, *line) };
         let row = row.map_err(|error| if values.is_empty() { unreadable(error) } else { error })?;
         let expected = values.first().map_or(row.len(), |(_, first)| first.len());
         if row.len() != expected {
@@ -202,14 +212,18 @@ fn names(text: &str) -> Vec<Column> {
     cells.iter().map(|cell| Column::parse(cell)).collect()
 }
 
-/// Whether commas stand for decimal points: something else parts the columns, no point occurs, and every cell has one at most.
+/// Whether commas stand for decimal points: something else parts the columns, no point occurs, and every cell has one at most;
+/// where blanks part them, within its digits, for blanks may stand beside any delimiter.
 fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
     let cells = |text: &str| {
-        text.split([';', '\t', ' ']).all(|cell| cell.matches(',').count() <= 1 && !cell.trim().ends_with(','))
+        let delimited = text.contains([';', '\t']);
+        text.trim()
+            .split([';', '\t', ' '])
+            .all(|cell| cell.matches(',').count() <= 1 && !cell.ends_with(',') && (delimited || !cell.starts_with(',')))
     };
     let any = body.iter().any(|(_, text)| text.contains(','));
-    let parted = |text: &str| text.trim().contains([';', '\t']);
-    any && body.iter().all(|(_, text)| !text.contains('.') && cells(text) && parted(text))
+    let parted = |text: &str| text.trim().contains([';', '\t', ' ']);
+    any && body.iter().all(|(_, text)| !text.contains('.') && parted(text) && cells(text))
 }
 
 /// The numbers of a row, refusing an empty cell between two delimiters: it would move the cells after it.
@@ -238,7 +252,10 @@ fn acceleration_column(rows: &Rows, columns: usize, options: &TextOptions) -> Re
         }
     };
     if let Some(wanted) = &options.column {
+        // By its name, or by all of its heading.
+        let heading = Column::parse(wanted);
         let named = names.iter().position(|column| column.name.eq_ignore_ascii_case(wanted.trim()));
+        let named = named.or_else(|| names.iter().position(|column| *column == heading));
         let numbered = || wanted.trim().parse::<usize>().ok()?.checked_sub(1).filter(|place| *place < columns);
         return named.or_else(numbered).ok_or_else(|| RecordError::NoColumn { column: wanted.clone(), known: known() });
     }
@@ -260,11 +277,27 @@ fn acceleration_column(rows: &Rows, columns: usize, options: &TextOptions) -> Re
     }
 }
 
-/// The column of the times: by its name, else the first of several.
+/// The column of the times: by its name; else the nearest before the accelerations that runs evenly, for numbers of rows or
+/// other components may stand there too; else the first of several.
 fn time_column(rows: &Rows, columns: usize, chosen: usize) -> Option<usize> {
     let named = rows.header.as_ref().and_then(|(_, names)| names.iter().position(Column::is_time));
     let named_otherwise = rows.header.as_ref().is_some_and(|(_, names)| names[0].is_acceleration());
-    named.or((columns > 1 && chosen != 0 && !named_otherwise).then_some(0)).filter(|time| *time != chosen)
+    let nearest = || (1..chosen).rev().find(|column| runs_evenly(&rows.values, *column)).unwrap_or(0);
+    named.or_else(|| (columns > 1 && chosen != 0 && !named_otherwise).then(nearest)).filter(|time| *time != chosen)
+}
+
+/// Whether the values of a column grow by equal steps.
+fn runs_evenly(rows: &[(usize, Vec<f64>)], column: usize) -> bool {
+    let at = |index: usize| rows[index].1[column];
+    let last = rows.len() - 1;
+    let step = (at(last) - at(0)) / last as f64;
+    step > 0.0
+        && rows.iter().enumerate().all(|(index, _)| off_grid(at(index) - at(0), index, step) <= GRID_TOLERANCE * step)
+}
+
+/// How far a value is from the grid of a step.
+fn off_grid(value: f64, index: usize, step: f64) -> f64 {
+    (value - index as f64 * step).abs()
 }
 
 /// The sampling interval `[s]` of a column of times, of which `second` is the unit.
@@ -273,7 +306,7 @@ fn interval(rows: &[(usize, Vec<f64>)], time: usize, second: f64, options: &Text
     let last = rows.len() - 1;
     let on_grid = |dt: f64, tolerance: f64| {
         (0..rows.len()).find(|index| {
-            let off = (at(*index) - at(0) - *index as f64 * dt).abs();
+            let off = off_grid(at(*index) - at(0), *index, dt);
             off.is_nan() || off > tolerance
         })
     };

@@ -1,0 +1,119 @@
+// Plays a run: the column on a canvas, its curves on another, and the controls.
+//
+// What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
+//   blocks [[b, h]] half-sizes m; contact [c] half-widths m; gravity m/s²; fills per link
+//   angles rad, the largest that the curves show, null for all
+//   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0, mode after}]
+//   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
+//   ax, ay, dx, dy [F] ground acceleration m/s² and displacement m, null where there is none
+//
+// Address: ?t=3.2 starts there, paused; ?play=1 plays; ?speed=, ?angles= choose; ?show=animation leaves the rest out;
+// window.rocking.at(t) tells what is shown at t, at true size. On <html>: data-done once something is drawn, data-t the time
+// drawn, data-theta its angles, data-ended at the end of playing, data-error where a script failed.
+//
+// One module of four files: state.js (this one: the run, and its state at a time), stage.js (the column), strip.js (its curves),
+// controls.js (words, time, controls, and where all begins).
+const page = document.documentElement;
+window.addEventListener("error", event => { page.dataset.error = event.message; });
+
+const run = JSON.parse(document.getElementById("run").textContent);
+const N = run.blocks.length, times = run.t, last = times.length - 1;
+const start = times[0], end = times[last];
+const address = new URLSearchParams(location.search);
+const element = id => document.getElementById(id);
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+// ---- The state at a time.
+
+// The last index of an ascending list whose entry is not above the value; -1 if there is none.
+function lastNotAbove(list, value, time = entry => entry) {
+  let low = -1, high = list.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (time(list[middle]) <= value) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
+// Frame and share of the way to the next. Of two frames of an event the later one counts, so no interval has an event inside.
+function placeOf(t) {
+  const frame = Math.max(0, lastNotAbove(times, t));
+  const step = frame < last ? times[frame + 1] - times[frame] : 0;
+  return { frame, step, share: step > 0 ? Math.min(1, Math.max(0, (t - times[frame]) / step)) : 0 };
+}
+
+function linear(list, { frame, share }) {
+  if (!list) return 0;
+  return share > 0 ? list[frame] + share * (list[frame + 1] - list[frame]) : list[frame];
+}
+
+// Angles at a place: those of the frame, or the cubic through both frames with their rates. Between coarse frames the cubic may
+// cross where the blocks cannot: there they touch.
+function anglesAt({ frame, step, share: s }) {
+  if (s === 0) return run.theta.map(list => list[frame]);
+  const r = 1 - s, signs = run.patterns[run.pattern[frame]].signs;
+  let below = 0;
+  return run.theta.map((list, block) => {
+    const rate = run.omega[block];
+    let angle = r * r * (1 + 2 * s) * list[frame] + s * s * (3 - 2 * s) * list[frame + 1]
+      + step * s * r * (r * rate[frame] - s * rate[frame + 1]);
+    if (signs[block] === 0 && block > 0 || signs[block] * (angle - below) < 0) angle = below;
+    return below = angle;
+  });
+}
+
+function stateAt(t) {
+  const place = placeOf(t);
+  return {
+    t, theta: anglesAt(place), pattern: run.patterns[run.pattern[place.frame]],
+    ground: [linear(run.dx, place), linear(run.dy, place)],
+    acceleration: [linear(run.ax, place), linear(run.ay, place)],
+  };
+}
+
+// Corners of the blocks (bottom left, bottom right, top right, top left) and pivots, the origin at the centre of the base on the
+// ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below.
+function outlines(theta, signs) {
+  const turn = (angle, u, v) => [u * Math.cos(angle) + v * Math.sin(angle), v * Math.cos(angle) - u * Math.sin(angle)];
+  let centre = [0, 0], below = 0;
+  return run.blocks.map(([b, h], i) => {
+    const own = theta[i], offset = signs[i] * run.contact[i];
+    const from = (point, u, v) => { const [x, y] = turn(own, u, v); return [point[0] + x, point[1] + y]; };
+    const [px, py] = turn(below, offset, 0);
+    const pivot = [centre[0] + px, centre[1] + py];
+    const base = signs[i] === 0 ? centre : from(pivot, -offset, 0);
+    const contact = [-1, 1].map(side => { const [x, y] = turn(below, side * run.contact[i], 0); return [centre[0] + x, centre[1] + y]; });
+    const corners = [[-b, 0], [b, 0], [b, 2 * h], [-b, 2 * h]].map(([u, v]) => from(base, u, v));
+    centre = from(base, 0, 2 * h);
+    below = own;
+    return { corners, pivot: signs[i] === 0 ? null : pivot, contact };
+  });
+}
+
+// Each opening enlarged, up to a radian: larger ones stay as they are.
+function enlarged(theta, factor) {
+  let below = 0, drawn = 0;
+  return theta.map(angle => {
+    const opening = angle - below, size = Math.abs(opening);
+    below = angle;
+    drawn += Math.sign(opening) * Math.max(size, Math.min(factor * size, 1));
+    return drawn;
+  });
+}
+
+function nameOf(pattern) {
+  if (pattern.mode === null) return "at rest";
+  return `mode ${pattern.mode}` + (pattern.mirrored ? ", mirrored" : "");
+}
+
+window.rocking = {
+  at(t) {
+    const state = stateAt(t);
+    return {
+      t, theta: state.theta, corners: outlines(state.theta, state.pattern.signs).map(block => block.corners),
+      pattern: state.pattern.text, mode: state.pattern.mode === null ? "rest" : state.pattern.mode,
+      ground: state.ground,
+    };
+  },
+  seek: t => seek(t), play: () => play(), pause: () => pause(),
+};

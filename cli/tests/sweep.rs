@@ -1,0 +1,262 @@
+//! Sweeps: a row per point, the same whatever the threads, shards and interruptions.
+
+mod common;
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+const BASE: &str = "[column]
+blocks = 2
+half_width = 0.4
+half_height = 1.56
+density = 2700.0
+[restitution]
+eta = 0.9
+[excitation.horizontal]
+kind = \"sine-pulse\"
+amplitude = 3.0
+omega = 10.0
+[solver]
+t_end = 6.0
+rtol = 1e-6
+";
+
+const SWEEP: &str = "scene = \"base.toml\"
+[axes]
+blocks = [1, 2]
+omega_p = { from = 1, to = 8, steps = 5 }
+amplitude_g = { from = 0.1, to = 3.0, steps = 6, scale = \"log\" }
+";
+
+fn folder(sweep: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("base.toml"), BASE).expect("written");
+    std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
+    folder
+}
+
+fn table(folder: &Path, arguments: &[&str]) -> String {
+    let all = [&["sweep", "sweep.toml", "--out", "t.csv", "--quiet"], arguments].concat();
+    common::succeeds(folder, &all);
+    std::fs::read_to_string(folder.join("t.csv")).expect("written")
+}
+
+fn rows(text: &str) -> Vec<Vec<String>> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
+    reader.records().map(|row| row.expect("CSV").iter().map(String::from).collect()).collect()
+}
+
+/// Every row is what `rocking run` says of the scene with those values.
+#[test]
+fn rows_are_the_runs_of_their_scenes() {
+    let folder = folder(SWEEP);
+    let text = table(folder.path(), &[]);
+    let rows = rows(&text);
+    let header = ["index", "column.blocks", "excitation.horizontal.omega_p", "excitation.horizontal.amplitude_g"];
+    assert_eq!(rows[0][..4], header);
+    assert_eq!(rows.len(), 61);
+    let mut fates = std::collections::BTreeSet::new();
+    for row in rows[1..].iter().step_by(3) {
+        let [_, blocks, omega, amplitude, outcome, impacts, block, t, error] = &row[..] else { panic!("{row:?}") };
+        let scene = BASE
+            .replace("blocks = 2", &format!("blocks = {blocks}"))
+            .replace("omega = 10.0", &format!("omega_p = {omega}"))
+            .replace("amplitude = 3.0", &format!("amplitude_g = {amplitude}"));
+        std::fs::write(folder.path().join("one.toml"), scene).expect("written");
+        let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
+        let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+        assert_eq!(summary["status"] == "overturned", outcome == "overturns", "{row:?}");
+        assert_eq!(error, "");
+        fates.insert(outcome.clone());
+        if outcome == "overturns" {
+            assert_eq!(summary["impacts"].to_string(), *impacts, "{row:?}");
+            assert_eq!(summary["overturned_block"].to_string(), *block);
+            let at = summary["overturned_at"].as_f64().expect("a time");
+            assert!((at - t.parse::<f64>().expect("a time")).abs() < 1e-6 * at, "{row:?}");
+        } else {
+            let has_moved = summary["peak_theta"].as_array().is_some_and(|peaks| peaks.iter().any(|peak| *peak != 0.0));
+            assert_eq!(outcome == "rocks", has_moved, "{row:?}");
+        }
+    }
+    assert_eq!(fates.len(), 3, "{fates:?}");
+}
+
+#[test]
+fn threads_and_shards_change_nothing() {
+    let folder = folder(SWEEP);
+    let whole = table(folder.path(), &[]);
+    assert_eq!(table(folder.path(), &["--threads", "1"]), whole);
+    let mut shards = Vec::new();
+    for number in [3, 1, 4, 2] {
+        let name = format!("part-{number}.csv");
+        common::succeeds(
+            folder.path(),
+            &["sweep", "sweep.toml", "--out", &name, "--shard", &format!("{number}/4"), "--quiet"],
+        );
+        shards.push(name);
+    }
+    let mut arguments = vec!["merge", "merged.csv"];
+    arguments.extend(shards.iter().map(String::as_str));
+    common::succeeds(folder.path(), &arguments);
+    assert_eq!(std::fs::read_to_string(folder.path().join("merged.csv")).expect("written"), whole);
+    // A shard that is missing is noticed.
+    let output = common::rocking(folder.path(), &["merge", "other.csv", "part-1.csv", "part-3.csv"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(message.contains("part-3.csv") && message.contains("is due"), "{message}");
+    assert!(!folder.path().join("other.csv").exists());
+}
+
+/// Killed without warning at any moment and started again, however often, a sweep gives the bytes of one that was left alone.
+#[test]
+fn a_sweep_that_is_killed_goes_on_to_the_same_bytes() {
+    let sweep = SWEEP.replace("steps = 5", "steps = 40").replace("steps = 6", "steps = 100").replace("[1, 2]", "[3]");
+    let folder = folder(&sweep);
+    let whole = table(folder.path(), &[]);
+    std::fs::remove_file(folder.path().join("t.csv")).expect("there");
+    let mut kills = 0;
+    for wait in (15..).step_by(20) {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
+            .args(["sweep", "sweep.toml", "--out", "t.csv", "--threads", "1", "--quiet"])
+            .current_dir(folder.path())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("started");
+        std::thread::sleep(Duration::from_millis(wait));
+        child.kill().expect("SIGKILL");
+        if child.wait().expect("it ends").success() {
+            break;
+        }
+        kills += 1;
+        assert!(!folder.path().join("t.csv").exists(), "the table has its name before it is whole");
+        // A line that was cut within, as a full disk or a power cut leaves it.
+        let part = std::fs::read_dir(folder.path()).expect("a folder").filter_map(Result::ok).map(|file| file.path());
+        if let Some(part) = part.into_iter().find(|file| file.extension().is_some_and(|extension| extension == "part"))
+        {
+            let bytes = std::fs::read(&part).expect("readable");
+            std::fs::write(&part, &bytes[..bytes.len().saturating_sub(7)]).expect("writable");
+        }
+    }
+    assert!(kills > 0, "it was never killed");
+    assert_eq!(std::fs::read_to_string(folder.path().join("t.csv")).expect("written"), whole);
+    let left = std::fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(left, 3, "base, sweep and table");
+}
+
+/// What was begun with other inputs is not gone on with.
+#[test]
+fn a_part_of_another_sweep_is_left_alone() {
+    let folder = folder(SWEEP);
+    let first = table(folder.path(), &[]);
+    std::fs::write(folder.path().join("base.toml"), BASE.replace("eta = 0.9", "eta = 0.8")).expect("written");
+    let second = table(folder.path(), &[]);
+    assert_ne!(first, second);
+    std::fs::write(folder.path().join("base.toml"), BASE).expect("written");
+    assert_eq!(table(folder.path(), &[]), first);
+}
+
+#[test]
+fn a_scene_that_fails_is_a_row_with_its_error() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5, 0.8]\n\"block[2].mass\" = [1.0]\n");
+    let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv", "--json"]);
+    assert!(output.status.success());
+    let text = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
+    assert_eq!(rows(&text).len(), 4);
+    assert!(rows(&text)[1..].iter().all(|row| row[3] == "error" && row[7].contains("no such table")), "{text}");
+    std::fs::write(folder.path().join("sweep.toml"), "scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5, 0.8]\n")
+        .expect("written");
+    let text = table(folder.path(), &[]);
+    let rows = rows(&text);
+    assert_eq!(rows.iter().filter(|row| row[2] == "error").count(), 1);
+    assert!(rows[2][6].contains("restitution.eta") && rows[2][6].contains("0 to 1"), "{text}");
+}
+
+#[test]
+fn peaks_are_asked_for_and_paired_axes_run_together() {
+    let sweep = "scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\nomega_p = [2, 3, 4]\n[axes.excitation.horizontal]\namplitude_g = [0.3, 0.4, 0.5]\n";
+    let folder = folder(sweep);
+    let rows = rows(&table(folder.path(), &[]));
+    assert_eq!(rows.len(), 4);
+    assert_eq!(rows[0][7..], ["peak_1", "peak_2", "last_mode", "error"]);
+    let scene = BASE.replace("omega = 10.0", "omega_p = 4").replace("amplitude = 3.0", "amplitude_g = 0.5");
+    std::fs::write(folder.path().join("one.toml"), scene).expect("written");
+    let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
+    let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+    let alpha = 0.4f64.atan2(0.78);
+    let expected = summary["peak_theta"][1].as_f64().expect("a number") / alpha;
+    assert!((rows[3][8].parse::<f64>().expect("a number") / expected - 1.0).abs() < 1e-12, "{rows:?}");
+}
+
+/// Records of a folder and seeds are axes like others.
+#[test]
+fn records_and_seeds_are_axes() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\nfile = { folder = \"records\" }\npga_g = [0.3, 0.6]\n");
+    std::fs::create_dir(folder.path().join("records")).expect("made");
+    let synthetic = common::root().join("scenes/records/synthetic.AT2");
+    for name in ["a.AT2", "b.AT2"] {
+        std::fs::copy(&synthetic, folder.path().join("records").join(name)).expect("copied");
+    }
+    let record = BASE
+        .replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"record\"\nfile = \"records/a.AT2\"");
+    std::fs::write(folder.path().join("base.toml"), record).expect("written");
+    let rows_of_records = rows(&table(folder.path(), &[]));
+    assert_eq!(rows_of_records.len(), 5);
+    assert_eq!(rows_of_records[1][3..], rows_of_records[3][3..], "the same record gives the same row");
+    let synthetic =
+        BASE.replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"synthetic\"\npga_g = 0.5");
+    std::fs::write(folder.path().join("base.toml"), synthetic).expect("written");
+    let seeds = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nseed = { from = 1, to = 6 }\n";
+    std::fs::write(folder.path().join("sweep.toml"), seeds).expect("written");
+    let rows = rows(&table(folder.path(), &[]));
+    let peaks: std::collections::BTreeSet<&str> = rows[1..].iter().map(|row| row[6].as_str()).collect();
+    assert_eq!((rows.len(), peaks.len()), (7, 6), "each seed its own: {rows:?}");
+}
+
+#[test]
+fn bad_sweeps_name_file_line_key_and_remedy() {
+    for (sweep, named) in [
+        ("[axes]\neta = [0.5]\n", vec!["sweep.toml", "`scene`", "missing", "base.toml"]),
+        ("scene = \"none.toml\"\n[axes]\neta = [0.5]\n", vec!["none.toml"]),
+        ("scene = \"base.toml\"\n", vec!["`axes`", "missing"]),
+        ("scene = \"base.toml\"\n[axes]\n", vec!["`axes`", "no axis"]),
+        ("scene = \"base.toml\"\n[axes]\neta = []\n", vec!["line 3", "no values"]),
+        ("scene = \"base.toml\"\n[axes]\neta = { from = 0.1, to = 0.9 }\n", vec!["line 3", "steps"]),
+        ("scene = \"base.toml\"\n[axes]\neta = { from = 0, to = 1, steps = 3, scale = \"log\" }\n", vec!["zero"]),
+        (
+            "scene = \"base.toml\"\n[axes]\neta = { from = 0, to = 1, steps = 3, scale = \"lag\" }\n",
+            vec!["did you mean `log`"],
+        ),
+        ("scene = \"base.toml\"\ncombine = \"paired\"\n[axes]\neta = [0.5]\nomega = [1, 2]\n", vec!["equally long"]),
+        ("scene = \"base.toml\"\nask = \"peak\"\n[axes]\neta = [0.5]\n", vec!["did you mean `peaks`"]),
+        (
+            "scene = \"base.toml\"\n[axes]\nfile = { folder = \"nowhere\" }\n",
+            vec!["nowhere", "relative to the base scene"],
+        ),
+        ("scene = \"base.toml\"\n[axes]\neta = [0.5]\n[axis]\n", vec!["`axis`", "did you mean `axes`?"]),
+    ] {
+        let folder = folder(sweep);
+        let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{sweep}\n{message}");
+        for part in named {
+            assert!(message.contains(part), "`{part}` is missing in\n{message}\nof\n{sweep}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2, "something was written for {sweep}");
+    }
+}
+
+/// What the README shows is a sweep, with its axes shortened.
+#[test]
+fn the_sweep_of_the_readme_runs() {
+    let readme = include_str!("../../README.md");
+    let sweep = readme
+        .split("```toml\n")
+        .map(|part| part.split("```").next().unwrap_or(""))
+        .find(|text| text.contains("[axes]"));
+    let sweep = sweep.expect("the README shows a sweep").replace("steps = 100", "steps = 2");
+    let folder = folder(&sweep);
+    let rows = rows(&table(folder.path(), &[]));
+    assert_eq!(rows.len(), 17);
+    assert!(rows[1..].iter().all(|row| row[4] != "error"), "{rows:?}");
+}
