@@ -47,15 +47,15 @@ pub enum Command {
     },
     /// Run a scene and write summary.json, response.csv and events.json.
     Run(Run),
-    /// Draw the figures of a run: time-history, phase-portrait, energy and forces.
+    /// Draw the figures of a run: time-history, phase-portrait, energy and forces; of the table of a sweep its spectrum.
     Plot {
-        /// Folder of a finished run.
+        /// Folder of a finished run, or the table of a sweep (CSV), whose figures have its name.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// How the figures are written.
         #[arg(long, value_enum, default_value_t = Picture::Svg)]
         format: Picture,
-        /// Folder for the figures; made if it is not there [default: DIR].
+        /// Folder for the figures; made if it is not there [default: DIR, or the folder of the table].
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
@@ -222,6 +222,12 @@ pub struct Sweep {
     /// Table of the results (CSV).
     #[arg(long, value_name = "FILE", default_value = "sweep.csv")]
     pub out: PathBuf,
+    /// Draw the overturning spectrum, and beside it FILE-minimum: the least value that overturns (SVG, or PNG by the name).
+    ///
+    /// Of the last two axes with numbers that vary the last one goes upwards; each combination of the others is a panel.
+    /// `rocking plot TABLE.csv` draws a table that is there.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
     /// Run the K-th of M parts only; `rocking merge` joins their tables.
     #[arg(long, value_name = "K/M", value_parser = Shard::parse)]
     pub shard: Option<Shard>,

@@ -1,5 +1,6 @@
 //! What goes wrong, told so that the place and the remedy are seen.
 
+use crate::plot::spectrum::NoSpectrum;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::{RecordError, SceneFileError, SolveError};
 use std::fmt;
@@ -91,6 +92,19 @@ pub enum Failure {
         /// What is wrong.
         problem: String,
     },
+    /// A table makes no overturning spectrum.
+    #[error("{}: {error}", path.display())]
+    Spectrum {
+        /// The table or the sweep.
+        path: PathBuf,
+        /// Why.
+        error: NoSpectrum,
+    },
+    /// A part of a sweep is to be drawn.
+    #[error(
+        "--plot: a shard is a part of a sweep; `rocking merge` the tables of all shards, then `rocking plot` the merged one"
+    )]
+    PlotOfShard,
     /// A figure of so many modes would not be read.
     #[error(
         "--svg: a column of {blocks} blocks has {modes} modes, too many for a figure; draw up to {largest} blocks, \
@@ -180,6 +194,8 @@ impl Failure {
                 | Failure::File { .. }
                 | Failure::Taken { .. }
                 | Failure::Shards { .. }
+                | Failure::Spectrum { .. }
+                | Failure::PlotOfShard
                 | Failure::RecordFile { .. }
                 | Failure::Record { .. }
                 | Failure::NoRecords { .. }

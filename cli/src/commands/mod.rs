@@ -9,6 +9,7 @@ mod records;
 mod report;
 mod run;
 mod shell;
+mod spectrum;
 pub mod sweep;
 mod thresholds;
 
@@ -32,6 +33,9 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Check { scene, json } => check::check(&scene, json),
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
+        Command::Plot { folder: table, format, out } if table.is_file() => {
+            spectrum::plot(&table, format, out.as_deref())
+        }
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
         Command::Record(record) => record::record(record),
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),

@@ -5,7 +5,7 @@
 //! is kept up to its last whole line. The table gets its name when all rows are there.
 
 use crate::arguments;
-use crate::commands::{json, print};
+use crate::commands::{json, print, spectrum};
 use crate::error::Failure;
 use crate::progress::Points;
 use rocking::sweep::{Ask, Fate, Row, Sweep};
@@ -28,6 +28,9 @@ const PATIENCE: Duration = Duration::from_millis(250);
 /// [`Failure`]
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let sweep = Sweep::from_file(&asked.file).map_err(Failure::scene)?;
+    if asked.plot.is_some() {
+        spectrum::check(asked, &sweep)?;
+    }
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
     let columns = Columns::of(&sweep)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.unwrap_or(0)).build();
@@ -49,6 +52,10 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
     bar.finish();
     table.close().map_err(failed)?;
+    let drawn = match &asked.plot {
+        Some(picture) => spectrum::draw(&asked.out, picture)?,
+        None => String::new(),
+    };
     if asked.quiet {
         return Ok(());
     }
@@ -57,7 +64,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
         return json(&tally);
     }
     let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-    print(&format!("{tally}wrote {} row(s){resumed} to {}\n", range.len(), asked.out.display()))
+    print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), asked.out.display()))
 }
 
 /// Joins the tables of all shards of a sweep, in the order of their points.

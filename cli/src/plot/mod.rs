@@ -1,9 +1,10 @@
-//! Figures of a run and of a record, as SVG and PNG.
+//! Figures of a run, of a record and of a sweep, as SVG and PNG.
 //!
 //! ```text
 //! results ──> motion.rs ──> time_history.rs, phase_portrait.rs, energy.rs, forces.rs ──> sheet.rs ──> SVG, PNG
 //!             rows, events   what is drawn where                                          kuva
-//!                                record.rs ──────────────────────────────────────────────┘
+//!                                record.rs ──────────────────────────────────────────────┤
+//! table of a sweep ────────────> spectrum.rs ────────────────────────────────────────────┘
 //! ```
 //!
 //! No mechanics: energies and forces come from the library. A figure is made of a run's files alone, and is the same, byte for
@@ -17,6 +18,7 @@ mod motion;
 mod phase_portrait;
 mod record;
 mod sheet;
+pub mod spectrum;
 mod style;
 pub mod terminal;
 mod time_history;

@@ -1,0 +1,69 @@
+//! The figures of a sweep: drawn when it is finished (`rocking sweep --plot`), or of its table later (`rocking plot TABLE.csv`).
+
+use crate::arguments::{self, Picture};
+use crate::commands::print;
+use crate::error::Failure;
+use crate::plot::spectrum::{NoSpectrum, check as check_axes, figures};
+use crate::{output, plot};
+use rocking::sweep::Sweep;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Whether a sweep that is to be drawn can be: told before it is run.
+///
+/// # Errors
+/// [`Failure::PlotOfShard`], [`Failure::Spectrum`]
+pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
+    if asked.shard.is_some() {
+        return Err(Failure::PlotOfShard);
+    }
+    let values = |axis: &rocking::sweep::Axis| axis.values.iter().map(ToString::to_string).collect();
+    let axes: Vec<(String, Vec<String>)> = sweep.axes.iter().map(|axis| (axis.key.clone(), values(axis))).collect();
+    check_axes(&axes, sweep.len()).map_err(|error| refused(&asked.file, error))
+}
+
+/// Draws a table into files beside or below the table; they have its name.
+///
+/// # Errors
+/// [`Failure::Spectrum`], [`Failure::Output`], [`Failure::File`]
+pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Failure> {
+    let name = table.with_extension(match format {
+        Picture::Svg => "svg",
+        Picture::Png => "png",
+    });
+    let picture = match (out, name.file_name()) {
+        (Some(folder), Some(name)) => {
+            std::fs::create_dir_all(folder).map_err(|error| Failure::output(folder, error))?;
+            folder.join(name)
+        }
+        _ => name,
+    };
+    print(&draw(table, &picture)?)
+}
+
+/// Draws a table into `picture` and the curves of the least that overturns into a file beside it, named like it with `-minimum`: as
+/// pixels if the name says so, else as SVG. Returns what was written and what it shows.
+///
+/// # Errors
+/// [`Failure::Spectrum`], [`Failure::File`]
+pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
+    let part = |name: Option<&std::ffi::OsStr>| name.map_or_else(String::new, |name| name.to_string_lossy().into());
+    let extension = part(picture.extension());
+    let second = match extension.as_str() {
+        "" => format!("{}-minimum", part(picture.file_stem())),
+        extension => format!("{}-minimum.{extension}", part(picture.file_stem())),
+    };
+    let mut told = String::new();
+    let drawn = figures(table).map_err(|error| refused(table, error))?;
+    for (figure, path) in drawn.into_iter().zip([picture.into(), picture.with_file_name(second)]) {
+        let is_png = extension.eq_ignore_ascii_case("png");
+        let bytes = if is_png { plot::png(&figure) } else { figure.svg.into_bytes() };
+        output::file(&path, bytes)?;
+        let _ = writeln!(told, "wrote {}: {}", path.display(), figure.caption);
+    }
+    Ok(told)
+}
+
+fn refused(path: &Path, error: NoSpectrum) -> Failure {
+    Failure::Spectrum { path: path.into(), error }
+}

@@ -1,0 +1,303 @@
+//! The table of a sweep as panels of cells.
+//!
+//! The last two axes with numbers that vary span each panel, the last one upwards; every combination of the others is a panel.
+//! A class is all that is kept of a row.
+
+use super::scale::{Scale, title};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Panels beyond which nobody could read them.
+const MOST_PANELS: usize = 16;
+
+/// What became of the column, as it is told apart in the figure; from the least to the most violent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// Nothing opened.
+    NoUplift,
+    /// It rocked and stands.
+    Rocks,
+    /// It overturned after three impacts or more.
+    AfterMore,
+    /// It overturned after two impacts.
+    AfterTwo,
+    /// It overturned after one impact.
+    AfterOne,
+    /// It overturned without an impact.
+    AtOnce,
+    /// The point has no result.
+    Error,
+}
+
+impl Class {
+    /// All, in this order.
+    pub const ALL: [Class; 7] = [
+        Class::NoUplift,
+        Class::Rocks,
+        Class::AfterMore,
+        Class::AfterTwo,
+        Class::AfterOne,
+        Class::AtOnce,
+        Class::Error,
+    ];
+
+    /// Of a row.
+    fn of(outcome: &str, impacts: &str) -> Option<Class> {
+        Some(match (outcome, impacts) {
+            ("no-uplift", _) => Class::NoUplift,
+            ("rocks", _) => Class::Rocks,
+            ("overturns", "0") => Class::AtOnce,
+            ("overturns", "1") => Class::AfterOne,
+            ("overturns", "2") => Class::AfterTwo,
+            ("overturns", _) => Class::AfterMore,
+            ("error", _) => Class::Error,
+            _ => return None,
+        })
+    }
+
+    /// Whether the column overturned.
+    pub fn overturns(self) -> bool {
+        matches!(self, Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
+    }
+}
+
+/// Why a table makes no figure.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoSpectrum {
+    /// The file is not the table of a sweep.
+    #[error("{problem}; give the table that `rocking sweep` wrote")]
+    NoTable {
+        /// What is wrong.
+        problem: String,
+    },
+    /// One axis is no plane.
+    #[error(
+        "axes with numbers that vary: {count}; a spectrum needs two, so give e.g. both omega_p and amplitude_uplift \
+         several values"
+    )]
+    FewAxes {
+        /// Axes of numbers with two values or more.
+        count: usize,
+    },
+    /// Too many to be read.
+    #[error(
+        "the axes before the last two make {count} panels, and {MOST_PANELS} can be read; give those axes fewer values"
+    )]
+    ManyPanels {
+        /// Panels.
+        count: usize,
+    },
+    /// A part of a sweep, or axes that run in pairs.
+    #[error(
+        "there are {rows} points and the values of the axes make {points}; draw a whole sweep with axes that are \
+         combined as `cartesian`, of shards the table that `rocking merge` makes"
+    )]
+    NoGrid {
+        /// Points there are.
+        rows: usize,
+        /// Points of a whole grid.
+        points: usize,
+    },
+}
+
+/// Where the values of an axis are.
+#[derive(Clone, Debug, PartialEq)]
+enum Span {
+    /// In these columns.
+    X(Vec<usize>),
+    /// In these rows.
+    Y(Vec<usize>),
+    /// In panels of their own: so many values.
+    Panels(usize),
+}
+
+/// What the axes of a sweep span.
+#[derive(Clone, Debug)]
+pub struct Plane {
+    /// To the right.
+    pub x: Scale,
+    /// Upwards.
+    pub y: Scale,
+    /// A title for each panel; empty if there is nothing to say.
+    pub titles: Vec<String>,
+    /// Of each axis, where its values are, in their order.
+    spans: Vec<Span>,
+}
+
+impl Plane {
+    /// Of axes by their keys, with their values as a table has them.
+    ///
+    /// # Errors
+    /// [`NoSpectrum::FewAxes`], [`NoSpectrum::ManyPanels`]
+    pub fn of(axes: &[(String, Vec<String>)]) -> Result<Plane, NoSpectrum> {
+        let numbers = |values: &[String]| -> Option<Vec<f64>> {
+            let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
+            numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+        };
+        let scale = |place: usize| {
+            let (key, values) = &axes[place];
+            let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]));
+            Some((place, Scale::of(key, varying?)))
+        };
+        let mut spanning = (0..axes.len()).rev().filter_map(scale);
+        let (Some((y_place, y)), x) = (spanning.next(), spanning.next()) else {
+            return Err(NoSpectrum::FewAxes { count: 0 });
+        };
+        let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes { count: 1 }) };
+        drop(spanning);
+        let others = axes.iter().enumerate().filter(|(place, _)| ![x_place, y_place].contains(place));
+        let mut titles = vec![String::new()];
+        for (key, values) in others.map(|(_, axis)| axis).filter(|(_, values)| values.len() > 1) {
+            let count = titles.len() * values.len();
+            if count > MOST_PANELS {
+                return Err(NoSpectrum::ManyPanels { count });
+            }
+            let with = |above: &String, value: &String| match above.as_str() {
+                "" => title(key, value),
+                above => format!("{above}, {}", title(key, value)),
+            };
+            titles = titles.iter().flat_map(|above| values.iter().map(move |value| with(above, value))).collect();
+        }
+        let spans = axes.iter().enumerate().map(|(place, (_, values))| {
+            let along = |scale: &Scale| {
+                let cells = numbers(values).into_iter().flatten().map(|number| scale.place(number));
+                cells.map(|cell| cell.expect("the scale is made of these values")).collect()
+            };
+            match place {
+                _ if place == x_place => Span::X(along(&x)),
+                _ if place == y_place => Span::Y(along(&y)),
+                _ => Span::Panels(values.len()),
+            }
+        });
+        let spans = spans.collect();
+        Ok(Plane { x, y, titles, spans })
+    }
+
+    /// Points of the whole grid.
+    fn points(&self) -> usize {
+        self.x.values.len() * self.y.values.len() * self.titles.len()
+    }
+
+    /// Whether so many points fill the grid.
+    ///
+    /// # Errors
+    /// [`NoSpectrum::NoGrid`]
+    pub fn expects(&self, rows: usize) -> Result<(), NoSpectrum> {
+        let points = self.points();
+        if rows == points { Ok(()) } else { Err(NoSpectrum::NoGrid { rows, points }) }
+    }
+
+    /// Panel, column and row of the point at which the axes have their values of these numbers.
+    fn place(&self, numbers: &[usize]) -> [usize; 3] {
+        let [mut panel, mut column, mut row] = [0; 3];
+        for (span, number) in self.spans.iter().zip(numbers) {
+            match span {
+                Span::X(columns) => column = columns[*number],
+                Span::Y(rows) => row = rows[*number],
+                Span::Panels(count) => panel = panel * count + number,
+            }
+        }
+        [panel, column, row]
+    }
+}
+
+/// A class for each cell of each panel.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// The axes.
+    pub plane: Plane,
+    /// Of each panel, a row of cells after the other, the lowest first.
+    pub panels: Vec<Vec<Class>>,
+}
+
+impl Grid {
+    /// Reads the table of a whole sweep.
+    ///
+    /// # Errors
+    /// [`NoSpectrum`]
+    pub fn read(file: &Path) -> Result<Grid, NoSpectrum> {
+        let broken = |problem: String| NoSpectrum::NoTable { problem };
+        let failed = |error: csv::Error| broken(error.to_string());
+        let mut reader = csv::Reader::from_path(file).map_err(failed)?;
+        let header = reader.headers().map_err(failed)?.clone();
+        let column = |name: &str| header.iter().position(|found| found == name);
+        let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
+            return Err(broken("it has no columns index, outcome and impacts".into()));
+        };
+        let mut axes: Vec<(String, Vec<String>)> =
+            header.iter().take(outcome).skip(1).map(|key| (key.into(), Vec::new())).collect();
+        let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
+        // Numbers of the values of all rows, as many for each as there are axes.
+        let (mut numbers, mut classes) = (Vec::new(), Vec::new());
+        for row in reader.records() {
+            let row = row.map_err(failed)?;
+            for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
+                let number = seen.get(value).copied().unwrap_or_else(|| {
+                    axis.1.push(value.into());
+                    seen.insert(value.into(), axis.1.len() - 1);
+                    axis.1.len() - 1
+                });
+                numbers.push(number);
+            }
+            let class = Class::of(&row[outcome], &row[impacts]);
+            classes.push(class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?);
+        }
+        let plane = Plane::of(&axes)?;
+        plane.expects(classes.len())?;
+        let columns = plane.x.values.len();
+        let mut panels = vec![vec![None; columns * plane.y.values.len()]; plane.titles.len()];
+        for (numbers, class) in numbers.chunks_exact(axes.len()).zip(classes) {
+            let [panel, x, y] = plane.place(numbers);
+            panels[panel][y * columns + x] = Some(class);
+        }
+        let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
+        // As many rows as cells, but some twice and others not at all.
+        let panels = panels.ok_or_else(|| broken("points are missing".into()))?;
+        Ok(Grid { plane, panels })
+    }
+
+    /// The share of a class in some panels.
+    pub fn share(panels: &[Vec<Class>], wanted: impl Fn(Class) -> bool) -> f64 {
+        let cells = || panels.iter().flatten();
+        cells().filter(|class| wanted(**class)).count() as f64 / cells().count() as f64
+    }
+
+    /// The lowest cell of each column of a panel that overturns.
+    pub fn minimum(&self, panel: usize) -> Vec<Option<usize>> {
+        let columns = self.plane.x.values.len();
+        let overturns = |x: usize, y: usize| self.panels[panel][y * columns + x].overturns();
+        (0..columns).map(|x| (0..self.plane.y.values.len()).find(|y| overturns(x, *y))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(key: &str, values: &[&str]) -> (String, Vec<String>) {
+        (key.into(), values.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn the_last_two_axes_of_numbers_that_vary_span_the_plane() {
+        let (file, two) = (axis("file", &["a", "b"]), axis("eta", &["0.9", "0.8"]));
+        let axes = [axis("blocks", &["1", "3"]), two, axis("rtol", &["1e-6"]), axis("omega_p", &["1", "2"]), file];
+        let plane = Plane::of(&axes).expect("two axes");
+        assert_eq!((plane.x.key.as_str(), plane.y.key.as_str()), ("eta", "omega_p"));
+        assert_eq!(
+            plane.titles,
+            ["1 block, file = a", "1 block, file = b", "3 blocks, file = a", "3 blocks, file = b"]
+        );
+        assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
+        assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
+        assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes { count: 1 }));
+        assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes { count: 0 }));
+    }
+
+    #[test]
+    fn more_panels_than_can_be_read_are_refused() {
+        let many: Vec<String> = (0..17).map(|number| number.to_string()).collect();
+        let axes = [("blocks".into(), many), axis("a", &["1", "2"]), axis("b", &["1", "2"])];
+        assert_eq!(Plane::of(&axes).err(), Some(NoSpectrum::ManyPanels { count: 17 }));
+    }
+}

@@ -1,0 +1,183 @@
+//! An axis of cells: each is centred on its value and reaches half way to its neighbours; values in geometric progression make a
+//! logarithmic axis.
+
+use crate::plot::axis::{Axis, brief, number};
+
+/// The values of one axis and where their cells are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    /// The key that varies.
+    pub key: String,
+    /// Rising, all different, at least two.
+    pub values: Vec<f64>,
+    /// Edges of the cells along the axis, in parts of its length: one more than values.
+    pub edges: Vec<f64>,
+    is_log: bool,
+    /// Values at both ends; their logarithms if the axis is logarithmic.
+    ends: [f64; 2],
+}
+
+/// Ratios and differences so close, relatively, are the same: values come from a table of decimals.
+const SAME: f64 = 1e-6;
+
+impl Scale {
+    /// The axis of a key with these values, in any order; at least two of them different.
+    pub fn of(key: &str, mut values: Vec<f64>) -> Scale {
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        let is_log =
+            values[0] > 0.0 && steady(&values, |from, to| (to / from).ln()) && !steady(&values, |from, to| to - from);
+        let along: Vec<f64> = values.iter().map(|value| if is_log { value.ln() } else { *value }).collect();
+        let last = along.len() - 1;
+        let between = along.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        let mut edges = vec![1.5 * along[0] - 0.5 * along[1]];
+        edges.extend(between);
+        edges.push(1.5 * along[last] - 0.5 * along[last - 1]);
+        let ends = [edges[0], edges[last + 1]];
+        edges.iter_mut().for_each(|edge| *edge = (*edge - ends[0]) / (ends[1] - ends[0]));
+        Scale { key: key.into(), values, edges, is_log, ends }
+    }
+
+    /// The cell of a value.
+    pub fn place(&self, value: f64) -> Option<usize> {
+        self.values.binary_search_by(|probe| probe.total_cmp(&value)).ok()
+    }
+
+    /// Where a value is along the axis, from 0 to 1.
+    pub fn share(&self, value: f64) -> f64 {
+        let along = if self.is_log { value.ln() } else { value };
+        (along - self.ends[0]) / (self.ends[1] - self.ends[0])
+    }
+
+    /// Round values along the axis and how they are written; about `count`, fewer on a logarithmic axis that spans little.
+    pub fn ticks(&self, count: usize) -> Vec<(f64, String)> {
+        if self.is_log {
+            let round = self.round_on_log(&[1.0, 2.0, 5.0]);
+            let round = if round.len() > 2 * count { self.round_on_log(&[1.0]) } else { round };
+            if round.len() >= 2 {
+                return round.into_iter().map(|value| (value, brief(value))).collect();
+            }
+        }
+        let range = if self.is_log { self.ends.map(f64::exp) } else { self.ends };
+        let step = Axis::over("", range, count).step;
+        let [first, last] = [(range[0] / step - 1e-9).ceil(), (range[1] / step + 1e-9).floor()];
+        let round = (0..=(last - first) as usize).map(|place| (first + place as f64) * step);
+        round.map(|value| (value, number(value, step))).collect()
+    }
+
+    /// These digits times powers of ten, as far as the axis reaches.
+    fn round_on_log(&self, digits: &[f64]) -> Vec<f64> {
+        let powers = self.ends.map(|end| (end / std::f64::consts::LN_10).floor() as i32);
+        let round = (powers[0]..=powers[1]).flat_map(|power| digits.iter().map(move |digit| digit * 10f64.powi(power)));
+        round.filter(|value| (0.0..=1.0).contains(&self.share(*value))).collect()
+    }
+
+    /// What the axis shows, in the field's words.
+    pub fn label(&self) -> String {
+        label(&self.key)
+    }
+}
+
+/// Whether at least three values are equally far from one another.
+fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
+    let first = step(values[0], values[1]);
+    values.len() > 2 && values.windows(2).all(|pair| (step(pair[0], pair[1]) / first - 1.0).abs() < SAME)
+}
+
+/// Keys of scenes by their last part, and what they are with their unit.
+const LABELS: [(&str, &str); 28] = [
+    ("amplitude_uplift", "a / (g tan α)"),
+    ("omega_p", "Ω / p"),
+    ("amplitude", "a [m/s²]"),
+    ("amplitude_g", "a [g]"),
+    ("velocity", "v [m/s]"),
+    ("omega", "Ω [rad/s]"),
+    ("frequency", "Frequency [Hz]"),
+    ("period", "Period [s]"),
+    ("start", "Start [s]"),
+    ("phase", "Phase [rad]"),
+    ("duration", "Duration [s]"),
+    ("gamma", "γ"),
+    ("pga", "Peak ground acc. [m/s²]"),
+    ("pga_g", "Peak ground acc. [g]"),
+    ("scale", "Scale of the record"),
+    ("damping", "Damping of the ground"),
+    ("eta", "η"),
+    ("blocks", "Blocks"),
+    ("half_width", "Half-width [m]"),
+    ("half_height", "Half-height [m]"),
+    ("density", "Density [kg/m²]"),
+    ("mass", "Mass [kg]"),
+    ("inertia", "Inertia [kg m²]"),
+    ("gravity", "g [m/s²]"),
+    ("friction", "Friction coefficient"),
+    ("t_end", "End of the run [s]"),
+    ("stick_angle", "Stick angle [rad]"),
+    ("overturn_angle", "Overturning angle [rad]"),
+];
+
+/// A key in the field's words; what is not known is called by its last part. Of a block or the vertical motion, that is said.
+fn label(key: &str) -> String {
+    let (above, last) = key.rsplit_once('.').unwrap_or(("", key));
+    let known = LABELS.iter().find(|(name, _)| *name == last).map_or(last, |(_, label)| label);
+    match above {
+        "excitation.vertical" => format!("{known}, vertical"),
+        block if block.starts_with("block") => format!("{known}, {block}"),
+        _ => known.into(),
+    }
+}
+
+/// A key and its value as the title of a panel: `3 blocks`, `η = 0.9`.
+pub fn title(key: &str, value: &str) -> String {
+    match (key.rsplit('.').next().unwrap_or(key), value) {
+        ("blocks", "1") => "1 block".into(),
+        ("blocks", count) => format!("{count} blocks"),
+        _ => {
+            let label = label(key);
+            let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
+            let value = value.parse().map_or_else(|_| value.to_string(), brief);
+            format!("{name} = {value} {}", unit.trim_end_matches(']')).trim_end().to_string()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_centred_on_their_values_and_geometric_progressions_are_logarithmic() {
+        let linear = Scale::of("omega_p", vec![3.0, 1.0, 2.0]);
+        assert_eq!((linear.is_log, linear.ends, linear.share(2.0)), (false, [0.5, 3.5], 0.5));
+        let log = Scale::of("omega_p", vec![0.1, 1.0, 10.0, 100.0]);
+        assert!(log.is_log);
+        for (place, value) in log.values.iter().enumerate() {
+            let middle = 0.5 * (log.edges[place] + log.edges[place + 1]);
+            assert!((log.share(*value) - middle).abs() < 1e-12);
+        }
+        assert!(!Scale::of("omega_p", vec![0.0, 1.0, 3.0]).is_log);
+        assert!(!Scale::of("omega_p", vec![1.0, 2.0]).is_log);
+    }
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let words = |values: Vec<f64>, count| -> Vec<String> {
+            Scale::of("eta", values).ticks(count).into_iter().map(|(_, word)| word).collect()
+        };
+        assert_eq!(words((1..=20).map(|i| 0.5 * f64::from(i)).collect(), 3), ["2", "4", "6", "8", "10"]);
+        assert_eq!(words(vec![0.1, 0.2, 0.4, 0.8, 1.6], 3), ["0.1", "0.2", "0.5", "1", "2"]);
+        assert_eq!(words((-3..=5).map(|power| 10f64.powi(power)).collect(), 4).len(), 9);
+        assert!(words(vec![2.1, 2.31, 2.541], 3).len() >= 3, "a narrow logarithmic axis");
+    }
+
+    #[test]
+    fn keys_are_named_as_in_the_field() {
+        assert_eq!(label("excitation.horizontal.omega_p"), "Ω / p");
+        assert_eq!(label("excitation.vertical.amplitude_g"), "a [g], vertical");
+        assert_eq!(label("block[2].mass"), "Mass [kg], block[2]");
+        assert_eq!(["1", "5"].map(|count| title("column.blocks", count)), ["1 block", "5 blocks"]);
+        assert_eq!(title("restitution.eta", "0.9"), "η = 0.9");
+        assert_eq!(title("column.half_width", "0.4"), "Half-width = 0.4 m");
+        assert_eq!(title("excitation.horizontal.file", "a/b.AT2"), "file = a/b.AT2");
+    }
+}
