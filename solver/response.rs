@@ -187,31 +187,31 @@ impl Response {
                 first.t
             ));
         }
-        for (index, normal) in self.min_normal_force.iter().enumerate() {
-            if *normal < 0.0 {
-                warnings.push(format!(
-                    "interface {}: the normal force falls to {} N: the contact would part, which the model excludes",
-                    index + 1,
-                    four_digits(*normal)
-                ));
-            }
+        let model = "which the model excludes";
+        let parted = |normal: &f64| *normal < 0.0;
+        if let Some((interfaces, least)) = worst(&self.min_normal_force, parted, |a, b| a < b) {
+            let least = four_digits(least);
+            warnings
+                .push(format!("{interfaces}: the normal force falls to {least} N: the contact would part, {model}"));
         }
-        for (index, demand) in self.friction_demand.iter().enumerate() {
-            if friction.is_some() && demand.is_infinite() {
-                warnings.push(format!(
-                    "interface {}: no friction coefficient is enough, as the contact parts: the blocks would slide, which the \
-                     model excludes",
-                    index + 1
-                ));
-            } else if friction.is_some_and(|available| *demand > available) {
-                warnings.push(format!(
-                    "interface {}: the run needs a friction coefficient of {demand:.3}, the scene has {}: the blocks would \
-                     slide, which the model excludes",
-                    index + 1,
-                    friction.unwrap_or_default()
-                ));
-            }
+        let Some(available) = friction else { return self.with_build(warnings) };
+        let slides = |demand: &f64| demand.is_finite() && *demand > available;
+        if let Some((interfaces, _)) = worst(&self.friction_demand, |demand| demand.is_infinite(), |_, _| false) {
+            warnings.push(format!(
+                "{interfaces}: no friction coefficient is enough, as the contact parts: the blocks would slide, {model}"
+            ));
         }
+        if let Some((interfaces, most)) = worst(&self.friction_demand, slides, |a, b| a > b) {
+            warnings.push(format!(
+                "{interfaces}: the run needs a friction coefficient of {most:.3}, the scene has {available}: the blocks would \
+                 slide, {model}"
+            ));
+        }
+        self.with_build(warnings)
+    }
+
+    /// The warnings, and what must be known of the build that ran.
+    fn with_build(&self, mut warnings: Vec<String>) -> Vec<String> {
         if self.used_generic {
             warnings.push(format!(
                 "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
@@ -221,6 +221,26 @@ impl Response {
         }
         warnings
     }
+}
+
+/// The interfaces whose values are as told, in words, and the worst value among them.
+fn worst(values: &[f64], is_told: impl Fn(&f64) -> bool, is_worse: impl Fn(f64, f64) -> bool) -> Option<(String, f64)> {
+    let told: Vec<usize> = (0..values.len()).filter(|&index| is_told(&values[index])).collect();
+    let first = *told.first()?;
+    let at = told
+        .iter()
+        .copied()
+        .fold(first, |worst, other| if is_worse(values[other], values[worst]) { other } else { worst });
+    let words = match &told[..] {
+        [one] => format!("interface {}", one + 1),
+        many => {
+            let numbers: Vec<String> = many.iter().map(|index| (index + 1).to_string()).collect();
+            let equal = many.iter().all(|&index| values[index] == values[at]);
+            let at = if equal { String::new() } else { format!(", most at {}", at + 1) };
+            format!("interfaces {}{at}", numbers.join(", "))
+        }
+    };
+    Some((words, values[at]))
 }
 
 /// A number other than zero for a sentence: four digits or those before the point, whichever are more.

@@ -27,6 +27,8 @@ struct Summary<'a> {
     work: rocking::Work,
     /// The method that the run used, where the options leave it open.
     method: &'static str,
+    /// Modes without generated equations in this build ran on generic ones.
+    used_generic: bool,
     wall_seconds: f64,
     warnings: &'a [String],
     options: &'a rocking::SolveOptions,
@@ -100,6 +102,7 @@ impl<'a> Folder<'a> {
             separations: &response.separations,
             work: response.work,
             method: scene.method().name(),
+            used_generic: response.used_generic,
             wall_seconds,
             warnings,
             options: &scene.options,

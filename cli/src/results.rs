@@ -48,6 +48,8 @@ pub struct Summary {
     pub min_normal_force: Vec<Option<f64>>,
     pub separations: Vec<Separation>,
     pub method: String,
+    /// Modes without generated equations in the build ran on generic ones.
+    pub used_generic: bool,
     pub warnings: Vec<String>,
     pub options: Options,
     pub column: ColumnData,

@@ -3,12 +3,16 @@
 use crate::arguments;
 use crate::commands::{json, print, records};
 use crate::error::{Failure, with_dashes};
+use crate::number::significant;
 use crate::{output, plot};
 use rocking::excitation::{Measures, RecordFile, TextOptions};
 use rocking::{DEFAULT_GRAVITY, Record, RecordError};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+
+/// Significant digits of what is measured.
+pub const DIGITS: usize = 5;
 
 /// Describes a record file, or lists a folder.
 ///
@@ -220,46 +224,32 @@ impl Told {
             line("channels", self.channels.join(", "));
         }
         line("unit", self.unit.to_string());
-        line("dt", format!("{} s", five(self.dt)));
+        line("dt", format!("{} s", significant(self.dt, DIGITS)));
         line("samples", self.samples.to_string());
-        line("duration", format!("{} s", five(self.duration)));
+        line("duration", format!("{} s", significant(self.duration, DIGITS)));
         if self.scale != 1.0 {
-            line("scaled by", five(self.scale));
+            line("scaled by", significant(self.scale, DIGITS));
         }
         let Some(measures) = &self.measures else { return text };
-        let pga = format!("{} g = {} m/s2, at {} s", five(self.pga_g), five(measures.pga), five(measures.pga_time));
+        let pga = format!(
+            "{} g = {} m/s2, at {} s",
+            significant(self.pga_g, DIGITS),
+            significant(measures.pga, DIGITS),
+            significant(measures.pga_time, DIGITS)
+        );
         line("PGA", pga);
-        line("PGV", format!("{} m/s", five(measures.pgv)));
+        line("PGV", format!("{} m/s", significant(measures.pgv, DIGITS)));
         let drift = if self.drifts {
             ", at the end: the record drifts, or is cut while the ground moves; correct its baseline to speak of displacements"
         } else {
             ""
         };
-        line("PGD", format!("{} m{drift}", five(measures.pgd)));
-        line("Arias intensity", format!("{} m/s", five(measures.arias)));
+        line("PGD", format!("{} m{drift}", significant(measures.pgd, DIGITS)));
+        line("Arias intensity", format!("{} m/s", significant(measures.arias, DIGITS)));
         let [duration, from, to] =
-            [measures.significant_duration, measures.significant_start, measures.significant_end].map(five);
+            [measures.significant_duration, measures.significant_start, measures.significant_end]
+                .map(|time| significant(time, DIGITS));
         line("significant duration", format!("{duration} s (5-95 %), from {from} s to {to} s"));
         text
-    }
-}
-
-/// Five digits, without zeros at the end.
-pub fn five(value: f64) -> String {
-    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
-    if rounded != 0.0 && !(1e-4..1e7).contains(&rounded.abs()) { format!("{rounded:e}") } else { format!("{rounded}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in
-            [(0.123456789, "0.12346"), (0.0, "0"), (7276.0 * 0.005, "36.38"), (1e-9, "1e-9"), (12.0, "12")]
-        {
-            assert_eq!(five(value), text);
-        }
     }
 }

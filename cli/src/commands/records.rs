@@ -4,9 +4,10 @@
 //! say of their components.
 
 use crate::arguments;
-use crate::commands::record::{Problem, Told, five, options, read};
+use crate::commands::record::{DIGITS, Problem, Told, options, read};
 use crate::commands::{json, print};
 use crate::error::Failure;
+use crate::number::significant;
 use rocking::RecordError;
 use rocking::excitation::TextOptions;
 use serde::Serialize;
@@ -140,9 +141,9 @@ impl Folder<'_> {
                     "  {direction:<12}{:<width$}  PGA {:.4} g  dt {} s  n {}  {} s{}",
                     told.file.display(),
                     told.pga_g,
-                    five(told.dt),
+                    significant(told.dt, DIGITS),
                     told.samples,
-                    five(told.duration),
+                    significant(told.duration, DIGITS),
                     if told.warnings.is_empty() { String::new() } else { format!("  ({})", told.warnings.join("; ")) },
                 );
             }

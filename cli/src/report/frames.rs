@@ -2,7 +2,7 @@
 //!
 //! A frame is a row of `response.csv`, or the column just before or just after an event: two frames of one time, so that the
 //! player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
-//! written to 1e-10 rad. The ground's displacement is for the eye alone: trapezoids over the rows, less a constant velocity.
+//! written to 1e-10 rad. The ground's displacement is for the eye alone: that of the rows as a record, less a constant velocity.
 
 use crate::number::{fixed, significant};
 use crate::plot;
@@ -10,6 +10,7 @@ use crate::report::html::script;
 use crate::report::outcome::closed;
 use crate::report::sketch::fill;
 use crate::results::{Event, Results};
+use rocking::Record;
 use rocking::pattern::Pattern;
 use rocking::{EventKind, StopReason};
 use serde_json::json;
@@ -95,26 +96,23 @@ struct Ground {
 }
 
 impl Ground {
-    /// Integrates twice from rest and takes out the mean velocity of the second half of the run where there is any: what a
+    /// Takes the rows as a record that starts from rest, and takes out the mean velocity of the second half of the run where there is any: what a
     /// record's base line or a harmonic motion that starts from rest would carry away.
     fn new(results: &Results) -> Ground {
         let rows = &results.samples;
-        let (mut velocity, mut displacement) = (vec![[0.0; 2]; rows.len()], vec![[0.0; 2]; rows.len()]);
-        let mut drift = [0.0; 2];
+        let (mut displacement, mut drift) = (vec![[0.0; 2]; rows.len()], [0.0; 2]);
         for axis in 0..2 {
-            for index in 1..rows.len() {
-                let dt = rows[index].t - rows[index - 1].t;
-                let (before, after) = (rows[index - 1].ground[axis], rows[index].ground[axis]);
-                velocity[index][axis] = velocity[index - 1][axis] + 0.5 * dt * (before + after);
-                displacement[index][axis] = displacement[index - 1][axis]
-                    + dt * (velocity[index - 1][axis] + dt * (before / 3.0 + after / 6.0));
-            }
+            // Rows are equally far apart: they are a record of the ground.
+            let dt = rows.get(1).map_or(0.0, |row| row.t - rows[0].t);
+            let accel = rows.iter().map(|row| row.ground[axis]).collect();
+            let Ok(record) = Record::new(accel, dt, rows[0].t) else { continue };
+            let velocity = record.velocity();
             let late = &velocity[rows.len() / 2..];
-            let mean = late.iter().map(|v| v[axis]).sum::<f64>() / late.len().max(1) as f64;
-            let largest = velocity.iter().map(|v| v[axis].abs()).fold(0.0, f64::max);
-            if mean.abs() > NO_DRIFT * largest {
-                drift[axis] = mean;
-                rows.iter().zip(&mut displacement).for_each(|(row, place)| place[axis] -= mean * (row.t - rows[0].t));
+            let mean = late.iter().sum::<f64>() / late.len() as f64;
+            let largest = velocity.iter().fold(0.0f64, |largest, v| largest.max(v.abs()));
+            drift[axis] = if mean.abs() > NO_DRIFT * largest { mean } else { 0.0 };
+            for ((row, place), d) in rows.iter().zip(&mut displacement).zip(record.displacement()) {
+                place[axis] = d - drift[axis] * (row.t - rows[0].t);
             }
         }
         Ground { displacement, drift }

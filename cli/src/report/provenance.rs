@@ -10,7 +10,7 @@ pub fn provenance(results: &Results) -> String {
     let (summary, options) = (&results.summary, &results.summary.options);
     let generic = options.dynamics.as_str() == Some("generic");
     let dynamics = match options.dynamics.as_str() {
-        Some("generated") if summary.warnings.iter().any(|warning| warning.contains("ran on the generic ones")) => {
+        Some("generated") if summary.used_generic => {
             "generated at build time; generic ones for modes that the build has not got".into()
         }
         Some("generated") => "generated at build time".into(),
