@@ -67,6 +67,21 @@ impl Segment {
 }
 
 impl Excitation {
+    /// What the files of its records make the user know, a sentence each.
+    pub fn warnings(&self) -> Vec<String> {
+        fn of(motion: &Motion) -> Vec<String> {
+            match motion {
+                Motion::Record(record) => {
+                    let file = &record.source().file;
+                    record.warnings().iter().map(|warning| format!("record {file}: {warning}")).collect()
+                }
+                Motion::Sum { terms } => terms.iter().flat_map(of).collect(),
+                _ => Vec::new(),
+            }
+        }
+        [&self.horizontal, &self.vertical].into_iter().flatten().flat_map(of).collect()
+    }
+
     /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.
     pub fn segments(&self, t_end: f64) -> Vec<Segment> {
         let motions = [&self.horizontal, &self.vertical].map(|m| m.as_ref().map(Motion::pieces).unwrap_or_default());

@@ -18,6 +18,9 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let text = scene_file::text(path).map_err(Failure::scene)?;
     let SceneFile { scene, derived } = SceneFile::from_toml(&text, path).map_err(Failure::scene)?;
     let findings = Findings::of(&scene, derived);
+    for warning in &findings.warnings {
+        eprintln!("warning: {warning}");
+    }
     if as_json { json(&findings) } else { print(&findings.text(path, &scene)) }
 }
 
@@ -36,6 +39,8 @@ struct Findings {
     opens: Vec<usize>,
     method: &'static str,
     rows: Option<u64>,
+    /// What the files of records make one know.
+    warnings: Vec<String>,
 }
 
 /// A component of the ground motion.
@@ -76,6 +81,7 @@ impl Findings {
             vertical: component(&scene.excitation.vertical),
             method: scene.method().name(),
             rows: scene.output_dt.map(|dt| (scene.options.t_end / dt * (1.0 + 4.0 * f64::EPSILON)) as u64 + 1),
+            warnings: scene.excitation.warnings(),
         }
     }
 

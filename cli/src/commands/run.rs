@@ -6,7 +6,7 @@ use crate::error::Failure;
 use crate::output::{Folder, SceneText};
 use crate::progress::Progress;
 use crate::results::longest_first;
-use rocking::{DynamicsSource, Motion, Record, Response, Scene, StopReason, simulate_observed};
+use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::time::Instant;
 
@@ -31,7 +31,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
-    let mut warnings = record_warnings(&scene);
+    let mut warnings = scene.excitation.warnings();
     warnings.extend(response.warnings(scene.friction));
     folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
     let mut written: Vec<String> = FILES_OF_A_RUN.map(String::from).to_vec();
@@ -57,20 +57,6 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
 
 /// As they are told.
 const FILES_OF_A_RUN: [&str; 3] = ["summary.json", "response.csv", "events.json"];
-
-/// What the files of the scene's records make the user know.
-fn record_warnings(scene: &Scene) -> Vec<String> {
-    let motions = [&scene.excitation.horizontal, &scene.excitation.vertical];
-    let records = motions.into_iter().flatten().filter_map(|motion| match motion {
-        Motion::Record(record) => Some(record),
-        _ => None,
-    });
-    let told = |record: &Record| {
-        let file = record.source().file.clone();
-        record.warnings().iter().map(move |warning| format!("record {file}: {warning}")).collect::<Vec<_>>()
-    };
-    records.flat_map(told).collect()
-}
 
 /// Modes of which the time is told; the others are brief in most runs, and in `summary.json`.
 const MODES_TOLD: usize = 8;
