@@ -9,6 +9,7 @@
 use crate::column::{Block, Column};
 use crate::dynamics::ContactForce;
 use crate::few::{Few, Square};
+use crate::sine;
 use rocking_codegen::pattern::Pattern;
 
 /// A vector of the plane, `[x, y]`.
@@ -45,7 +46,7 @@ impl Turn {
     const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
 
     fn new(angle: f64) -> Turn {
-        let (sin, cos) = libm::sincos(angle);
+        let (sin, cos) = sine::sin_cos(angle);
         Turn { sin, cos }
     }
 

@@ -62,6 +62,7 @@ pub mod scalar;
 pub mod scene;
 pub mod scene_file;
 pub mod simulate;
+mod sine;
 pub mod sweep;
 
 pub use column::{Block, Column, ColumnError, Stack};

@@ -10,6 +10,7 @@
 //! double-double, an interval) needs the operations of [`Scalar`] and nothing else.
 
 use crate::program::Scalar;
+use crate::sine;
 use std::ops::{Add, Mul, Neg, Sub};
 use wide::{f64x4, f64x8};
 
@@ -24,10 +25,9 @@ impl Scalar for f64 {
         1.0 / self
     }
 
-    /// From `libm`, so that results do not depend on the machine's C library.
     #[inline(always)]
     fn sin_cos(self) -> (f64, f64) {
-        libm::sincos(self)
+        sine::sin_cos(self)
     }
 }
 
@@ -45,7 +45,11 @@ macro_rules! lanes {
                 <$lanes>::splat(1.0) / self
             }
 
+            #[inline(always)]
             fn sin_cos(self) -> ($lanes, $lanes) {
+                if self.to_array().into_iter().all(sine::is_within_reach) {
+                    return sine::kernels(self);
+                }
                 let (mut sin, mut cos) = (self.to_array(), self.to_array());
                 for (sin, cos) in sin.iter_mut().zip(&mut cos) {
                     (*sin, *cos) = Scalar::sin_cos(*cos);

@@ -1,0 +1,107 @@
+//! Sine and cosine together, in straight-line arithmetic where rocking takes place.
+//!
+//! Up to an eighth of a turn both are polynomials: the kernels of Sun's fdlibm (1993), whose error is below 0.6 units in the last place,
+//! evaluated in its order of operations, so that doubles, lanes and `libm` itself agree to the last bit. Sine is odd and cosine even
+//! exactly, as only `x²` is expanded. Beyond, where blocks have fallen, `libm` reduces the angle first.
+
+use crate::program::Scalar;
+
+/// The largest angle of the polynomials `[rad]`: the last double whose upper half is that of π/4, where `libm` begins to reduce.
+const REACH: f64 = f64::from_bits(0x3fe9_21fb_ffff_ffff);
+
+/// Coefficients of `x³, x⁵, ... x¹³` of the sine.
+const SIN: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+
+/// Coefficients of `x⁴, x⁶, ... x¹⁴` of the cosine.
+const COS: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// Sine and cosine of an angle `[rad]`.
+#[inline(always)]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    if is_within_reach(x) { kernels(x) } else { reduced(x) }
+}
+
+/// Of angles beyond an eighth of a turn, of zero, whose sign a sum would lose, and of what is no number.
+#[cold]
+#[inline(never)]
+fn reduced(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
+/// Whether the polynomials hold: for sizes above zero, up to the reach.
+#[inline(always)]
+pub fn is_within_reach(x: f64) -> bool {
+    // As integers, sizes are in the order of the numbers, zero wraps around and what is no number is beyond.
+    x.abs().to_bits().wrapping_sub(1) < REACH.to_bits()
+}
+
+/// Both polynomials.
+#[inline(always)]
+pub fn kernels<S: Scalar>(x: S) -> (S, S) {
+    let number = S::from_f64;
+    let [s1, s2, s3, s4, s5, s6] = SIN.map(number);
+    let [c1, c2, c3, c4, c5, c6] = COS.map(number);
+    let z = x * x;
+    let square = z * z;
+    let tail = s2 + z * (s3 + z * s4) + z * square * (s5 + z * s6);
+    let sin = x + z * x * (s1 + z * tail);
+    let tail = z * (c1 + z * (c2 + z * c3)) + square * square * (c4 + z * (c5 + z * c6));
+    let (one, half) = (number(1.0), number(0.5) * z);
+    let first = one - half;
+    // What `1 - x²/2` has lost to rounding is added to the small terms.
+    let cos = first + (((one - first) - half) + z * tail);
+    (sin, cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `libm`'s kernels are the same: no result of a run depends on which of the two was asked.
+    #[test]
+    fn the_polynomials_are_libms_to_the_last_bit() {
+        let mut x = 1e-30f64;
+        let mut count = 0;
+        while x <= REACH {
+            for angle in [x, -x, x.next_up(), REACH - x] {
+                let (found, expected) = (sin_cos(angle), libm::sincos(angle));
+                assert_eq!(
+                    [found.0.to_bits(), found.1.to_bits()],
+                    [expected.0.to_bits(), expected.1.to_bits()],
+                    "{angle:e}"
+                );
+            }
+            x *= if x < 1e-9 { 1.7 } else { 1.000_01 };
+            count += 1;
+        }
+        assert!(count > 1_000_000);
+        for angle in [0.0, -0.0, REACH, REACH.next_up(), 1.0, -2.0, 1e9, f64::INFINITY, f64::NAN, 5e-324] {
+            let (found, expected) = (sin_cos(angle), libm::sincos(angle));
+            assert_eq!(found.0.to_bits(), expected.0.to_bits(), "{angle:e}");
+            assert_eq!(found.1.to_bits(), expected.1.to_bits(), "{angle:e}");
+        }
+    }
+
+    #[test]
+    fn sine_is_odd_and_cosine_even() {
+        for place in 0..10_000 {
+            let x = f64::from(place) * 1.1e-4;
+            let ((sin, cos), (mirrored, same)) = (sin_cos(x), sin_cos(-x));
+            assert_eq!((sin, cos), (-mirrored, same));
+        }
+    }
+}
