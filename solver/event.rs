@@ -199,36 +199,44 @@ fn only_root(polynomial: &Bernstein) -> f64 {
     s
 }
 
-/// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: the Illinois rule, with bisection
-/// where three rounds of it have not halved the bracket.
+/// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: inverse quadratic interpolation where it
+/// may be trusted, bisection elsewhere (Chandrupatla 1997), with steps no shorter than the resolution, so that both ends close in.
 fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
-    let (mut a, mut b) = (0.0f64, 1.0f64);
+    // The newest place, the one across the root from it, and the one before.
+    let (mut a, mut b) = (1.0f64, 0.0f64);
     let (mut fa, mut fb) = (f(a), f(b));
-    let mut width = 2.0;
-    for round in 0..200 {
-        let is_slow = round % 3 == 2 && b - a > 0.5 * width;
-        if round % 3 == 2 {
-            width = b - a;
-        }
-        if fb == 0.0 || b - a <= f64::EPSILON * b {
+    let mut share = 0.5;
+    for _ in 0..MOST_ROUNDS {
+        if fa == 0.0 {
             break;
         }
-        let secant = b - fb * (b - a) / (fb - fa);
-        let middle = if is_slow || !(secant > a && secant < b) { 0.5 * (a + b) } else { secant };
-        if middle <= a || middle >= b {
-            break;
-        }
-        let value = f(middle);
-        if value > 0.0 {
-            (a, fa) = (middle, value);
-            fb *= 0.5;
+        let x = a + share * (b - a);
+        let value = f(x);
+        let (c, fc);
+        if (value > 0.0) == (fa > 0.0) {
+            (c, fc) = (a, fa);
         } else {
-            (b, fb) = (middle, value);
-            fa *= 0.5;
+            (c, fc) = (b, fb);
+            (b, fb) = (a, fa);
         }
+        (a, fa) = (x, value);
+        let least = 0.5 * f64::EPSILON * a.max(b) / (a - b).abs();
+        if least >= 0.5 {
+            break;
+        }
+        let (place, level) = ((a - b) / (c - b), (fa - fb) / (fc - fb));
+        let is_trusted = level * level < place && (1.0 - level) * (1.0 - level) < 1.0 - place;
+        share = match is_trusted {
+            true => fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb),
+            false => 0.5,
+        };
+        share = share.clamp(least, 1.0 - least);
     }
-    b
+    if fa > 0.0 { b } else { a }
 }
+
+/// More than halving a bracket of doubles down to one of them takes.
+const MOST_ROUNDS: usize = 1100;
 
 /// Degree of the polynomial through the samples of a guard. A guard is as smooth as the step that its method has accepted: a
 /// dozen samples would tell no more, three miss dips.
