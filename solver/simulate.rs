@@ -306,15 +306,19 @@ impl<'a> Run<'a> {
         let column = &self.scene.column;
         let decision = contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
         let decision = self.solved(decision)?;
-        let before = self.pattern.clone();
-        let omega_before = self.omega.clone();
+        self.strike(decision, closing);
+        self.guard_against_stall()
+    }
+
+    /// Adopts and records what an impact has decided.
+    fn strike(&mut self, decision: Decision, closing: &[usize]) {
+        let (before, omega_before) = (self.pattern.clone(), self.omega.clone());
         let energy_before = self.kinetic_energy(&before, &omega_before);
         let impulses = decision.impulses.iter().map(Impulse::from).collect();
         self.adopt(decision, EventKind::Impact);
         let energy_after = self.kinetic_energy(&self.pattern, &self.omega);
         let lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
         self.record(EventKind::Impact, closing, before, omega_before, Some((lost, impulses)));
-        self.guard_against_stall()
     }
 
     /// Interfaces that had opened on the verge are driven back before they have moved: no impact, they are closed again, and those
@@ -450,18 +454,11 @@ impl<'a> Run<'a> {
 
     /// Closes the open interfaces that `is_still` names, momentum conserved, as a separation.
     fn close_all(&mut self, is_still: impl Fn(&Run, usize) -> bool) -> Result<(), SolveError> {
-        let before = self.pattern.clone();
         let all = 0..self.theta.len();
-        let closing: Vec<usize> = all.filter(|i| before.0[*i].is_open() && is_still(self, *i)).collect();
-        let omega = self.omega.clone();
-        let decision = contact::stick(&self.scene.column, &before, &self.theta, &omega, &closing);
+        let closing: Vec<usize> = all.filter(|i| self.pattern.0[*i].is_open() && is_still(self, *i)).collect();
+        let decision = contact::stick(&self.scene.column, &self.pattern, &self.theta, &self.omega, &closing);
         let decision = self.solved(decision)?;
-        let energy_before = self.kinetic_energy(&before, &omega);
-        let impulses = decision.impulses.iter().map(Impulse::from).collect();
-        self.adopt(decision, EventKind::Impact);
-        let energy_after = self.kinetic_energy(&self.pattern, &self.omega);
-        let lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
-        self.record(EventKind::Impact, &closing, before, omega, Some((lost, impulses)));
+        self.strike(decision, &closing);
         Ok(())
     }
 

@@ -172,13 +172,14 @@ fn fill(
 
 /// Temporary files are private; results are for whoever may read the folder.
 #[cfg(unix)]
-fn share(file: &NamedTempFile) -> std::io::Result<()> {
+pub fn share(file: &NamedTempFile) -> std::io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
     file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))
 }
 
+/// See above: there is nothing to do.
 #[cfg(not(unix))]
-fn share(_: &NamedTempFile) -> std::io::Result<()> {
+pub fn share(_: &NamedTempFile) -> std::io::Result<()> {
     Ok(())
 }
 

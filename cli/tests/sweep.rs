@@ -100,6 +100,16 @@ fn threads_and_shards_change_nothing() {
     arguments.extend(shards.iter().map(String::as_str));
     common::succeeds(folder.path(), &arguments);
     assert_eq!(std::fs::read_to_string(folder.path().join("merged.csv")).expect("written"), whole);
+    // Of more shards than points some are empty.
+    let many: Vec<String> = (1..=61).map(|number| format!("{number}.csv")).collect();
+    for (place, name) in many.iter().enumerate() {
+        let shard = format!("{}/61", place + 1);
+        common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", name, "--shard", &shard, "--quiet"]);
+    }
+    let mut arguments = vec!["merge", "merged.csv"];
+    arguments.extend(many.iter().map(String::as_str));
+    common::succeeds(folder.path(), &arguments);
+    assert_eq!(std::fs::read_to_string(folder.path().join("merged.csv")).expect("written"), whole);
     // A shard that is missing is noticed.
     let output = common::rocking(folder.path(), &["merge", "other.csv", "part-1.csv", "part-3.csv"]);
     let message = String::from_utf8_lossy(&output.stderr);

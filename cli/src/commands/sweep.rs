@@ -7,6 +7,7 @@
 use crate::arguments;
 use crate::commands::{json, print, spectrum};
 use crate::error::Failure;
+use crate::output;
 use crate::progress::Points;
 use rocking::sweep::{Ask, Fate, Row, Sweep};
 use serde::Serialize;
@@ -77,10 +78,13 @@ pub fn merge(out: &Path, shards: &[PathBuf]) -> Result<(), Failure> {
         let broken = |problem: &str| Failure::Shards { path: path.clone(), problem: problem.into() };
         let mut lines = BufReader::new(File::open(path).map_err(|error| broken(&error.to_string()))?).lines();
         let header = lines.next().and_then(Result::ok).ok_or_else(|| broken("there is no header"))?;
-        let first = lines.next().and_then(Result::ok);
-        let first = first.and_then(|line| line.split(',').next().and_then(|index| index.parse::<usize>().ok()));
-        let first = first.ok_or_else(|| broken("the first row has no index"))?;
-        tables.push((first, header, path));
+        // Of more shards than points some have no row.
+        let index = |line: String| line.split(',').next().and_then(|index| index.parse::<usize>().ok());
+        let first = lines.next().and_then(Result::ok).map(index);
+        match first {
+            Some(None) => return Err(broken("the first row has no index")),
+            first => tables.push((first.flatten(), header, path)),
+        }
     }
     tables.sort();
     let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
@@ -93,7 +97,7 @@ pub fn merge(out: &Path, shards: &[PathBuf]) -> Result<(), Failure> {
         if *header != tables[0].1 {
             return Err(broken("its columns are not those of the others".into()));
         }
-        if *first != next {
+        if let Some(first) = first.filter(|first| *first != next) {
             return Err(broken(format!("it begins with point {first} where {next} is due")));
         }
         let file = File::open(path).map_err(|error| broken(error.to_string()))?;
@@ -104,6 +108,7 @@ pub fn merge(out: &Path, shards: &[PathBuf]) -> Result<(), Failure> {
         }
     }
     let merged = writer.into_inner().map_err(|error| failed(error.into_error()))?;
+    output::share(&merged).map_err(failed)?;
     merged.persist(out).map_err(|error| failed(error.error))?;
     print(&format!("wrote {next} row(s) of {} table(s) to {}\n", tables.len(), out.display()))
 }

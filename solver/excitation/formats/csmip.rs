@@ -188,16 +188,8 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         ));
     }
     let names: Vec<(Option<usize>, String)> = channels.iter().map(Channel::name).collect();
-    let labels: Vec<String> = names
-        .iter()
-        .enumerate()
-        .map(|(place, (number, direction))| {
-            tidy(&format!("{}: {direction}", number.unwrap_or(place + 1))).trim_end_matches(':').to_string()
-        })
-        .collect();
-    let numbers: Vec<Option<usize>> = names.iter().map(|(number, _)| *number).collect();
     let mut warnings = Vec::new();
-    let chosen = choose(&numbers, &labels, options, &mut warnings)?;
+    let (chosen, labels) = choose(&names, options, &mut warnings)?;
     let channel = &channels[chosen];
 
     let (line, announced) = (channel.announced + 1, lines[channel.announced]);

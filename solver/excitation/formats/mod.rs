@@ -266,16 +266,19 @@ fn peak_warning(accel: &[f64], stated: Option<f64>, line: usize, allowed: f64) -
     })
 }
 
-/// The channel that the user chose, by the number that the file gives it or else by its place; the first where nothing is
-/// chosen, and told so where there are several.
+/// The channel that the user chose, by the number that the file gives it or else by its place, and the labels of all channels; the
+/// first where nothing is chosen, and told so where there are several. `channels` are numbers and directions.
 fn choose(
-    numbers: &[Option<usize>],
-    names: &[String],
+    channels: &[(Option<usize>, String)],
     options: &TextOptions,
     warnings: &mut Vec<String>,
-) -> Result<usize, RecordError> {
+) -> Result<(usize, Vec<String>), RecordError> {
+    let label = |(place, (number, direction)): (usize, &(Option<usize>, String))| {
+        tidy(&format!("{}: {direction}", number.unwrap_or(place + 1))).trim_end_matches(':').to_string()
+    };
+    let names: Vec<String> = channels.iter().enumerate().map(label).collect();
     let known = || names.join(", ");
-    match options.channel {
+    let chosen = match options.channel {
         None => {
             if names.len() > 1 {
                 warnings.push(format!(
@@ -284,14 +287,15 @@ fn choose(
                     known()
                 ));
             }
-            Ok(0)
+            0
         }
-        Some(channel) => numbers
+        Some(channel) => channels
             .iter()
-            .position(|number| *number == Some(channel))
+            .position(|(number, _)| *number == Some(channel))
             .or_else(|| channel.checked_sub(1).filter(|place| *place < names.len()))
-            .ok_or_else(|| RecordError::NoChannel { channel, known: known() }),
-    }
+            .ok_or_else(|| RecordError::NoChannel { channel, known: known() })?,
+    };
+    Ok((chosen, names))
 }
 
 #[cfg(test)]
