@@ -16,9 +16,9 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Ground};
-use crate::few::Few;
+use crate::few::{Any, Few, Size, Square, for_size};
 use crate::generic::{imposed_acceleration, link_acceleration};
-use crate::kinematics::{Factorised, Posture, Vec2};
+use crate::kinematics::{Factorised, Posture, Turn, Vec2};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Patterns are enumerated up to this many interfaces at `φ = 0` (3^9 = 19,683 of them); beyond, a contact problem without
@@ -47,49 +47,109 @@ pub struct Decision {
     /// The pattern from now on.
     pub pattern: Pattern,
     /// Rates of the blocks from now on `[rad/s]`, length N.
-    pub omega: Vec<f64>,
+    pub omega: Few<f64>,
     /// No pattern was admissible: a block would fly.
     pub separation: bool,
+    /// Kinetic energy lost over that before, 0 to 1.
+    pub energy_lost: f64,
     /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
     /// contact's centre, restitution included. Empty where rates do not jump.
-    pub impulses: Vec<ContactForce>,
+    pub impulses: Few<ContactForce>,
 }
 
 /// The mass matrix of a pattern could not be factorised: its blocks differ beyond what rounding can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SingularMass;
 
-/// How one candidate pattern answers a contact problem.
-struct Answer {
+/// The column as it stands at the instant of a contact problem.
+struct Instant<'a, S: Size> {
+    size: S,
+    column: &'a Column,
+    theta: &'a [f64],
+    turns: S::List<Turn>,
+}
+
+/// The column in one pattern, with its masses.
+#[derive(Clone)]
+struct Mechanism<'a, S: Size> {
     pattern: Pattern,
+    posture: Posture<'a, S>,
+    mass: Factorised<S>,
+}
+
+impl<'a, S: Size> Instant<'a, S> {
+    fn new(size: S, column: &'a Column, theta: &'a [f64]) -> Instant<'a, S> {
+        Instant { size, column, theta, turns: Turn::all(size, theta) }
+    }
+
+    #[inline(always)]
+    fn posture(&self, pattern: &Pattern) -> Posture<'a, S> {
+        Posture::of(self.size, self.column, pattern, &self.turns)
+    }
+
+    #[inline(always)]
+    fn mechanism(&self, pattern: &Pattern) -> Result<Mechanism<'a, S>, SingularMass> {
+        let posture = self.posture(pattern);
+        let mass = posture.factorised_mass().ok_or(SingularMass)?;
+        Ok(Mechanism { pattern: pattern.clone(), posture, mass })
+    }
+
+    /// Motion in a pattern at the blocks' rates.
+    #[inline(always)]
+    fn motion(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Motion<S> {
+        Motion { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.list_of(|block| omega[block]) }
+    }
+}
+
+/// How one candidate pattern answers a contact problem.
+struct Answer<'a, S: Size> {
+    mechanism: Mechanism<'a, S>,
     /// Rates after an impact, or accelerations, per block.
-    motion: Few<f64>,
-    resultants: Few<ContactForce>,
+    motion: S::List<f64>,
+    resultants: S::List<ContactForce>,
+    /// By what the motion differs from that without contacts.
+    change: Motion<S>,
+}
+
+impl<S: Size> Answer<'_, S> {
+    fn pattern(&self) -> &Pattern {
+        &self.mechanism.pattern
+    }
+
     /// Half the squared distance in the metric of the masses: what breaks ties.
-    distance: f64,
+    fn distance(&self) -> f64 {
+        self.mechanism.posture.kinetic_energy(&self.change.linear, &self.change.angular)
+    }
 }
 
 /// A contact problem: which interfaces choose, and how a pattern is answered.
-struct Problem<'a, F> {
-    column: &'a Column,
-    /// Interfaces at `φ = 0` that choose their state.
-    free: Few<usize>,
+struct Problem<'i, 'a, S: Size, F> {
+    instant: &'i Instant<'a, S>,
+    /// Whether an interface, at `φ = 0`, chooses its state.
+    free: S::List<bool>,
     /// Relative motion above which an open interface parts: zero of accelerations, rounding of rates.
     least_parting: f64,
     answer: F,
 }
 
-impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
-    fn parts(&self, answer: &Answer, interface: usize) -> bool {
-        let apart = f64::from(answer.pattern.0[interface].sign()) * relative(&answer.motion, interface);
+impl<'a, S: Size, F: Fn(Mechanism<'a, S>) -> Answer<'a, S>> Problem<'_, 'a, S, F> {
+    #[inline(always)]
+    fn answer(&self, pattern: &Pattern) -> Result<Answer<'a, S>, SingularMass> {
+        self.instant.mechanism(pattern).map(&self.answer)
+    }
+
+    #[inline(always)]
+    fn parts(&self, answer: &Answer<S>, interface: usize) -> bool {
+        let apart = f64::from(answer.pattern().0[interface].sign()) * relative(&answer.motion, interface);
         apart >= self.least_parting
     }
 
     /// What interface would rather be, if it is not content.
-    fn wish(&self, answer: &Answer, interface: usize) -> Option<Interface> {
+    #[inline(always)]
+    fn wish(&self, answer: &Answer<S>, interface: usize) -> Option<Interface> {
         let contact = answer.resultants[interface];
-        let half_width = self.column.contact_half_width(interface);
-        match answer.pattern.0[interface] {
+        let half_width = self.instant.column.contact_half_width(interface);
+        match answer.pattern().0[interface] {
             Interface::Closed => {
                 let reach = half_width * contact.normal;
                 (contact.moment.abs() > reach + VERGE * half_width * contact.normal.abs()).then_some(
@@ -102,52 +162,68 @@ impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
         }
     }
 
-    fn is_admissible(&self, answer: &Answer) -> bool {
-        self.free.iter().all(|&interface| self.wish(answer, interface).is_none())
+    #[inline(always)]
+    fn is_admissible(&self, answer: &Answer<S>) -> bool {
+        chosen(&self.free).all(|interface| self.wish(answer, interface).is_none())
     }
 
-    /// The admissible answer, or the nearest one whose opened interfaces part; `true` where it is a separation.
-    fn solve(&mut self, guess: Pattern) -> Result<(Answer, bool), SingularMass> {
+    /// The admissible answer, or the nearest one whose opened interfaces part; `true` where it is a separation. `first` is a guess.
+    #[inline(always)]
+    fn solve(&self, first: Answer<'a, S>) -> Result<(Answer<'a, S>, bool), SingularMass> {
+        if self.is_admissible(&first) {
+            return Ok((first, false));
+        }
+        self.search(first)
+    }
+
+    /// The same, where the guess is not admissible.
+    #[inline(never)]
+    fn search(&self, first: Answer<'a, S>) -> Result<(Answer<'a, S>, bool), SingularMass> {
+        let (guess, choices) = (first.pattern().clone(), chosen(&self.free).count());
         let mut visited: Vec<Pattern> = Vec::new();
-        let mut pattern = guess.clone();
-        while !visited.contains(&pattern) && visited.len() < 8 * self.free.len() + 8 {
-            let answer = (self.answer)(&pattern).ok_or(SingularMass)?;
-            let wishes = self.free.iter().filter_map(|&i| self.wish(&answer, i).map(|state| (i, state)));
+        let mut answer = first;
+        loop {
+            let wishes = chosen(&self.free).filter_map(|i| self.wish(&answer, i).map(|state| (i, state)));
             let wishes: Few<_> = wishes.collect();
             let Some(&(lowest, state)) = wishes.first() else { return Ok((answer, false)) };
+            let pattern = answer.pattern().clone();
             visited.push(pattern.clone());
             let mut next = pattern.clone();
             wishes.iter().for_each(|&(interface, state)| next.0[interface] = state);
             if visited.contains(&next) {
                 // All at once goes in circles: one at a time, from the base.
-                next = pattern.clone();
+                next = pattern;
                 next.0[lowest] = state;
             }
-            pattern = next;
+            if visited.contains(&next) || visited.len() >= 8 * choices + 8 {
+                break;
+            }
+            answer = self.answer(&next)?;
         }
-        let candidates = if self.free.len() <= MOST_ENUMERATED { self.all(&guess) } else { visited };
-        let mut nearest: Option<Answer> = None;
+        let candidates = if choices <= MOST_ENUMERATED { self.all(&guess) } else { visited };
+        let mut nearest: Option<(Answer<'a, S>, f64)> = None;
         for candidate in candidates {
-            let answer = (self.answer)(&candidate).ok_or(SingularMass)?;
+            let answer = self.answer(&candidate)?;
             if self.is_admissible(&answer) {
                 return Ok((answer, false));
             }
-            let mut opened = self.free.iter().filter(|interface| candidate.0[**interface].is_open());
-            let all_part = opened.all(|&interface| self.parts(&answer, interface));
-            if all_part && nearest.as_ref().is_none_or(|best| answer.distance < best.distance) {
-                nearest = Some(answer);
+            let mut opened = chosen(&self.free).filter(|&interface| candidate.0[interface].is_open());
+            let all_part = opened.all(|interface| self.parts(&answer, interface));
+            let distance = answer.distance();
+            if all_part && nearest.as_ref().is_none_or(|(_, least)| distance < *least) {
+                nearest = Some((answer, distance));
             }
         }
         match nearest {
-            Some(answer) => Ok((answer, true)),
-            None => Ok(((self.answer)(&guess).ok_or(SingularMass)?, true)),
+            Some((answer, _)) => Ok((answer, true)),
+            None => Ok((self.answer(&guess)?, true)),
         }
     }
 
     /// All patterns that the free interfaces may take, those with few open interfaces first.
     fn all(&self, base: &Pattern) -> Vec<Pattern> {
         let mut patterns = vec![base.clone()];
-        for &interface in &self.free {
+        for interface in chosen(&self.free) {
             let states = [Interface::Closed, Interface::Right, Interface::Left];
             let with = |pattern: &Pattern, state| {
                 let mut next = pattern.clone();
@@ -161,6 +237,12 @@ impl<F: FnMut(&Pattern) -> Option<Answer>> Problem<'_, F> {
     }
 }
 
+/// The interfaces that a list names.
+#[inline(always)]
+fn chosen(list: &[bool]) -> impl Iterator<Item = usize> {
+    list.iter().enumerate().filter(|(_, is_chosen)| **is_chosen).map(|(interface, _)| interface)
+}
+
 /// `φ̇_i` or `φ̈_i` of the blocks' rates or accelerations.
 fn relative(motion: &[f64], interface: usize) -> f64 {
     motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
@@ -172,8 +254,10 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// Whether the gap of angles, or of rates, at an interface is no more than rounding.
+#[inline(always)]
 fn is_rounding(values: &[f64], interface: usize) -> bool {
-    relative(values, interface).abs() <= (ROUNDING * largest(values)).max(NOTHING)
+    let gap = relative(values, interface);
+    gap == 0.0 || gap.abs() <= (ROUNDING * largest(values)).max(NOTHING)
 }
 
 /// Whether an interface, open or not, has no gap.
@@ -193,23 +277,45 @@ pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground:
     RELEASE_TOLERANCE * fall.max(largest(accelerations))
 }
 
-/// Motion before an impact: velocities of the centroids and the blocks' rates.
-struct Motion {
-    linear: Few<Vec2>,
-    angular: Few<f64>,
+/// Velocities of the centroids and the blocks' rates, or accelerations.
+#[derive(Clone)]
+struct Motion<S: Size> {
+    linear: S::List<Vec2>,
+    angular: S::List<f64>,
+}
+
+impl<S: Size> Motion<S> {
+    /// Less another one.
+    #[inline(always)]
+    fn less(mut self, other: &Motion<S>) -> Motion<S> {
+        self.linear.iter_mut().zip(&*other.linear).for_each(|(a, b)| *a = [a[0] - b[0], a[1] - b[1]]);
+        self.angular.iter_mut().zip(&*other.angular).for_each(|(a, b)| *a -= b);
+        self
+    }
 }
 
 /// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (MODEL.md section 5, item 1).
-fn project(column: &Column, theta: &[f64], before: &Motion, pattern: &Pattern) -> Option<Answer> {
-    let posture = Posture::new(column, pattern, theta);
+#[inline(always)]
+fn project<'a, S: Size>(mechanism: Mechanism<'a, S>, before: &Motion<S>) -> Answer<'a, S> {
+    let posture = &mechanism.posture;
     let mut rates = posture.generalised(&before.linear, &before.angular);
-    posture.factorised_mass()?.solve(&mut rates);
-    let (linear, motion) = (posture.linear(&rates), posture.angular(&rates));
-    let jump: Few<Vec2> = linear.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
-    let turn: Few<f64> = motion.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
-    let resultants = posture.resultants(&jump, &turn);
-    let distance = posture.kinetic_energy(&jump, &turn);
-    Some(Answer { pattern: pattern.clone(), motion, resultants, distance })
+    mechanism.mass.solve(&mut rates);
+    let motion = posture.angular(&rates);
+    let change = Motion { linear: posture.linear(&rates), angular: motion.clone() }.less(before);
+    let resultants = posture.resultants(&change.linear, &change.angular);
+    Answer { mechanism, motion, resultants, change }
+}
+
+/// The accelerations of a pattern at the blocks' rates, and what its contacts carry (MODEL.md section 4).
+#[inline(always)]
+fn accelerate<'a, S: Size>(mechanism: Mechanism<'a, S>, omega: &[f64], ground: Ground) -> Answer<'a, S> {
+    let posture = &mechanism.posture;
+    let mut total = imposed_acceleration(posture, &posture.link_rates(omega), ground);
+    let alpha = link_acceleration(posture, &mechanism.mass, &total);
+    total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
+    let motion = posture.angular(&alpha);
+    let resultants = posture.resultants(&total, &motion);
+    Answer { mechanism, change: Motion { linear: total, angular: motion.clone() }, motion, resultants }
 }
 
 /// Restitution and rest, as a scene sets them.
@@ -237,46 +343,57 @@ pub fn impact(
     ground: Ground,
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
-    let posture = Posture::new(column, pattern, theta);
-    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: Few::from_slice(omega) };
+    for_size!(column.len(), size => impact_at(&Instant::new(size, column, theta), pattern, omega, closing, ground, law))
+}
+
+fn impact_at<S: Size>(
+    instant: &Instant<S>,
+    pattern: &Pattern,
+    omega: &[f64],
+    closing: &[usize],
+    ground: Ground,
+    law: ImpactLaw,
+) -> Result<Decision, SingularMass> {
+    let posture = instant.posture(pattern);
+    let before = instant.motion(&posture, omega);
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
 
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
     let mut guess = pattern.clone();
     closing.iter().for_each(|&interface| guess.0[interface] = pattern.0[interface].mirror());
     // Closed ones, closing ones, and those that an earlier impact of the same instant has just opened.
-    let free = (0..column.len()).filter(|&interface| is_rounding(theta, interface)).collect();
-    let answer = |candidate: &Pattern| project(column, theta, &before, candidate);
+    let free = instant.size.list_of(|interface| is_rounding(instant.theta, interface));
+    let answer = |candidate| project(candidate, &before);
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
-    let mut problem = Problem { column, free, least_parting, answer };
-    let (plastic, separation) = problem.solve(guess)?;
+    let problem = Problem { instant, free, least_parting, answer };
+    let (plastic, mut separation) = problem.solve(problem.answer(&guess)?)?;
     let free = problem.free;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
-    let striking: Few<usize> =
-        closing.iter().copied().filter(|&i| f64::from(pattern.0[i].sign()) * relative(omega, i) < 0.0).collect();
-    let rebound = restitute(column, theta, &plastic, &striking, &free, law.kappa, energy_before);
-    let mut decision = Decision {
-        pattern: plastic.pattern,
-        omega: rebound.unwrap_or(plastic.motion).to_vec(),
-        separation,
-        impulses: Vec::new(),
-    };
-    settle(column, theta, &mut decision, &free, ground, law.stick_angle)?;
-    decision.impulses = impulses(column, theta, &before, &decision);
-    let examined = open(column, &decision.pattern, theta, &decision.omega, ground, &[])?;
-    decision.separation |= examined.separation;
-    decision.pattern = examined.pattern;
-    Ok(decision)
-}
+    let is_striking = |&i: &usize| f64::from(pattern.0[i].sign()) * relative(omega, i) < 0.0;
+    let striking = closing.iter().copied().filter(is_striking);
+    let rebound = restitute(&plastic, striking, &free, law.kappa, energy_before);
+    let rates = rebound.unwrap_or(plastic.motion);
+    let (forced, rates) = settle(instant, plastic.mechanism, rates, &free, ground, law.stick_angle)?;
+    let posture = &forced.mechanism.posture;
+    let after = instant.motion(posture, &rates);
+    let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
+    let change = after.less(&before);
+    let impulses = Few::from_slice(&posture.resultants(&change.linear, &change.angular));
 
-/// What the contacts have transmitted between the motion before and a decision.
-fn impulses(column: &Column, theta: &[f64], before: &Motion, decision: &Decision) -> Vec<ContactForce> {
-    let posture = Posture::new(column, &decision.pattern, theta);
-    let after = posture.linear(&posture.link_rates(&decision.omega));
-    let jump: Few<Vec2> = after.iter().zip(&before.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
-    let turn: Few<f64> = decision.omega.iter().zip(&before.angular).map(|(a, b)| a - b).collect();
-    posture.resultants(&jump, &turn).to_vec()
+    let free = instant.size.list_of(may_open(instant, forced.pattern(), &rates));
+    let answer = |candidate| accelerate(candidate, &rates, ground);
+    let problem = Problem { instant, free, least_parting: 0.0, answer };
+    let (opened, has_flown) = problem.solve(forced)?;
+    separation |= has_flown;
+    let energy_lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
+    Ok(Decision {
+        pattern: opened.mechanism.pattern,
+        omega: Few::from_slice(&rates),
+        separation,
+        energy_lost,
+        impulses,
+    })
 }
 
 /// The decision that these interfaces close, whatever their contacts would rather do: the projection onto the closed pattern,
@@ -288,42 +405,47 @@ pub(crate) fn stick(
     omega: &[f64],
     closing: &[usize],
 ) -> Result<Decision, SingularMass> {
-    let posture = Posture::new(column, pattern, theta);
-    let before = Motion { linear: posture.linear(&posture.link_rates(omega)), angular: Few::from_slice(omega) };
+    let instant = Instant::new(Any(column.len()), column, theta);
+    let posture = instant.posture(pattern);
+    let before = instant.motion(&posture, omega);
+    let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
     let mut closed = pattern.clone();
     closing.iter().for_each(|&interface| closed.0[interface] = Interface::Closed);
-    let omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion.to_vec();
-    let mut decision = Decision { pattern: closed, omega, separation: true, impulses: Vec::new() };
-    decision.impulses = impulses(column, theta, &before, &decision);
-    Ok(decision)
+    let answer = project(instant.mechanism(&closed)?, &before);
+    let posture = &answer.mechanism.posture;
+    let after = instant.motion(posture, &answer.motion);
+    let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
+    Ok(Decision {
+        pattern: closed,
+        omega: Few::from_slice(&answer.motion),
+        separation: true,
+        energy_lost: if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 },
+        impulses: Few::from_slice(&answer.resultants),
+    })
 }
 
 /// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or MODEL.md leaves it out.
-fn restitute(
-    column: &Column,
-    theta: &[f64],
-    plastic: &Answer,
-    closing: &[usize],
-    free: &[usize],
+fn restitute<S: Size>(
+    plastic: &Answer<S>,
+    striking: impl Iterator<Item = usize>,
+    free: &[bool],
     kappa: &[f64],
     energy_before: f64,
-) -> Option<Few<f64>> {
-    let pattern = &plastic.pattern;
-    let rebounding: Few<usize> = closing.iter().copied().filter(|&i| pattern.0[i].is_open()).collect();
+) -> Option<S::List<f64>> {
+    let Mechanism { pattern, posture, mass } = &plastic.mechanism;
+    let rebounding: Few<usize> = striking.filter(|&i| pattern.0[i].is_open()).collect();
     if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
         return None;
     }
-    let posture = Posture::new(column, pattern, theta);
-    let mass = posture.factorised_mass()?;
     // Column by column: the links' rates that a unit impulse at each rebounding interface causes.
-    let mut spread: Few<Few<f64>> = Few::new();
+    let mut spread: Few<S::List<f64>> = Few::new();
     let mut gain: Few<f64> = Few::new();
     let apart = |rates: &[f64], interface: usize| {
         let below = if interface > 0 { posture.link[interface - 1] } else { 0 };
         rates[posture.link[interface] - 1] - if below > 0 { rates[below - 1] } else { 0.0 }
     };
     for &interface in &rebounding {
-        let mut column = Few::from_elem(0.0, posture.dof);
+        let mut column = posture.size.list(0.0);
         column[posture.link[interface] - 1] = 1.0;
         if interface > 0 && posture.link[interface - 1] > 0 {
             column[posture.link[interface - 1] - 1] = -1.0;
@@ -333,21 +455,29 @@ fn restitute(
         gain.push((kappa[interface] - 1.0) * relative(&plastic.motion, interface));
     }
     let compliance = rebounding.iter().flat_map(|&row| spread.iter().map(move |column| (row, column)));
-    let compliance = compliance.map(|(row, column)| apart(column, row)).collect();
-    Factorised::new(compliance, rebounding.len())?.solve(&mut gain);
+    let compliance: Square<f64> = compliance.map(|(row, column)| apart(column, row)).collect();
+    if let [compliance] = compliance[..] {
+        // Most often one interface strikes.
+        if compliance.is_nan() || compliance <= 0.0 {
+            return None;
+        }
+        gain[0] /= compliance;
+    } else {
+        Factorised::<Any>::new(compliance, rebounding.len())?.solve(&mut gain);
+    }
     let mut rates = posture.link_rates(&plastic.motion);
     for (column, impulse) in spread.iter().zip(&gain) {
-        rates.iter_mut().zip(column).for_each(|(rate, share)| *rate += share * impulse);
+        rates.iter_mut().zip(&**column).for_each(|(rate, share)| *rate += share * impulse);
     }
     let rebound = posture.angular(&rates);
 
-    let flips = |&i: &usize| {
+    let flips = |i: usize| {
         let sign = f64::from(pattern.0[i].sign());
         pattern.0[i].is_open() && sign * relative(&plastic.motion, i) > 0.0 && sign * relative(&rebound, i) < 0.0
     };
     let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
     let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
-    (!free.iter().any(flips) && !gains).then_some(rebound)
+    (!chosen(free).any(flips) && !gains).then_some(rebound)
 }
 
 /// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (MODEL.md section 5).
@@ -360,33 +490,32 @@ const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 /// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest): all of them at
 /// once, judged by the rates and accelerations before any of them is closed. What then hops by less than angles resolve is
 /// closed as well.
-fn settle(
-    column: &Column,
-    theta: &[f64],
-    decision: &mut Decision,
-    free: &[usize],
+/// Answers with the forces in the pattern that is left, and its rates.
+fn settle<'a, S: Size>(
+    instant: &Instant<'a, S>,
+    mut mechanism: Mechanism<'a, S>,
+    mut rates: S::List<f64>,
+    free: &[bool],
     ground: Ground,
     stick_angle: f64,
-) -> Result<(), SingularMass> {
+) -> Result<(Answer<'a, S>, S::List<f64>), SingularMass> {
     let mut height = stick_angle;
     loop {
-        let posture = Posture::new(column, &decision.pattern, theta);
-        let rates = posture.link_rates(&decision.omega);
-        let acceleration = posture.angular(&link_acceleration(&posture, &rates, ground).ok_or(SingularMass)?);
-        let mut closed = decision.pattern.clone();
-        for &interface in free {
-            let sign = f64::from(decision.pattern.0[interface].sign());
-            let (rate, back) = (relative(&decision.omega, interface), -sign * relative(&acceleration, interface));
-            if decision.pattern.0[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * height {
-                closed.0[interface] = Interface::Closed;
-            }
+        let forced = accelerate(mechanism, &rates, ground);
+        let pattern = forced.pattern();
+        let hops_short = |interface: usize| {
+            let sign = f64::from(pattern.0[interface].sign());
+            let (rate, back) = (relative(&rates, interface), -sign * relative(&forced.motion, interface));
+            pattern.0[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * height
+        };
+        if !chosen(free).any(hops_short) {
+            return Ok((forced, rates));
         }
-        if closed == decision.pattern {
-            return Ok(());
-        }
-        let before = Motion { linear: posture.linear(&rates), angular: Few::from_slice(&decision.omega) };
-        decision.omega = project(column, theta, &before, &closed).ok_or(SingularMass)?.motion.to_vec();
-        decision.pattern = closed;
+        let mut closed = pattern.clone();
+        chosen(free).filter(|i| hops_short(*i)).for_each(|interface| closed.0[interface] = Interface::Closed);
+        let before = instant.motion(&forced.mechanism.posture, &rates);
+        let answer = project(instant.mechanism(&closed)?, &before);
+        (mechanism, rates) = (answer.mechanism, answer.motion);
         height = height.min(UNRESOLVED_HOP);
     }
 }
@@ -405,35 +534,44 @@ pub fn open(
     ground: Ground,
     released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
-    let is_motionless = |i: &usize| !pattern.0[*i].is_open() || is_motionless(theta, omega, *i);
+    for_size!(column.len(), size => open_at(&Instant::new(size, column, theta), pattern, omega, ground, released))
+}
+
+/// Whether an interface of a pattern is closed, or has only just opened: it may choose its state anew.
+fn may_open<'f, S: Size>(
+    instant: &'f Instant<S>,
+    pattern: &'f Pattern,
+    omega: &'f [f64],
+) -> impl Fn(usize) -> bool + 'f {
+    move |i: usize| !pattern.0[i].is_open() || is_motionless(instant.theta, omega, i)
+}
+
+fn open_at<S: Size>(
+    instant: &Instant<S>,
+    pattern: &Pattern,
+    omega: &[f64],
+    ground: Ground,
+    released: &[(usize, Interface)],
+) -> Result<Decision, SingularMass> {
     let mut guess = pattern.clone();
-    let mut free: Few<usize> = (0..column.len()).filter(is_motionless).collect();
+    let mut free = instant.size.list_of(may_open(instant, pattern, omega));
     for &(interface, side) in released {
         guess.0[interface] = side;
-        free.retain(|other| *other != interface);
+        free[interface] = false;
     }
-    let answer = |candidate: &Pattern| {
-        let posture = Posture::new(column, candidate, theta);
-        let rates = posture.link_rates(omega);
-        let alpha = link_acceleration(&posture, &rates, ground)?;
-        let mut total = imposed_acceleration(&posture, &rates, ground);
-        total.iter_mut().zip(posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
-        let motion = posture.angular(&alpha);
-        let distance = posture.kinetic_energy(&total, &motion);
-        let resultants = posture.resultants(&total, &motion);
-        Some(Answer { pattern: candidate.clone(), motion, resultants, distance })
-    };
-    let mut problem = Problem { column, free, least_parting: 0.0, answer };
-    let (mut answer, mut separation) = problem.solve(guess)?;
-    let tolerance = verge_acceleration(column, &answer.motion, ground);
+    let answer = |candidate| accelerate(candidate, omega, ground);
+    let mut problem = Problem { instant, free, least_parting: 0.0, answer };
+    let (mut answer, mut separation) = problem.solve(problem.answer(&guess)?)?;
+    let tolerance = verge_acceleration(instant.column, &answer.motion, ground);
     let is_driven_back =
         |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
     let driven_back: Few<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
-        problem.free.extend(driven_back);
-        (answer, separation) = problem.solve(answer.pattern)?;
+        driven_back.iter().for_each(|&interface| problem.free[interface] = true);
+        (answer, separation) = problem.solve(answer)?;
     }
-    Ok(Decision { pattern: answer.pattern, omega: omega.to_vec(), separation, impulses: Vec::new() })
+    let (pattern, omega) = (answer.mechanism.pattern, Few::from_slice(omega));
+    Ok(Decision { pattern, omega, separation, energy_lost: 0.0, impulses: Few::new() })
 }
 
 #[cfg(test)]
@@ -469,7 +607,7 @@ mod tests {
         let column = Column::new(vec![Block::rectangle(2.0, 1.0, 1.0)], 9.81).expect("valid");
         let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9 };
         let after = impact(&column, &Pattern::from_signs(&[1]), &[0.0], &[-0.7], &[0], GROUND, law).expect("solvable");
-        assert_eq!((after.pattern, after.omega), (Pattern::rest(1), vec![0.0]));
+        assert_eq!((after.pattern, after.omega), (Pattern::rest(1), Few::from_slice(&[0.0])));
     }
 
     #[test]
@@ -515,26 +653,27 @@ mod tests {
             if closing.is_empty() {
                 return Ok(());
             }
-            let posture = Posture::new(&column, &pattern, &theta);
-            let before = Motion { linear: posture.linear(&posture.link_rates(&omega)), angular: Few::from_vec(omega) };
-            let free = (0..column.len()).filter(|i| !pattern.0[*i].is_open() || closing.contains(i)).collect();
-            let answer = |candidate: &Pattern| project(&column, &theta, &before, candidate);
-            let mut problem = Problem { column: &column, free, least_parting: f64::MIN_POSITIVE, answer };
+            let instant = &Instant::new(Any(column.len()), &column, &theta);
+            let before = instant.motion(&instant.posture(&pattern), &omega);
+            let free = instant.size.list_of(|i| !pattern.0[i].is_open() || closing.contains(&i));
+            let answer = |candidate| project(candidate, &before);
+            let problem = Problem { instant, free, least_parting: f64::MIN_POSITIVE, answer };
             let mut admissible = Vec::new();
             for candidate in problem.all(&pattern) {
-                let answer = (problem.answer)(&candidate).expect("solvable");
+                let answer = problem.answer(&candidate).expect("solvable");
                 if problem.is_admissible(&answer) {
                     admissible.push(answer);
                 }
             }
             total.set(total.get() + 1);
             unique.set(unique.get() + usize::from(admissible.len() == 1));
-            let (found, separation) = problem.solve(pattern).expect("solvable");
+            let first = problem.answer(&pattern).expect("solvable");
+            let (found, separation) = problem.solve(first).map_err(|_| ()).expect("solvable");
             prop_assert_eq!(separation, admissible.is_empty());
-            if let Some(best) = admissible.iter().min_by(|a, b| a.distance.total_cmp(&b.distance)) {
-                for (a, b) in found.motion.iter().zip(&best.motion) {
+            if let Some(best) = admissible.iter().min_by(|a, b| a.distance().total_cmp(&b.distance())) {
+                for (a, b) in found.motion.iter().zip(&*best.motion) {
                     // Both are solves of systems with a condition number of some thousands.
-                    prop_assert!((a - b).abs() < 1e-10, "{} and {}", found.pattern, best.pattern);
+                    prop_assert!((a - b).abs() < 1e-10, "{} and {}", found.pattern(), best.pattern());
                 }
             }
             Ok(())

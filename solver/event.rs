@@ -14,7 +14,7 @@
 //!
 //! This file knows guards and polynomials, not what they mean.
 
-use crate::ode::Bernstein;
+use crate::ode::{Bernstein, Powers};
 
 /// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
 const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
@@ -55,6 +55,18 @@ impl Bernstein {
             }
         }
         sum * power
+    }
+
+    /// Of a polynomial in powers: `b[j] = Σ_k C(j, k) / C(n, k) a[k]`.
+    pub(crate) fn of_powers(powers: &[f64]) -> Bernstein {
+        let degree = powers.len() - 1;
+        let mut coefficients = [0.0; COEFFICIENTS];
+        for (j, coefficient) in coefficients[..=degree].iter_mut().enumerate() {
+            for k in 0..=j {
+                *coefficient += BINOMIAL[j][k] / BINOMIAL[degree][k] * powers[k];
+            }
+        }
+        Bernstein { coefficients, degree }
     }
 
     /// Gives the polynomial this value and these derivatives at 0, which are known better than dense output has them: just after
@@ -148,6 +160,57 @@ fn largest_size_in_piece(polynomial: &Bernstein, known: f64, width: f64) -> f64 
     let (left, right) = polynomial.halves();
     let best = largest_size_in_piece(&left, best, 0.5 * width);
     largest_size_in_piece(&right, best, 0.5 * width)
+}
+
+/// A linear function of the state over a step.
+#[derive(Clone, Copy, Debug)]
+pub enum Track {
+    /// Of a Taylor series.
+    Powers(Powers),
+    /// Of any other dense output.
+    Bernstein(Bernstein),
+}
+
+impl Track {
+    /// See [`first_root`].
+    pub fn first_root(&self, start_roots: usize) -> Option<f64> {
+        match self {
+            Track::Powers(powers) => {
+                powers.first_root(start_roots).unwrap_or_else(|| first_root(&powers.bernstein(), start_roots))
+            }
+            Track::Bernstein(polynomial) => first_root(polynomial, start_roots),
+        }
+    }
+
+    /// See [`largest_size`].
+    pub fn largest_size(&self, known: f64) -> f64 {
+        match self {
+            Track::Powers(powers) => {
+                powers.largest_size(known).unwrap_or_else(|| largest_size(&powers.bernstein(), known))
+            }
+            Track::Bernstein(polynomial) => largest_size(polynomial, known),
+        }
+    }
+
+    /// A bound of its size.
+    pub fn size(&self) -> f64 {
+        match self {
+            Track::Powers(powers) => powers.size(),
+            Track::Bernstein(polynomial) => polynomial.size(),
+        }
+    }
+
+    /// `constant + sign` times it.
+    pub fn shifted(self, sign: f64, constant: f64) -> Track {
+        match self {
+            Track::Powers(powers) => Track::Powers(powers.shifted(sign, constant)),
+            Track::Bernstein(mut polynomial) => {
+                let degree = polynomial.degree;
+                polynomial.coefficients[..=degree].iter_mut().for_each(|b| *b = constant + sign * *b);
+                Track::Bernstein(polynomial)
+            }
+        }
+    }
 }
 
 /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `start_roots` known roots at `s = 0` left out.
@@ -268,14 +331,18 @@ const PLACES_BETWEEN: usize = 8;
 /// steps are sampled for nothing.
 const FAR: f64 = 0.5;
 
-/// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` and `end` are its values at the ends of the
-/// whole step, 0 and 1.
+/// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` is its value at zero, `known` those at `limit` and half
+/// of it, if they are.
 ///
 /// A look at the middle excludes most steps. Otherwise the guard is replaced by the polynomial through nine samples; wherever that
 /// comes down to the error of the replacement, the guard itself is asked, and a sign that has changed is followed up on it.
-pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, end: f64, limit: f64) -> Option<f64> {
-    let end = if limit >= 1.0 { end } else { guard(limit) };
-    let middle = guard(0.5 * limit);
+pub fn first_crossing(
+    mut guard: impl FnMut(f64) -> f64,
+    start: f64,
+    known: Option<[f64; 2]>,
+    limit: f64,
+) -> Option<f64> {
+    let [end, middle] = known.unwrap_or_else(|| [guard(limit), guard(0.5 * limit)]);
     let (low, high) = (start.min(middle).min(end), start.max(middle).max(end));
     if high - low < FAR * low {
         return None;
@@ -465,9 +532,9 @@ mod tests {
     fn a_dip_between_samples_is_found() {
         // Below zero only within 0.437 ± 0.0316.
         let guard = |s: f64| (s - 0.437) * (s - 0.437) - 1e-3;
-        assert_root(first_crossing(guard, guard(0.0), guard(1.0), 1.0), 0.437 - 1e-3f64.sqrt());
+        assert_root(first_crossing(guard, guard(0.0), None, 1.0), 0.437 - 1e-3f64.sqrt());
         let above = |s: f64| (s - 0.437) * (s - 0.437) + 1e-3;
-        assert_eq!(first_crossing(above, above(0.0), above(1.0), 1.0), None);
+        assert_eq!(first_crossing(above, above(0.0), None, 1.0), None);
     }
 
     /// Twice the frequency that a step of any method resolves well, and dips of every depth and place.
@@ -483,7 +550,7 @@ mod tests {
                 if expected <= 0.0 {
                     continue;
                 }
-                match first_crossing(guard, guard(0.0), guard(1.0), 1.0) {
+                match first_crossing(guard, guard(0.0), None, 1.0) {
                     // The slope there is 5 sqrt(2 depth); values are good to some roundings of one.
                     Some(found) => {
                         assert!((found - expected).abs() < 1e-15 / depth.sqrt() + 1e-15, "{found} {expected}")
@@ -491,7 +558,7 @@ mod tests {
                     None => missed += 1,
                 }
                 let above = |s: f64| guard(s) + 2.0 * depth;
-                assert_eq!(first_crossing(above, above(0.0), above(1.0), 1.0), None);
+                assert_eq!(first_crossing(above, above(0.0), None, 1.0), None);
             }
         }
         assert_eq!(missed, 0);
@@ -500,7 +567,7 @@ mod tests {
     #[test]
     fn a_crossing_beyond_the_limit_is_left_alone() {
         let guard = |s: f64| 0.6 - s;
-        assert_eq!(first_crossing(guard, 0.6, -0.4, 0.5), None);
-        assert_root(first_crossing(guard, 0.6, -0.4, 0.8), 0.6);
+        assert_eq!(first_crossing(guard, 0.6, None, 0.5), None);
+        assert_root(first_crossing(guard, 0.6, None, 0.8), 0.6);
     }
 }

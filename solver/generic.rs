@@ -6,8 +6,8 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground};
-use crate::few::Few;
-use crate::kinematics::{Posture, Vec2};
+use crate::few::{Few, Size};
+use crate::kinematics::{Factorised, Posture, Vec2};
 use rocking_codegen::pattern::Pattern;
 
 /// A mode of a column on hand-written dynamics.
@@ -70,22 +70,27 @@ fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
 }
 
 /// Accelerations less gravity: the ground's and those that the rates cause.
-pub(crate) fn imposed_acceleration(posture: &Posture, rates: &[f64], ground: Ground) -> Few<Vec2> {
+#[inline(always)]
+pub(crate) fn imposed_acceleration<S: Size>(posture: &Posture<S>, rates: &[f64], ground: Ground) -> S::List<Vec2> {
     let mut acceleration = posture.centripetal(rates);
-    for a in &mut acceleration {
+    for a in acceleration.iter_mut() {
         a[0] += ground.x;
         a[1] += ground.gravity;
     }
     acceleration
 }
 
-/// `θ̈` of the links `[rad/s²]`; `None` if the mass matrix cannot be factorised.
-pub(crate) fn link_acceleration(posture: &Posture, rates: &[f64], ground: Ground) -> Option<Few<f64>> {
-    let imposed = imposed_acceleration(posture, rates, ground);
-    let mut alpha = posture.generalised(&imposed, &Few::from_elem(0.0, imposed.len()));
+/// `θ̈` of the links `[rad/s²]` under imposed accelerations of the centroids `[m/s²]`.
+#[inline(always)]
+pub(crate) fn link_acceleration<S: Size>(
+    posture: &Posture<S>,
+    mass: &Factorised<S>,
+    imposed: &S::List<Vec2>,
+) -> S::List<f64> {
+    let mut alpha = posture.generalised(imposed, &posture.size.list(0.0));
     alpha.iter_mut().for_each(|load| *load = -*load);
-    posture.factorised_mass()?.solve(&mut alpha);
-    Some(alpha)
+    mass.solve(&mut alpha);
+    alpha
 }
 
 impl Dynamics for GenericMode {
@@ -97,7 +102,7 @@ impl Dynamics for GenericMode {
     }
 
     fn coupling(&self, state: &Vec<f64>, _: &Vec<f64>, _: &Vec<f64>, matrix: &mut [f64]) {
-        matrix.copy_from_slice(&self.posture(state).mass_matrix());
+        matrix.copy_from_slice(&self.posture(state).mass_matrix()[..self.dof * self.dof]);
     }
 
     /// Moments about the pivots of the inertial forces, in the links' axes: what lies below a link accelerates its first
@@ -134,8 +139,11 @@ impl Dynamics for GenericMode {
         let (_, rates) = state.split_at(self.dof);
         let posture = self.posture(state);
         derivative[..self.dof].copy_from_slice(rates);
-        match link_acceleration(&posture, rates, ground) {
-            Some(alpha) => derivative[self.dof..].copy_from_slice(&alpha),
+        match posture.factorised_mass() {
+            Some(mass) => {
+                let alpha = link_acceleration(&posture, &mass, &imposed_acceleration(&posture, rates, ground));
+                derivative[self.dof..].copy_from_slice(&alpha[..self.dof]);
+            }
             // The integrator reports a state that is not finite with time and mode.
             None => derivative[self.dof..].fill(f64::NAN),
         }
@@ -151,7 +159,7 @@ impl Dynamics for GenericMode {
     }
 
     fn mass_matrix(&self, state: &Vec<f64>) -> Vec<f64> {
-        self.posture(state).mass_matrix().to_vec()
+        self.posture(state).mass_matrix()[..self.dof * self.dof].to_vec()
     }
 
     fn contact_forces(&self, state: &Vec<f64>, derivative: &Vec<f64>, ground: Ground, result: &mut [ContactForce]) {

@@ -8,7 +8,7 @@
 
 use crate::column::{Block, Column};
 use crate::dynamics::ContactForce;
-use crate::few::{Few, Square};
+use crate::few::{Any, Size};
 use crate::sine;
 use rocking_codegen::pattern::Pattern;
 
@@ -17,26 +17,27 @@ pub type Vec2 = [f64; 2];
 
 /// A column's geometry in one pattern and position.
 #[derive(Clone, Debug)]
-pub struct Posture<'a> {
+pub struct Posture<'a, S: Size = Any> {
+    pub(crate) size: S,
     column: &'a Column,
     /// Link of each block, base first, length N.
-    pub link: Few<usize>,
+    pub link: S::List<usize>,
     /// Number of links that move.
     pub dof: usize,
     /// How the lower block of each interface is turned, length N.
-    lower: Few<Turn>,
+    lower: S::List<Turn>,
     /// Centre of each contact `[m]`, length N.
-    contact_centre: Few<Vec2>,
+    contact_centre: S::List<Vec2>,
     /// Centroids `[m]`, length N.
-    centroid: Few<Vec2>,
+    centroid: S::List<Vec2>,
     /// From the pivot of link `a` to the centroid of block `j`, or to the next pivot where the block is on a higher link:
-    /// entry `j * dof + a - 1`; zero where the link is above the block.
-    lever: Square<Vec2>,
+    /// row `j`, column `a - 1`; zero where the link is above the block.
+    lever: S::Table<Vec2>,
 }
 
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug)]
-struct Turn {
+pub(crate) struct Turn {
     sin: f64,
     cos: f64,
 }
@@ -50,16 +51,29 @@ impl Turn {
         Turn { sin, cos }
     }
 
+    /// How blocks are turned by these angles `[rad]`; those of one link turn together.
+    pub fn all<S: Size>(size: S, theta: &[f64]) -> S::List<Turn> {
+        let mut turns = size.list(Turn::NONE);
+        for index in 0..size.blocks() {
+            let is_joined = index > 0 && theta[index] == theta[index - 1];
+            turns[index] = if is_joined { turns[index - 1] } else { Turn::new(theta[index]) };
+        }
+        turns
+    }
+
     /// `R(θ)(u, v)`
+    #[inline(always)]
     fn rotate(self, [u, v]: Vec2) -> Vec2 {
         [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
     }
 }
 
+#[inline(always)]
 fn plus(a: Vec2, b: Vec2) -> Vec2 {
     [a[0] + b[0], a[1] + b[1]]
 }
 
+#[inline(always)]
 fn minus(a: Vec2, b: Vec2) -> Vec2 {
     [a[0] - b[0], a[1] - b[1]]
 }
@@ -68,110 +82,150 @@ impl<'a> Posture<'a> {
     /// The geometry where block `i` is turned by `theta[i]` `[rad]`, base first, length N; blocks of one link have equal
     /// angles.
     pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
-        let blocks = column.len();
-        let (mut link, mut dof) = (Few::new(), 0);
-        let mut pivots: Few<Vec2> = Few::new();
-        let (mut lower, mut contact_centre, mut centroid) = (Few::new(), Few::new(), Few::new());
+        let size = Any(column.len());
+        Posture::of(size, column, pattern, &Turn::all(size, theta))
+    }
+}
+
+impl<'a, S: Size> Posture<'a, S> {
+    /// The geometry where the blocks are turned like this.
+    pub(crate) fn of(size: S, column: &'a Column, pattern: &Pattern, turns: &S::List<Turn>) -> Posture<'a, S> {
+        let (mut link, mut dof) = (size.list(0), 0);
+        let (mut pivots, mut centroid) = (size.list([0.0, 0.0]), size.list([0.0, 0.0]));
+        let (mut lower, mut contact_centre) = (size.list(Turn::NONE), size.list([0.0, 0.0]));
         let (mut centre, mut below) = ([0.0, 0.0], Turn::NONE);
-        for (index, block) in column.blocks().iter().enumerate() {
-            contact_centre.push(centre);
-            lower.push(below);
-            // Blocks of one link turn together.
-            let own = if index > 0 && theta[index] == theta[index - 1] { below } else { Turn::new(theta[index]) };
-            let state = pattern.0[index];
-            dof += usize::from(state.is_open());
-            link.push(dof);
-            let base = if state.is_open() {
-                let offset = f64::from(state.sign()) * column.contact_half_width(index);
+        let (blocks, states) = (&column.blocks()[..size.blocks()], &pattern.0[..size.blocks()]);
+        for index in 0..size.blocks() {
+            contact_centre[index] = centre;
+            lower[index] = below;
+            let own = turns[index];
+            let mut base = centre;
+            if states[index].is_open() {
+                let offset = f64::from(states[index].sign()) * column.contact_half_width(index);
                 let pivot = plus(centre, below.rotate([offset, 0.0]));
-                pivots.push(pivot);
-                minus(pivot, own.rotate([offset, 0.0]))
-            } else {
-                centre
-            };
-            centroid.push(plus(base, own.rotate([0.0, block.half_height])));
-            centre = plus(base, own.rotate([0.0, 2.0 * block.half_height]));
+                pivots[dof] = pivot;
+                dof += 1;
+                base = minus(pivot, own.rotate([offset, 0.0]));
+            }
+            link[index] = dof;
+            let half_height = blocks[index].half_height;
+            centroid[index] = plus(base, own.rotate([0.0, half_height]));
+            centre = plus(base, own.rotate([0.0, 2.0 * half_height]));
             below = own;
         }
-        let mut lever = Square::from_elem([0.0, 0.0], blocks * dof);
-        for (block, &own) in link.iter().enumerate() {
-            for below in 1..=own {
-                let end = if below == own { centroid[block] } else { pivots[below] };
-                lever[block * dof + below - 1] = minus(end, pivots[below - 1]);
+        let width = size.links(dof);
+        let mut lever = size.table(width, [0.0, 0.0]);
+        for block in 0..size.blocks() {
+            let own = link[block];
+            for below in 1..=size.links(own) {
+                if below <= own {
+                    let end = if below == own { centroid[block] } else { pivots[below] };
+                    lever[block * width + below - 1] = minus(end, pivots[below - 1]);
+                }
             }
         }
-        Posture { column, link, dof, lower, contact_centre, centroid, lever }
+        Posture { size, column, link, dof, lower, contact_centre, centroid, lever }
     }
 
-    /// Rates of the moving links, length dof, among the rates of the blocks, length N.
-    pub fn link_rates(&self, block: &[f64]) -> Few<f64> {
-        let mut rates = Few::from_elem(0.0, self.dof);
-        self.link.iter().zip(block).filter(|(link, _)| **link > 0).for_each(|(link, rate)| rates[*link - 1] = *rate);
+    /// Blocks, as many as the size says.
+    #[inline(always)]
+    fn blocks(&self) -> &[Block] {
+        &self.column.blocks()[..self.size.blocks()]
+    }
+
+    /// Columns of tables.
+    #[inline(always)]
+    fn width(&self) -> usize {
+        self.size.links(self.dof)
+    }
+
+    /// Levers of a block.
+    #[inline(always)]
+    fn levers(&self, block: usize) -> &[Vec2] {
+        &self.lever[block * self.width()..(block + 1) * self.width()]
+    }
+
+    /// Rates of the moving links, length dof and more, among the rates of the blocks, length N.
+    #[inline(always)]
+    pub fn link_rates(&self, block: &[f64]) -> S::List<f64> {
+        let mut rates = self.size.list(0.0);
+        for index in 0..self.size.blocks() {
+            if self.link[index] > 0 {
+                rates[self.link[index] - 1] = block[index];
+            }
+        }
         rates
     }
 
     /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, or the part of accelerations due to link accelerations.
-    pub fn linear(&self, rates: &[f64]) -> Few<Vec2> {
-        let row = |block: usize| {
-            let levers = &self.lever[block * self.dof..(block + 1) * self.dof];
-            levers.iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| [sum[0] + rate * r[1], sum[1] - rate * r[0]])
-        };
-        (0..self.link.len()).map(row).collect()
+    #[inline(always)]
+    pub fn linear(&self, rates: &[f64]) -> S::List<Vec2> {
+        self.size.list_of(|block| {
+            let levers = self.levers(block).iter().zip(rates);
+            levers.fold([0.0, 0.0], |sum, (r, rate)| [sum[0] + rate * r[1], sum[1] - rate * r[0]])
+        })
     }
 
     /// Angular rates of the blocks for link rates.
-    pub fn angular(&self, rates: &[f64]) -> Few<f64> {
-        self.link.iter().map(|&link| if link == 0 { 0.0 } else { rates[link - 1] }).collect()
+    #[inline(always)]
+    pub fn angular(&self, rates: &[f64]) -> S::List<f64> {
+        self.size.list_of(|block| if self.link[block] == 0 { 0.0 } else { rates[self.link[block] - 1] })
     }
 
     /// Centripetal accelerations of the centroids `[m/s²]` at link rates.
-    pub fn centripetal(&self, rates: &[f64]) -> Few<Vec2> {
-        let row = |block: usize| {
-            let levers = &self.lever[block * self.dof..(block + 1) * self.dof];
-            levers.iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| {
+    #[inline(always)]
+    pub fn centripetal(&self, rates: &[f64]) -> S::List<Vec2> {
+        self.size.list_of(|block| {
+            self.levers(block).iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| {
                 let square = rate * rate;
                 [sum[0] - square * r[0], sum[1] - square * r[1]]
             })
-        };
-        (0..self.link.len()).map(row).collect()
+        })
     }
 
-    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof.
-    pub fn mass_matrix(&self) -> Square<f64> {
-        let dof = self.dof;
-        let mut matrix = Square::from_elem(0.0, dof * dof);
-        for (index, (block, &own)) in self.column.blocks().iter().zip(&self.link).enumerate() {
-            let levers = &self.lever[index * dof..(index + 1) * dof];
-            for row in 0..own {
+    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof; where it is larger, links that do not move have unit mass.
+    #[inline(always)]
+    pub fn mass_matrix(&self) -> S::Table<f64> {
+        let width = self.width();
+        let mut matrix = self.size.table(width, 0.0);
+        for (index, block) in self.blocks().iter().enumerate() {
+            let (levers, own) = (self.levers(index), self.link[index]);
+            for row in 0..self.size.links(own) {
                 for column in 0..=row {
                     let (r, q) = (levers[row], levers[column]);
-                    matrix[row * dof + column] += block.mass * (r[0] * q[0] + r[1] * q[1]);
+                    matrix[row * width + column] += block.mass * (r[0] * q[0] + r[1] * q[1]);
                 }
             }
             if own > 0 {
-                matrix[(own - 1) * (dof + 1)] += block.inertia;
+                matrix[(own - 1) * (width + 1)] += block.inertia;
             }
         }
-        for row in 0..dof {
-            for column in row + 1..dof {
-                matrix[row * dof + column] = matrix[column * dof + row];
+        for row in 0..width {
+            if row >= self.dof {
+                matrix[row * (width + 1)] = 1.0;
+            }
+            for column in row + 1..width {
+                matrix[row * width + column] = matrix[column * width + row];
             }
         }
         matrix
     }
 
     /// The mass matrix factorised; `None` if rounding has made it indefinite.
-    pub fn factorised_mass(&self) -> Option<Factorised> {
-        Factorised::new(self.mass_matrix(), self.dof)
+    #[inline(always)]
+    pub fn factorised_mass(&self) -> Option<Factorised<S>> {
+        Factorised::new(self.mass_matrix(), self.width())
     }
 
     /// `Jᵀ m v`: what loads per unit mass on the centroids `[m/s²]` and angular loads per unit inertia `[rad/s²]` do on the
     /// free angles `[N m]`; with velocities, the generalised momenta.
-    pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> Few<f64> {
-        let mut result = Few::from_elem(0.0, self.dof);
-        for (index, (block, &own)) in self.column.blocks().iter().zip(&self.link).enumerate() {
-            let levers = &self.lever[index * self.dof..(index + 1) * self.dof];
-            for (row, r) in levers.iter().enumerate().take(own) {
+    #[inline(always)]
+    pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> S::List<f64> {
+        let mut result = self.size.list(0.0);
+        for (index, block) in self.blocks().iter().enumerate() {
+            let (levers, own) = (self.levers(index), self.link[index]);
+            for row in 0..self.size.links(own) {
+                let r = levers[row];
                 result[row] += block.mass * (r[1] * linear[index][0] - r[0] * linear[index][1]);
             }
             if own > 0 {
@@ -183,12 +237,14 @@ impl<'a> Posture<'a> {
 
     /// What the contacts transmit to the stacks above when the blocks are given these accelerations less gravity
     /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
-    pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> Few<ContactForce> {
-        let blocks = self.column.blocks();
-        let contacts = self.contact_centre.iter().zip(&self.lower).enumerate();
-        let resultant = |(interface, (&centre, &Turn { sin, cos })): (usize, (&Vec2, &Turn))| {
+    #[inline(always)]
+    pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
+        let blocks = self.blocks();
+        self.size.list_of(|interface| {
+            let (centre, Turn { sin, cos }) = (self.contact_centre[interface], self.lower[interface]);
             let (mut force, mut moment) = ([0.0, 0.0], 0.0);
-            for (index, block) in blocks.iter().enumerate().skip(interface) {
+            for index in interface..self.size.blocks() {
+                let block = &blocks[index];
                 let r = minus(self.centroid[index], centre);
                 let load = [block.mass * linear[index][0], block.mass * linear[index][1]];
                 force = plus(force, load);
@@ -196,42 +252,43 @@ impl<'a> Posture<'a> {
             }
             let (normal, tangential) = (force[0] * sin + force[1] * cos, force[0] * cos - force[1] * sin);
             ContactForce { normal, tangential, moment }
-        };
-        contacts.map(resultant).collect()
+        })
     }
 
     /// `½ Σ m v² + I ω²` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.
+    #[inline(always)]
     pub fn kinetic_energy(&self, linear: &[Vec2], angular: &[f64]) -> f64 {
-        let blocks = self.column.blocks().iter().zip(linear.iter().zip(angular));
+        let blocks = self.blocks().iter().zip(linear.iter().zip(angular));
         blocks.map(|(b, (v, w))| 0.5 * (b.mass * (v[0] * v[0] + v[1] * v[1]) + b.inertia * w * w)).sum()
     }
 
     /// `Σ m g y` `[J]` under this gravity.
     pub fn potential_energy(&self, gravity: f64) -> f64 {
-        let blocks = self.column.blocks().iter().zip(&self.centroid);
+        let blocks = self.blocks().iter().zip(&*self.centroid);
         blocks.map(|(block, position)| block.mass * gravity * position[1]).sum()
     }
 }
 
 /// A mass matrix as `L Lᵀ` (Cholesky). nalgebra's asks for memory, which contact problems are too many and too small for.
 #[derive(Clone, Debug)]
-pub struct Factorised {
+pub struct Factorised<S: Size = Any> {
     /// `L`, row by row, `1 / L_ii` on its diagonal.
-    lower: Square<f64>,
-    dof: usize,
+    lower: S::Table<f64>,
+    width: usize,
 }
 
-impl Factorised {
-    /// Of a symmetric matrix, row by row, dof × dof; `None` if it is not positive definite.
-    pub fn new(mut matrix: Square<f64>, dof: usize) -> Option<Factorised> {
-        for row in 0..dof {
+impl<S: Size> Factorised<S> {
+    /// Of a symmetric matrix, row by row, width × width; `None` if it is not positive definite.
+    #[inline(always)]
+    pub fn new(mut matrix: S::Table<f64>, width: usize) -> Option<Factorised<S>> {
+        for row in 0..width {
             for column in 0..=row {
-                let (own, other) =
-                    (&matrix[row * dof..row * dof + column], &matrix[column * dof..column * dof + column]);
-                let known: f64 = own.iter().zip(other).map(|(a, b)| a * b).sum();
-                let left = matrix[row * dof + column] - known;
-                matrix[row * dof + column] = if column < row {
-                    left * matrix[column * (dof + 1)]
+                let mut left = matrix[row * width + column];
+                for inner in 0..column {
+                    left -= matrix[row * width + inner] * matrix[column * width + inner];
+                }
+                matrix[row * width + column] = if column < row {
+                    left * matrix[column * (width + 1)]
                 } else if left > 0.0 && left.is_finite() {
                     1.0 / left.sqrt()
                 } else {
@@ -239,19 +296,24 @@ impl Factorised {
                 };
             }
         }
-        Some(Factorised { lower: matrix, dof })
+        Some(Factorised { lower: matrix, width })
     }
 
-    /// `x` of `L Lᵀ x = right`, in place; length dof.
+    /// `x` of `L Lᵀ x = right`, in place; length width.
+    #[inline(always)]
     pub fn solve(&self, right: &mut [f64]) {
-        let dof = self.dof;
-        for row in 0..dof {
-            let known: f64 = self.lower[row * dof..row * dof + row].iter().zip(&*right).map(|(a, x)| a * x).sum();
-            right[row] = (right[row] - known) * self.lower[row * (dof + 1)];
+        let width = self.width;
+        for row in 0..width {
+            for inner in 0..row {
+                right[row] -= self.lower[row * width + inner] * right[inner];
+            }
+            right[row] *= self.lower[row * (width + 1)];
         }
-        for row in (0..dof).rev() {
-            let known: f64 = (row + 1..dof).map(|below| self.lower[below * dof + row] * right[below]).sum();
-            right[row] = (right[row] - known) * self.lower[row * (dof + 1)];
+        for row in (0..width).rev() {
+            for below in row + 1..width {
+                right[row] -= self.lower[below * width + row] * right[below];
+            }
+            right[row] *= self.lower[row * (width + 1)];
         }
     }
 }

@@ -47,11 +47,12 @@ mod diagnostics;
 pub mod dynamics;
 pub mod event;
 pub mod excitation;
-mod few;
+pub mod few;
 pub mod generated;
 pub mod generic;
 pub mod kinematics;
 pub mod mode;
+mod modes;
 pub mod ode;
 pub mod outcome;
 mod phase;
@@ -68,12 +69,12 @@ pub mod sweep;
 pub use column::{Block, Column, ColumnError, Stack};
 pub use excitation::{Excitation, Motion, Record, RecordError};
 pub use mode::Mode;
-pub use response::{Event, EventKind, Impulse, Response, Sample, StopReason, Work};
+pub use response::{Event, EventKind, Impulse, ModeName, Response, Sample, StopReason, Work};
 pub use rocking_codegen::{GroundMotion, pattern};
-pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions, Wanted};
+pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, Skips, SolveOptions, Wanted};
 
 pub use scene_file::SceneFileError;
-pub use simulate::{SolveError, simulate, simulate_observed};
+pub use simulate::{Simulator, SolveError, simulate, simulate_observed};
 pub use sweep::Sweep;
 
 /// Gravity where a scene does not say otherwise `[m/s²]`.

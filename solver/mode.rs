@@ -8,21 +8,21 @@ use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
 use crate::generated;
 use crate::generic::GenericMode;
 use crate::ode::{self, Dop853, DormandPrince54, KuttaMerson, Pair, RungeKutta4, System, Tolerance};
-use crate::phase::{Ended, Phase, RungeKutta, Stepper, TaylorSeries};
-use crate::scene::Method;
-use crate::simulate::{Run, SolveError};
+use crate::phase::{Phase, RungeKutta, SmoothPhase, Stepper, TaylorSeries};
+use crate::scene::{Method, Scene};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
+use std::rc::Rc;
 
 /// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
 pub struct Mode {
     pattern: Pattern,
-    equations: Box<dyn Equations>,
+    equations: Rc<dyn Equations>,
 }
 
-/// [`Dynamics`] over slices, and a smooth phase of a run on it.
+/// [`Dynamics`] over slices, and the smooth phases of runs on it.
 trait Equations {
-    fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError>;
+    fn phase(self: Rc<Self>, pattern: &Pattern, scene: &Scene) -> Box<dyn SmoothPhase>;
     fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64>;
     fn energy(&self, x: &[f64], gravity: f64) -> Energy;
     fn mass_matrix(&self, x: &[f64]) -> Vec<f64>;
@@ -55,19 +55,18 @@ fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
     state
 }
 
-impl<D: Dynamics> Equations for D {
-    fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError> {
-        let (gravity, options) = (run.scene.column.gravity(), &run.scene.options);
-        let mut stepper: Box<dyn Stepper<D::State> + '_> = match run.scene.method() {
+impl<D: Dynamics + 'static> Equations for D {
+    fn phase(self: Rc<Self>, pattern: &Pattern, scene: &Scene) -> Box<dyn SmoothPhase> {
+        let (gravity, options) = (scene.column.gravity(), &scene.options);
+        let (free, fixed) = (None, Some(options.step));
+        let stepper: Box<dyn Stepper<D::State>> = match scene.method() {
             Method::Taylor => Box::new(TaylorSeries::new(self, gravity, options.rtol)),
-            Method::Auto | Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity, None)),
-            Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity, None)),
-            Method::KuttaMerson => Box::new(RungeKutta::<D, KuttaMerson<D::State>>::new(self, gravity, None)),
-            Method::RungeKutta4 => {
-                Box::new(RungeKutta::<D, RungeKutta4<D::State>>::new(self, gravity, Some(options.step)))
-            }
+            Method::Auto | Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity, free)),
+            Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity, free)),
+            Method::KuttaMerson => Box::new(RungeKutta::<D, KuttaMerson<D::State>>::new(self, gravity, free)),
+            Method::RungeKutta4 => Box::new(RungeKutta::<D, RungeKutta4<D::State>>::new(self, gravity, fixed)),
         };
-        Phase::new(run, &mut *stepper).run()
+        Box::new(Phase::new(pattern, stepper, scene.swings_in_closed_form()))
     }
 
     fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {
@@ -108,7 +107,7 @@ impl<D: Dynamics> Equations for D {
 impl Mode {
     /// A mode on equations of one's own: dynamics that belong to the pattern.
     pub fn from_dynamics(pattern: Pattern, dynamics: impl Dynamics + 'static) -> Mode {
-        Mode { pattern, equations: Box::new(dynamics) }
+        Mode { pattern, equations: Rc::new(dynamics) }
     }
 
     /// The mode of a pattern on generated equations, for any ground motion; `None` at rest and for columns larger than this
@@ -139,9 +138,9 @@ impl Mode {
         Mode::generated(column, pattern).or_else(|| Mode::generic(column, pattern))
     }
 
-    /// Integrates a run that is in this mode to its next event.
-    pub(crate) fn run_phase(&self, run: &mut Run) -> Result<Ended, SolveError> {
-        self.equations.run_phase(run)
+    /// The smooth phases of runs of a scene in this mode.
+    pub(crate) fn phase(&self, scene: &Scene) -> Box<dyn SmoothPhase> {
+        Rc::clone(&self.equations).phase(&self.pattern, scene)
     }
 
     /// The pattern.

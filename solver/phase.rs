@@ -1,8 +1,8 @@
 //! One smooth phase: a mode integrated from one event to the next.
 //!
 //! Compiled once per number of degrees of freedom; a [`Stepper`] takes the steps. A step is attempted, its inside searched for the first zero
-//! of a guard, and, if there is one, taken again so that it ends there: the state at an event is a full step of the method, not
-//! an interpolated value.
+//! of a guard, and, if there is one, made to end there: the state at an event is a full step of the method, not an interpolated
+//! value.
 //!
 //! Guards (start excluded, end included; of several in one step the first):
 //!
@@ -13,23 +13,26 @@
 //! | `c_i N_i - abs(M_i)` | closed interface `i` opens | samples and parabolas |
 
 mod inside;
+mod pendulum;
 mod stepper;
+mod swing;
 
 use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, StateVector};
 use crate::excitation::Segment;
 use crate::few::Few;
-use crate::ode::{Interpolant, Tolerance};
-use crate::response::mode_name;
+use crate::ode::{Difference, Tolerance};
+use crate::response::ModeName;
 use crate::simulate::{Run, SolveError};
-use rocking_codegen::pattern::Interface;
+use pendulum::Pendulum;
+use rocking_codegen::pattern::{Interface, Pattern};
 pub(crate) use stepper::{RungeKutta, Stepper, TaylorSeries};
 
 /// How a stretch of time ended.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Ended {
+pub(crate) enum Ended {
     /// These interfaces (from zero) closed.
-    Closing(Vec<usize>),
+    Closing(Few<usize>),
     /// The resultant at a closed interface (from zero) reached a corner; it opens on this side.
     Opening(usize, Interface),
     /// The ground acceleration jumped.
@@ -44,24 +47,21 @@ pub enum Ended {
     EndOfTime,
 }
 
-/// An open interface and its link.
+/// A mode's smooth phases, with storage for them.
+pub(crate) trait SmoothPhase {
+    /// Integrates from the run's present state to the next event; the run's state is then that at the event, before what it brings
+    /// about.
+    fn run(&mut self, run: &mut Run) -> Result<Ended, SolveError>;
+}
+
+/// An open interface and its gap `s φ`.
 #[derive(Clone, Copy, Debug)]
 struct Gap {
     interface: usize,
-    /// Index of the link above among the moving ones.
-    link: usize,
-    sign: f64,
+    /// `s (θ_i - θ_{i-1})` of the moving links.
+    across: Difference,
     /// Roots of the gap at the start of the step that are known: gap, rate and acceleration zero.
     start_roots: usize,
-}
-
-impl Gap {
-    /// `s φ` of angles, or `s φ̇` of rates.
-    #[inline(always)]
-    fn of(&self, links: &[f64]) -> f64 {
-        let below = if self.link == 0 { 0.0 } else { links[self.link - 1] };
-        self.sign * (links[self.link] - below)
-    }
 }
 
 /// What a guard found inside a step.
@@ -72,265 +72,263 @@ enum Found {
     Contact { interface: usize },
 }
 
-/// Newton's rounds when a step is repeated to end at a zero: the interpolant is good to some digits, each round doubles them.
+/// Newton's rounds when a step is made to end at a zero: the dense output is good to some digits, each round doubles them.
 const REPEATS: usize = 4;
 
 /// A progress bar needs no more.
 const STEPS_BETWEEN_REPORTS: usize = 1024;
 
-/// A smooth phase.
-pub(crate) struct Phase<'p, 'a, V> {
-    run: &'p mut Run<'a>,
-    stepper: &'p mut dyn Stepper<V>,
-    interpolant: Interpolant<V>,
-    interpolated: bool,
+/// The phases of a mode.
+pub(crate) struct Phase<V> {
+    stepper: Box<dyn Stepper<V>>,
+    /// What the mode is on a ground that does not move, where it has one free angle and closed forms are wanted.
+    pendulum: Option<Pendulum>,
     dof: usize,
+    /// Link of each block, base first, zero where it stands on the ground.
     links: Few<usize>,
     gaps: Few<Gap>,
     closed: Few<usize>,
-    half_width: Few<f64>,
-    tolerance: Tolerance,
     x: V,
     slope: V,
+    /// A state inside a step.
+    inside: V,
     forces: Few<ContactForce>,
-    /// Contact forces at the start of the step.
+    /// Contact forces at the start of the step, where they are recorded.
     start_forces: Few<ContactForce>,
-    end_forces: Few<ContactForce>,
-    /// Values of the contact guards at the start and the end of the step, per closed interface.
+    /// Values of the contact guards at the start of the step, per closed interface.
     margins: Few<f64>,
-    end_margins: Few<f64>,
-    scratch: (V, V),
 }
 
-impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
-    /// The phase that begins with the run's present state.
-    pub fn new(run: &'p mut Run<'a>, stepper: &'p mut dyn Stepper<V>) -> Self {
-        let column = &run.scene.column;
-        let pattern = &run.pattern;
+impl<V: StateVector> SmoothPhase for Phase<V> {
+    fn run(&mut self, run: &mut Run) -> Result<Ended, SolveError> {
+        let (calls, options) = (self.stepper.calls(), &run.scene.options);
+        let tolerance = Tolerance { rtol: options.rtol, atol: options.atol };
+        self.enter(run);
+        let mut wanted = match run.suggested_step {
+            Some(step) => step,
+            None => self.stepper.first_step(&self.x, tolerance),
+        };
+        let ended = loop {
+            let t = run.t;
+            let left = segment(run).end - t;
+            if t + left <= t {
+                match self.next_segment(run) {
+                    Some(ended) => break ended,
+                    None => continue,
+                }
+            }
+            match self.swing(run) {
+                Some(Some(ended)) => break ended,
+                Some(None) => continue,
+                None => {}
+            }
+            // A step that would leave a crumb leaves a part.
+            let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
+            let held = run.hold.until - t;
+            let h = if held > 0.0 { h.min(held) } else { h };
+            let error = self.stepper.attempt(t, &self.x, h, tolerance);
+            if error.is_nan() || error > 1.0 {
+                run.work.rejected += 1;
+                wanted = h * if error.is_nan() { 0.1 } else { self.stepper.factor(error).min(1.0) };
+                self.check_step(run, wanted, error)?;
+                continue;
+            }
+            self.stepper.accept();
+            run.work.steps += 1;
+            if run.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
+                (run.progress)(t);
+            }
+            let factor = self.stepper.factor(error);
+            // A step cut short by a segment's end says nothing against the step wanted.
+            wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };
+            let end = if h == left { segment(run).end } else { t + h };
+            if let Some((found, s)) = self.search(run, h, end) {
+                match self.stop_at(run, found, h, s, tolerance) {
+                    Some(ended) => break ended,
+                    None => continue,
+                }
+            }
+            self.output_until(run, h, end);
+            self.note_peaks(run, h);
+            self.advance(run, end);
+        };
+        run.suggested_step = Some(wanted);
+        self.leave(run);
+        run.work.rhs_calls += self.stepper.calls() - calls;
+        Ok(ended)
+    }
+}
+
+/// The stretch of ground motion that the present time is in.
+fn segment<'r>(run: &'r Run) -> &'r Segment {
+    &run.segments[run.segment]
+}
+
+/// Whether contact forces are recorded.
+fn records_forces(run: &Run) -> bool {
+    run.scene.records_forces()
+}
+
+impl<V: StateVector> Phase<V> {
+    /// The phases of a pattern; in closed form where that may be and is wanted.
+    pub fn new(pattern: &Pattern, stepper: Box<dyn Stepper<V>>, in_closed_form: bool) -> Self {
         let zero = stepper.zero();
-        stepper.enter(run.segments[run.segment].clone());
+        let blocks = pattern.0.len();
         let mut dof = 0;
         let mut link = |interface: &Interface| {
             dof += usize::from(interface.is_open());
             dof
         };
         let links: Few<usize> = pattern.0.iter().map(&mut link).collect();
-        let mut x = zero.clone();
-        for (block, &link) in links.iter().enumerate() {
-            if link > 0 {
-                x.as_mut_slice()[link - 1] = run.theta[block];
-                x.as_mut_slice()[dof + link - 1] = run.omega[block];
-            }
-        }
-        let open = (0..column.len()).filter(|i| pattern.0[*i].is_open());
-        let gaps = open.map(|interface| Gap {
-            interface,
-            link: links[interface] - 1,
-            sign: f64::from(pattern.0[interface].sign()),
-            start_roots: 0,
-        });
-        let gaps = gaps.collect();
-        let closed: Few<usize> = (0..column.len()).filter(|i| !pattern.0[*i].is_open()).collect();
-        let options = &run.scene.options;
+        let open = (0..blocks).filter(|i| pattern.0[*i].is_open());
+        let gap = |interface: usize| {
+            let (sign, upper) = (f64::from(pattern.0[interface].sign()), links[interface] - 1);
+            Gap { interface, across: Difference { sign, upper, lower: upper.checked_sub(1) }, start_roots: 0 }
+        };
+        let gaps = open.map(gap).collect();
+        let closed: Few<usize> = (0..blocks).filter(|i| !pattern.0[*i].is_open()).collect();
+        let pendulum = if dof == 1 && in_closed_form { stepper.pendulum() } else { None };
         Phase {
             stepper,
-            interpolant: Interpolant::new(&zero),
-            interpolated: false,
+            pendulum,
             dof,
             links,
             gaps,
-            half_width: (0..column.len()).map(|i| column.contact_half_width(i)).collect(),
-            tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
-            x,
-            slope: zero.clone(),
-            forces: Few::from_elem(ContactForce::default(), column.len()),
-            start_forces: Few::from_elem(ContactForce::default(), column.len()),
-            end_forces: Few::from_elem(ContactForce::default(), column.len()),
             margins: Few::from_elem(0.0, closed.len()),
-            end_margins: Few::from_elem(0.0, closed.len()),
             closed,
-            scratch: (zero.clone(), zero),
-            run,
+            x: zero.clone(),
+            slope: zero.clone(),
+            inside: zero,
+            forces: Few::from_elem(ContactForce::default(), blocks),
+            start_forces: Few::new(),
         }
     }
 
-    /// Integrates to the next event; the run's state is then that at the event, before what it brings about.
-    pub fn run(mut self) -> Result<Ended, SolveError> {
-        self.stepper.slope(self.run.t, &self.x, &mut self.slope);
-        self.arm();
-        self.margins = self.weigh_start();
-        let mut wanted = match self.run.suggested_step {
-            Some(step) => step,
-            None => self.stepper.first_step(&self.x, &self.slope, self.tolerance),
-        };
-        loop {
-            let t = self.run.t;
-            let left = self.segment().end - t;
-            if t + left <= t {
-                match self.next_segment() {
-                    Some(ended) => {
-                        self.run.suggested_step = Some(wanted);
-                        return Ok(self.leave(ended));
-                    }
-                    None => continue,
-                }
+    /// Begins at the run's present state.
+    fn enter(&mut self, run: &mut Run) {
+        self.stepper.enter(segment(run).clone());
+        for (block, &link) in self.links.iter().enumerate() {
+            if link > 0 {
+                self.x.as_mut_slice()[link - 1] = run.theta[block];
+                self.x.as_mut_slice()[self.dof + link - 1] = run.omega[block];
             }
-            // A step that would leave a crumb leaves a part.
-            let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
-            let held = self.run.hold.until - t;
-            let h = if held > 0.0 { h.min(held) } else { h };
-            let error = self.stepper.attempt(t, &self.x, &self.slope, h, self.tolerance);
-            if error.is_nan() || error > 1.0 {
-                self.run.work.rejected += 1;
-                wanted = h * if error.is_nan() { 0.1 } else { self.stepper.factor(error).min(1.0) };
-                self.check_step(t, wanted, error)?;
-                continue;
-            }
-            self.stepper.accept();
-            self.run.work.steps += 1;
-            if self.run.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
-                (self.run.progress)(t);
-            }
-            let factor = self.stepper.factor(error);
-            // A step cut short by a segment's end says nothing against the step wanted.
-            wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };
-            self.interpolated = false;
-            let found = self.search(t, h);
-            if let Some((found, s)) = found {
-                match self.stop_at(found, t, h, s) {
-                    Some(ended) => {
-                        self.run.suggested_step = Some(wanted);
-                        return Ok(self.leave(ended));
-                    }
-                    None => continue,
-                }
-            }
-            self.output_until(t, h, t + h);
-            self.note_peaks(h);
-            self.advance(if h == left { self.segment().end } else { t + h });
         }
-    }
-
-    /// The stretch of ground motion that the present time is in.
-    fn segment(&self) -> &Segment {
-        &self.run.segments[self.run.segment]
+        self.stepper.begin(run.t, &self.x);
+        self.arm(run);
+        if self.reads_forces(run) {
+            self.stepper.start_slope(run.t, &self.x, &mut self.slope);
+            self.stepper.contact_forces(run.t, &self.x, &self.slope, &mut self.forces);
+            self.remember_forces(run);
+            if records_forces(run) {
+                run.history.note_forces(&self.forces);
+            }
+        }
     }
 
     /// Goes over to the next stretch of ground motion; what ends the phase there, if anything.
-    fn next_segment(&mut self) -> Option<Ended> {
-        self.run.t = self.segment().end;
-        if self.run.segment + 1 == self.run.segments.len() {
+    fn next_segment(&mut self, run: &mut Run) -> Option<Ended> {
+        run.t = segment(run).end;
+        if run.segment + 1 == run.segments.len() {
             return Some(Ended::EndOfTime);
         }
-        self.run.segment += 1;
-        self.stepper.enter(self.run.segments[self.run.segment].clone());
-        if self.segment().jumps {
+        run.segment += 1;
+        if segment(run).jumps {
             return Some(Ended::Jump);
         }
+        self.stepper.enter(segment(run).clone());
         // The phase goes on as it would have: an answer that is not certain yet is that of a full run.
         let (theta, omega) = self.per_block(&self.x);
-        self.run.is_certain_to_stand(&theta, &omega).then_some(Ended::Certain)
+        run.is_certain_to_stand(&theta, &omega).then_some(Ended::Certain)
     }
 
     /// Decides how many roots of each gap lie at the start, by how it came to be open.
-    fn arm(&mut self) {
-        let (x, slope) = (self.x.as_slice(), self.slope.as_slice());
-        let accelerations = &slope[self.dof..];
-        let verge = verge_acceleration(&self.run.scene.column, accelerations, self.stepper.ground(self.run.t));
-        for gap in &mut self.gaps {
-            let is_closed = gap.of(&x[..self.dof]) == 0.0;
-            let has_no_rate = gap.of(&x[self.dof..]) == 0.0;
-            gap.start_roots = match (is_closed, has_no_rate) {
+    fn arm(&mut self, run: &Run) {
+        for index in 0..self.gaps.len() {
+            let (across, x) = (self.gaps[index].across, self.x.as_slice());
+            let is_closed = across.of(&x[..self.dof]) == 0.0;
+            let has_no_rate = across.of(&x[self.dof..]) == 0.0;
+            self.gaps[index].start_roots = match (is_closed, has_no_rate) {
                 (false, _) => 0,
                 (true, false) => 1,
-                (true, true) if gap.of(accelerations).abs() <= verge => 3,
+                (true, true) if self.is_on_the_verge(run, across) => 3,
                 (true, true) => 2,
             };
         }
     }
 
-    /// Contact forces and margins of the contact guards at the start of the phase.
-    fn weigh_start(&mut self) -> Few<f64> {
-        let (t, x, slope) = (self.run.t, self.x.clone(), self.slope.clone());
-        if !self.reads_forces() {
-            return Few::new();
-        }
-        self.weigh(t, &x, &slope);
-        let margins = self.closed.iter().map(|&i| self.margin(i)).collect();
-        self.note_forces();
-        self.start_forces.clone_from(&self.forces);
-        margins
+    /// Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
+    fn is_on_the_verge(&mut self, run: &Run, across: Difference) -> bool {
+        self.stepper.start_slope(run.t, &self.x, &mut self.slope);
+        let accelerations = &self.slope.as_slice()[self.dof..];
+        let verge = verge_acceleration(&run.scene.column, accelerations, self.stepper.ground(run.t));
+        across.of(accelerations).abs() <= verge
     }
 
     /// Whether contact forces are of use in this phase: for guards of closed interfaces, or for the record.
-    fn reads_forces(&self) -> bool {
-        !self.closed.is_empty() || self.run.scene.records_forces()
+    fn reads_forces(&self, run: &Run) -> bool {
+        !self.closed.is_empty() || records_forces(run)
     }
 
-    fn note_forces(&mut self) {
-        if self.run.scene.records_forces() {
-            self.run.history.note_forces(&self.forces);
+    /// The forces weighed last are those at the start of the next step.
+    fn remember_forces(&mut self, run: &Run) {
+        for index in 0..self.closed.len() {
+            self.margins[index] = self.margin(run, self.closed[index]);
         }
-    }
-
-    fn weigh(&mut self, t: f64, x: &V, slope: &V) {
-        self.stepper.contact_forces(t, x, slope, &mut self.forces);
+        if records_forces(run) {
+            self.start_forces.clone_from(&self.forces);
+        }
     }
 
     /// `c N - |M|` of a closed interface, from the forces weighed last.
-    fn margin(&self, interface: usize) -> f64 {
+    fn margin(&self, run: &Run, interface: usize) -> f64 {
         let force = self.forces[interface];
-        self.half_width[interface] * force.normal - force.moment.abs()
+        run.scene.column.contact_half_width(interface) * force.normal - force.moment.abs()
     }
 
-    fn check_step(&self, t: f64, step: f64, error: f64) -> Result<(), SolveError> {
+    #[cold]
+    fn check_step(&self, run: &Run, step: f64, error: f64) -> Result<(), SolveError> {
+        let time = run.t;
         // A segment or an event may leave less than the resolution of the time: only an error may not.
-        if step > 2.0 * f64::EPSILON * t.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
+        if step > 2.0 * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
             return Ok(());
         }
-        let (mode, _) = mode_name(&self.run.pattern);
-        let is_finite = self.x.as_slice().iter().chain(self.slope.as_slice()).all(|value| value.is_finite());
-        if error.is_nan() || !is_finite {
-            Err(SolveError::NotFinite { time: t, mode })
+        let mode = ModeName::of(&run.pattern).to_string();
+        let ends = self.x.as_slice().iter().chain(self.stepper.end().as_slice());
+        if error.is_nan() || !ends.into_iter().all(|value| value.is_finite()) {
+            Err(SolveError::NotFinite { time, mode })
         } else {
-            Err(SolveError::StepTooSmall { time: t, step, mode })
-        }
-    }
-
-    fn interpolate(&mut self) {
-        if !self.interpolated {
-            self.stepper.interpolate(&mut self.interpolant);
-            self.interpolated = true;
+            Err(SolveError::StepTooSmall { time, step, mode })
         }
     }
 
     /// Takes the step: its end is the present state.
-    fn advance(&mut self, t: f64) {
+    fn advance(&mut self, run: &mut Run, t: f64) {
         self.x.clone_from(self.stepper.end());
-        self.slope.clone_from(self.stepper.end_slope());
-        self.run.t = t;
+        self.stepper.advance();
+        run.t = t;
         // A gap that is still below the resolution of angles has not left its start.
         let (resolution, x) = (self.resolution(), self.x.as_slice());
-        for gap in self.gaps.iter_mut().filter(|gap| gap.of(&x[..self.dof]).abs() > resolution) {
+        for gap in self.gaps.iter_mut().filter(|gap| gap.across.of(x).abs() > resolution) {
             gap.start_roots = 0;
         }
     }
 
-    /// Repeats the step so that it ends where the guard is zero, and takes it. `None` if the step, taken in earnest, shows that
-    /// the dense output was mistaken about a touch: the phase goes on from there.
-    fn stop_at(&mut self, found: Found, t: f64, whole: f64, s: f64) -> Option<Ended> {
-        self.output_until(t, whole, t + s * whole);
+    /// Makes the step end where the guard is zero, and takes it. `None` if the step, taken in earnest, shows that the dense output
+    /// was mistaken about a touch: the phase goes on from there.
+    fn stop_at(&mut self, run: &mut Run, found: Found, whole: f64, s: f64, tolerance: Tolerance) -> Option<Ended> {
+        let t = run.t;
+        self.output_until(run, whole, t + s * whole);
         let mut h = s * whole;
         let (mut taken, mut has_touched) = (h, true);
         for _ in 0..REPEATS {
-            self.run.work.repeated += 1;
+            run.work.repeated += 1;
             taken = h;
-            self.stepper.attempt(t, &self.x, &self.slope, h, self.tolerance);
+            self.stepper.cut(t, &self.x, h, tolerance);
             let end = self.stepper.end().as_slice();
             let (value, rate) = match found {
-                Found::Gap(gap) => (gap.of(&end[..self.dof]), gap.of(&end[self.dof..])),
+                Found::Gap(gap) => (gap.across.of(&end[..self.dof]), gap.across.of(&end[self.dof..])),
                 Found::Tilt { link, sign } => {
-                    (self.run.scene.options.overturn_angle - sign * end[link], -sign * end[self.dof + link])
+                    (run.scene.options.overturn_angle - sign * end[link], -sign * end[self.dof + link])
                 }
                 Found::Contact { .. } => break,
             };
@@ -347,19 +345,15 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         // A mistake that takes no time would be made again: it is a touch.
         let is_mistaken = !has_touched && t + h > t;
         self.stepper.accept();
-        self.interpolated = false;
-        self.note_peaks(h);
-        let end = if h == self.segment().end - t { self.segment().end } else { t + h };
-        if self.reads_forces() {
-            let (x, slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
-            self.weigh(end, &x, &slope);
-            self.end_forces.clone_from(&self.forces);
-            self.note_step(t, h);
-            self.forces.clone_from(&self.end_forces);
+        self.note_peaks(run, h);
+        let end = if h == segment(run).end - t { segment(run).end } else { t + h };
+        if records_forces(run) || is_mistaken || matches!(found, Found::Contact { .. }) {
+            self.weigh_end(end);
+            self.note_step(run, h);
+            self.remember_forces(run);
         }
-        self.advance(end);
+        self.advance(run, end);
         if is_mistaken {
-            self.margins = self.closed.iter().map(|&i| self.margin(i)).collect();
             return None;
         }
         Some(match found {
@@ -370,7 +364,7 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
             Found::Tilt { link, .. } => {
                 Ended::Overturned(self.links.iter().position(|own| *own == link + 1).unwrap_or(0))
             }
-            Found::Gap(gap) => Ended::Closing(self.closing_with(gap).iter().map(|gap| gap.interface).collect()),
+            Found::Gap(gap) => Ended::Closing(self.closing_with(run.t, gap)),
         })
     }
 
@@ -380,23 +374,23 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
         4.0 * f64::EPSILON * angles.iter().fold(0.0f64, |size, angle| size.max(angle.abs()))
     }
 
-    /// The gaps that close in the instant in which `first` does, and their angles made equal.
-    fn closing_with(&mut self, first: Gap) -> Vec<Gap> {
+    /// The interfaces that close in the instant in which `first` does, and their angles made equal.
+    fn closing_with(&mut self, t: f64, first: Gap) -> Few<usize> {
         let dof = self.dof;
-        let (resolution, instant) = (self.resolution(), 4.0 * f64::EPSILON * self.run.t);
+        let (resolution, instant) = (self.resolution(), 4.0 * f64::EPSILON * t);
         let x = self.x.as_mut_slice();
         let is_closing = |gap: &&Gap, x: &[f64]| {
-            let (value, rate) = (gap.of(&x[..dof]), gap.of(&x[dof..]));
+            let (value, rate) = (gap.across.of(&x[..dof]), gap.across.of(&x[dof..]));
             gap.interface == first.interface || (rate < 0.0 && value <= resolution + rate.abs() * instant)
         };
-        let closing: Vec<Gap> = self.gaps.iter().filter(|gap| is_closing(gap, x)).copied().collect();
-        for gap in &closing {
-            x[gap.link] = if gap.link == 0 { 0.0 } else { x[gap.link - 1] };
+        let closing: Few<Gap> = self.gaps.iter().filter(|gap| is_closing(gap, x)).copied().collect();
+        for Gap { across, .. } in &closing {
+            x[across.upper] = across.lower.map_or(0.0, |lower| x[lower]);
         }
-        closing
+        closing.iter().map(|gap| gap.interface).collect()
     }
 
-    fn per_block(&self, x: &V) -> (Vec<f64>, Vec<f64>) {
+    fn per_block(&self, x: &V) -> (Few<f64>, Few<f64>) {
         let x = x.as_slice();
         let pick = |offset: usize| {
             let of = |link: &usize| if *link == 0 { 0.0 } else { x[offset + link - 1] };
@@ -406,12 +400,10 @@ impl<'p, 'a, V: StateVector> Phase<'p, 'a, V> {
     }
 
     /// Hands the state back to the run.
-    fn leave(self, ended: Ended) -> Ended {
+    fn leave(&mut self, run: &mut Run) {
         let (theta, omega) = self.per_block(&self.x);
-        self.run.theta = theta;
-        self.run.omega = omega;
-        self.run.work.rhs_calls += self.stepper.calls();
-        self.run.note_peaks();
-        ended
+        run.theta.copy_from_slice(&theta);
+        run.omega.copy_from_slice(&omega);
+        run.note_peaks();
     }
 }

@@ -1,9 +1,11 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
 use crate::dynamics::ContactForce;
-use rocking_codegen::pattern::Pattern;
+use crate::few::Few;
+use rocking_codegen::pattern::{ModeLabel, Pattern};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,32 +46,32 @@ pub struct Event {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that closed in the same instant, from 1, where there are several.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub interfaces: Vec<usize>,
+    #[serde(skip_serializing_if = "Few::is_empty")]
+    pub interfaces: Few<usize>,
     /// Pattern before.
     #[serde(serialize_with = "signs")]
     pub before: Pattern,
     /// Pattern after.
     #[serde(serialize_with = "signs")]
     pub after: Pattern,
-    /// Mode before, `rest` where nothing moved; mirrored patterns have their twin's label.
-    pub mode_before: String,
+    /// Mode before; mirrored patterns have their twin's label.
+    pub mode_before: ModeName,
     /// Mode after.
-    pub mode: String,
+    pub mode: ModeName,
     /// Whether the pattern after is the mirror image of the labelled mode.
     pub mirrored: bool,
     /// Angles `[rad]`, per block.
-    pub theta: Vec<f64>,
+    pub theta: Few<f64>,
     /// Rates before `[rad/s]`, per block.
-    pub omega_before: Vec<f64>,
+    pub omega_before: Few<f64>,
     /// Rates after `[rad/s]`, per block.
-    pub omega_after: Vec<f64>,
+    pub omega_after: Few<f64>,
     /// Kinetic energy lost over that before, 0 to 1; impacts only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_lost: Option<f64>,
     /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub impulses: Vec<Impulse>,
+    #[serde(skip_serializing_if = "Few::is_empty")]
+    pub impulses: Few<Impulse>,
 }
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
@@ -123,6 +125,8 @@ pub struct Work {
     pub modes_entered: usize,
     /// Smooth phases: how often the integrator was entered.
     pub phases: usize,
+    /// Swings in closed form instead of steps.
+    pub swings: usize,
 }
 
 /// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
@@ -145,8 +149,10 @@ pub struct Response {
     pub overturned_block: Option<usize>,
     /// The column at the output times.
     pub samples: Vec<Sample>,
-    /// Events in order of time.
+    /// Events in order of time; none where nothing but the outcome is wanted.
     pub events: Vec<Event>,
+    /// Number of impacts.
+    pub impacts: usize,
     /// Largest size of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
@@ -166,11 +172,6 @@ pub struct Response {
 }
 
 impl Response {
-    /// Number of impacts.
-    pub fn impacts(&self) -> usize {
-        self.events.iter().filter(|event| event.kind == EventKind::Impact).count()
-    }
-
     /// Time of overturning `[s]`.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
@@ -249,7 +250,40 @@ fn four_digits(value: f64) -> String {
     format!("{value:.*}", decimals as usize)
 }
 
-/// The label of a pattern's mode, `rest` where nothing moves, and whether the pattern is its mirror image.
-pub fn mode_name(pattern: &Pattern) -> (String, bool) {
-    pattern.mode().map_or(("rest".into(), false), |(label, mirrored)| (label.to_string(), mirrored))
+/// The name of a pattern's mode: its label, `rest` where nothing moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ModeName(Option<ModeLabel>);
+
+impl ModeName {
+    /// At rest.
+    pub const REST: ModeName = ModeName(None);
+
+    /// That of a pattern; mirror images have the same.
+    pub fn of(pattern: &Pattern) -> ModeName {
+        ModeName(pattern.mode().map(|(label, _)| label))
+    }
+}
+
+impl fmt::Display for ModeName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(label) => label.fmt(f),
+            None => f.write_str("rest"),
+        }
+    }
+}
+
+impl Serialize for ModeName {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl PartialEq<&str> for ModeName {
+    fn eq(&self, other: &&str) -> bool {
+        match self.0 {
+            Some(label) => ModeLabel::parse(other) == Some(label),
+            None => *other == "rest",
+        }
+    }
 }

@@ -117,7 +117,7 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns: no rows, peaks or forces, and the run ends as soon as the answer is certain
+    /// Whether and how the column overturns: no rows, events, peaks or forces, and the run ends as soon as the answer is certain
     /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
 }
@@ -146,6 +146,23 @@ pub struct SolveOptions {
     pub record_forces: bool,
     /// What the run is to find.
     pub wanted: Wanted,
+    /// What is left out because nothing comes of it.
+    pub skips: Skips,
+}
+
+/// What a run leaves out because nothing comes of it, the answer being the same: all of it, by default. The switches are there to
+/// measure what each is worth (`docs/skips.csv`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Skips {
+    /// Steps through phases of one free angle on a ground that does not move: these swing in closed form, to rounding. Only of
+    /// [`Method::Auto`]; a method that is named takes all its steps.
+    pub swings: bool,
+}
+
+impl Default for Skips {
+    fn default() -> Skips {
+        Skips { swings: true }
+    }
 }
 
 impl Default for SolveOptions {
@@ -161,6 +178,7 @@ impl Default for SolveOptions {
             dynamics: DynamicsSource::default(),
             record_forces: true,
             wanted: Wanted::default(),
+            skips: Skips::default(),
         }
     }
 }
@@ -210,13 +228,8 @@ pub struct SceneError {
     pub remedy: String,
 }
 
-/// Tolerance from which on Taylor series cost least, in all scenes of the work-precision benchmark or nearly so, and err least beside
-/// what is asked.
-const TAYLOR: f64 = 1e-7;
-
-/// Tolerance above which Dormand & Prince's pair costs least: steps are cut by events, or by the samples of a record, more than by
-/// the error.
-const PAIR_OF_ORDER_5: f64 = 1e-5;
+/// Tolerance above which a pair of order 5 costs less than Taylor series under a record: steps end at its samples.
+const STEPS_OF_SAMPLES: f64 = 1e-7;
 
 impl Scene {
     /// The method that a run uses: the one that the options name, or, for [`Method::Auto`], by the ground motion and `rtol`.
@@ -225,11 +238,15 @@ impl Scene {
         let components = [&self.excitation.horizontal, &self.excitation.vertical];
         let has_record = components.iter().any(|motion| matches!(motion, Some(Motion::Record(_))));
         match self.options.method {
-            Method::Auto if rtol <= TAYLOR => Method::Taylor,
-            Method::Auto if rtol > PAIR_OF_ORDER_5 || has_record => Method::DormandPrince54,
-            Method::Auto => Method::Dop853,
+            Method::Auto if has_record && rtol > STEPS_OF_SAMPLES => Method::DormandPrince54,
+            Method::Auto => Method::Taylor,
             named => named,
         }
+    }
+
+    /// Whether phases of one free angle on a ground that does not move are taken in closed form.
+    pub(crate) fn swings_in_closed_form(&self) -> bool {
+        self.options.skips.swings && self.options.method == Method::Auto
     }
 
     /// Whether friction demand and normal forces are recorded.

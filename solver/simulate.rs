@@ -3,18 +3,16 @@
 use crate::contact::{self, Decision, ImpactLaw};
 use crate::dynamics::{ContactForce, Ground};
 use crate::excitation::{Excitation, Segment};
-use crate::generated;
+use crate::few::Few;
 use crate::kinematics::Posture;
-use crate::mode::Mode;
+use crate::modes::Modes;
 use crate::outcome::Barrier;
 use crate::phase::Ended;
-use crate::response::{Event, EventKind, Impulse, Response, Sample, Separation, StopReason, Work, mode_name};
+use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason, Work};
 use crate::rest;
-use crate::scene::{DynamicsSource, Scene, SceneError, Wanted};
-use rocking_codegen::GroundMotion;
+use crate::scene::{Scene, SceneError, Wanted};
 use rocking_codegen::pattern::{Interface, Pattern};
-use std::collections::{BTreeMap, HashMap};
-use std::rc::Rc;
+use std::collections::BTreeMap;
 
 /// Events per block in one instant beyond which the laws of contact go in circles: the instant is then decided by closing what
 /// has not moved, as a separation. Fewer, and instants at which several interfaces are on the verge are cut short.
@@ -112,8 +110,52 @@ pub fn simulate(scene: &Scene) -> Result<Response, SolveError> {
 /// # Errors
 /// As [`simulate`].
 pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Response, SolveError> {
-    scene.check()?;
-    let mut run = Run::new(scene, Box::new(progress));
+    Simulator::new().run_observed(scene, progress)
+}
+
+/// Runs scenes one after another. What those of one column have in common is computed once: scene constants, storage, the barrier
+/// against overturning. Results do not depend on what has been run before.
+///
+/// ```
+/// use rocking::{Column, Motion, Scene, Simulator};
+/// let mut scene = Scene::new(Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81)?);
+/// let mut simulator = Simulator::new();
+/// for amplitude in [2.0, 4.0] {
+///     scene.excitation.horizontal = Some(Motion::SinePulse { amplitude, omega: 8.0, start: 0.0 });
+///     assert_eq!(simulator.run(&scene)?, rocking::simulate(&scene)?);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Default)]
+pub struct Simulator {
+    modes: Modes,
+}
+
+impl Simulator {
+    /// One that has run nothing yet.
+    pub fn new() -> Simulator {
+        Simulator::default()
+    }
+
+    /// As [`simulate`].
+    ///
+    /// # Errors
+    /// [`SolveError`]
+    pub fn run(&mut self, scene: &Scene) -> Result<Response, SolveError> {
+        self.run_observed(scene, |_| {})
+    }
+
+    /// As [`simulate_observed`].
+    ///
+    /// # Errors
+    /// [`SolveError`]
+    pub fn run_observed(&mut self, scene: &Scene, mut progress: impl FnMut(f64)) -> Result<Response, SolveError> {
+        scene.check()?;
+        run(Run::new(scene, &mut self.modes, &mut progress))
+    }
+}
+
+fn run(mut run: Run) -> Result<Response, SolveError> {
     run.begin()?;
     loop {
         if run.is_certain_to_stand(&run.theta, &run.omega) {
@@ -135,13 +177,14 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
 /// A run under way.
 pub(crate) struct Run<'a> {
     pub scene: &'a Scene,
+    modes: &'a mut Modes,
     pub segments: Vec<Segment>,
     /// Index of the segment that the present time is in.
     pub segment: usize,
     pub t: f64,
     /// Per block.
-    pub theta: Vec<f64>,
-    pub omega: Vec<f64>,
+    pub theta: Few<f64>,
+    pub omega: Few<f64>,
     pub pattern: Pattern,
     /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides:
     /// gap, rate and acceleration are zero there.
@@ -152,13 +195,11 @@ pub(crate) struct Run<'a> {
     pub suggested_step: Option<f64>,
     pub work: Work,
     pub history: History,
-    pub progress: Box<dyn FnMut(f64) + 'a>,
+    pub progress: &'a mut dyn FnMut(f64),
     kappa: Vec<f64>,
     /// Where nothing but the outcome is wanted and the ground comes to rest before the end: what it takes to overturn from then on.
     barrier: Option<Barrier>,
-    modes: HashMap<Pattern, Rc<Mode>>,
     events_at_once: usize,
-    used_generic: bool,
 }
 
 /// A time for which a separation is not examined again.
@@ -175,34 +216,42 @@ pub(crate) struct History {
     pub next_sample: usize,
     /// Segment of the row recorded last.
     sample_segment: usize,
-    pub peak_theta: Vec<f64>,
-    pub friction_demand: Vec<f64>,
-    pub min_normal_force: Vec<f64>,
+    pub peak_theta: Few<f64>,
+    pub friction_demand: Few<f64>,
+    pub min_normal_force: Few<f64>,
     events: Vec<Event>,
+    impacts: usize,
+    /// When the last two events were `[s]`.
+    last_events: [f64; 2],
     separations: Vec<Separation>,
-    time_in_mode: BTreeMap<String, f64>,
+    time_at_rest: f64,
 }
 
 impl<'a> Run<'a> {
-    fn new(scene: &'a Scene, progress: Box<dyn FnMut(f64) + 'a>) -> Run<'a> {
+    fn new(scene: &'a Scene, modes: &'a mut Modes, progress: &'a mut dyn FnMut(f64)) -> Run<'a> {
+        modes.prepare(scene);
         let blocks = scene.column.len();
-        let or_zero = |given: &[f64]| if given.is_empty() { vec![0.0; blocks] } else { given.to_vec() };
+        let or_zero =
+            |given: &[f64]| if given.is_empty() { Few::from_elem(0.0, blocks) } else { Few::from_slice(given) };
         let history = History {
             samples: Vec::new(),
             next_sample: 0,
             sample_segment: 0,
-            peak_theta: vec![0.0; blocks],
-            friction_demand: vec![0.0; blocks],
-            min_normal_force: vec![f64::INFINITY; blocks],
+            peak_theta: Few::from_elem(0.0, blocks),
+            friction_demand: Few::from_elem(0.0, blocks),
+            min_normal_force: Few::from_elem(f64::INFINITY, blocks),
             events: Vec::new(),
+            impacts: 0,
+            last_events: [f64::NAN; 2],
             separations: Vec::new(),
-            time_in_mode: BTreeMap::new(),
+            time_at_rest: 0.0,
         };
         let segments = Excitation::segments(&scene.excitation, scene.options.t_end);
         let comes_to_rest = scene.options.wanted == Wanted::Outcome && segments.last().is_some_and(Segment::is_quiet);
-        let barrier = comes_to_rest.then(|| scene.column.barrier(scene.options.overturn_angle));
+        let barrier = comes_to_rest.then(|| modes.barrier(scene));
         Run {
             scene,
+            modes,
             segments,
             segment: 0,
             t: 0.0,
@@ -217,9 +266,7 @@ impl<'a> Run<'a> {
             progress,
             kappa: scene.restitution.factors(&scene.column),
             barrier,
-            modes: HashMap::new(),
             events_at_once: 0,
-            used_generic: false,
         }
     }
 
@@ -255,7 +302,7 @@ impl<'a> Run<'a> {
     fn rest(&mut self) -> Result<Ended, SolveError> {
         let start = self.t;
         let ended = rest::wait(self);
-        self.spend(start);
+        self.history.time_at_rest += self.t - start;
         if let Ended::Opening(interface, side) = ended {
             self.release(interface, side, EventKind::Start)?;
             return if self.pattern.dof() > 0 { self.move_on() } else { self.rest() };
@@ -267,34 +314,13 @@ impl<'a> Run<'a> {
     fn move_on(&mut self) -> Result<Ended, SolveError> {
         let start = self.t;
         self.work.phases += 1;
-        let mode = self.mode();
-        let ended = mode.run_phase(self)?;
-        self.spend(start);
+        let (index, is_new) = self.modes.enter(&self.pattern, self.scene);
+        self.work.modes_entered += usize::from(is_new);
+        let mut phase = self.modes.take(index);
+        let ended = phase.run(self);
+        self.modes.bring_back(index, phase, self.t - start);
         (self.progress)(self.t);
-        Ok(ended)
-    }
-
-    /// The present pattern's mode; its scene constants are computed when it is entered first.
-    fn mode(&mut self) -> Rc<Mode> {
-        if let Some(known) = self.modes.get(&self.pattern) {
-            return Rc::clone(known);
-        }
-        self.work.modes_entered += 1;
-        let (column, pattern) = (&self.scene.column, &self.pattern);
-        let ground = match self.scene.excitation.vertical {
-            None => GroundMotion::Horizontal,
-            Some(_) => GroundMotion::WithVertical,
-        };
-        let generated = match self.scene.options.dynamics {
-            DynamicsSource::Generated => (generated::EQUATIONS.mode)(column, pattern, ground),
-            DynamicsSource::Supplied(equations) => (equations.mode)(column, pattern, ground),
-            DynamicsSource::Generic => None,
-        };
-        self.used_generic |= generated.is_none() && self.scene.options.dynamics != DynamicsSource::Generic;
-        let mode = generated.or_else(|| Mode::generic(column, pattern)).expect("the column is not at rest");
-        let mode = Rc::new(mode);
-        self.modes.insert(self.pattern.clone(), Rc::clone(&mode));
-        mode
+        ended
     }
 
     /// Interfaces that have reached `φ = 0` close.
@@ -311,13 +337,11 @@ impl<'a> Run<'a> {
     }
 
     /// Adopts and records what an impact has decided.
-    fn strike(&mut self, decision: Decision, closing: &[usize]) {
-        let (before, omega_before) = (self.pattern.clone(), self.omega.clone());
-        let energy_before = self.kinetic_energy(&before, &omega_before);
-        let impulses = decision.impulses.iter().map(Impulse::from).collect();
+    fn strike(&mut self, mut decision: Decision, closing: &[usize]) {
+        let (before, omega_before) = (self.pattern.clone(), Few::from_slice(&self.omega));
+        let impulses = std::mem::take(&mut decision.impulses);
+        let lost = decision.energy_lost;
         self.adopt(decision, EventKind::Impact);
-        let energy_after = self.kinetic_energy(&self.pattern, &self.omega);
-        let lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
         self.record(EventKind::Impact, closing, before, omega_before, Some((lost, impulses)));
     }
 
@@ -329,11 +353,11 @@ impl<'a> Run<'a> {
         closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
         let released: Vec<_> = self.released.iter().copied().filter(|(i, _)| !closing.contains(i)).collect();
         self.adopt(
-            Decision { pattern, omega: self.omega.clone(), separation: false, impulses: Vec::new() },
+            Decision { pattern, omega: self.omega.clone(), separation: false, energy_lost: 0.0, impulses: Few::new() },
             EventKind::Impact,
         );
         self.released = released;
-        self.record(EventKind::Impact, closing, before, self.omega.clone(), Some((0.0, Vec::new())));
+        self.record(EventKind::Impact, closing, before, self.omega.clone(), Some((0.0, Few::new())));
         self.guard_against_stall()
     }
 
@@ -341,7 +365,7 @@ impl<'a> Run<'a> {
     fn release(&mut self, interface: usize, side: Interface, kind: EventKind) -> Result<(), SolveError> {
         let before = self.pattern.clone();
         let mut released = std::mem::take(&mut self.released);
-        if self.history.events.last().is_none_or(|event| event.t != self.t) {
+        if self.history.last_events[1] != self.t {
             released.clear();
         }
         released.retain(|(other, _)| *other != interface);
@@ -350,7 +374,7 @@ impl<'a> Run<'a> {
         self.adopt(decision, kind);
         self.released = released;
         let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
-        self.record(kind, opened, before, self.omega.clone(), None);
+        self.record(kind, opened, before, Few::from_slice(&self.omega), None);
         self.guard_against_stall()
     }
 
@@ -388,15 +412,14 @@ impl<'a> Run<'a> {
         self.released.clear();
         // What is closed, or has only just opened, is so to the last bit. Decided before anything is moved: a block that is snapped
         // to the one below must not open a gap to the one above.
-        let all = 0..self.theta.len();
-        let gapless: Vec<bool> = all.clone().map(|i| contact::is_gapless(&self.theta, i)).collect();
-        let still: Vec<bool> = all.clone().map(|i| contact::is_motionless(&self.theta, &self.omega, i)).collect();
-        for interface in all {
+        let (theta, omega): (Few<f64>, Few<f64>) = (Few::from_slice(&self.theta), Few::from_slice(&self.omega));
+        for interface in 0..theta.len() {
             let (is_closed, below) = (!self.pattern.0[interface].is_open(), interface.checked_sub(1));
-            if is_closed || gapless[interface] {
+            let is_gapless = is_closed || contact::is_gapless(&theta, interface);
+            if is_gapless {
                 self.theta[interface] = below.map_or(0.0, |below| self.theta[below]);
             }
-            if is_closed || still[interface] {
+            if is_closed || is_gapless && contact::is_motionless(&theta, &omega, interface) {
                 self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
             }
         }
@@ -417,38 +440,37 @@ impl<'a> Run<'a> {
         potential + kinetic < energy - slack
     }
 
-    fn kinetic_energy(&self, pattern: &Pattern, omega: &[f64]) -> f64 {
-        let posture = Posture::new(&self.scene.column, pattern, &self.theta);
-        posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega)
-    }
-
     fn record(
         &mut self,
         kind: EventKind,
         interfaces: &[usize],
         before: Pattern,
-        omega_before: Vec<f64>,
-        impact: Option<(f64, Vec<Impulse>)>,
+        omega_before: Few<f64>,
+        impact: Option<(f64, Few<ContactForce>)>,
     ) {
+        self.history.last_events = [self.history.last_events[1], self.t];
+        self.history.impacts += usize::from(kind == EventKind::Impact);
+        if self.scene.options.wanted == Wanted::Outcome {
+            return;
+        }
         let (energy_lost, impulses) = impact.unzip();
-        let (mode_before, _) = mode_name(&before);
-        let (mode, mirrored) = mode_name(&self.pattern);
-        let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
+        let (mode_before, mode) = (ModeName::of(&before), ModeName::of(&self.pattern));
+        let numbers: Few<usize> = interfaces.iter().map(|interface| interface + 1).collect();
         self.history.events.push(Event {
             t: self.t,
             kind,
             interface: numbers.first().copied(),
-            interfaces: if numbers.len() > 1 { numbers } else { Vec::new() },
+            interfaces: if numbers.len() > 1 { numbers } else { Few::new() },
             before,
             after: self.pattern.clone(),
             mode_before,
             mode,
-            mirrored,
-            theta: self.theta.clone(),
+            mirrored: self.pattern.is_mirrored(),
+            theta: Few::from_slice(&self.theta),
             omega_before,
-            omega_after: self.omega.clone(),
+            omega_after: Few::from_slice(&self.omega),
             energy_lost,
-            impulses: impulses.unwrap_or_default(),
+            impulses: impulses.unwrap_or_default().iter().map(Impulse::from).collect(),
         });
     }
 
@@ -464,8 +486,7 @@ impl<'a> Run<'a> {
 
     /// Breaks circles of events in one instant.
     fn guard_against_stall(&mut self) -> Result<(), SolveError> {
-        let events = &self.history.events;
-        let is_same_instant = events.len() > 1 && events[events.len() - 2].t == self.t;
+        let is_same_instant = self.history.last_events[0] == self.t;
         self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
         let most = EVENTS_AT_ONCE * (self.theta.len() + 1);
         if self.events_at_once == most {
@@ -481,12 +502,15 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn spend(&mut self, since: f64) {
-        *self.history.time_in_mode.entry(mode_name(&self.pattern).0).or_insert(0.0) += self.t - since;
-    }
-
     pub fn note_peaks(&mut self) {
         for (peak, theta) in self.history.peak_theta.iter_mut().zip(&self.theta) {
+            *peak = peak.max(theta.abs());
+        }
+    }
+
+    /// Notes angles of the blocks, base first.
+    pub fn note_peaks_of(&mut self, theta: impl Iterator<Item = f64>) {
+        for (peak, theta) in self.history.peak_theta.iter_mut().zip(theta) {
             *peak = peak.max(theta.abs());
         }
     }
@@ -515,14 +539,14 @@ impl<'a> Run<'a> {
         let t_final = self.t;
         if status == StopReason::AtRest {
             self.t = self.scene.options.t_end;
-            self.spend(t_final);
+            self.history.time_at_rest += self.t - t_final;
         }
         if status != StopReason::Overturned {
             let zero = vec![0.0; self.theta.len()];
             while let Some(t) = self.next_output() {
                 let (theta, omega) = match status {
                     StopReason::AtRest => (zero.clone(), zero.clone()),
-                    _ => (self.theta.clone(), self.omega.clone()),
+                    _ => (self.theta.to_vec(), self.omega.to_vec()),
                 };
                 self.sample(t, theta, omega);
             }
@@ -534,22 +558,28 @@ impl<'a> Run<'a> {
             self.history.friction_demand.clear();
             self.history.min_normal_force.clear();
         }
-        let History {
-            samples, peak_theta, friction_demand, min_normal_force, events, separations, time_in_mode, ..
-        } = self.history;
+        let mut time_in_mode = BTreeMap::new();
+        let at_rest = (ModeName::REST, self.history.time_at_rest);
+        let moving = self.modes.times().map(|(pattern, time)| (ModeName::of(pattern), time));
+        for (mode, time) in moving.chain((at_rest.1 > 0.0).then_some(at_rest)) {
+            *time_in_mode.entry(mode.to_string()).or_insert(0.0) += time;
+        }
+        let History { samples, peak_theta, friction_demand, min_normal_force, events, impacts, separations, .. } =
+            self.history;
         Response {
             status,
             t_final,
             overturned_block: overturned_block.map(|block| block + 1),
             samples,
             events,
-            peak_theta,
+            impacts,
+            peak_theta: peak_theta.to_vec(),
             time_in_mode,
-            friction_demand,
-            min_normal_force,
+            friction_demand: friction_demand.to_vec(),
+            min_normal_force: min_normal_force.to_vec(),
             separations,
             work: self.work,
-            used_generic: self.used_generic,
+            used_generic: self.modes.used_generic(),
         }
     }
 }

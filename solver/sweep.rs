@@ -3,10 +3,10 @@
 //! A sweep is data: the point of any index is found without the others, so that ranges of them can be run anywhere, in any order
 //! and again, and always give the same rows. Points run in parallel; a scene that cannot be read or solved is a row with its error.
 
-use crate::response::{EventKind, Response, StopReason};
+use crate::response::{ModeName, Response, StopReason};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Template};
-use crate::simulate::{SolveError, simulate};
+use crate::simulate::{Simulator, SolveError};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -136,6 +136,55 @@ pub struct Row {
     pub result: Result<Outcome, PointError>,
 }
 
+/// Points that a thread takes at once: what they have in common is worth keeping, and short runs are not worth handing out singly.
+const LEAST_POINTS: usize = 16;
+
+/// Runs points one after another, and keeps what the next one has in common with the last.
+struct Worker<'s> {
+    sweep: &'s Sweep,
+    simulator: Simulator,
+    /// The scene of the last point.
+    scene: Option<Scene>,
+    /// Values of the last point, in the order of the axes.
+    settings: Vec<&'s Setting>,
+}
+
+impl<'s> Worker<'s> {
+    fn new(sweep: &'s Sweep) -> Worker<'s> {
+        Worker { sweep, simulator: Simulator::new(), scene: None, settings: Vec::new() }
+    }
+
+    fn row(&mut self, index: usize) -> Row {
+        let result = self.run(index);
+        if result.is_err() {
+            self.scene = None;
+        }
+        let settings = self.settings.iter().map(|setting| (*setting).clone()).collect();
+        Row { index, settings, result }
+    }
+
+    fn run(&mut self, index: usize) -> Result<Outcome, PointError> {
+        let last = std::mem::replace(&mut self.settings, self.sweep.settings(index));
+        let of_ground = |axis: &&Axis| axis.key.starts_with("excitation.");
+        let axes = || self.sweep.axes.iter().zip(&self.settings);
+        let mut others = axes().zip(&last).filter(|((axis, _), _)| !of_ground(axis));
+        let scene = match self.scene.take() {
+            // Most often nothing but the ground motion changes from one point to the next.
+            Some(mut scene) if others.all(|((_, setting), last)| setting == last) => {
+                let ground = axes().filter(|(axis, _)| of_ground(axis));
+                let ground = ground.map(|(axis, setting)| (axis.key.as_str(), *setting));
+                self.sweep.template.set_excitation(&mut scene, ground)?;
+                scene
+            }
+            _ => self.sweep.scene(index)?,
+        };
+        let response = self.simulator.run(&scene)?;
+        let outcome = self.sweep.outcome(&scene, &response);
+        self.scene = Some(scene);
+        Ok(outcome)
+    }
+}
+
 impl Sweep {
     /// Number of points.
     pub fn len(&self) -> usize {
@@ -186,11 +235,7 @@ impl Sweep {
 
     /// Runs a point.
     pub fn row(&self, index: usize) -> Row {
-        let result = self.scene(index).map_err(PointError::from).and_then(|scene| {
-            let response = simulate(&scene)?;
-            Ok(self.outcome(&scene, &response))
-        });
-        Row { index, settings: self.settings(index).into_iter().cloned().collect(), result }
+        Worker::new(self).row(index)
     }
 
     /// Runs a range of points on all threads of the present rayon pool; rows in the order of their points.
@@ -200,23 +245,22 @@ impl Sweep {
 
     /// As [`Sweep::rows`], with what `made` makes of each row on the thread that has run it.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(Row) -> T + Sync) -> Vec<T> {
-        range.into_par_iter().map(|index| made(self.row(index))).collect()
+        let points = range.into_par_iter().with_min_len(LEAST_POINTS);
+        points.map_init(|| Worker::new(self), |worker, index| made(worker.row(index))).collect()
     }
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
         let has_overturned = response.status == StopReason::Overturned;
-        let started_tilted = scene.initial.theta.iter().chain(&scene.initial.omega).any(|value| *value != 0.0);
-        let has_moved = started_tilted || response.events.iter().any(|event| event.kind != EventKind::Jump);
         let with_peaks = self.ask == Ask::Peaks;
         let share = |(block, peak): (usize, &f64)| peak / scene.column.stack(block).slenderness();
-        let last_mode = || response.events.last().map_or("rest".to_string(), |event| event.mode.clone());
+        let last_mode = || response.events.last().map_or(ModeName::REST, |event| event.mode).to_string();
         Outcome {
-            fate: match (has_overturned, has_moved) {
+            fate: match (has_overturned, response.work.phases > 0) {
                 (true, _) => Fate::Overturns,
                 (false, true) => Fate::Rocks,
                 (false, false) => Fate::NoUplift,
             },
-            impacts: response.impacts(),
+            impacts: response.impacts,
             block: response.overturned_block,
             overturned_at: response.overturned_at(),
             peaks: if with_peaks { response.peak_theta.iter().enumerate().map(share).collect() } else { Vec::new() },

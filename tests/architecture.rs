@@ -76,7 +76,7 @@ fn the_integrator_knows_no_blocks() {
 fn events_know_guards_and_polynomials_only() {
     let code = source("solver/event.rs");
     let uses: Vec<&str> = code.lines().filter(|line| line.starts_with("use ")).collect();
-    assert_eq!(uses, ["use crate::ode::Bernstein;"]);
+    assert_eq!(uses, ["use crate::ode::{Bernstein, Powers};"]);
 }
 
 #[test]

@@ -312,7 +312,7 @@ fn a_block_that_stops_is_thrown_to_the_other_side_in_the_same_instant() {
         let response = run(&scene);
         let first = &response.events[0];
         assert_eq!((first.kind, &first.after), (EventKind::Impact, &Pattern::from_signs(&[-1])), "{method:?}");
-        assert_eq!(first.omega_after, [0.0]);
+        assert_eq!(first.omega_after[..], [0.0]);
         assert_eq!(response.events.len(), 1, "{method:?}: {:?}", response.events);
         let mode = Mode::generic(&column, &Pattern::from_signs(&[-1])).expect("it moves");
         let ground = Ground { x: push, gravity: 9.81 };
@@ -413,7 +413,7 @@ fn landings_of_two_and_three_interfaces_in_one_instant_are_one_impact() {
                     let response = run(&scene);
                     let first = &response.events[0];
                     let which: Vec<usize> = landing.iter().map(|interface| interface + 1).collect();
-                    assert_eq!(first.interfaces, which, "{method:?}, {before}, {speeds:?}: {:?}", response.events);
+                    assert_eq!(first.interfaces[..], which, "{method:?}, {before}, {speeds:?}: {:?}", response.events);
                     // What some rad/s² change in a picosecond.
                     let off = distance(&first.omega_after, &best.motion);
                     assert!(off < 2e-11, "{method:?}, {before}, {speeds:?}: {off}\n{first:?}\n{best:?}");
@@ -511,7 +511,7 @@ fn the_end_of_a_pulse_inside_a_step_is_where_the_force_ends() {
         plain.options.t_end = 1.0;
         plain.output_dt = Some(1.0);
         let reference = run(&plain);
-        assert!(reference.impacts() > 0);
+        assert!(reference.impacts > 0);
         let replayed = replay(&plain, &reference);
         assert!(replayed.state.value > -1e-8 && replayed.gap.value > -1e-9, "{method:?}: {replayed:?}");
         for start in around(pulse_end).into_iter().chain([0.1, 0.3, 0.6, pulse_end - 1e-6, pulse_end + 1e-3]) {
@@ -584,7 +584,7 @@ fn regression_a_dip_beside_the_end_or_between_equal_ends_is_found() {
     for bottom in [0.1, 0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 0.95] {
         for depth in [1e-6, 1e-4, 1e-2] {
             let dip = |s: f64| (s - bottom) * (s - bottom) - depth;
-            let found = first_crossing(dip, dip(0.0), dip(1.0), 1.0);
+            let found = first_crossing(dip, dip(0.0), None, 1.0);
             let expected = bottom - depth.sqrt();
             assert!(found.is_some_and(|s| (s - expected).abs() < 1e-9), "bottom {bottom}, depth {depth}: {found:?}");
         }

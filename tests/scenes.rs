@@ -38,7 +38,7 @@ fn every_shipped_scene_runs_without_separation() {
 #[test]
 fn the_shipped_record_rocks_two_drums() {
     let response = run("two-drums-record.toml");
-    assert!(response.impacts() > 10);
+    assert!(response.impacts > 10);
     assert!(response.samples.iter().any(|sample| sample.ground[0].abs() > 3.0));
 }
 
@@ -78,7 +78,7 @@ fn real_records_run_with_impacts_and_without_separation() {
             scene.excitation = Excitation { horizontal: Some(Motion::Record(record.clone())), vertical: None };
             scene.options.t_end = record.duration() + 5.0;
             let response = simulate(&scene).expect("a run");
-            assert!(response.impacts() > 10, "{name}, {blocks} blocks: {} impacts", response.impacts());
+            assert!(response.impacts > 10, "{name}, {blocks} blocks: {} impacts", response.impacts);
             assert_eq!(response.separations, [], "{name}, {blocks} blocks");
             let events = response.events.windows(2);
             assert!(events.clone().all(|pair| pair[0].t <= pair[1].t && pair[0].after == pair[1].before));
@@ -117,7 +117,7 @@ fn the_scene_in_the_readme_is_valid() {
     let (_, scene) = readme.split_once("```toml\n").expect("the README shows a scene");
     let (scene, _) = scene.split_once("```").expect("a closed block");
     let scene = Scene::from_toml(scene, "README.md".as_ref()).expect("a valid scene");
-    assert!(simulate(&scene).expect("a run").impacts() > 10);
+    assert!(simulate(&scene).expect("a run").impacts > 10);
 }
 
 /// What method `auto` stands for, by ground motion and tolerance, and that a run on it is the run on the method named.
@@ -130,8 +130,7 @@ fn the_default_method_goes_by_ground_motion_and_tolerance() {
     let accel = (0..200).map(|i| 6.0 * (0.1 * f64::from(i)).sin()).collect();
     record.excitation.horizontal = Some(Motion::Record(Record::new(accel, 0.01, 0.0).expect("samples")));
     for (scene, rtol, expected) in [
-        (&pulse, 1e-4, Method::DormandPrince54),
-        (&pulse, 1e-6, Method::Dop853),
+        (&pulse, 1e-4, Method::Taylor),
         (&pulse, 1e-9, Method::Taylor),
         (&record, 1e-6, Method::DormandPrince54),
         (&record, 1e-9, Method::Taylor),
@@ -139,6 +138,8 @@ fn the_default_method_goes_by_ground_motion_and_tolerance() {
         let mut scene = scene.clone();
         scene.options.rtol = rtol;
         assert_eq!((scene.options.method, scene.method()), (Method::Auto, expected));
+        // A method that is named takes all its steps.
+        scene.options.skips.swings = false;
         let auto = simulate(&scene).expect("solved");
         scene.options.method = expected;
         assert_eq!(simulate(&scene).expect("solved").events, auto.events);

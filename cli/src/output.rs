@@ -95,7 +95,7 @@ impl<'a> Folder<'a> {
             overturned_at: response.overturned_at(),
             overturned_block: response.overturned_block,
             peak_theta: &response.peak_theta,
-            impacts: response.impacts(),
+            impacts: response.impacts,
             time_in_mode: &response.time_in_mode,
             friction_demand: &response.friction_demand,
             min_normal_force: &response.min_normal_force,

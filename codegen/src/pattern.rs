@@ -12,6 +12,7 @@
 //!     ____________.___                          ___.____________
 //! ```
 
+use smallvec::{SmallVec, smallvec};
 use std::fmt;
 
 /// State of one interface: the sign of the relative rotation `φ_i = θ_i - θ_{i-1}`.
@@ -58,14 +59,26 @@ impl Interface {
     }
 }
 
-/// States of all interfaces of a column, base first; length `N`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Pattern(pub Vec<Interface>);
+/// States of all interfaces of a column, base first; length `N`. Patterns change with every impact: short ones need no allocation.
+#[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Pattern(pub SmallVec<[Interface; 16]>);
+
+// As one piece: the list's own goes entry by entry.
+impl Clone for Pattern {
+    fn clone(&self) -> Pattern {
+        Pattern(SmallVec::from_slice(&self.0))
+    }
+
+    fn clone_from(&mut self, other: &Pattern) {
+        self.0.clear();
+        self.0.extend_from_slice(&other.0);
+    }
+}
 
 impl Pattern {
     /// The pattern at rest: every interface closed.
     pub fn rest(blocks: usize) -> Pattern {
-        Pattern(vec![Interface::Closed; blocks])
+        Pattern(smallvec![Interface::Closed; blocks])
     }
 
     /// The pattern with these signs, base first.
@@ -100,6 +113,11 @@ impl Pattern {
         self.0.iter().position(|interface| interface.is_open())
     }
 
+    /// Whether it is the mirror image of the pattern that its mode is labelled by: the lowest open interface is open on its left.
+    pub fn is_mirrored(&self) -> bool {
+        self.lowest_open().is_some_and(|lowest| self.0[lowest] == Interface::Left)
+    }
+
     /// Number of open interfaces: the degrees of freedom of the mode.
     pub fn dof(&self) -> usize {
         self.0.iter().filter(|interface| interface.is_open()).count()
@@ -119,7 +137,7 @@ impl Pattern {
     /// ```
     pub fn mode(&self) -> Option<(ModeLabel, bool)> {
         let lowest = self.lowest_open()?;
-        let mirrored = self.0[lowest] == Interface::Left;
+        let mirrored = self.is_mirrored();
         let above = self.0[lowest + 1..].iter();
         let rank = above.fold(0, |rank, interface| {
             let state = if mirrored { interface.mirror() } else { *interface };
@@ -162,7 +180,7 @@ impl ModeLabel {
         if self.lowest == 0 || self.lowest > blocks || self.number == 0 {
             return None;
         }
-        let mut states = vec![Interface::Closed; blocks];
+        let mut states = smallvec![Interface::Closed; blocks];
         states[self.lowest - 1] = Interface::Right;
         let mut rank = self.number - 1;
         for state in states[self.lowest..].iter_mut().rev() {

@@ -1,10 +1,7 @@
-//! Dense output: a step as a polynomial.
-//!
-//! Runge-Kutta methods give it in Hairer's nested form, a Taylor method in powers, with `s` from 0 to 1 across the step:
+//! Dense output of Runge-Kutta methods: a step as a polynomial in Hairer's nested form, with `s` from 0 to 1 across the step.
 //!
 //! ```text
 //! x(s) = x₀ + s (F₀ + (1-s) (F₁ + s (F₂ + (1-s) (F₃ + …))))
-//! x(s) = x₀ + s (F₀ + s (F₁ + s (F₂ + …)))
 //! ```
 //!
 //! A linear function of the state is a polynomial too; [`Interpolant::bernstein`] gives its Bernstein coefficients, whose
@@ -12,8 +9,8 @@
 
 use crate::dynamics::StateVector;
 
-/// Terms of the longest polynomial: a Taylor series of the angles of the largest order.
-const MAX_TERMS: usize = super::taylor::MAX_ORDER + 1;
+/// Terms beyond the constant of the longest polynomial: a Taylor series of the angles of the largest order.
+pub(super) const MAX_TERMS: usize = super::taylor::MAX_ORDER + 1;
 
 /// The inside of a step.
 #[derive(Clone, Debug)]
@@ -25,14 +22,6 @@ pub struct Interpolant<V> {
     pub(super) x: V,
     pub(super) nested: Vec<V>,
     pub(super) terms: usize,
-    form: Form,
-}
-
-/// How the terms are put together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
-    Nested,
-    Powers,
 }
 
 /// Terms of the longest nested form (DOP853: degree 7).
@@ -55,19 +44,12 @@ impl Bernstein {
 impl<V: StateVector> Interpolant<V> {
     /// Storage for states like `zero`.
     pub fn new(zero: &V) -> Interpolant<V> {
-        Interpolant {
-            start: 0.0,
-            length: 0.0,
-            x: zero.clone(),
-            nested: vec![zero.clone(); NESTED_TERMS],
-            terms: 1,
-            form: Form::Nested,
-        }
+        Interpolant { start: 0.0, length: 0.0, x: zero.clone(), nested: vec![zero.clone(); NESTED_TERMS], terms: 1 }
     }
 
     /// The first three terms, which meet values and slopes at both ends.
     pub(super) fn hermite(&mut self, t: f64, h: f64, x: &V, end: &V, slope: &V, end_slope: &V) {
-        (self.start, self.length, self.form) = (t, h, Form::Nested);
+        (self.start, self.length) = (t, h);
         self.x.clone_from(x);
         for i in 0..x.as_slice().len() {
             let rise = end.as_slice()[i] - x.as_slice()[i];
@@ -79,30 +61,10 @@ impl<V: StateVector> Interpolant<V> {
         self.terms = 3;
     }
 
-    /// Room for a polynomial in powers of `s` with so many terms; the caller writes them.
-    pub(super) fn power_form(&mut self, t: f64, h: f64, x: &V, terms: usize) {
-        (self.start, self.length, self.form, self.terms) = (t, h, Form::Powers, terms);
-        self.x.clone_from(x);
-        if self.nested.len() < terms {
-            self.nested.resize(terms, x.clone());
-        }
-    }
-
     /// Whether a term stands behind a factor `s`, not `1 - s`.
     #[inline(always)]
     fn rises(&self, term: usize) -> bool {
-        self.form == Form::Powers || term.is_multiple_of(2)
-    }
-
-    /// A lower bound of a linear function of the state in the step, where one is cheap: its negative powers at the end.
-    pub fn cheap_lower_bound(&self, linear: impl Fn(&[f64]) -> f64) -> f64 {
-        match self.form {
-            Form::Nested => f64::NEG_INFINITY,
-            Form::Powers => {
-                let falls = self.nested[..self.terms].iter().map(|term| linear(term.as_slice()).min(0.0));
-                linear(self.x.as_slice()) + falls.sum::<f64>()
-            }
-        }
+        term.is_multiple_of(2)
     }
 
     /// The state at `s` of the step, 0 to 1.
@@ -156,8 +118,8 @@ mod tests {
         let mut interpolant = Interpolant::new(&[0.0]);
         interpolant.x = [0.3];
         interpolant.nested = vec![[0.5], [-0.2], [0.7], [0.11], [-0.9], [0.4], [0.25]];
-        for (terms, form) in [(4, Form::Nested), (7, Form::Nested), (7, Form::Powers)] {
-            (interpolant.terms, interpolant.form) = (terms, form);
+        for terms in [4, 7] {
+            interpolant.terms = terms;
             let b = interpolant.bernstein(|x| x[0]);
             assert_eq!(b.degree, terms);
             for s in [0.0, 0.1, 0.5, 0.8, 1.0] {

@@ -9,6 +9,7 @@ mod dop853;
 mod dormand_prince;
 mod interpolant;
 mod kutta_merson;
+mod powers;
 mod runge_kutta4;
 mod taylor;
 
@@ -17,6 +18,7 @@ pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince54;
 pub use interpolant::{Bernstein, Interpolant};
 pub use kutta_merson::KuttaMerson;
+pub use powers::{Difference, Powers};
 pub use runge_kutta4::RungeKutta4;
 pub use taylor::{MAX_ORDER, SeriesSystem, Taylor};
 

@@ -1,148 +1,149 @@
 //! What lies inside a step: the first zero of a guard, contact forces, peaks, rows.
 
-use super::{Found, Phase};
+use super::{Found, Phase, records_forces, segment};
 use crate::dynamics::StateVector;
-use crate::event::{first_crossing, first_root, largest_size};
+use crate::event::first_crossing;
+use crate::few::Few;
+use crate::ode::Difference;
 use crate::scene::Wanted;
+use crate::simulate::Run;
 
-impl<V: StateVector> Phase<'_, '_, V> {
-    /// The first event inside the step just accepted, and where it is in it, 0 to 1.
-    pub(super) fn search(&mut self, t: f64, h: f64) -> Option<(Found, f64)> {
-        self.interpolate();
+impl<V: StateVector> Phase<V> {
+    /// The first event inside the step just accepted, which ends at `end`, and where it is in it, 0 to 1.
+    pub(super) fn search(&mut self, run: &mut Run, h: f64, end: f64) -> Option<(Found, f64)> {
         let mut first: Option<(Found, f64)> = None;
         let mut offer = |found: Found, s: Option<f64>| {
             if let Some(s) = s.filter(|s| first.is_none_or(|(_, earliest)| *s < earliest)) {
                 first = Some((found, s));
             }
         };
-        for index in 0..self.gaps.len() {
-            let (gap, dof) = (self.gaps[index], self.dof);
-            if gap.start_roots == 0 && self.interpolant.cheap_lower_bound(|x| gap.of(&x[..dof])) > 0.0 {
+        for &gap in &self.gaps {
+            let track = self.stepper.track(gap.across, gap.start_roots > 0);
+            if gap.start_roots > 0 && track.size() <= self.resolution() {
                 continue;
             }
-            let mut polynomial = self.interpolant.bernstein(|x| gap.of(&x[..dof]));
-            if gap.start_roots > 0 {
-                let (rate, acceleration) = (gap.of(&self.x.as_slice()[dof..]), gap.of(&self.slope.as_slice()[dof..]));
-                polynomial.start_with(0.0, h * rate, h * h * acceleration);
-                if polynomial.size() <= self.resolution() {
-                    continue;
-                }
-            }
-            offer(Found::Gap(gap), first_root(&polynomial, gap.start_roots));
+            offer(Found::Gap(gap), track.first_root(gap.start_roots));
         }
-        let limit = self.run.scene.options.overturn_angle;
+        let limit = run.scene.options.overturn_angle;
         for link in 0..self.dof {
-            let is_far = |sign: f64| self.interpolant.cheap_lower_bound(|x| sign * x[link]) > -limit;
-            if !(is_far(1.0) && is_far(-1.0)) && self.interpolant.bernstein(|x| x[link]).size() >= limit {
+            let angle = |sign: f64| Difference { sign, upper: link, lower: None };
+            if self.stepper.reach(link) >= limit {
                 let sign = if self.stepper.end().as_slice()[link] < 0.0 { -1.0 } else { 1.0 };
-                let mut polynomial = self.interpolant.bernstein(|x| -sign * x[link]);
-                polynomial.coefficients[..=polynomial.degree].iter_mut().for_each(|b| *b += limit);
-                offer(Found::Tilt { link, sign }, first_root(&polynomial, 0));
+                let track = self.stepper.track(angle(1.0), false);
+                offer(Found::Tilt { link, sign }, track.shifted(-sign, limit).first_root(0));
             }
         }
         let reach = first.map_or(1.0, |(_, s)| s);
-        match self.search_contacts(t, h, reach) {
+        match self.search_contacts(run, h, end, reach) {
             Some(earlier) => Some(earlier),
             None => first,
         }
     }
 
-    /// The first opening of a closed interface before `reach`; margins move on to the step's end.
-    fn search_contacts(&mut self, t: f64, h: f64, reach: f64) -> Option<(Found, f64)> {
-        if !self.reads_forces() {
+    /// The first opening of a closed interface before `reach`; if there is none in the whole step, margins move on to its end.
+    fn search_contacts(&mut self, run: &mut Run, h: f64, end: f64, reach: f64) -> Option<(Found, f64)> {
+        if !self.reads_forces(run) {
             return None;
         }
-        let (end, end_slope) = (self.stepper.end().clone(), self.stepper.end_slope().clone());
-        self.weigh(t + h, &end, &end_slope);
-        self.end_forces.clone_from(&self.forces);
-        for index in 0..self.closed.len() {
-            self.end_margins[index] = self.margin(self.closed[index]);
-        }
+        let t = run.t;
         let mut first: Option<(Found, f64)> = None;
-        for index in 0..self.closed.len() {
-            let (interface, start, end) = (self.closed[index], self.margins[index], self.end_margins[index]);
-            if start <= 0.0 && t < self.run.hold.until {
-                continue;
-            }
-            let reach = first.map_or(reach, |(_, s)| s);
-            let crossing = first_crossing(|s| self.margin_inside(interface, t, h, s), start, end, reach);
-            if let Some(s) = crossing {
-                first = Some((Found::Contact { interface }, s));
+        if !self.closed.is_empty() {
+            // One look each at the end and the middle serves all interfaces.
+            let look = |phase: &mut Self, s: f64| -> Few<f64> {
+                phase.weigh_inside(run, h, s);
+                phase.closed.iter().map(|&interface| phase.margin(run, interface)).collect()
+            };
+            let [ends, middles] = [reach, 0.5 * reach].map(|s| look(self, s));
+            for index in 0..self.closed.len() {
+                let (interface, start) = (self.closed[index], self.margins[index]);
+                if start <= 0.0 && t < run.hold.until {
+                    continue;
+                }
+                let known = first.is_none().then(|| [ends[index], middles[index]]);
+                let reach = first.map_or(reach, |(_, s)| s);
+                let guard = |s: f64| {
+                    self.weigh_inside(run, h, s);
+                    self.margin(run, interface)
+                };
+                if let Some(s) = first_crossing(guard, start, known, reach) {
+                    first = Some((Found::Contact { interface }, s));
+                }
             }
         }
         if first.is_none() && reach >= 1.0 {
-            std::mem::swap(&mut self.margins, &mut self.end_margins);
-            self.note_step(t, h);
+            self.weigh_end(end);
+            self.note_step(run, h);
+            self.remember_forces(run);
         }
         first
     }
 
-    fn margin_inside(&mut self, interface: usize, t: f64, h: f64, s: f64) -> f64 {
-        self.weigh_inside(t, h, s);
-        self.margin(interface)
+    /// Contact forces at the end of the last attempt, at time `end`.
+    pub(super) fn weigh_end(&mut self, end: f64) {
+        self.stepper.end_slope(end, &mut self.slope);
+        self.stepper.contact_forces(end, self.stepper.end(), &self.slope, &mut self.forces);
     }
 
     /// Contact forces inside the step.
-    fn weigh_inside(&mut self, t: f64, h: f64, s: f64) {
-        self.interpolate();
-        let (mut x, mut slope) = (self.scratch.0.clone(), self.scratch.1.clone());
-        self.interpolant.evaluate(s, &mut x);
-        self.stepper.slope(t + s * h, &x, &mut slope);
-        self.weigh(t + s * h, &x, &slope);
+    fn weigh_inside(&mut self, run: &Run, h: f64, s: f64) {
+        let t = run.t + s * h;
+        self.stepper.state_inside(s, &mut self.inside);
+        self.stepper.slope(t, &self.inside, &mut self.slope);
+        self.stepper.contact_forces(t, &self.inside, &self.slope, &mut self.forces);
     }
 
-    /// Notes the forces in the step, from start, middle and end of panels so short that forces are parabolas over them; the
-    /// step's end becomes the next start.
-    pub(super) fn note_step(&mut self, t: f64, h: f64) {
-        if !self.run.scene.records_forces() {
+    /// Notes the forces in the step, those at its end having been weighed last, from start, middle and end of panels so short that
+    /// forces are parabolas over them.
+    pub(super) fn note_step(&mut self, run: &mut Run, h: f64) {
+        if !records_forces(run) {
             return;
         }
+        let last = self.forces.clone();
         let rates = self.x.as_slice()[self.dof..].iter().chain(&self.stepper.end().as_slice()[self.dof..]);
         let turned = h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
-        let segment = self.segment();
-        let shaken = h * segment.horizontal.omega().max(segment.vertical.omega());
+        let ground = segment(run);
+        let shaken = h * ground.horizontal.omega().max(ground.vertical.omega());
         let panels = (PANELS_PER_TURN * turned + PANELS_PER_RADIAN * shaken).ceil().clamp(1.0, MOST_PANELS) as usize;
         let at = |place: f64| place / panels as f64;
         for panel in 0..panels {
-            let mut end = self.end_forces.clone();
+            let mut end = last.clone();
             if panel + 1 < panels {
-                self.weigh_inside(t, h, at(panel as f64 + 1.0));
+                self.weigh_inside(run, h, at(panel as f64 + 1.0));
                 end.clone_from(&self.forces);
             }
-            self.weigh_inside(t, h, at(panel as f64 + 0.5));
-            self.run.history.note_step([&self.start_forces, &self.forces, &end]);
+            self.weigh_inside(run, h, at(panel as f64 + 0.5));
+            run.history.note_step([&self.start_forces, &self.forces, &end]);
             self.start_forces = end;
         }
+        self.forces = last;
     }
 
     /// Rows with times in the half-open interval from the step's start to `until`.
-    pub(super) fn output_until(&mut self, t: f64, h: f64, until: f64) {
-        while let Some(time) = self.run.next_output().filter(|time| *time < until) {
-            self.interpolate();
-            let mut x = self.scratch.0.clone();
-            self.interpolant.evaluate(((time - t) / h).clamp(0.0, 1.0), &mut x);
-            let (theta, omega) = self.per_block(&x);
-            self.run.sample(time, theta, omega);
+    pub(super) fn output_until(&mut self, run: &mut Run, h: f64, until: f64) {
+        while let Some(time) = run.next_output().filter(|time| *time < until) {
+            self.stepper.state_inside(((time - run.t) / h).clamp(0.0, 1.0), &mut self.inside);
+            let (theta, omega) = self.per_block(&self.inside);
+            run.sample(time, theta.to_vec(), omega.to_vec());
         }
     }
 
     /// Notes the largest angles of the step just taken, those inside it among them.
-    pub(super) fn note_peaks(&mut self, h: f64) {
-        if self.run.scene.options.wanted == Wanted::Outcome {
+    pub(super) fn note_peaks(&mut self, run: &mut Run, h: f64) {
+        if run.scene.options.wanted == Wanted::Outcome {
             return;
         }
         for link in 0..self.dof {
-            let blocks = self.links.iter().zip(&self.run.history.peak_theta).filter(|(own, _)| **own == link + 1);
+            let blocks = self.links.iter().zip(&run.history.peak_theta).filter(|(own, _)| **own == link + 1);
             let known = blocks.fold(f64::INFINITY, |least, (_, peak)| least.min(*peak));
             let (x, end) = (self.x.as_slice(), self.stepper.end().as_slice());
             let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);
             if control.iter().all(|c| c.abs() <= known) {
                 continue;
             }
-            self.interpolate();
-            let peak = largest_size(&self.interpolant.bernstein(|x| x[link]), known);
+            let track = self.stepper.track(Difference { sign: 1.0, upper: link, lower: None }, false);
+            let peak = track.largest_size(known);
             for (block, _) in self.links.iter().enumerate().filter(|(_, own)| **own == link + 1) {
-                let noted = &mut self.run.history.peak_theta[block];
+                let noted = &mut run.history.peak_theta[block];
                 *noted = noted.max(peak);
             }
         }
@@ -151,7 +152,7 @@ impl<V: StateVector> Phase<'_, '_, V> {
 
 /// Panels per radian that the fastest link turns in a step, and per radian of the ground motion: forces vary with sines and squares of
 /// rates, and a parabola over a twentieth of a radian is right to 1e-4 of the weight.
-const PANELS_PER_TURN: f64 = 20.0;
+pub(super) const PANELS_PER_TURN: f64 = 20.0;
 const PANELS_PER_RADIAN: f64 = 2.0;
 
 /// Panels beyond which a step of the loosest tolerances is not looked into.

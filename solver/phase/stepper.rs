@@ -1,11 +1,15 @@
 //! What takes the steps of a phase: a method bound to a mode and the ground motion of a segment.
 //!
-//! The phase calls it once or twice per step through a table; what happens within a step is compiled for the mode.
+//! The phase calls it a few times per step through a table; what happens within a step is compiled for the mode. It is kept as long
+//! as the mode: entering a phase asks for no memory.
 
-use crate::dynamics::{ContactForce, Dynamics, Ground};
+use super::pendulum::Pendulum;
+use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
+use crate::event::Track;
 use crate::excitation::Segment;
-use crate::ode::{Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance};
+use crate::ode::{Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance};
 use crate::program::Scalar;
+use std::rc::Rc;
 
 /// One step after another in one mode.
 pub(crate) trait Stepper<V> {
@@ -15,22 +19,36 @@ pub(crate) trait Stepper<V> {
     fn enter(&mut self, segment: Segment);
     /// Ground motion at `t`.
     fn ground(&self, t: f64) -> Ground;
-    /// `[θ̇, θ̈]`
+    /// What the mode, of one free angle, is on a ground that does not move.
+    fn pendulum(&self) -> Option<Pendulum>;
+    /// Begins at a state.
+    fn begin(&mut self, t: f64, x: &V);
+    /// `[θ̇, θ̈]` where the next step begins.
+    fn start_slope(&mut self, t: f64, x: &V, slope: &mut V);
+    /// `[θ̇, θ̈]` anywhere.
     fn slope(&mut self, t: f64, x: &V, slope: &mut V);
     /// Attempts a step; see [`Pair::attempt`].
-    fn attempt(&mut self, t: f64, x: &V, slope: &V, h: f64, tolerance: Tolerance) -> f64;
-    /// Accepts the last attempt; see [`Pair::accept`].
+    fn attempt(&mut self, t: f64, x: &V, h: f64, tolerance: Tolerance) -> f64;
+    /// Makes the last attempt, which was good and from the same place, end earlier.
+    fn cut(&mut self, t: f64, x: &V, h: f64, tolerance: Tolerance);
+    /// Looks inside the last attempt from now on; see [`Pair::accept`].
     fn accept(&mut self);
+    /// Goes on from the end of the last attempt.
+    fn advance(&mut self);
     /// State at the end of the last attempt.
     fn end(&self) -> &V;
-    /// Slope at the end of the last step.
-    fn end_slope(&self) -> &V;
-    /// The inside of the last step.
-    fn interpolate(&mut self, interpolant: &mut Interpolant<V>);
+    /// `[θ̇, θ̈]` at the end of the last attempt, at `t`.
+    fn end_slope(&mut self, t: f64, slope: &mut V);
+    /// State inside the last attempt, `s` from 0 to 1 of it.
+    fn state_inside(&mut self, s: f64, state: &mut V);
+    /// Angles, or the difference of two, inside the last attempt; exactly zero at its start where that is known.
+    fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
+    /// A bound of an angle's size inside the last attempt.
+    fn reach(&mut self, link: usize) -> f64;
     /// Contact forces at all interfaces, base first.
     fn contact_forces(&self, t: f64, x: &V, slope: &V, forces: &mut [ContactForce]);
-    /// A first step for a state with this slope.
-    fn first_step(&self, x: &V, slope: &V, tolerance: Tolerance) -> f64;
+    /// A first step for a state.
+    fn first_step(&self, x: &V, tolerance: Tolerance) -> f64;
     /// The factor for the next step after an attempt with this error.
     fn factor(&self, error: f64) -> f64;
     /// Right-hand sides evaluated so far.
@@ -38,14 +56,24 @@ pub(crate) trait Stepper<V> {
 }
 
 /// A mode under the ground motion of one segment, as a right-hand side.
-struct Driven<'m, D> {
-    mode: &'m D,
+struct Driven<D> {
+    mode: Rc<D>,
     segment: Segment,
     gravity: f64,
     calls: usize,
 }
 
-impl<D: Dynamics> System for Driven<'_, D> {
+impl<D: Dynamics> Driven<D> {
+    /// `J θ̈ + cos θ · C + sin θ · S = 0`, where the weights are those of gravity alone.
+    fn pendulum(&self) -> Option<Pendulum> {
+        let (zero, still) = (self.mode.zero_state(), self.mode.zero_links());
+        let [of_cos, of_sin] = self.mode.weights(&still, &still, Ground { x: 0.0, gravity: self.gravity });
+        let inertia = *self.mode.mass_matrix(&zero).first()?;
+        Pendulum::new(inertia, [*of_cos.as_slice().first()?, *of_sin.as_slice().first()?])
+    }
+}
+
+impl<D: Dynamics> System for Driven<D> {
     type State = D::State;
 
     #[inline(always)]
@@ -56,23 +84,44 @@ impl<D: Dynamics> System for Driven<'_, D> {
 }
 
 /// Steps by a Runge-Kutta pair.
-pub(crate) struct RungeKutta<'m, D, P> {
-    system: Driven<'m, D>,
+pub(crate) struct RungeKutta<D: Dynamics, P> {
+    system: Driven<D>,
     pair: P,
     control: StepControl,
     /// Length of all steps `[s]`, where the error does not choose it.
     fixed: Option<f64>,
+    start: D::State,
+    slope: D::State,
+    interpolant: Interpolant<D::State>,
+    is_interpolated: bool,
 }
 
-impl<'m, D: Dynamics, P: Pair<D::State>> RungeKutta<'m, D, P> {
+impl<D: Dynamics, P: Pair<D::State>> RungeKutta<D, P> {
     /// A pair on a mode, with gravity `[m/s²]`; steps of fixed length `[s]` where one is given.
-    pub fn new(mode: &'m D, gravity: f64, fixed: Option<f64>) -> Self {
-        let system = Driven { mode, segment: Segment::QUIET, gravity, calls: 0 };
-        RungeKutta { system, pair: P::new(&mode.zero_state()), control: StepControl::new(P::ERROR_ORDER), fixed }
+    pub fn new(mode: Rc<D>, gravity: f64, fixed: Option<f64>) -> Self {
+        let zero = mode.zero_state();
+        RungeKutta {
+            system: Driven { mode, segment: Segment::QUIET, gravity, calls: 0 },
+            pair: P::new(&zero),
+            control: StepControl::new(P::ERROR_ORDER),
+            fixed,
+            start: zero.clone(),
+            interpolant: Interpolant::new(&zero),
+            slope: zero,
+            is_interpolated: false,
+        }
+    }
+
+    fn interpolant(&mut self) -> &Interpolant<D::State> {
+        if !self.is_interpolated {
+            self.pair.interpolate(&mut self.system, &mut self.interpolant);
+            self.is_interpolated = true;
+        }
+        &self.interpolant
     }
 }
 
-impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<'_, D, P> {
+impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
     fn zero(&self) -> D::State {
         self.system.mode.zero_state()
     }
@@ -85,36 +134,73 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<'_, D, P> 
         self.system.segment.ground(t, self.system.gravity)
     }
 
+    fn pendulum(&self) -> Option<Pendulum> {
+        self.system.pendulum()
+    }
+
+    fn begin(&mut self, t: f64, x: &D::State) {
+        self.start.clone_from(x);
+        self.system.slope(t, x, &mut self.slope);
+    }
+
+    fn start_slope(&mut self, _: f64, _: &D::State, slope: &mut D::State) {
+        slope.clone_from(&self.slope);
+    }
+
     fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
         self.system.slope(t, x, slope);
     }
 
-    fn attempt(&mut self, t: f64, x: &D::State, slope: &D::State, h: f64, tolerance: Tolerance) -> f64 {
-        self.pair.attempt(&mut self.system, t, x, slope, h, tolerance)
+    fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
+        self.is_interpolated = false;
+        self.pair.attempt(&mut self.system, t, x, &self.slope, h, tolerance)
+    }
+
+    fn cut(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) {
+        self.attempt(t, x, h, tolerance);
     }
 
     fn accept(&mut self) {
         self.pair.accept(&mut self.system);
     }
 
+    fn advance(&mut self) {
+        self.slope.clone_from(self.pair.end_slope());
+        self.start.clone_from(self.pair.end());
+    }
+
     fn end(&self) -> &D::State {
         self.pair.end()
     }
 
-    fn end_slope(&self) -> &D::State {
-        self.pair.end_slope()
+    fn end_slope(&mut self, _: f64, slope: &mut D::State) {
+        slope.clone_from(self.pair.end_slope());
     }
 
-    fn interpolate(&mut self, interpolant: &mut Interpolant<D::State>) {
-        self.pair.interpolate(&mut self.system, interpolant);
+    fn state_inside(&mut self, s: f64, state: &mut D::State) {
+        self.interpolant().evaluate(s, state);
+    }
+
+    fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
+        let mut polynomial = self.interpolant().bernstein(|x| angles.of(x));
+        if starts_at_zero {
+            let (dof, h) = (self.start.as_slice().len() / 2, self.interpolant.length);
+            let (rate, acceleration) = (&self.start.as_slice()[dof..], &self.slope.as_slice()[dof..]);
+            polynomial.start_with(0.0, h * angles.of(rate), h * h * angles.of(acceleration));
+        }
+        Track::Bernstein(polynomial)
+    }
+
+    fn reach(&mut self, link: usize) -> f64 {
+        self.interpolant().bernstein(|x| x[link]).size()
     }
 
     fn contact_forces(&self, t: f64, x: &D::State, slope: &D::State, forces: &mut [ContactForce]) {
         self.system.mode.contact_forces(x, slope, self.ground(t), forces);
     }
 
-    fn first_step(&self, x: &D::State, slope: &D::State, tolerance: Tolerance) -> f64 {
-        self.fixed.unwrap_or_else(|| self.control.first_step(x, slope, tolerance))
+    fn first_step(&self, x: &D::State, tolerance: Tolerance) -> f64 {
+        self.fixed.unwrap_or_else(|| self.control.first_step(x, &self.slope, tolerance))
     }
 
     fn factor(&self, error: f64) -> f64 {
@@ -127,20 +213,17 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<'_, D, P> 
 }
 
 /// A mode under the ground motion of one segment, as equations with Taylor coefficients.
-struct Expanded<'m, D> {
-    driven: Driven<'m, D>,
+struct Expanded<D> {
+    driven: Driven<D>,
     /// Coefficients of the horizontal ground acceleration and of the effective gravity.
     ground: [[f64; MAX_ORDER]; 2],
 }
 
-impl<D: Dynamics> SeriesSystem for Expanded<'_, D> {
+impl<D: Dynamics> SeriesSystem for Expanded<D> {
     type State = D::State;
     type Links = D::Links;
 
-    fn zero_links(&self) -> D::Links {
-        self.driven.mode.zero_links()
-    }
-
+    #[inline(always)]
     fn expand_at(&mut self, t: f64, orders: usize) {
         let Segment { horizontal, vertical, .. } = &self.driven.segment;
         for (coefficients, piece) in self.ground.iter_mut().zip([horizontal, vertical]) {
@@ -149,6 +232,7 @@ impl<D: Dynamics> SeriesSystem for Expanded<'_, D> {
         self.ground[1][0] += self.driven.gravity;
     }
 
+    #[inline(always)]
     fn matrix(&self, x: &D::State, cos: &D::Links, sin: &D::Links, matrix: &mut [f64]) {
         self.driven.mode.coupling(x, cos, sin, matrix);
     }
@@ -166,26 +250,21 @@ impl<D: Dynamics> SeriesSystem for Expanded<'_, D> {
 }
 
 /// Steps by Taylor series. Each order counts as a right-hand side.
-pub(crate) struct TaylorSeries<'m, D: Dynamics> {
-    system: Expanded<'m, D>,
+pub(crate) struct TaylorSeries<D: Dynamics> {
+    system: Expanded<D>,
     series: Taylor<D::State, D::Links>,
-    end_slope: D::State,
 }
 
-impl<'m, D: Dynamics> TaylorSeries<'m, D> {
+impl<D: Dynamics> TaylorSeries<D> {
     /// The series of a mode, with gravity `[m/s²]`, of an order for this tolerance.
-    pub fn new(mode: &'m D, gravity: f64, rtol: f64) -> Self {
+    pub fn new(mode: Rc<D>, gravity: f64, rtol: f64) -> Self {
+        let series = Taylor::new(&mode.zero_state(), &mode.zero_links(), rtol);
         let driven = Driven { mode, segment: Segment::QUIET, gravity, calls: 0 };
-        let zero = mode.zero_state();
-        TaylorSeries {
-            system: Expanded { driven, ground: [[0.0; MAX_ORDER]; 2] },
-            series: Taylor::new(&zero, &mode.zero_links(), rtol),
-            end_slope: zero,
-        }
+        TaylorSeries { system: Expanded { driven, ground: [[0.0; MAX_ORDER]; 2] }, series }
     }
 }
 
-impl<D: Dynamics> Stepper<D::State> for TaylorSeries<'_, D> {
+impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
     fn zero(&self) -> D::State {
         self.system.driven.mode.zero_state()
     }
@@ -199,32 +278,55 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<'_, D> {
         self.system.driven.segment.ground(t, self.system.driven.gravity)
     }
 
+    fn pendulum(&self) -> Option<Pendulum> {
+        self.system.driven.pendulum()
+    }
+
+    fn begin(&mut self, _: f64, _: &D::State) {}
+
+    /// What the next attempt begins with: no work of its own.
+    fn start_slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
+        self.series.slope(&mut self.system, t, x, slope);
+    }
+
     fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
         self.system.driven.slope(t, x, slope);
     }
 
-    fn attempt(&mut self, t: f64, x: &D::State, _: &D::State, h: f64, tolerance: Tolerance) -> f64 {
+    fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
         let known = self.series.order_at(t, x);
         let error = self.series.attempt(&mut self.system, t, x, h, tolerance);
         self.system.driven.calls += self.series.order() - known;
         error
     }
 
-    fn accept(&mut self) {
-        let end = self.series.end().clone();
-        self.system.driven.slope(self.series.end_time(), &end, &mut self.end_slope);
+    fn cut(&mut self, _: f64, _: &D::State, h: f64, _: Tolerance) {
+        self.series.cut(h);
     }
+
+    fn accept(&mut self) {}
+
+    fn advance(&mut self) {}
 
     fn end(&self) -> &D::State {
         self.series.end()
     }
 
-    fn end_slope(&self) -> &D::State {
-        &self.end_slope
+    fn end_slope(&mut self, t: f64, slope: &mut D::State) {
+        self.system.driven.slope(t, self.series.end(), slope);
     }
 
-    fn interpolate(&mut self, interpolant: &mut Interpolant<D::State>) {
-        self.series.interpolate(interpolant);
+    fn state_inside(&mut self, s: f64, state: &mut D::State) {
+        self.series.state_inside(s, state);
+    }
+
+    fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
+        let track = self.series.track(angles);
+        Track::Powers(if starts_at_zero { track.from_zero() } else { track })
+    }
+
+    fn reach(&mut self, link: usize) -> f64 {
+        self.series.reach(link)
     }
 
     fn contact_forces(&self, t: f64, x: &D::State, slope: &D::State, forces: &mut [ContactForce]) {
@@ -232,7 +334,7 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<'_, D> {
     }
 
     /// Any: the first attempt finds the length of the step at the cost of no new coefficients.
-    fn first_step(&self, _: &D::State, _: &D::State, _: Tolerance) -> f64 {
+    fn first_step(&self, _: &D::State, _: Tolerance) -> f64 {
         LONGEST_STEP
     }
 

@@ -70,6 +70,30 @@ impl Template {
         &self,
         settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
     ) -> Result<Scene, SceneFileError> {
+        let (reader, root) = self.changed(settings)?;
+        reader.read(root).map(|read| read.scene)
+    }
+
+    /// Gives a scene made of this template another ground motion: that with these keys, all of it under `excitation`, set to these
+    /// values.
+    ///
+    /// # Errors
+    /// As [`Template::with`].
+    pub fn set_excitation<'s>(
+        &self,
+        scene: &mut Scene,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+    ) -> Result<(), SceneFileError> {
+        let (reader, mut root) = self.changed(settings)?;
+        scene.excitation = reader.excitation(&mut root, &scene.column)?;
+        scene.check().map_err(|error| reader.refused(&root, error))
+    }
+
+    /// The tables with some keys changed, and what reads them.
+    fn changed<'s>(
+        &self,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+    ) -> Result<(Reader<'_>, Table), SceneFileError> {
         let reader = Reader { text: &self.text, file: &self.file, records: Some(&self.records) };
         let mut root = self.root.clone();
         for (key, value) in settings {
@@ -81,7 +105,7 @@ impl Template {
                 reader.error(Wrong { place, key, problem, remedy: remedy.into() })
             })?;
         }
-        reader.read(root).map(|read| read.scene)
+        Ok((reader, root))
     }
 
     /// The full name of a key: as it is if it has a point, otherwise that of the only key in the scene called so, or where a scene

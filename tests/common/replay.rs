@@ -93,7 +93,7 @@ pub fn replay(scene: &Scene, response: &Response) -> Replay {
         if event.before.dof() > 0 && event.t > start.0 {
             phase(column, &event.before, &segments, &start, event, &mut found);
         }
-        start = (event.t, event.theta.clone(), event.omega_after.clone());
+        start = (event.t, event.theta.to_vec(), event.omega_after.to_vec());
     }
     found
 }

@@ -80,7 +80,7 @@ fn account(scene: &Scene, response: &Response) -> String {
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", scene.title);
     }
-    let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts());
+    let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts);
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
     text

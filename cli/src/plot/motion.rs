@@ -5,8 +5,7 @@
 use super::curve::Point;
 use crate::results::{Event, Results};
 use rocking::pattern::Pattern;
-use rocking::response::mode_name;
-use rocking::{EventKind, Sample, StopReason};
+use rocking::{EventKind, ModeName, Sample, StopReason};
 
 /// The column at a row or an event. Lengths N, base first.
 #[derive(Clone, Debug)]
@@ -110,9 +109,11 @@ impl Motion<'_> {
     /// The patterns of the run in order of time, from 0 to its end.
     pub fn stretches(&self) -> Vec<Stretch> {
         let end = if self.overturned() { self.results.summary.t_final } else { self.end };
-        let named = |pattern: &Pattern, from: f64| {
-            let (mode, mirrored) = mode_name(pattern);
-            Stretch { from, to: end, mode, mirrored }
+        let named = |pattern: &Pattern, from: f64| Stretch {
+            from,
+            to: end,
+            mode: ModeName::of(pattern).to_string(),
+            mirrored: pattern.is_mirrored(),
         };
         let first = self.results.events.first().map(|event| Pattern::from_signs(&event.before));
         let first = first.unwrap_or_else(|| self.samples[0].pattern.clone());

@@ -1,0 +1,254 @@
+//! Polynomials in powers: the dense output of a Taylor series.
+//!
+//! Their coefficients fall as those of the series do, so that sums over them bound the polynomial and its derivatives closely on the
+//! whole of `[0, 1]`. Where such bounds do not tell, the Bernstein form does ([`Powers::bernstein`]).
+
+use super::interpolant::{Bernstein, MAX_TERMS};
+
+/// A component of the state, or the difference of two, with a sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// One or minus one.
+    pub sign: f64,
+    /// Index of the component.
+    pub upper: usize,
+    /// Index of the one that is subtracted.
+    pub lower: Option<usize>,
+}
+
+impl Difference {
+    /// Of the components of a vector.
+    #[inline(always)]
+    pub fn of(self, x: &[f64]) -> f64 {
+        self.by(|index| x[index])
+    }
+
+    /// Of whatever has components.
+    #[inline(always)]
+    pub fn by(self, x: impl Fn(usize) -> f64) -> f64 {
+        self.sign * (x(self.upper) - self.lower.map_or(0.0, &x))
+    }
+}
+
+/// `Σ coefficients[k] s^k` on `[0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Powers {
+    coefficients: [f64; MAX_TERMS + 1],
+    degree: usize,
+}
+
+/// Rounds of Newton's rule, which doubles the digits: ten are enough for doubles, the rest is for guesses far off.
+const ROUNDS: usize = 40;
+
+impl Powers {
+    /// A constant.
+    #[inline(always)]
+    pub fn constant(value: f64) -> Powers {
+        let mut coefficients = [0.0; MAX_TERMS + 1];
+        coefficients[0] = value;
+        Powers { coefficients, degree: 0 }
+    }
+
+    /// One more power. A panic means that there are more than a series has.
+    #[inline(always)]
+    pub fn push(&mut self, coefficient: f64) {
+        self.degree += 1;
+        self.coefficients[self.degree] = coefficient;
+    }
+
+    fn terms(&self) -> &[f64] {
+        &self.coefficients[..=self.degree]
+    }
+
+    /// The same, zero at the start.
+    pub fn from_zero(mut self) -> Powers {
+        self.coefficients[0] = 0.0;
+        self
+    }
+
+    /// Adds to the constant term, and takes the opposite of all others where `sign` is minus one.
+    pub fn shifted(mut self, sign: f64, constant: f64) -> Powers {
+        self.coefficients[..=self.degree].iter_mut().for_each(|c| *c *= sign);
+        self.coefficients[0] += constant;
+        self
+    }
+
+    /// Value at `s`.
+    pub fn evaluate(&self, s: f64) -> f64 {
+        self.terms().iter().rev().fold(0.0, |sum, c| sum * s + c)
+    }
+
+    /// Value and slope at `s`.
+    #[inline(always)]
+    fn with_slope(&self, s: f64) -> [f64; 2] {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for c in self.terms().iter().rev() {
+            slope = slope * s + value;
+            value = value * s + c;
+        }
+        [value, slope]
+    }
+
+    /// A bound of the polynomial's size.
+    pub fn size(&self) -> f64 {
+        self.terms().iter().map(|c| c.abs()).sum()
+    }
+
+    /// A lower bound of the polynomial over `s^roots`, of one that has so many roots at zero.
+    fn lower_bound(&self, roots: usize) -> f64 {
+        let Some((first, rest)) = self.terms()[roots..].split_first() else { return 0.0 };
+        first + rest.iter().map(|c| c.min(0.0)).sum::<f64>()
+    }
+
+    /// Whether the second derivative times `sign` is below zero throughout, by the sizes of its terms.
+    fn is_bent(&self, sign: f64) -> bool {
+        let bend = |(k, c): (usize, &f64)| (k * (k - 1)) as f64 * (sign * c);
+        let mut terms = self.terms().iter().enumerate().skip(2).map(bend);
+        let first = terms.next().unwrap_or(0.0);
+        first + terms.map(|term| term.max(0.0)).sum::<f64>() < 0.0
+    }
+
+    /// Whether the slope has the same sign throughout, by the sizes of its terms.
+    fn is_monotone(&self) -> bool {
+        let rise = |(k, c): (usize, &f64)| k as f64 * c;
+        let (mut least, mut most) = (self.coefficients[1], self.coefficients[1]);
+        for term in self.terms().iter().enumerate().skip(2).map(rise) {
+            least += term.min(0.0);
+            most += term.max(0.0);
+        }
+        least >= 0.0 || most <= 0.0
+    }
+
+    /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `roots` known roots at zero left out; `None` where
+    /// bounds do not tell.
+    pub fn first_root(&self, roots: usize) -> Option<Option<f64>> {
+        if self.lower_bound(roots) > 0.0 {
+            return Some(None);
+        }
+        let rises = self.coefficients[0] > 0.0 || (roots == 1 && self.coefficients[1] > 0.0);
+        if !rises || !self.is_bent(1.0) {
+            return None;
+        }
+        // Above zero at first, and bent downwards throughout: one root, if the end is below; Newton's rule comes to it from there.
+        let mut s = 1.0;
+        for _ in 0..ROUNDS {
+            let [value, slope] = self.with_slope(s);
+            if value > 0.0 {
+                // At the end: none. Later: rounding.
+                return Some((s < 1.0).then_some(s));
+            }
+            let next = s - value / slope;
+            if next >= s || next <= 0.0 {
+                break;
+            }
+            s = next;
+        }
+        Some(Some(s))
+    }
+
+    /// The largest size on `[0, 1]`, if it is above `known`, else `known`; `None` where bounds do not tell.
+    pub fn largest_size(&self, known: f64) -> Option<f64> {
+        if self.size() <= known {
+            return Some(known);
+        }
+        let [last, end_slope] = self.with_slope(1.0);
+        let (first, start_slope) = (self.coefficients[0], self.coefficients[1]);
+        let known = known.max(first.abs()).max(last.abs());
+        if self.is_monotone() {
+            return Some(known);
+        }
+        let sign = if self.is_bent(1.0) {
+            1.0
+        } else if self.is_bent(-1.0) {
+            -1.0
+        } else {
+            return None;
+        };
+        if start_slope * end_slope >= 0.0 {
+            return Some(known);
+        }
+        // The slope falls (rises) throughout: one crest, where it is zero.
+        let (mut a, mut b) = (0.0, 1.0);
+        let mut s = start_slope / (start_slope - end_slope);
+        for _ in 0..ROUNDS {
+            let [slope, bend] = self.slope_and_bend(s);
+            if sign * slope > 0.0 {
+                a = s;
+            } else {
+                b = s;
+            }
+            let next = s - slope / bend;
+            // The crest is flat: half the digits of its place are all those of its height.
+            if (next - s).abs() < 1e-9 {
+                break;
+            }
+            s = if next > a && next < b { next } else { 0.5 * (a + b) };
+        }
+        Some(known.max(self.evaluate(s).abs()))
+    }
+
+    fn slope_and_bend(&self, s: f64) -> [f64; 2] {
+        let (mut slope, mut bend) = (0.0, 0.0);
+        for (k, c) in self.terms().iter().enumerate().skip(1).rev() {
+            bend = bend * s + slope;
+            slope = slope * s + k as f64 * c;
+        }
+        [slope, bend]
+    }
+
+    /// The Bernstein form.
+    pub fn bernstein(&self) -> Bernstein {
+        Bernstein::of_powers(self.terms())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn powers(coefficients: &[f64]) -> Powers {
+        let mut powers = Powers::constant(coefficients[0]);
+        coefficients[1..].iter().for_each(|c| powers.push(*c));
+        powers
+    }
+
+    #[test]
+    fn bounds_tell_what_they_can() {
+        // 1 - 0.2 s - 0.3 s²: above 0.5.
+        assert_eq!(powers(&[1.0, -0.2, -0.3]).first_root(0), Some(None));
+        // s (1 - 2 s): the root at zero is left out.
+        assert_eq!(powers(&[0.0, 1.0, -2.0]).first_root(1), Some(Some(0.5)));
+        // 1 - s²/2: bent, and above at the end.
+        assert_eq!(powers(&[1.0, 0.9, -1.0]).first_root(0), Some(None));
+        // A double root inside: bent the other way.
+        assert_eq!(powers(&[0.25, -1.0, 1.0]).first_root(0), None);
+        // One that ends on zero.
+        assert_eq!(powers(&[1.0, 0.0, -1.0]).first_root(0), Some(Some(1.0)));
+    }
+
+    #[test]
+    fn roots_and_crests_are_found_to_rounding() {
+        // cos 1.2 s comes down to cos 1.08 at 0.9.
+        let series = |first: i32, rate: f64| {
+            let mut factorial = 1.0;
+            let term = |k: i32| {
+                factorial *= f64::from(k.max(1));
+                match (k - first) % 4 {
+                    0 => rate.powi(k) / factorial,
+                    2 | -2 => -rate.powi(k) / factorial,
+                    _ => 0.0,
+                }
+            };
+            powers(&(0..=24).map(term).collect::<Vec<f64>>())
+        };
+        let root = series(0, 1.2).shifted(1.0, -libm::cos(1.08)).first_root(0).expect("bent").expect("a root");
+        assert!((root - 0.9).abs() < 4e-16, "{root}");
+        let wave = series(1, 2.0);
+        assert_eq!(wave.largest_size(0.1), None, "bounds do not tell");
+        let crest = powers(&[0.2, 1.0, -1.5, 0.1]).largest_size(0.1).expect("bent");
+        // 1 - 3 s + 0.3 s² = 0 at s = (3 - √7.8) / 0.6.
+        let s = (3.0 - 7.8f64.sqrt()) / 0.6;
+        assert!((crest - (0.2 + s - 1.5 * s * s + 0.1 * s * s * s)).abs() < 1e-15);
+        assert!((series(1, 1.2).bernstein().evaluate(0.7) - libm::sin(0.84)).abs() < 1e-15);
+    }
+}

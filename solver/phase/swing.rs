@@ -1,0 +1,187 @@
+//! A phase of one free angle on a ground that does not move, in closed form instead of steps ([`super::pendulum`]).
+//!
+//! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back:
+//! the guards of closed interfaces are looked at over the angles of the swing, once.
+
+use super::inside::PANELS_PER_TURN;
+use super::pendulum::{Pendulum, Swing};
+use super::{Ended, Phase, records_forces, segment};
+use crate::dynamics::StateVector;
+use crate::event::first_crossing;
+use crate::simulate::Run;
+use rocking_codegen::pattern::Interface;
+
+/// A swing of the one gap of a phase.
+struct Course {
+    pendulum: Pendulum,
+    swing: Swing,
+    sign: f64,
+    /// Angles at start, at its turning point or end outwards, and at its end inwards, beyond the balance `[rad]`.
+    start: f64,
+    outmost: f64,
+    inmost: f64,
+}
+
+/// How a swing ends, at which angle and rate beyond the balance, and when from its start `[s]`.
+struct End {
+    ended: Ended,
+    psi: f64,
+    v: f64,
+    time: f64,
+}
+
+impl Course {
+    /// State `[θ, ω]` of an angle beyond the balance and its rate.
+    fn state(&self, [psi, v]: [f64; 2]) -> [f64; 2] {
+        [self.pendulum.theta(psi, self.sign), self.sign * v]
+    }
+}
+
+impl<V: StateVector> Phase<V> {
+    /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
+    pub(super) fn swing(&mut self, run: &mut Run) -> Option<Option<Ended>> {
+        let pendulum = self.pendulum?;
+        if !segment(run).is_quiet() || run.hold.until > run.t {
+            return None;
+        }
+        let (course, mut end) = self.course(run, pendulum)?;
+        let left = segment(run).end - run.t;
+        for leg in [course.outmost, course.inmost] {
+            if let Some(opening) = self.opening(run, &course, leg).filter(|opening| opening.time < end.time.min(left)) {
+                end = opening;
+            }
+        }
+        run.work.swings += 1;
+        let is_cut = end.time > left;
+        let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
+        let until = if is_cut { segment(run).end } else { run.t + end.time };
+        self.output_swing(run, &course, until);
+        self.note_swing(run, &course, [psi, v]);
+        let is_landed = !is_cut && matches!(end.ended, Ended::Closing(_));
+        let [theta, omega] = course.state([psi, v]);
+        self.x.as_mut_slice()[0] = if is_landed { 0.0 } else { theta };
+        self.x.as_mut_slice()[1] = omega;
+        run.t = until;
+        self.gaps[0].start_roots = 0;
+        self.stepper.begin(until, &self.x);
+        if self.reads_forces(run) && !is_landed {
+            self.weigh(until, [theta, omega]);
+            self.remember_forces(run);
+        }
+        run.note_peaks_of(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
+        Some((!is_cut).then_some(end.ended))
+    }
+
+    /// The swing from the present state, and how it ends if no interface opens.
+    fn course(&self, run: &Run, pendulum: Pendulum) -> Option<(Course, End)> {
+        let gap = self.gaps[0];
+        let (sign, x) = (gap.across.sign, self.x.as_slice());
+        let (height, rate) = (sign * x[0], sign * x[1]);
+        if !(height > 0.0 || (height == 0.0 && rate > 0.0)) {
+            return None;
+        }
+        let at = |theta: f64| pendulum.beyond(theta, sign);
+        let (start, landing, overturned) = (at(x[0]), at(0.0), at(sign * run.scene.options.overturn_angle));
+        if landing >= 0.0 || (start == 0.0 && rate == 0.0) {
+            return None;
+        }
+        let swing = pendulum.swing(start, rate);
+        let turn = swing.turning_point();
+        // It goes out as long as it moves out, and falls out from beyond the balance.
+        let goes_out = rate > 0.0 || (turn.is_some() || rate == 0.0) && start > 0.0;
+        let crest = turn.filter(|_| start < 0.0);
+        let is_overturned = goes_out && crest.is_none_or(|crest| overturned <= crest);
+        let (ended, psi) = match is_overturned {
+            true => (Ended::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0)), overturned),
+            false => (Ended::Closing([gap.interface].into_iter().collect()), landing),
+        };
+        let size = swing.rate_at(psi)?;
+        let v = if is_overturned { size } else { -size };
+        let time = swing.time_to(psi, v);
+        let outmost = if is_overturned { overturned } else { crest.unwrap_or(start) };
+        let inmost = if is_overturned { turn.filter(|_| rate < 0.0).unwrap_or(start) } else { landing };
+        let course = Course { pendulum, swing, sign, start, outmost, inmost };
+        (time >= 0.0).then_some((course, End { ended, psi, v, time }))
+    }
+
+    /// The first opening of a closed interface on a leg of the swing, from its start to an angle.
+    fn opening(&mut self, run: &Run, course: &Course, to: f64) -> Option<End> {
+        let from = course.start;
+        if self.closed.is_empty() || from == to {
+            return None;
+        }
+        let mut first: Option<(f64, usize)> = None;
+        for index in 0..self.closed.len() {
+            let (interface, start) = (self.closed[index], self.margins[index]);
+            let guard = |s: f64| {
+                self.weigh_at(run, course, from + s * (to - from));
+                self.margin(run, interface)
+            };
+            if let Some(s) = first_crossing(guard, start, None, first.map_or(1.0, |(s, _)| s)) {
+                first = Some((s, interface));
+            }
+        }
+        let (s, interface) = first?;
+        let psi = from + s * (to - from);
+        let size = course.swing.rate_at(psi).unwrap_or(0.0);
+        let v = if to > from { size } else { -size };
+        self.weigh_at(run, course, psi);
+        let side = if self.forces[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
+        Some(End { ended: Ended::Opening(interface, side), psi, v, time: course.swing.time_to(psi, v) })
+    }
+
+    /// Contact forces at an angle of the swing.
+    fn weigh_at(&mut self, run: &Run, course: &Course, psi: f64) {
+        let v = course.swing.rate_at(psi).unwrap_or(0.0);
+        self.weigh(run.t, course.state([psi, v]));
+    }
+
+    /// Contact forces in a state.
+    fn weigh(&mut self, t: f64, state: [f64; 2]) {
+        self.inside.as_mut_slice().copy_from_slice(&state);
+        self.stepper.slope(t, &self.inside, &mut self.slope);
+        self.stepper.contact_forces(t, &self.inside, &self.slope, &mut self.forces);
+    }
+
+    /// Rows up to a time.
+    fn output_swing(&mut self, run: &mut Run, course: &Course, until: f64) {
+        while let Some(time) = run.next_output().filter(|time| *time < until) {
+            let state = course.state(course.swing.after(time - run.t));
+            self.inside.as_mut_slice().copy_from_slice(&state);
+            let (theta, omega) = self.per_block(&self.inside);
+            run.sample(time, theta.to_vec(), omega.to_vec());
+        }
+    }
+
+    /// Notes the largest angle of a swing that ends like this, and its contact forces.
+    fn note_swing(&mut self, run: &mut Run, course: &Course, [psi, v]: [f64; 2]) {
+        let has_turned = course.swing.turning_point().is_some_and(|_| v * course.swing.start_rate() < 0.0);
+        let turn = course.swing.turning_point().filter(|_| has_turned);
+        if let Some(turn) = turn {
+            let theta = course.pendulum.theta(turn, course.sign);
+            run.note_peaks_of(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
+        }
+        if records_forces(run) {
+            self.note_leg(run, course, turn.unwrap_or(course.start));
+            self.note_leg(run, course, psi);
+        }
+    }
+
+    /// Notes the forces between the start of a swing and an angle, as [`Phase::note_step`] does.
+    fn note_leg(&mut self, run: &mut Run, course: &Course, to: f64) {
+        let from = course.start;
+        if from == to {
+            return;
+        }
+        let panels = (PANELS_PER_TURN * (to - from).abs()).ceil().max(1.0) as usize;
+        let mut start = self.start_forces.clone();
+        for panel in 0..panels {
+            let at = |place: f64| from + (to - from) * place / panels as f64;
+            self.weigh_at(run, course, at(panel as f64 + 0.5));
+            let middle = self.forces.clone();
+            self.weigh_at(run, course, at(panel as f64 + 1.0));
+            run.history.note_step([&start, &middle, &self.forces]);
+            start.clone_from(&self.forces);
+        }
+    }
+}
