@@ -4,8 +4,6 @@ The block is that of src/peers/block.rs: w'' = p2 (sin w + drive cos w), an impa
 at each impact and drives each stretch of ground motion; a record is 3000 stretches.
 """
 
-import math
-
 import heyoka as hy
 
 
@@ -24,7 +22,7 @@ def rocking(tolerance, alpha, ratio, acceleration, w, v, times, pars):
 
     event = hy.t_event(w - alpha, callback=impact, direction=hy.event_direction.positive)
     return hy.taylor_adaptive(
-        [(w, v), (v, acceleration)], [alpha, 0.0], t_events=[event], pars=[0.0] * pars, tol=tolerance
+        [(w, v), (v, acceleration)], [alpha, 0.0], t_events=[event], pars=[0.0] * pars, tol=tolerance, fast_math=True
     )
 
 
@@ -46,7 +44,7 @@ def pulse(tolerance, numbers):
         free.time = end
         after[:] = state
         free.propagate_until(t_end)
-        # The first impact is to the left block's side: theta = side (alpha - w).
+        # It opens to the left and changes sides with each impact.
         side = -1.0 if len(times) % 2 == 0 else 1.0
         return times + [side * (alpha - after[0])]
 
@@ -108,7 +106,8 @@ def accelerations(diagonal, coupling, weight, gravity, ground, theta, rate):
 
 def hinged(numbers):
     """Variables and accelerations from the scene's constants."""
-    diagonal, coupling, weight = numbers[:3], list(zip(numbers[3:9:2], numbers[4:9:2])), list(zip(numbers[9:15:2], numbers[10:15:2]))
+    pairs = list(zip(numbers[3:15:2], numbers[4:15:2]))
+    diagonal, coupling, weight = numbers[:3], pairs[:3], pairs[3:]
     gravity, amplitude, omega = numbers[15:18]
     variables = hy.make_vars("a", "b", "c", "p", "q", "r")
     ground = amplitude * hy.sin(omega * hy.time)
@@ -119,7 +118,7 @@ def hinges(tolerance, numbers):
     variables, alpha = hinged(numbers)
     start, t_end = numbers[18:24], numbers[24]
     system = list(zip(variables, variables[3:] + alpha))
-    ta = hy.taylor_adaptive(system, start, tol=tolerance)
+    ta = hy.taylor_adaptive(system, start, tol=tolerance, fast_math=True)
     state = ta.state
 
     def run():

@@ -2,8 +2,9 @@
 //!
 //! A time is the median over [`ROUNDS`] rounds of the mean of some milliseconds of runs; in each round every contender has its
 //! turn, so that a machine that is slow for a while is slow for all. What biases the figures: caches and branch predictors are
-//! warm; programs without a compiled driver (heyoka and SciPy, from Python) are charged for their interpreter; ours includes
-//! all set-up of a scene and a list of events with patterns, rates and impulses, the peers' no more than times and angles.
+//! warm; heyoka and SciPy are charged for the interpreter that drives them, not for compiling their equations; whole runs of
+//! ours include all set-up of a scene and a list of events with patterns, rates and impulses, the peers' no more than times and
+//! angles. Errors fall unevenly between tolerances, some by luck.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -12,7 +13,7 @@ use std::time::Instant;
 pub type Answer = Vec<f64>;
 
 /// Odd, so that the median is one of them.
-const ROUNDS: usize = 15;
+const ROUNDS: usize = 25;
 
 /// Length of a turn `[s]`: long against the clock's resolution and the noise of one run.
 const TURN: f64 = 2e-3;

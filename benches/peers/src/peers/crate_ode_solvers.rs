@@ -1,146 +1,98 @@
-//! The crate `ode_solvers`, with impacts by hand.
+//! The crate `ode_solvers`: its `solout` may stop an integration after a step, which is all that [`super::henon`] wants.
 //!
-//! Its `solout` stops an integration but sees no inside of the step, and dense output is at even times only. So the first step
-//! that ends beyond `w = α` stops, and the impact is found by Hénon's way (1982): back from there with `w` as the independent
-//! variable, by the same method at the same tolerance. The next integration begins with the step that the last one ended with.
+//! DOP853 of version 0.6 evaluates one stage of twelve at the wrong time (its node is 0, not 1; pull request 42 of its
+//! repository) and fails where the slope depends on time. It is given the time as a further component of the state, which that
+//! mistake does not touch.
 
-use super::block::{Block, Lean, Pulse, Ramp, Shaking};
-use super::hinges::Hinges;
-use crate::contest::Answer;
+use super::henon::{Integrator, Reached};
 use crate::scenes::ATOL;
-use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System, Vector2};
+use ode_solvers::{OutputType, SVector, System};
 
-/// A block under `side · ẍ_g / g`.
-struct Rocking<G> {
-    block: Block,
-    drive: G,
+/// Its method of order 8, at a relative tolerance.
+#[derive(Clone, Copy, Debug)]
+pub struct Dop853(pub f64);
+
+/// Its method of order 5, at a relative tolerance.
+#[derive(Clone, Copy, Debug)]
+pub struct Dopri5(pub f64);
+
+/// A right-hand side that stops above a ceiling.
+struct Plain<F, const N: usize> {
+    slope: F,
+    ceiling: f64,
 }
 
-impl<G: Fn(f64) -> f64> System<f64, Vector2<f64>> for Rocking<G> {
-    fn system(&self, t: f64, w: &Vector2<f64>, slope: &mut Vector2<f64>) {
-        *slope = Vector2::new(w[1], self.block.acceleration(w[0], (self.drive)(t)));
+impl<F: Fn(f64, &[f64; N]) -> [f64; N], const N: usize> System<f64, SVector<f64, N>> for Plain<F, N> {
+    fn system(&self, t: f64, x: &SVector<f64, N>, slope: &mut SVector<f64, N>) {
+        *slope = (self.slope)(t, &x.data.0[0]).into();
     }
 
-    fn solout(&mut self, _: f64, w: &Vector2<f64>, _: &Vector2<f64>) -> bool {
-        w[0] > self.block.alpha
-    }
-}
-
-/// `(t, ẇ)` over `w`.
-struct Swapped<G>(Rocking<G>);
-
-impl<G: Fn(f64) -> f64> System<f64, Vector2<f64>> for Swapped<G> {
-    fn system(&self, w: f64, x: &Vector2<f64>, slope: &mut Vector2<f64>) {
-        let inverse = 1.0 / x[1];
-        *slope = Vector2::new(inverse, inverse * self.0.block.acceleration(w, (self.0.drive)(x[0])));
+    fn solout(&mut self, _: f64, x: &SVector<f64, N>, _: &SVector<f64, N>) -> bool {
+        x[0] > self.ceiling
     }
 }
 
-/// Three hinges.
-struct Chain(Hinges);
+/// The same with the time as the last of `M = N + 1` components.
+struct Autonomous<F, const N: usize>(Plain<F, N>);
 
-impl System<f64, SVector<f64, 6>> for Chain {
-    fn system(&self, t: f64, x: &SVector<f64, 6>, slope: &mut SVector<f64, 6>) {
-        *slope = self.0.slope(t, &x.data.0[0]).into();
+impl<F, const N: usize, const M: usize> System<f64, SVector<f64, M>> for Autonomous<F, N>
+where
+    F: Fn(f64, &[f64; N]) -> [f64; N],
+{
+    fn system(&self, _: f64, x: &SVector<f64, M>, slope: &mut SVector<f64, M>) {
+        let values = (self.0.slope)(x[N], &std::array::from_fn(|i| x[i]));
+        *slope = SVector::from_fn(|i, _| if i < N { values[i] } else { 1.0 });
+    }
+
+    fn solout(&mut self, _: f64, x: &SVector<f64, M>, _: &SVector<f64, M>) -> bool {
+        x[0] > self.0.ceiling
     }
 }
 
-/// An integration by one of the crate's methods: `[t, step before]` and state at its end; `None` if it gives up.
+/// One integration with the crate's own defaults for the step control.
 macro_rules! integrate {
-    ($method:ident, $control:expr, $system:expr, $start:expr, $end:expr, $x:expr, $rtol:expr, $h:expr) => {{
-        let ([beta, shrink, grow], length): ([f64; 3], f64) = ($control, $end - $start);
-        let mut solver = $method::from_param(
-            $system,
-            $start,
-            $end,
-            0.0,
-            $x,
-            $rtol,
-            ATOL * $rtol,
-            0.9,
-            beta,
-            shrink,
-            grow,
-            length.abs(),
-            $h,
-            100_000,
-            1_000,
-            OutputType::Sparse,
+    ($method:ident, [$beta:expr, $shrink:expr, $grow:expr], $system:expr, $span:expr, $x:expr, $rtol:expr, $h:expr) => {{
+        let [start, end]: [f64; 2] = $span;
+        let length = (end - start).abs();
+        let (safety, most, stiff) = (0.9, 100_000, 1_000);
+        let (output, atol) = (OutputType::Sparse, ATOL * $rtol);
+        let mut solver = ode_solvers::$method::from_param(
+            $system, start, end, 0.0, $x, $rtol, atol, safety, $beta, $shrink, $grow, length, $h, most, stiff, output,
         );
-        let done = solver.integrate().is_ok();
+        solver.integrate().ok()?;
         let (times, states) = solver.results().get();
         let last = times.len() - 1;
-        done.then(|| ([times[last], times[last] - times[last - 1]], states[last]))
+        (times[last], states[last], times[last] - times[last - 1])
     }};
 }
 
-/// The crate's own defaults: β of the step control, least and largest change of a step.
-const CONTROL_853: [f64; 3] = [0.0, 0.333, 6.0];
-const CONTROL_5: [f64; 3] = [0.04, 0.2, 10.0];
-
-macro_rules! methods {
-    ($pulse:ident, $record:ident, $hinges:ident, $stretch:ident, $method:ident, $control:ident) => {
-        /// One smooth stretch with its impacts; returns the step that it ended with, `None` if the crate gives up.
-        fn $stretch(
-            block: Block,
-            ground: impl Fn(f64) -> f64 + Copy,
-            [start, end]: [f64; 2],
-            (rtol, mut h): (f64, f64),
-            lean: &mut Lean,
-            impacts: &mut Answer,
-        ) -> Option<f64> {
-            let mut t = start;
-            while t < end {
-                let side = lean.side;
-                let system = || Rocking { block, drive: move |t| side * ground(t) };
-                let w = Vector2::from(lean.w);
-                let ([reached, last], w) = integrate!($method, $control, system(), t, end, w, rtol, h)?;
-                h = last;
-                if w[0] <= block.alpha {
-                    lean.w = w.into();
-                    break;
-                }
-                let (swapped, x, back) = (Swapped(system()), Vector2::new(reached, w[1]), block.alpha - w[0]);
-                let (_, x) = integrate!($method, $control, swapped, w[0], block.alpha, x, rtol, back)?;
-                t = x[0];
-                lean.hit(&block, x[1]);
-                impacts.push(t);
-            }
-            Some(h)
-        }
-
-        /// Times of impacts and the angle at the end; `None` if the crate gives up.
-        pub fn $pulse(pulse: &Pulse, rtol: f64) -> Option<Answer> {
-            let Pulse { block, omega, .. } = *pulse;
-            let (mut lean, mut impacts, mut h) = (Lean::start(&block, -1.0), Answer::with_capacity(16), 0.0);
-            for [start, end, amplitude] in pulse.stretches() {
-                let ground = |t: f64| if amplitude == 0.0 { 0.0 } else { amplitude * (omega * t).sin() };
-                h = $stretch(block, ground, [start, end], (rtol, h), &mut lean, &mut impacts)?;
-            }
-            impacts.push(lean.theta(&block));
-            Some(impacts)
-        }
-
-        /// As for the pulse, with an integration per sample.
-        pub fn $record(shaking: &Shaking, rtol: f64) -> Option<Answer> {
-            let block = shaking.block;
-            let (ramps, side) = shaking.ramps_from_start();
-            let (mut lean, mut impacts) = (Lean::start(&block, side), Answer::with_capacity(64));
-            for Ramp { start, end, value, slope } in ramps {
-                let ground = |t: f64| value + slope * (t - start);
-                $stretch(block, ground, [start, end], (rtol, end - start), &mut lean, &mut impacts)?;
-            }
-            impacts.push(lean.theta(&block));
-            Some(impacts)
-        }
-
-        /// The angles at the end.
-        pub fn $hinges(hinges: &Hinges, t_end: f64, rtol: f64) -> Option<Answer> {
-            let (_, x) = integrate!($method, $control, Chain(*hinges), 0.0, t_end, hinges.start.into(), rtol, 0.0)?;
-            Some(x.as_slice()[..3].to_vec())
-        }
-    };
+impl Integrator for Dop853 {
+    fn integrate<const N: usize, const M: usize>(
+        &self,
+        slope: impl Fn(f64, &[f64; N]) -> [f64; N],
+        span: [f64; 2],
+        x: [f64; N],
+        h: f64,
+        ceiling: f64,
+    ) -> Option<Reached<N>> {
+        let system = Autonomous(Plain { slope, ceiling });
+        let x = SVector::<f64, M>::from_fn(|i, _| if i < N { x[i] } else { span[0] });
+        let (at, x, step) = integrate!(Dop853, [0.0, 0.333, 6.0], system, span, x, self.0, h);
+        Some(Reached { at, x: std::array::from_fn(|i| x[i]), step })
+    }
 }
 
-methods!(pulse_853, record_853, hinges_853, stretch_853, Dop853, CONTROL_853);
-methods!(pulse_5, record_5, hinges_5, stretch_5, Dopri5, CONTROL_5);
+impl Integrator for Dopri5 {
+    fn integrate<const N: usize, const M: usize>(
+        &self,
+        slope: impl Fn(f64, &[f64; N]) -> [f64; N],
+        span: [f64; 2],
+        x: [f64; N],
+        h: f64,
+        ceiling: f64,
+    ) -> Option<Reached<N>> {
+        let system = Plain { slope, ceiling };
+        let (at, x, step) = integrate!(Dopri5, [0.04, 0.2, 10.0], system, span, x.into(), self.0, h);
+        Some(Reached { at, x: x.into(), step })
+    }
+}

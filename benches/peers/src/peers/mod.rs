@@ -3,6 +3,7 @@
 pub mod block;
 pub mod crate_differential_equations;
 pub mod crate_ode_solvers;
+pub mod henon;
 pub mod hinges;
 pub mod python;
 pub mod rk4;

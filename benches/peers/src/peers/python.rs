@@ -29,7 +29,7 @@ impl Python {
         let interpreter = std::env::var("PEERS_PYTHON").unwrap_or_else(|_| "python3".into());
         let script = concat!(env!("CARGO_MANIFEST_DIR"), "/python/serve.py");
         let child =
-            Command::new(&interpreter).args(["-u", script]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+            Command::new(&interpreter).args(["-uB", script]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let line = child.ok().and_then(|mut child| {
             let (to, from) = (child.stdin.take()?, BufReader::new(child.stdout.take()?));
             Some(RefCell::new(Line { child, to, from }))

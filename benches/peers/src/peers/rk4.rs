@@ -1,13 +1,13 @@
 //! The classic method of order 4 with fixed steps, by hand.
 //!
 //! A step that ends on the other side of `w = α` is taken again, shortened by Newton's method, to end there. That loses no order
-//! and costs three steps an impact.
+//! and costs a few steps an impact.
 
 use super::block::{Lean, Pulse, Ramp, Shaking};
 use super::hinges::Hinges;
 use crate::contest::Answer;
 
-/// One step of `ẍ = f(t, x, ẋ)` for any state.
+/// One step of `ẋ = slope(t, x)`.
 #[inline(always)]
 pub fn step<const N: usize>(slope: impl Fn(f64, &[f64; N]) -> [f64; N], t: f64, x: &[f64; N], h: f64) -> [f64; N] {
     let add = |k: &[f64; N], h: f64| -> [f64; N] { std::array::from_fn(|i| x[i] + h * k[i]) };

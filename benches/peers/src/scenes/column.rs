@@ -15,6 +15,6 @@ pub fn run() -> Vec<Point> {
     scene.excitation.horizontal = Some(Motion::SinePulse { amplitude, omega, start: 0.0 });
     let scene = bare(scene, 10.0);
     let points = contest("three blocks, pulse", &exact(&scene), &ours(&scene));
-    report::print_at_levels(&points);
+    report::print(&points, &report::LEVELS);
     points
 }

@@ -5,12 +5,12 @@
 //! its equations. Ours runs on its generated equations by the public parts of [`rocking::ode`], which for Taylor series are
 //! put together here: [`rocking::Mode::integrate`] has DOP853 only.
 
-use super::{ATOL, OUR_TOLERANCES};
+use super::{ATOL, HEYOKA_TOLERANCES, OUR_TOLERANCES};
 use crate::contest::{Answer, Contender, OURS, Point, contest};
 use crate::double::Double;
 use crate::peers::hinges::Hinges;
 use crate::peers::python::{Python, numbers};
-use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, rk4};
+use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, henon, rk4};
 use crate::report;
 use crate::series::{self, Series};
 use rocking::dynamics::{Dynamics, Ground};
@@ -25,6 +25,9 @@ const GRAVITY: f64 = 9.81;
 const SIZES: [f64; 2] = [0.4, 0.52];
 const START: [f64; 3] = [0.05, 0.02, 0.04];
 const GROUND: Piece = Piece::Sine { amplitude: 2.0, omega: 6.0, start: 0.0, phase: 0.0 };
+
+/// Tolerances of the crates.
+const RTOL: [f64; 7] = [1e-4, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-13];
 
 /// The same in two lengths `[s]`.
 const RUNS: [(&str, f64); 2] = [("three hinges, 0.5 s", 0.5), ("three hinges, 1.5 s", 1.5)];
@@ -58,15 +61,17 @@ pub fn run(python: &Python) -> Vec<Point> {
             contenders.extend(settings.iter().map(contender));
         };
         add("by hand", "rk4", &[0.05, 0.02, 0.01, 0.005, 0.002, 0.001], rk4::hinges);
-        add("ode_solvers", "dop853", &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13], os::hinges_853);
-        add("ode_solvers", "dopri5", &[1e-4, 1e-6, 1e-8, 1e-10], os::hinges_5);
-        add("differential-equations", "dop853", &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13], de::hinges_853);
-        add("differential-equations", "dopri5", &[1e-4, 1e-6, 1e-8, 1e-10], de::hinges_5);
+        add("ode_solvers", "dop853", &RTOL, |scene, t, rtol| henon::hinges(&os::Dop853(rtol), scene, t));
+        add("ode_solvers", "dopri5", &RTOL[..4], |scene, t, rtol| henon::hinges(&os::Dopri5(rtol), scene, t));
+        add("differential-equations", "dop853", &RTOL, |scene, t, rtol| henon::hinges(&de::Dop853(rtol), scene, t));
+        add("differential-equations", "dopri5", &RTOL[..4], |scene, t, rtol| {
+            henon::hinges(&de::Dopri5(rtol), scene, t)
+        });
         let told = format!("hinges {}", told(&hinges, t_end));
-        contenders.extend(python.contenders("heyoka", &told, &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16]));
+        contenders.extend(python.contenders("heyoka", &told, &HEYOKA_TOLERANCES));
         contenders.extend(python.contenders("scipy", &told, &[1e-6, 1e-9, 1e-12]));
         let points = contest(name, &exact(&column, &pattern, t_end), &contenders);
-        report::print_at_levels(&points);
+        report::print(&points, &report::LEVELS);
         all.extend(points);
     }
     all

@@ -12,13 +12,16 @@ use crate::reference::{Settings, replay, tightest};
 use rocking::{EventKind, Method, Response, Scene, simulate};
 
 /// Tolerances that ours is run at.
-pub const OUR_TOLERANCES: [f64; 11] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14];
+const OUR_TOLERANCES: [f64; 11] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14];
+
+/// Tolerances that heyoka is run at; it compiles its equations for each.
+const HEYOKA_TOLERANCES: [f64; 12] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-16];
 
 /// Absolute over relative tolerance, of everybody who asks for both.
 pub const ATOL: f64 = 1e-3;
 
 /// The paper's column: half-width, half-height `[m]`, η, amplitude `[m/s²]` and Ω `[rad/s]` of its one-sine pulse.
-pub const PAPER: [f64; 5] = [0.4, 1.56, 0.9, 7.3575, 10.7];
+const PAPER: [f64; 5] = [0.4, 1.56, 0.9, 7.3575, 10.7];
 
 /// A scene without rows and without a record of forces.
 fn bare(mut scene: Scene, t_end: f64) -> Scene {

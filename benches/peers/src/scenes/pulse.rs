@@ -4,15 +4,18 @@
 //! know when the block opens by a closed form, ours finds it; they are told that it neither comes to rest nor overturns, ours
 //! looks for both.
 
-use super::{PAPER, bare, exact, ours};
+use super::{HEYOKA_TOLERANCES, PAPER, bare, exact, ours};
 use crate::contest::{Answer, Contender, Point, contest};
 use crate::peers::block::{Block, Pulse};
 use crate::peers::python::Python;
-use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, rk4};
+use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, henon, rk4};
 use crate::report;
 use rocking::{Column, Motion, Restitution, Scene};
 
 const T_END: f64 = 10.0;
+
+/// Tolerances of the crates.
+const RTOL: [f64; 7] = [1e-5, 1e-6, 1e-7, 1e-9, 1e-10, 1e-12, 1e-13];
 
 /// Times all contenders.
 pub fn run(python: &Python) -> Vec<Point> {
@@ -30,17 +33,17 @@ pub fn run(python: &Python) -> Vec<Point> {
         contenders.extend(settings.iter().map(contender));
     };
     add("by hand", "rk4", &[0.1, 0.05, 0.02, 0.01, 0.005, 0.002], rk4::pulse);
-    add("ode_solvers", "dop853", &[1e-5, 1e-6, 1e-8, 1e-10, 1e-12], os::pulse_853);
-    add("ode_solvers", "dopri5", &[1e-5, 1e-6, 1e-8, 1e-10], os::pulse_5);
-    add("differential-equations", "dop853", &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13], de::pulse_853);
-    add("differential-equations", "dopri5", &[1e-5, 1e-6, 1e-8, 1e-10], de::pulse_5);
+    add("ode_solvers", "dop853", &RTOL, |pulse, rtol| henon::pulse(&os::Dop853(rtol), pulse));
+    add("ode_solvers", "dopri5", &RTOL[..4], |pulse, rtol| henon::pulse(&os::Dopri5(rtol), pulse));
+    add("differential-equations", "dop853", &RTOL, |pulse, rtol| henon::pulse(&de::Dop853(rtol), pulse));
+    add("differential-equations", "dopri5", &RTOL[..4], |pulse, rtol| henon::pulse(&de::Dopri5(rtol), pulse));
     let Block { p2, alpha, ratio, .. } = block;
     let numbers = [p2, alpha, ratio, pulse.amplitude, omega, pulse.start(), pulse.end(), T_END];
     let told = format!("pulse{}", numbers.map(|number| format!(" {number:?}")).concat());
-    contenders.extend(python.contenders("heyoka", &told, &[1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16]));
+    contenders.extend(python.contenders("heyoka", &told, &HEYOKA_TOLERANCES));
     contenders.extend(python.contenders("scipy", &told, &[1e-6, 1e-9, 1e-12]));
 
     let points = contest("one block, pulse", &exact(&scene), &contenders);
-    report::print_at_levels(&points);
+    report::print(&points, &report::LEVELS);
     points
 }

@@ -8,7 +8,7 @@ use super::{bare, exact, ours};
 use crate::contest::{Answer, Contender, Point, contest};
 use crate::peers::block::{Block, Shaking};
 use crate::peers::python::Python;
-use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, rk4};
+use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, henon, rk4};
 use crate::report;
 use rocking::excitation::Synthetic;
 use rocking::{Column, EventKind, Motion, Scene, simulate};
@@ -16,6 +16,9 @@ use rocking::{Column, EventKind, Motion, Scene, simulate};
 const HALF_WIDTH: f64 = 0.5;
 const HALF_HEIGHT: f64 = 3.0;
 const RECORD: Synthetic = Synthetic { pga: 4.0, duration: 30.0, dt: 0.01, seed: 25, frequency: 2.5, damping: 0.6 };
+
+/// Tolerances of the crates.
+const RTOL: [f64; 3] = [1e-6, 1e-9, 1e-12];
 
 /// Errors at which both sides are compared `[s]`, `[rad]`.
 const LEVELS: [f64; 3] = [1e-6, 4e-9, 1e-11];
@@ -41,10 +44,10 @@ pub fn run(python: &Python) -> Vec<Point> {
         let contender = |&setting: &f64| Contender::plain(program, method, setting, move || run(shaking, setting));
         contenders.extend(settings.iter().map(contender));
     };
-    add("ode_solvers", "dop853", &[1e-6, 1e-12], os::record_853);
-    add("ode_solvers", "dopri5", &[1e-6, 1e-9, 1e-12], os::record_5);
-    add("differential-equations", "dop853", &[1e-6, 1e-12], de::record_853);
-    add("differential-equations", "dopri5", &[1e-6, 1e-9, 1e-12], de::record_5);
+    add("ode_solvers", "dop853", &RTOL, |shaking, rtol| henon::record(&os::Dop853(rtol), shaking));
+    add("ode_solvers", "dopri5", &RTOL, |shaking, rtol| henon::record(&os::Dopri5(rtol), shaking));
+    add("differential-equations", "dop853", &RTOL, |shaking, rtol| henon::record(&de::Dop853(rtol), shaking));
+    add("differential-equations", "dopri5", &RTOL, |shaking, rtol| henon::record(&de::Dopri5(rtol), shaking));
     contenders.extend(python.contenders("heyoka", &told(shaking), &[1e-6, 1e-9, 1e-12]));
 
     let points = contest("one block, record", &exact(&scene), &contenders);
