@@ -49,7 +49,7 @@ pub enum Command {
     Run(Run),
     /// Draw the figures of a run: time-history, phase-portrait, energy and forces; of the table of a sweep its spectrum.
     Plot {
-        /// Folder of a finished run, or the table of a sweep (CSV), whose figures have its name.
+        /// Folder of a finished run, or the table of a sweep (CSV or Parquet), whose figures have its name.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// How the figures are written.
@@ -113,11 +113,14 @@ pub enum Command {
     Sweep(Sweep),
     /// Join the tables of all shards of a sweep.
     Merge {
-        /// The table to write (CSV).
+        /// The table to write: CSV, or Parquet if its name ends in .parquet.
         out: PathBuf,
-        /// The tables of the shards, in any order.
+        /// The tables of the shards, in any order and of the same format.
         #[arg(required = true)]
         shards: Vec<PathBuf>,
+        /// The sweep (TOML): that its last points are missing is seen with it only.
+        #[arg(long, value_name = "FILE")]
+        sweep: Option<PathBuf>,
     },
     /// Print the completion script of a shell.
     Completions {
@@ -219,7 +222,7 @@ fn unit(text: &str) -> Result<AccelerationUnit, String> {
 pub struct Sweep {
     /// Sweep file (TOML).
     pub file: PathBuf,
-    /// Table of the results (CSV).
+    /// Table of the results: CSV, or Parquet if its name ends in .parquet.
     #[arg(long, value_name = "FILE", default_value = "sweep.csv")]
     pub out: PathBuf,
     /// Draw the overturning spectrum, and beside it FILE-minimum: the least value that overturns (SVG, or PNG by the name).

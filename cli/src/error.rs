@@ -92,6 +92,38 @@ pub enum Failure {
         /// What is wrong.
         problem: String,
     },
+    /// What was left of a sweep that was cut off is not as it was written.
+    #[error("{}: {problem}; remove this file and run the sweep again", path.display())]
+    Part {
+        /// The hidden file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The last points of a sweep are in no table.
+    #[error(
+        "{}: it has {points} point(s) and the tables end after {rows} of them; give the tables of the other shards as well",
+        sweep.display()
+    )]
+    ShardsMissing {
+        /// The sweep.
+        sweep: PathBuf,
+        /// Its points.
+        points: usize,
+        /// Rows of the tables.
+        rows: usize,
+    },
+    /// A table of Parquet, and a build without it.
+    #[cfg_attr(feature = "parquet", allow(dead_code, reason = "this build has it"))]
+    #[error(
+        "{}: this build of rocking has no Parquet; build it with `cargo build --release -p rocking-cli --features parquet`, or \
+         name a table .csv",
+        path.display()
+    )]
+    NoParquet {
+        /// The table.
+        path: PathBuf,
+    },
     /// A table makes no overturning spectrum.
     #[error("{}: {error}", path.display())]
     Spectrum {
@@ -194,6 +226,9 @@ impl Failure {
                 | Failure::File { .. }
                 | Failure::Taken { .. }
                 | Failure::Shards { .. }
+                | Failure::Part { .. }
+                | Failure::ShardsMissing { .. }
+                | Failure::NoParquet { .. }
                 | Failure::Spectrum { .. }
                 | Failure::PlotOfShard
                 | Failure::RecordFile { .. }

@@ -12,6 +12,7 @@ mod plot;
 mod progress;
 mod report;
 mod results;
+mod table;
 
 use clap::Parser;
 use error::Failure;

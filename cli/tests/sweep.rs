@@ -2,39 +2,10 @@
 
 mod common;
 
+use common::sweeps::{BASE, SWEEP, folder};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
-
-const BASE: &str = "[column]
-blocks = 2
-half_width = 0.4
-half_height = 1.56
-density = 2700.0
-[restitution]
-eta = 0.9
-[excitation.horizontal]
-kind = \"sine-pulse\"
-amplitude = 3.0
-omega = 10.0
-[solver]
-t_end = 6.0
-rtol = 1e-6
-";
-
-const SWEEP: &str = "scene = \"base.toml\"
-[axes]
-blocks = [1, 2]
-omega_p = { from = 1, to = 8, steps = 5 }
-amplitude_g = { from = 0.1, to = 3.0, steps = 6, scale = \"log\" }
-";
-
-fn folder(sweep: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("base.toml"), BASE).expect("written");
-    std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
-    folder
-}
 
 fn table(folder: &Path, arguments: &[&str]) -> String {
     let all = [&["sweep", "sweep.toml", "--out", "t.csv", "--quiet"], arguments].concat();
@@ -110,12 +81,57 @@ fn threads_and_shards_change_nothing() {
     arguments.extend(many.iter().map(String::as_str));
     common::succeeds(folder.path(), &arguments);
     assert_eq!(std::fs::read_to_string(folder.path().join("merged.csv")).expect("written"), whole);
-    // A shard that is missing is noticed.
-    let output = common::rocking(folder.path(), &["merge", "other.csv", "part-1.csv", "part-3.csv"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(message.contains("part-3.csv") && message.contains("is due"), "{message}");
-    assert!(!folder.path().join("other.csv").exists());
+}
+
+#[test]
+fn shards_that_are_missing_or_of_another_sweep_are_noticed() {
+    let folder = folder(SWEEP);
+    for number in 1..=4 {
+        let (name, shard) = (format!("{number}.csv"), format!("{number}/4"));
+        common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", &name, "--shard", &shard, "--quiet"]);
+    }
+    let other = "scene = \"base.toml\"\n[axes]\neta = { from = 0.1, to = 0.9, steps = 60 }\n";
+    std::fs::write(folder.path().join("other.toml"), other).expect("written");
+    common::succeeds(folder.path(), &["sweep", "other.toml", "--out", "other.csv", "--shard", "2/2", "--quiet"]);
+    for (arguments, named) in [
+        (&["1.csv", "3.csv"][..], &["3.csv", "point 30 where 15 is due"][..]),
+        (&["2.csv", "3.csv", "4.csv"], &["2.csv", "point 15 where 0 is due"]),
+        (&["1.csv", "2.csv", "2.csv"], &["2.csv", "point 15 where 30 is due"]),
+        (&["1.csv", "2.csv", "other.csv"], &["other.csv", "columns", "the others"]),
+        // Only who gives the sweep learns of these.
+        (&["1.csv", "2.csv", "3.csv", "--sweep", "sweep.toml"], &["sweep.toml", "60 point(s)", "after 45"]),
+        (&["1.csv", "--sweep", "other.toml"], &["1.csv", "columns", "other.toml"]),
+    ] {
+        let output = common::rocking(folder.path(), &[&["merge", "merged.csv"], arguments].concat());
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(named.iter().all(|part| message.contains(part)), "{named:?} in\n{message}");
+        assert!(!folder.path().join("merged.csv").exists(), "{arguments:?}");
+    }
+    let all = ["merge", "merged.csv", "1.csv", "2.csv", "3.csv", "4.csv", "--sweep", "sweep.toml"];
+    assert!(common::succeeds(folder.path(), &all).contains("all points of sweep.toml"));
+    assert!(common::succeeds(folder.path(), &all[..5]).contains("--sweep FILE would tell"));
+}
+
+/// Nothing is run or written for a table that could not be written in the end.
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn a_build_without_parquet_names_the_remedy() {
+    let folder = folder(SWEEP);
+    for arguments in [
+        &["sweep", "sweep.toml", "--out", "t.parquet"][..],
+        &["merge", "t.parquet", "1.csv"],
+        &["merge", "t.csv", "1.parquet"],
+        &["plot", "1.parquet"],
+    ] {
+        std::fs::write(folder.path().join("1.parquet"), "PAR1").expect("written");
+        let output = common::rocking(folder.path(), arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(message.contains("1.parquet") || message.contains("t.parquet"), "{message}");
+        assert!(message.contains("cargo build") && message.contains("--features parquet"), "{message}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 3, "base, sweep and 1.parquet");
 }
 
 /// Killed without warning at any moment and started again, however often, a sweep gives the bytes of one that was left alone.

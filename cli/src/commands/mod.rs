@@ -2,6 +2,7 @@
 
 mod check;
 mod init;
+mod merge;
 mod modes;
 mod plot;
 mod record;
@@ -48,7 +49,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&read(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&read(&scene)?)),
         Command::Sweep(asked) => sweep::sweep(&asked),
-        Command::Merge { out, shards } => sweep::merge(&out, &shards),
+        Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),
     }

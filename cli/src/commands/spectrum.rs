@@ -1,9 +1,10 @@
-//! The figures of a sweep: drawn when it is finished (`rocking sweep --plot`), or of its table later (`rocking plot TABLE.csv`).
+//! The figures of a sweep: drawn when it is finished (`rocking sweep --plot`), or of its table later (`rocking plot TABLE`).
 
 use crate::arguments::{self, Picture};
 use crate::commands::print;
 use crate::error::Failure;
 use crate::plot::spectrum::{NoSpectrum, check as check_axes, figures};
+use crate::table::Format;
 use crate::{output, plot};
 use rocking::sweep::Sweep;
 use std::fmt::Write as _;
@@ -25,8 +26,9 @@ pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
 /// Draws a table into files beside or below the table; they have its name.
 ///
 /// # Errors
-/// [`Failure::Spectrum`], [`Failure::Output`], [`Failure::File`]
+/// [`Failure::Spectrum`], [`Failure::Output`], [`Failure::File`], [`Failure::NoParquet`]
 pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Failure> {
+    Format::of(table)?;
     let name = table.with_extension(match format {
         Picture::Svg => "svg",
         Picture::Png => "png",

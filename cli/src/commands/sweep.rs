@@ -1,14 +1,17 @@
-//! `rocking sweep` and `rocking merge`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on
-//! where it was.
+//! `rocking sweep`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on where it was.
 //!
-//! Rows go in order into a hidden file beside the table, whose name holds a fingerprint of all that decides them. What is found there
-//! is kept up to its last whole line. The table gets its name when all rows are there.
+//! Rows go in order into a hidden file of CSV beside the table, whose name holds a fingerprint of all that decides them. What is found
+//! there is kept up to its last whole line. When all rows are there it gets the name of the table; a table of Parquet is made of it
+//! first, and the hidden file stays until that has its name.
 
 use crate::arguments;
 use crate::commands::{json, print, spectrum};
 use crate::error::Failure;
-use crate::output;
 use crate::progress::Points;
+#[cfg(feature = "parquet")]
+use crate::table::parquet;
+use crate::table::{Column, Format, Kind, header, quoted};
+use rocking::scene_file::Setting;
 use rocking::sweep::{Ask, Fate, Row, Sweep};
 use serde::Serialize;
 use std::fs::File;
@@ -28,89 +31,43 @@ const PATIENCE: Duration = Duration::from_millis(250);
 /// # Errors
 /// [`Failure`]
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
+    let format = Format::of(&asked.out)?;
     let sweep = Sweep::from_file(&asked.file).map_err(Failure::scene)?;
     if asked.plot.is_some() {
         spectrum::check(asked, &sweep)?;
     }
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
-    let columns = Columns::of(&sweep)?;
+    let columns = columns(&sweep)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.unwrap_or(0)).build();
     let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
     let failed = |error: std::io::Error| Failure::File { path: asked.out.clone(), problem: error.to_string() };
-    let mut table =
-        Growing::open(&asked.out, &columns.header(), fingerprint(&sweep, &range, &asked.file)?, range.clone())
-            .map_err(failed)?;
+    let fingerprint = fingerprint(&sweep, &range, &asked.file)?;
+    let mut table = Growing::open(&asked.out, &header(&columns), fingerprint, range.clone()).map_err(failed)?;
     let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
     let resumed = table.next - range.start;
     let mut size = BATCH;
     while table.next < range.end {
         let begun = Instant::now();
         let batch = table.next..range.end.min(table.next + size);
-        let lines = threads.install(|| sweep.lines(batch, |row| columns.line(&row)));
+        let lines = threads.install(|| sweep.lines(batch, |row| line(&row, columns.len())));
         table.append(lines.into_iter()).map_err(failed)?;
         bar.reached(table.next - range.start);
         size = if begun.elapsed() < PATIENCE { (2 * size).min(MOST) } else { (size / 2).max(BATCH) };
     }
     bar.finish();
-    table.close().map_err(failed)?;
+    let broken = |error: std::io::Error| Failure::Part { path: table.part.clone(), problem: error.to_string() };
+    let tally = if asked.quiet { None } else { Some(Tally::of(&table.part).map_err(broken)?) };
+    table.close(format, &columns)?;
     let drawn = match &asked.plot {
         Some(picture) => spectrum::draw(&asked.out, picture)?,
         None => String::new(),
     };
-    if asked.quiet {
-        return Ok(());
-    }
-    let tally = Tally::of(&asked.out, &columns).map_err(failed)?;
+    let Some(tally) = tally else { return Ok(()) };
     if asked.json {
         return json(&tally);
     }
     let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
     print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), asked.out.display()))
-}
-
-/// Joins the tables of all shards of a sweep, in the order of their points.
-///
-/// # Errors
-/// [`Failure::Shards`] for tables that do not belong together, [`Failure::File`]
-pub fn merge(out: &Path, shards: &[PathBuf]) -> Result<(), Failure> {
-    let mut tables = Vec::new();
-    for path in shards {
-        let broken = |problem: &str| Failure::Shards { path: path.clone(), problem: problem.into() };
-        let mut lines = BufReader::new(File::open(path).map_err(|error| broken(&error.to_string()))?).lines();
-        let header = lines.next().and_then(Result::ok).ok_or_else(|| broken("there is no header"))?;
-        // Of more shards than points some have no row.
-        let index = |line: String| line.split(',').next().and_then(|index| index.parse::<usize>().ok());
-        let first = lines.next().and_then(Result::ok).map(index);
-        match first {
-            Some(None) => return Err(broken("the first row has no index")),
-            first => tables.push((first.flatten(), header, path)),
-        }
-    }
-    tables.sort();
-    let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
-    let folder = out.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let merged = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    let mut writer = BufWriter::new(merged);
-    let mut next = 0;
-    for (place, (first, header, path)) in tables.iter().enumerate() {
-        let broken = |problem: String| Failure::Shards { path: (*path).clone(), problem };
-        if *header != tables[0].1 {
-            return Err(broken("its columns are not those of the others".into()));
-        }
-        if let Some(first) = first.filter(|first| *first != next) {
-            return Err(broken(format!("it begins with point {first} where {next} is due")));
-        }
-        let file = File::open(path).map_err(|error| broken(error.to_string()))?;
-        for line in BufReader::new(file).lines().skip(usize::from(place > 0)) {
-            let line = line.map_err(|error| broken(error.to_string()))?;
-            writeln!(writer, "{line}").map_err(failed)?;
-            next += usize::from(line != *header);
-        }
-    }
-    let merged = writer.into_inner().map_err(|error| failed(error.into_error()))?;
-    output::share(&merged).map_err(failed)?;
-    merged.persist(out).map_err(|error| failed(error.error))?;
-    print(&format!("wrote {next} row(s) of {} table(s) to {}\n", tables.len(), out.display()))
 }
 
 /// A part of a sweep, for one of several machines.
@@ -141,68 +98,57 @@ impl Shard {
     }
 }
 
-/// The columns of a table.
-#[derive(Debug)]
-struct Columns {
-    keys: Vec<String>,
-    /// Blocks of the largest column, where peaks are asked for.
-    blocks: usize,
-    ask: Ask,
-}
-
-impl Columns {
-    fn of(sweep: &Sweep) -> Result<Columns, Failure> {
-        let keys: Vec<String> = sweep.axes.iter().map(|axis| axis.key.clone()).collect();
+/// The columns of the table of a sweep.
+///
+/// # Errors
+/// [`Failure::Scene`]
+pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
+    let mut columns = vec![Column::full("index", Kind::Whole)];
+    columns.extend(sweep.axes.iter().map(|axis| {
+        let is_number = axis.values.iter().all(|value| matches!(value, Setting::Number(_)));
+        Column::full(&axis.key, if is_number { Kind::Number } else { Kind::Text })
+    }));
+    columns.push(Column::full("outcome", Kind::Text));
+    columns.push(Column::sparse("impacts", Kind::Whole));
+    columns.push(Column::sparse("block", Kind::Whole));
+    columns.push(Column::sparse("overturned_at", Kind::Number));
+    if sweep.ask == Ask::Peaks {
         let base = sweep.template.with(std::iter::empty()).map_err(Failure::scene)?;
         let counts = sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
         let largest = counts.filter_map(|count| count.to_string().parse().ok()).max();
-        Ok(Columns { keys, blocks: largest.unwrap_or(base.column.len()), ask: sweep.ask })
+        let blocks = 1..=largest.unwrap_or(base.column.len());
+        columns.extend(blocks.map(|block| Column::sparse(format!("peak_{block}"), Kind::Number)));
+        columns.push(Column::sparse("last_mode", Kind::Text));
     }
-
-    fn header(&self) -> String {
-        let mut names = vec!["index".to_string()];
-        names.extend(self.keys.iter().map(|key| quoted(key)));
-        names.extend(["outcome", "impacts", "block", "overturned_at"].map(String::from));
-        if self.ask == Ask::Peaks {
-            names.extend((1..=self.blocks).map(|block| format!("peak_{block}")));
-            names.push("last_mode".into());
-        }
-        names.push("error".into());
-        names.join(",")
-    }
-
-    fn line(&self, row: &Row) -> String {
-        let mut cells = vec![row.index.to_string()];
-        cells.extend(row.settings.iter().map(|setting| quoted(&setting.to_string())));
-        let peaks = if self.ask == Ask::Peaks { self.blocks + 1 } else { 0 };
-        match &row.result {
-            Ok(outcome) => {
-                cells.push(outcome.fate.name().into());
-                cells.push(outcome.impacts.to_string());
-                cells.push(outcome.block.map_or(String::new(), |block| block.to_string()));
-                cells.push(outcome.overturned_at.map_or(String::new(), |t| format!("{t:?}")));
-                if self.ask == Ask::Peaks {
-                    let peak =
-                        |block: usize| outcome.peaks.get(block).map_or(String::new(), |peak| format!("{peak:?}"));
-                    cells.extend((0..self.blocks).map(peak));
-                    cells.push(outcome.last_mode.clone().unwrap_or_default());
-                }
-                cells.push(String::new());
-            }
-            Err(error) => {
-                cells.push("error".into());
-                cells.extend(std::iter::repeat_n(String::new(), 3 + peaks));
-                cells.push(quoted(&error.to_string()));
-            }
-        }
-        cells.join(",")
-    }
+    columns.push(Column::sparse("error", Kind::Text));
+    Ok(columns)
 }
 
-/// A cell of CSV on one line.
-fn quoted(text: &str) -> String {
-    let text = text.replace(['\n', '\r'], " ");
-    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+/// A row as a line of so many cells of CSV.
+fn line(row: &Row, columns: usize) -> String {
+    let mut cells = vec![row.index.to_string()];
+    cells.extend(row.settings.iter().map(|setting| quoted(&setting.to_string())));
+    match &row.result {
+        Ok(outcome) => {
+            cells.push(outcome.fate.name().into());
+            cells.push(outcome.impacts.to_string());
+            cells.push(outcome.block.map_or(String::new(), |block| block.to_string()));
+            cells.push(outcome.overturned_at.map_or(String::new(), |t| format!("{t:?}")));
+            cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
+            if let Some(mode) = &outcome.last_mode {
+                // Columns of fewer blocks than the largest have blank peaks.
+                cells.resize(columns - 2, String::new());
+                cells.push(mode.clone());
+            }
+            cells.push(String::new());
+        }
+        Err(error) => {
+            cells.push("error".into());
+            cells.resize(columns - 1, String::new());
+            cells.push(quoted(&error.to_string()));
+        }
+    }
+    cells.join(",")
 }
 
 /// A table under way.
@@ -250,10 +196,32 @@ impl Growing {
         self.file.flush()
     }
 
-    /// Gives the table its name.
-    fn close(mut self) -> std::io::Result<()> {
-        self.file.flush()?;
-        std::fs::rename(&self.part, &self.out)
+    /// Gives the table its name. Killed before, after or within, a sweep has all it needs to come here again.
+    #[cfg_attr(not(feature = "parquet"), allow(unused_variables, reason = "CSV has no types"))]
+    fn close(mut self, format: Format, columns: &[Column]) -> Result<(), Failure> {
+        let failed = |error: std::io::Error| Failure::File { path: self.out.clone(), problem: error.to_string() };
+        self.file.flush().map_err(failed)?;
+        match format {
+            Format::Csv => std::fs::rename(&self.part, &self.out).map_err(failed),
+            #[cfg(feature = "parquet")]
+            Format::Parquet => {
+                let whole = self.part.with_extension("whole");
+                let written = File::create(&whole)
+                    .and_then(|file| parquet::from_csv(&self.part, columns, BufWriter::new(file)))
+                    .and_then(|()| std::fs::rename(&whole, &self.out));
+                if let Err(error) = written {
+                    // What is half written is of no use; the part is.
+                    let _ = std::fs::remove_file(&whole);
+                    return Err(match error.kind() {
+                        std::io::ErrorKind::InvalidData => {
+                            Failure::Part { path: self.part.clone(), problem: error.to_string() }
+                        }
+                        _ => failed(error),
+                    });
+                }
+                std::fs::remove_file(&self.part).map_err(failed)
+            }
+        }
     }
 }
 
@@ -306,12 +274,14 @@ struct Tally {
 }
 
 impl Tally {
-    /// Of a table.
-    fn of(path: &Path, columns: &Columns) -> std::io::Result<Tally> {
+    /// Of rows of CSV.
+    fn of(path: &Path) -> std::io::Result<Tally> {
         let mut tally = Tally::default();
-        for row in csv::Reader::from_path(path)?.records() {
+        let mut reader = csv::Reader::from_path(path)?;
+        let outcome = reader.headers()?.iter().position(|name| name == "outcome");
+        for row in reader.records() {
             let row = row?;
-            let name = row.get(columns.keys.len() + 1).unwrap_or_default();
+            let name = outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default();
             let count =
                 match [Fate::NoUplift, Fate::Rocks, Fate::Overturns].into_iter().find(|fate| fate.name() == name) {
                     Some(Fate::NoUplift) => &mut tally.no_uplift,
@@ -346,10 +316,5 @@ mod tests {
             assert!(lengths.iter().max().zip(lengths.iter().min()).is_some_and(|(most, least)| most - least <= 1));
         }
         assert!(["0/3", "4/3", "1", "a/b", "1/0"].iter().all(|text| Shard::parse(text).is_err()));
-    }
-
-    #[test]
-    fn cells_stay_on_one_line() {
-        assert_eq!(quoted("a \"b\", c\nd"), "\"a \"\"b\"\", c d\"");
     }
 }

@@ -1,6 +1,8 @@
 //! Running the command line in a folder of its own.
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
+pub mod sweeps;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -4,6 +4,7 @@
 //! A class is all that is kept of a row.
 
 use super::scale::{Scale, title};
+use crate::table::Rows;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -217,9 +218,8 @@ impl Grid {
     /// [`NoSpectrum`]
     pub fn read(file: &Path) -> Result<Grid, NoSpectrum> {
         let broken = |problem: String| NoSpectrum::NoTable { problem };
-        let failed = |error: csv::Error| broken(error.to_string());
-        let mut reader = csv::Reader::from_path(file).map_err(failed)?;
-        let header = reader.headers().map_err(failed)?.clone();
+        let failed = |error: std::io::Error| broken(error.to_string());
+        let Rows { header, rows } = Rows::open(file).map_err(failed)?;
         let column = |name: &str| header.iter().position(|found| found == name);
         let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
             return Err(broken("it has no columns index, outcome and impacts".into()));
@@ -229,7 +229,7 @@ impl Grid {
         let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
         // Numbers of the values of all rows, as many for each as there are axes.
         let (mut numbers, mut classes) = (Vec::new(), Vec::new());
-        for row in reader.records() {
+        for row in rows {
             let row = row.map_err(failed)?;
             for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
                 let number = seen.get(value).copied().unwrap_or_else(|| {
