@@ -99,10 +99,6 @@ impl SeriesSystem for Driven<'_> {
     type State = State;
     type Links = [f64; 3];
 
-    fn zero_links(&self) -> [f64; 3] {
-        [0.0; 3]
-    }
-
     fn expand_at(&mut self, t: f64, orders: usize) {
         GROUND.expand_at(t, &mut self.ground[..orders]);
     }
