@@ -1,4 +1,4 @@
-//! `cargo bench`: one right-hand side for 1 to 4 degrees of freedom, and one whole run, generated against generic.
+//! `cargo bench`: one right-hand side for 1 to 5 degrees of freedom, alone and in lanes, and one whole run, generated against generic.
 //!
 //! Both codes must give the same answer before anything is timed. Criterion measures; the medians are written with commit,
 //! compiler and machine to `target/bench/speed.csv`, and their ratios printed. What biases the figures: the right-hand side is
@@ -11,6 +11,7 @@ use criterion::{BenchmarkId, Criterion};
 use rocking::dynamics::{Dynamics, Ground};
 use rocking::generated::{GeneratedMode, equations};
 use rocking::generic::GenericMode;
+use rocking::lanes::Ensemble;
 use rocking::pattern::Pattern;
 use rocking::{Column, DynamicsSource, GroundMotion, Motion, Restitution, Scene, simulate};
 use std::hint::black_box;
@@ -32,7 +33,7 @@ fn state(dof: usize) -> Vec<f64> {
 fn right_hand_side<P>(criterion: &mut Criterion, dof: usize)
 where
     GeneratedMode<P>: Dynamics,
-    P: rocking::program::StepProgram<f64>,
+    P: rocking::program::StepProgram<f64> + rocking::program::StepProgram<rocking::lanes::Lanes<8>>,
 {
     let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
     let generated =
@@ -56,8 +57,25 @@ where
     group.bench_function(BenchmarkId::new("generic", dof), |bencher| {
         bencher.iter(|| generic.derivative(black_box(&values), black_box(GROUND), &mut other));
     });
+
+    // A whole ensemble, its states packed into lanes and its slopes unpacked again.
+    let pattern = pattern(dof);
+    let modes = [(&column, &pattern); SCENES];
+    let ensemble = Ensemble::<P>::new(&modes, GroundMotion::Horizontal, equations::linkage::<f64>);
+    let ensemble = ensemble.expect("the build has it");
+    let (states, ground, mut slopes) = (values.repeat(SCENES), [GROUND; SCENES], vec![0.0; 2 * dof * SCENES]);
+    ensemble.slopes(&states, &ground, &mut slopes);
+    for lanes in slopes.chunks(2 * dof) {
+        assert_eq!(lanes, rocking::dynamics::StateVector::as_slice(&slope), "bit for bit");
+    }
+    group.bench_function(BenchmarkId::new("lanes", dof), |bencher| {
+        bencher.iter(|| ensemble.slopes(black_box(&states), black_box(&ground), &mut slopes));
+    });
     group.finish();
 }
+
+/// Scenes of an ensemble: those of some lanes, and few enough for the nearest cache.
+const SCENES: usize = 64;
 
 /// Generic, generated and baked side by side: one mode of the example's column with three free angles.
 fn baked_column(criterion: &mut Criterion) {
@@ -127,14 +145,21 @@ fn median(group: &str, name: &str, dof: usize) -> Option<f64> {
 
 fn report() -> std::io::Result<()> {
     let circumstances = common::circumstances();
-    let mut csv = String::from("benchmark,dof,generated_ns,generic_ns,ratio,");
+    let mut csv = String::from("benchmark,dof,generated_ns,generic_ns,ratio,lanes_ns_per_scene,lanes_ratio,");
     csv.push_str(common::CIRCUMSTANCES);
     csv.push('\n');
-    let rows = (1..=4).map(|dof| ("right-hand-side", dof)).chain([("three-blocks-pulse-10-s", 3)]);
+    let rows = (1..=5).map(|dof| ("right-hand-side", dof)).chain([("three-blocks-pulse-10-s", 3)]);
     for (group, dof) in rows {
         let (Some(a), Some(b)) = (median(group, "generated", dof), median(group, "generic", dof)) else { continue };
         println!("{group}, {dof} free angle(s): generated {a:.1} ns, generic {b:.1} ns, ratio {:.1}", b / a);
-        csv.push_str(&format!("{group},{dof},{a:.2},{b:.2},{:.2},{circumstances}\n", b / a));
+        csv.push_str(&format!("{group},{dof},{a:.2},{b:.2},{:.2},", b / a));
+        match median(group, "lanes", dof).map(|all| all / SCENES as f64) {
+            Some(lanes) => {
+                println!("{:>32}eight lanes {lanes:.2} ns a scene, {:.1} times the scenes", "", a / lanes);
+                csv.push_str(&format!("{lanes:.3},{:.2},{circumstances}\n", a / lanes));
+            }
+            None => csv.push_str(&format!(",,{circumstances}\n")),
+        }
     }
     common::write("speed.csv", &csv)
 }
@@ -148,6 +173,7 @@ fn main() -> std::io::Result<()> {
     right_hand_side::<equations::HorizontalDof2>(&mut criterion, 2);
     right_hand_side::<equations::HorizontalDof3>(&mut criterion, 3);
     right_hand_side::<equations::HorizontalDof4>(&mut criterion, 4);
+    right_hand_side::<equations::HorizontalDof5>(&mut criterion, 5);
     baked_column(&mut criterion);
     whole_run(&mut criterion);
     criterion.final_summary();

@@ -72,6 +72,15 @@ pub struct ContactForce {
     pub moment: f64,
 }
 
+/// Where forces are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interfaces {
+    /// Everywhere.
+    All,
+    /// At least where an interface is closed.
+    Closed,
+}
+
 /// Mechanical energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
@@ -118,12 +127,14 @@ pub trait Dynamics {
     /// cosines and sines and in the ground's acceleration; of Taylor coefficients, those of the weights.
     fn weights(&self, cos_ddot: &Self::Links, sin_ddot: &Self::Links, ground: Ground) -> [Self::Links; 2];
 
-    /// Contact forces at all interfaces, base first, into `forces` (length N); `derivative` belongs to `state` and `ground`.
+    /// Contact forces, base first, into `forces` (length N), at all interfaces or only at the closed ones; `derivative` belongs to
+    /// `state` and `ground`.
     fn contact_forces(
         &self,
         state: &Self::State,
         derivative: &Self::State,
         ground: Ground,
+        which: Interfaces,
         forces: &mut [ContactForce],
     );
 }

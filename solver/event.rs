@@ -89,18 +89,6 @@ impl Bernstein {
         Bernstein { coefficients, degree }
     }
 
-    /// The polynomial times `s - root`.
-    fn times(&self, root: f64) -> Bernstein {
-        let degree = self.degree + 1;
-        let mut product = Bernstein { coefficients: [0.0; COEFFICIENTS], degree };
-        for j in 0..=degree {
-            let rising = if j > 0 { j as f64 * (1.0 - root) * self.coefficients[j - 1] } else { 0.0 };
-            let falling = if j < degree { (degree - j) as f64 * -root * self.coefficients[j] } else { 0.0 };
-            product.coefficients[j] = (rising + falling) / degree as f64;
-        }
-        product
-    }
-
     /// The polynomial divided by `s^order`, its roots at the start taken out.
     fn deflated(&self, order: usize) -> Bernstein {
         let degree = self.degree - order;
@@ -331,18 +319,12 @@ const PLACES_BETWEEN: usize = 8;
 /// steps are sampled for nothing.
 const FAR: f64 = 0.5;
 
-/// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` is its value at zero, `known` those at `limit` and half
-/// of it, if they are.
+/// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` is its value at zero.
 ///
 /// A look at the middle excludes most steps. Otherwise the guard is replaced by the polynomial through nine samples; wherever that
 /// comes down to the error of the replacement, the guard itself is asked, and a sign that has changed is followed up on it.
-pub fn first_crossing(
-    mut guard: impl FnMut(f64) -> f64,
-    start: f64,
-    known: Option<[f64; 2]>,
-    limit: f64,
-) -> Option<f64> {
-    let [end, middle] = known.unwrap_or_else(|| [guard(limit), guard(0.5 * limit)]);
+pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, limit: f64) -> Option<f64> {
+    let (end, middle) = (guard(limit), guard(0.5 * limit));
     let (low, high) = (start.min(middle).min(end), start.max(middle).max(end));
     if high - low < FAR * low {
         return None;
@@ -361,6 +343,9 @@ pub fn first_crossing(
         return Some(0.0);
     }
     let (polynomial, doubt) = through(&samples);
+    if samples.iter().all(|sample| *sample > 0.0) && stays_above(&polynomial, doubt, HALVINGS) {
+        return None;
+    }
     let place = |index: usize| {
         let (k, part) = (index / PLACES_BETWEEN, index % PLACES_BETWEEN);
         if part == 0 { NODES[k] } else { NODES[k] + (NODES[k + 1] - NODES[k]) * part as f64 / PLACES_BETWEEN as f64 }
@@ -428,23 +413,63 @@ fn dip_below(guard: &mut impl FnMut(f64) -> f64, [left, _, right]: [f64; 3], gue
 
 /// The polynomial through samples at the nodes, and a bound of what it may be off.
 fn through(samples: &[f64; DEGREE + 1]) -> (Bernstein, f64) {
-    let mut divided = *samples;
-    for order in 1..=DEGREE {
-        for k in (order..=DEGREE).rev() {
-            divided[k] = (divided[k] - divided[k - 1]) / (NODES[k] - NODES[k - order]);
+    let mut coefficients = [0.0; COEFFICIENTS];
+    let mut last = 0.0;
+    for (k, sample) in samples.iter().enumerate() {
+        for j in 0..=DEGREE {
+            coefficients[j] += CARDINAL[k].0[j] * sample;
         }
-    }
-    let mut polynomial = Bernstein { coefficients: [0.0; COEFFICIENTS], degree: 0 };
-    polynomial.coefficients[0] = divided[DEGREE];
-    for k in (0..DEGREE).rev() {
-        polynomial = polynomial.times(NODES[k]);
-        let degree = polynomial.degree;
-        polynomial.coefficients[..=degree].iter_mut().for_each(|b| *b += divided[k]);
+        last += CARDINAL[k].1 * sample;
     }
     let size = samples.iter().fold(0.0f64, |size, sample| size.max(sample.abs()));
-    // Newton's form cancels some digits: a thousand roundings.
-    (polynomial, LAST_WEIGHT * divided[DEGREE].abs() + 1e3 * f64::EPSILON * size)
+    // The cardinal polynomials cancel some digits: a thousand roundings.
+    (Bernstein { coefficients, degree: DEGREE }, LAST_WEIGHT * last.abs() + 1e3 * f64::EPSILON * size)
 }
+
+/// Per node the polynomial that is one there and zero at the others, as Bernstein coefficients and by its leading one.
+const CARDINAL: [([f64; DEGREE + 1], f64); DEGREE + 1] = {
+    let mut table = [([0.0; DEGREE + 1], 0.0); DEGREE + 1];
+    let mut node = 0;
+    while node <= DEGREE {
+        let (mut b, mut degree, mut leading, mut k) = ([0.0; DEGREE + 1], 0, 1.0, 0);
+        b[0] = 1.0;
+        while k <= DEGREE {
+            if k != node {
+                // Times (s - node k) / (node - node k).
+                let scale = 1.0 / (NODES[node] - NODES[k]);
+                leading *= scale;
+                degree += 1;
+                let mut j = degree + 1;
+                while j > 0 {
+                    j -= 1;
+                    let rising = if j > 0 { j as f64 * (1.0 - NODES[k]) * b[j - 1] } else { 0.0 };
+                    let falling = if j < degree { (degree - j) as f64 * -NODES[k] * b[j] } else { 0.0 };
+                    b[j] = (rising + falling) * scale / degree as f64;
+                }
+            }
+            k += 1;
+        }
+        table[node] = (b, leading);
+        node += 1;
+    }
+    table
+};
+
+/// Whether a polynomial is above a level throughout, as far as some halvings tell.
+fn stays_above(polynomial: &Bernstein, level: f64, halvings: usize) -> bool {
+    if polynomial.lower_bound() > level {
+        return true;
+    }
+    let ends = polynomial.coefficients[0].min(polynomial.coefficients[polynomial.degree]);
+    if halvings == 0 || ends <= level {
+        return false;
+    }
+    let (left, right) = polynomial.halves();
+    stays_above(&left, level, halvings - 1) && stays_above(&right, level, halvings - 1)
+}
+
+/// Halvings after which dips are looked for place by place: each costs as much as two places.
+const HALVINGS: usize = 4;
 
 /// Where the parabola through three places has its extremum, kept between the outer ones.
 fn vertex([a, b, c]: [f64; 3], [u, v, w]: [f64; 3]) -> f64 {
@@ -532,9 +557,9 @@ mod tests {
     fn a_dip_between_samples_is_found() {
         // Below zero only within 0.437 ± 0.0316.
         let guard = |s: f64| (s - 0.437) * (s - 0.437) - 1e-3;
-        assert_root(first_crossing(guard, guard(0.0), None, 1.0), 0.437 - 1e-3f64.sqrt());
+        assert_root(first_crossing(guard, guard(0.0), 1.0), 0.437 - 1e-3f64.sqrt());
         let above = |s: f64| (s - 0.437) * (s - 0.437) + 1e-3;
-        assert_eq!(first_crossing(above, above(0.0), None, 1.0), None);
+        assert_eq!(first_crossing(above, above(0.0), 1.0), None);
     }
 
     /// Twice the frequency that a step of any method resolves well, and dips of every depth and place.
@@ -550,7 +575,7 @@ mod tests {
                 if expected <= 0.0 {
                     continue;
                 }
-                match first_crossing(guard, guard(0.0), None, 1.0) {
+                match first_crossing(guard, guard(0.0), 1.0) {
                     // The slope there is 5 sqrt(2 depth); values are good to some roundings of one.
                     Some(found) => {
                         assert!((found - expected).abs() < 1e-15 / depth.sqrt() + 1e-15, "{found} {expected}")
@@ -558,7 +583,7 @@ mod tests {
                     None => missed += 1,
                 }
                 let above = |s: f64| guard(s) + 2.0 * depth;
-                assert_eq!(first_crossing(above, above(0.0), None, 1.0), None);
+                assert_eq!(first_crossing(above, above(0.0), 1.0), None);
             }
         }
         assert_eq!(missed, 0);
@@ -567,7 +592,7 @@ mod tests {
     #[test]
     fn a_crossing_beyond_the_limit_is_left_alone() {
         let guard = |s: f64| 0.6 - s;
-        assert_eq!(first_crossing(guard, 0.6, None, 0.5), None);
-        assert_root(first_crossing(guard, 0.6, None, 0.8), 0.6);
+        assert_eq!(first_crossing(guard, 0.6, 0.5), None);
+        assert_root(first_crossing(guard, 0.6, 0.8), 0.6);
     }
 }

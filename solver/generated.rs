@@ -25,7 +25,7 @@
 //! ```
 
 use crate::column::{Block, Column};
-use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
+use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use crate::mode::Mode;
 use crate::program::{
     ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, SeriesProgram, StepProgram,
@@ -76,7 +76,7 @@ impl PartialEq for Equations {
 pub type Linkages = fn(usize, usize) -> Option<LinkageEquations<f64>>;
 
 /// The pattern's bits: bit `i` is set where interface `i + 1` is open.
-fn mask(pattern: &Pattern) -> usize {
+pub(crate) fn mask(pattern: &Pattern) -> usize {
     pattern.0.iter().rev().fold(0, |mask, interface| 2 * mask + usize::from(interface.is_open()))
 }
 
@@ -267,11 +267,21 @@ where
         matrix.as_ref().iter().flat_map(|row| row.as_ref().iter().copied()).collect()
     }
 
-    fn contact_forces(&self, state: &P::State, derivative: &P::State, ground: Ground, forces: &mut [ContactForce]) {
+    fn contact_forces(
+        &self,
+        state: &P::State,
+        derivative: &P::State,
+        ground: Ground,
+        which: Interfaces,
+        forces: &mut [ContactForce],
+    ) {
         let (cos, sin, omega) = split::<f64, P>(state.as_slice());
         let alpha = &derivative.as_slice()[P::DOF..];
         let (cos, sin, omega) = (cos.as_ref(), sin.as_ref(), omega.as_ref());
         for (interface, force) in self.interfaces.iter().zip(forces) {
+            if which == Interfaces::Closed && interface.pivot != 0.0 {
+                continue;
+            }
             let constants = &interface.constants;
             let [normal, tangential, moment] =
                 (interface.forces)(constants, cos, sin, omega, alpha, ground.x, ground.gravity);

@@ -5,7 +5,7 @@
 //! the generator differentiates energies.
 
 use crate::column::Column;
-use crate::dynamics::{ContactForce, Dynamics, Energy, Ground};
+use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces};
 use crate::few::{Few, Size};
 use crate::kinematics::{Factorised, Posture, Vec2};
 use rocking_codegen::pattern::Pattern;
@@ -162,7 +162,14 @@ impl Dynamics for GenericMode {
         self.posture(state).mass_matrix()[..self.dof * self.dof].to_vec()
     }
 
-    fn contact_forces(&self, state: &Vec<f64>, derivative: &Vec<f64>, ground: Ground, result: &mut [ContactForce]) {
+    fn contact_forces(
+        &self,
+        state: &Vec<f64>,
+        derivative: &Vec<f64>,
+        ground: Ground,
+        _: Interfaces,
+        result: &mut [ContactForce],
+    ) {
         let posture = self.posture(state);
         let alpha = &derivative[self.dof..];
         let mut total = imposed_acceleration(&posture, &state[self.dof..], ground);

@@ -51,6 +51,7 @@ pub mod few;
 pub mod generated;
 pub mod generic;
 pub mod kinematics;
+pub mod lanes;
 pub mod mode;
 mod modes;
 pub mod ode;

@@ -4,7 +4,7 @@
 //! ([`crate::simulate()`]) uses the same equations through types that know the number of free angles.
 
 use crate::column::Column;
-use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, StateVector};
+use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use crate::generated;
 use crate::generic::GenericMode;
 use crate::ode::{self, Dop853, DormandPrince54, KuttaMerson, Pair, RungeKutta4, System, Tolerance};
@@ -87,7 +87,7 @@ impl<D: Dynamics + 'static> Equations for D {
         let x = state(self, x);
         let mut slope = self.zero_state();
         Dynamics::derivative(self, &x, ground, &mut slope);
-        Dynamics::contact_forces(self, &x, &slope, ground, forces);
+        Dynamics::contact_forces(self, &x, &slope, ground, Interfaces::All, forces);
     }
 
     fn integrate(

@@ -18,7 +18,7 @@ mod stepper;
 mod swing;
 
 use crate::contact::verge_acceleration;
-use crate::dynamics::{ContactForce, StateVector};
+use crate::dynamics::{ContactForce, Interfaces, StateVector};
 use crate::excitation::Segment;
 use crate::few::Few;
 use crate::ode::{Difference, Tolerance};
@@ -164,6 +164,11 @@ fn segment<'r>(run: &'r Run) -> &'r Segment {
     &run.segments[run.segment]
 }
 
+/// Where contact forces are of use.
+fn interfaces(run: &Run) -> Interfaces {
+    if records_forces(run) { Interfaces::All } else { Interfaces::Closed }
+}
+
 /// Whether contact forces are recorded.
 fn records_forces(run: &Run) -> bool {
     run.scene.records_forces()
@@ -216,8 +221,7 @@ impl<V: StateVector> Phase<V> {
         self.stepper.begin(run.t, &self.x);
         self.arm(run);
         if self.reads_forces(run) {
-            self.stepper.start_slope(run.t, &self.x, &mut self.slope);
-            self.stepper.contact_forces(run.t, &self.x, &self.slope, &mut self.forces);
+            self.stepper.weigh(run.t, &self.x, interfaces(run), &mut self.forces);
             self.remember_forces(run);
             if records_forces(run) {
                 run.history.note_forces(&self.forces);
@@ -348,7 +352,7 @@ impl<V: StateVector> Phase<V> {
         self.note_peaks(run, h);
         let end = if h == segment(run).end - t { segment(run).end } else { t + h };
         if records_forces(run) || is_mistaken || matches!(found, Found::Contact { .. }) {
-            self.weigh_end(end);
+            self.weigh_end(run, end);
             self.note_step(run, h);
             self.remember_forces(run);
         }

@@ -49,7 +49,7 @@ pub trait StepProgram<S: Scalar> {
     /// One value per free angle.
     type Vector: AsRef<[S]> + AsMut<[S]> + Copy;
     /// `[θ, θ̇]`, length 2·dof.
-    type State: AsRef<[S]> + Clone;
+    type State: AsRef<[S]> + AsMut<[S]> + Clone;
     /// Scene constants, in the order of the program's doc.
     type Constants: for<'a> TryFrom<&'a [S]> + Clone;
     /// Mass matrix and energies of the same modes.

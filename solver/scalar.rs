@@ -3,7 +3,8 @@
 //! | scalar | for |
 //! |---|---|
 //! | `f64` | a run |
-//! | `f64x4`, `f64x8` of `wide` | the same mode of several scenes at once, each lane bit for bit what `f64` gives |
+//! | [`Lanes`](crate::lanes::Lanes) | the same mode of several scenes at once, each lane bit for bit what `f64` gives |
+//! | `f64x4`, `f64x8` of `wide` | the same, where the program is compiled for the machine that it runs on |
 //! | [`Dual`] | derivatives by column parameters or by the state, exact to rounding |
 //!
 //! Neither doubles nor lanes use fused multiply-adds, so results do not depend on the machine. A scalar of one's own (a

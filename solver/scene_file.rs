@@ -14,6 +14,7 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use table::{Place, Table};
 use template::Records;
+pub(crate) use template::Shaken;
 pub use template::{Setting, Template};
 
 /// Why a scene file is refused.

@@ -3,8 +3,8 @@
 use crate::contact::{self, Decision, ImpactLaw};
 use crate::dynamics::{ContactForce, Ground};
 use crate::excitation::{Excitation, Segment};
-use crate::few::Few;
-use crate::kinematics::Posture;
+use crate::few::{Few, for_size};
+use crate::kinematics::{Posture, Turn};
 use crate::modes::Modes;
 use crate::outcome::Barrier;
 use crate::phase::Ended;
@@ -433,11 +433,13 @@ impl<'a> Run<'a> {
             return false;
         }
         let column = &self.scene.column;
-        let posture = Posture::new(column, &self.pattern, theta);
-        let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
-        let potential = posture.potential_energy(column.gravity()) - rest::energy(column).potential;
+        let above_rest = for_size!(column.len(), size => {
+            let posture = Posture::of(size, column, &self.pattern, &Turn::all(size, theta));
+            let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
+            kinetic + (posture.potential_energy(column.gravity()) - rest::energy(column).potential)
+        });
         let slack = energy * CERTAINTY.max(DRIFT * self.scene.options.rtol);
-        potential + kinetic < energy - slack
+        above_rest < energy - slack
     }
 
     fn record(

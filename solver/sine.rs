@@ -53,8 +53,11 @@ pub fn is_within_reach(x: f64) -> bool {
 #[inline(always)]
 pub fn kernels<S: Scalar>(x: S) -> (S, S) {
     let number = S::from_f64;
-    let [s1, s2, s3, s4, s5, s6] = SIN.map(number);
-    let [c1, c2, c3, c4, c5, c6] = COS.map(number);
+    // One by one: a map over the array is a call, compiled for the plainest instructions.
+    let (s1, s2, s3) = (number(SIN[0]), number(SIN[1]), number(SIN[2]));
+    let (s4, s5, s6) = (number(SIN[3]), number(SIN[4]), number(SIN[5]));
+    let (c1, c2, c3) = (number(COS[0]), number(COS[1]), number(COS[2]));
+    let (c4, c5, c6) = (number(COS[3]), number(COS[4]), number(COS[5]));
     let z = x * x;
     let square = z * z;
     let tail = s2 + z * (s3 + z * s4) + z * square * (s5 + z * s6);

@@ -5,7 +5,7 @@
 
 use crate::response::{ModeName, Response, StopReason};
 use crate::scene::{Scene, Wanted};
-use crate::scene_file::{SceneFileError, Setting, Template};
+use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
 use crate::simulate::{Simulator, SolveError};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -143,6 +143,7 @@ const LEAST_POINTS: usize = 16;
 struct Worker<'s> {
     sweep: &'s Sweep,
     simulator: Simulator,
+    shaken: Shaken<'s>,
     /// The scene of the last point.
     scene: Option<Scene>,
     /// Values of the last point, in the order of the axes.
@@ -151,7 +152,13 @@ struct Worker<'s> {
 
 impl<'s> Worker<'s> {
     fn new(sweep: &'s Sweep) -> Worker<'s> {
-        Worker { sweep, simulator: Simulator::new(), scene: None, settings: Vec::new() }
+        Worker {
+            sweep,
+            simulator: Simulator::new(),
+            shaken: sweep.template.shaken(),
+            scene: None,
+            settings: Vec::new(),
+        }
     }
 
     fn row(&mut self, index: usize) -> Row {
@@ -173,7 +180,7 @@ impl<'s> Worker<'s> {
             Some(mut scene) if others.all(|((_, setting), last)| setting == last) => {
                 let ground = axes().filter(|(axis, _)| of_ground(axis));
                 let ground = ground.map(|(axis, setting)| (axis.key.as_str(), *setting));
-                self.sweep.template.set_excitation(&mut scene, ground)?;
+                self.shaken.set(&mut scene, ground)?;
                 scene
             }
             _ => self.sweep.scene(index)?,

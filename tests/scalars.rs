@@ -8,6 +8,7 @@ mod double;
 use double::Double;
 use proptest::prelude::*;
 use rocking::generated::{equations, geometry};
+use rocking::lanes::{Ensemble, Lanes};
 use rocking::pattern::Pattern;
 use rocking::program::{EnergyProgram, Geometry, Scalar, StepProgram};
 use rocking::scalar::Dual;
@@ -75,6 +76,38 @@ fn lanes_are_scalars<S: Scalar, const L: usize>(to: impl Fn([f64; L]) -> S, from
 fn lanes_give_bit_for_bit_what_scalars_give() {
     lanes_are_scalars::<f64x4, 4>(f64x4::new, |lanes| lanes.to_array());
     lanes_are_scalars::<f64x8, 8>(f64x8::new, |lanes| lanes.to_array());
+    lanes_are_scalars::<Lanes<8>, 8>(Lanes, |lanes| lanes.0);
+}
+
+/// An ensemble runs in whatever instructions the machine has; beyond an eighth of a turn its lanes go one by one.
+#[test]
+fn an_ensemble_gives_bit_for_bit_what_its_scenes_give() {
+    use rocking::dynamics::{Dynamics, Ground};
+    use rocking::generated::GeneratedMode;
+    let run = |cases: Vec<(Column, Vec<f64>)>| {
+        let pattern = Pattern::from_signs(&SIGNS);
+        let modes: Vec<_> = cases.iter().map(|(column, _)| (column, &pattern)).collect();
+        let ensemble = Ensemble::<equations::Dof3>::new(&modes, GroundMotion::WithVertical, equations::linkage::<f64>);
+        let ensemble = ensemble.expect("the build covers it");
+        let inputs: Vec<_> = cases.iter().map(|(_, random)| inputs(random)).collect();
+        let states: Vec<f64> = inputs.iter().flat_map(|(x, _, _)| *x).collect();
+        let ground: Vec<Ground> = inputs.iter().map(|&(_, x, gravity)| Ground { x, gravity }).collect();
+        let mut slopes = vec![0.0; states.len()];
+        ensemble.slopes(&states, &ground, &mut slopes);
+        for (index, (column, pattern)) in modes.iter().enumerate() {
+            type Alone = GeneratedMode<equations::Dof3>;
+            let alone = Alone::new(column, pattern, GroundMotion::WithVertical, equations::linkage::<f64>);
+            let mut slope = [0.0; 6];
+            alone.expect("the build covers it").derivative(&inputs[index].0, ground[index], &mut slope);
+            for (a, b) in slopes[6 * index..].iter().zip(slope) {
+                prop_assert_eq!(a.to_bits(), b.to_bits());
+            }
+        }
+        Ok(())
+    };
+    for count in [1, 8, 19] {
+        common::runner(60).run(&prop::collection::vec(strategy(), count), run).expect("ensembles agree with scenes");
+    }
 }
 
 /// Derivatives by every column parameter (gravity, pivots, half-heights, masses, inertias), every angle and every rate.

@@ -1,6 +1,6 @@
 //! What lies inside a step: the first zero of a guard, contact forces, peaks, rows.
 
-use super::{Found, Phase, records_forces, segment};
+use super::{Found, Phase, interfaces, records_forces, segment};
 use crate::dynamics::StateVector;
 use crate::event::first_crossing;
 use crate::few::Few;
@@ -48,30 +48,33 @@ impl<V: StateVector> Phase<V> {
         let t = run.t;
         let mut first: Option<(Found, f64)> = None;
         if !self.closed.is_empty() {
-            // One look each at the end and the middle serves all interfaces.
-            let look = |phase: &mut Self, s: f64| -> Few<f64> {
-                phase.weigh_inside(run, h, s);
-                phase.closed.iter().map(|&interface| phase.margin(run, interface)).collect()
-            };
-            let [ends, middles] = [reach, 0.5 * reach].map(|s| look(self, s));
+            // A look at a place serves all interfaces.
+            let mut looks: Few<(f64, Few<f64>)> = Few::new();
             for index in 0..self.closed.len() {
                 let (interface, start) = (self.closed[index], self.margins[index]);
                 if start <= 0.0 && t < run.hold.until {
                     continue;
                 }
-                let known = first.is_none().then(|| [ends[index], middles[index]]);
                 let reach = first.map_or(reach, |(_, s)| s);
                 let guard = |s: f64| {
+                    if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == s) {
+                        return margins[index];
+                    }
                     self.weigh_inside(run, h, s);
-                    self.margin(run, interface)
+                    let margins: Few<f64> = self.closed.iter().map(|&i| self.margin(run, i)).collect();
+                    let margin = margins[index];
+                    if looks.len() < looks.inline_size() {
+                        looks.push((s, margins));
+                    }
+                    margin
                 };
-                if let Some(s) = first_crossing(guard, start, known, reach) {
+                if let Some(s) = first_crossing(guard, start, reach) {
                     first = Some((Found::Contact { interface }, s));
                 }
             }
         }
         if first.is_none() && reach >= 1.0 {
-            self.weigh_end(end);
+            self.weigh_end(run, end);
             self.note_step(run, h);
             self.remember_forces(run);
         }
@@ -79,17 +82,15 @@ impl<V: StateVector> Phase<V> {
     }
 
     /// Contact forces at the end of the last attempt, at time `end`.
-    pub(super) fn weigh_end(&mut self, end: f64) {
-        self.stepper.end_slope(end, &mut self.slope);
-        self.stepper.contact_forces(end, self.stepper.end(), &self.slope, &mut self.forces);
+    pub(super) fn weigh_end(&mut self, run: &Run, end: f64) {
+        self.stepper.weigh_end(end, interfaces(run), &mut self.forces);
     }
 
     /// Contact forces inside the step.
     fn weigh_inside(&mut self, run: &Run, h: f64, s: f64) {
         let t = run.t + s * h;
         self.stepper.state_inside(s, &mut self.inside);
-        self.stepper.slope(t, &self.inside, &mut self.slope);
-        self.stepper.contact_forces(t, &self.inside, &self.slope, &mut self.forces);
+        self.stepper.weigh(t, &self.inside, interfaces(run), &mut self.forces);
     }
 
     /// Notes the forces in the step, those at its end having been weighed last, from start, middle and end of panels so short that

@@ -4,7 +4,7 @@
 //! as the mode: entering a phase asks for no memory.
 
 use super::pendulum::Pendulum;
-use crate::dynamics::{ContactForce, Dynamics, Ground, StateVector};
+use crate::dynamics::{ContactForce, Dynamics, Ground, Interfaces, StateVector};
 use crate::event::Track;
 use crate::excitation::Segment;
 use crate::ode::{Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance};
@@ -25,8 +25,6 @@ pub(crate) trait Stepper<V> {
     fn begin(&mut self, t: f64, x: &V);
     /// `[θ̇, θ̈]` where the next step begins.
     fn start_slope(&mut self, t: f64, x: &V, slope: &mut V);
-    /// `[θ̇, θ̈]` anywhere.
-    fn slope(&mut self, t: f64, x: &V, slope: &mut V);
     /// Attempts a step; see [`Pair::attempt`].
     fn attempt(&mut self, t: f64, x: &V, h: f64, tolerance: Tolerance) -> f64;
     /// Makes the last attempt, which was good and from the same place, end earlier.
@@ -37,16 +35,16 @@ pub(crate) trait Stepper<V> {
     fn advance(&mut self);
     /// State at the end of the last attempt.
     fn end(&self) -> &V;
-    /// `[θ̇, θ̈]` at the end of the last attempt, at `t`.
-    fn end_slope(&mut self, t: f64, slope: &mut V);
     /// State inside the last attempt, `s` from 0 to 1 of it.
     fn state_inside(&mut self, s: f64, state: &mut V);
     /// Angles, or the difference of two, inside the last attempt; exactly zero at its start where that is known.
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
     /// A bound of an angle's size inside the last attempt.
     fn reach(&mut self, link: usize) -> f64;
-    /// Contact forces at all interfaces, base first.
-    fn contact_forces(&self, t: f64, x: &V, slope: &V, forces: &mut [ContactForce]);
+    /// Contact forces anywhere, base first.
+    fn weigh(&mut self, t: f64, x: &V, which: Interfaces, forces: &mut [ContactForce]);
+    /// The same at the end of the last attempt, at `t`.
+    fn weigh_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]);
     /// A first step for a state.
     fn first_step(&self, x: &V, tolerance: Tolerance) -> f64;
     /// The factor for the next step after an attempt with this error.
@@ -64,6 +62,16 @@ struct Driven<D> {
 }
 
 impl<D: Dynamics> Driven<D> {
+    #[inline(always)]
+    fn weigh(&mut self, t: f64, x: &D::State, which: Interfaces, forces: &mut [ContactForce]) {
+        self.calls += 1;
+        let ground = self.segment.ground(t, self.gravity);
+        // As long as a state.
+        let mut slope = x.clone();
+        self.mode.derivative(x, ground, &mut slope);
+        self.mode.contact_forces(x, &slope, ground, which, forces);
+    }
+
     /// `J θ̈ + cos θ · C + sin θ · S = 0`, where the weights are those of gravity alone.
     fn pendulum(&self) -> Option<Pendulum> {
         let (zero, still) = (self.mode.zero_state(), self.mode.zero_links());
@@ -147,10 +155,6 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
         slope.clone_from(&self.slope);
     }
 
-    fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
-        self.system.slope(t, x, slope);
-    }
-
     fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
         self.is_interpolated = false;
         self.pair.attempt(&mut self.system, t, x, &self.slope, h, tolerance)
@@ -173,10 +177,6 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
         self.pair.end()
     }
 
-    fn end_slope(&mut self, _: f64, slope: &mut D::State) {
-        slope.clone_from(self.pair.end_slope());
-    }
-
     fn state_inside(&mut self, s: f64, state: &mut D::State) {
         self.interpolant().evaluate(s, state);
     }
@@ -195,8 +195,12 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
         self.interpolant().bernstein(|x| x[link]).size()
     }
 
-    fn contact_forces(&self, t: f64, x: &D::State, slope: &D::State, forces: &mut [ContactForce]) {
-        self.system.mode.contact_forces(x, slope, self.ground(t), forces);
+    fn weigh(&mut self, t: f64, x: &D::State, which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.weigh(t, x, which, forces);
+    }
+
+    fn weigh_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.mode.contact_forces(self.pair.end(), self.pair.end_slope(), self.ground(t), which, forces);
     }
 
     fn first_step(&self, x: &D::State, tolerance: Tolerance) -> f64 {
@@ -289,10 +293,6 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         self.series.slope(&mut self.system, t, x, slope);
     }
 
-    fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
-        self.system.driven.slope(t, x, slope);
-    }
-
     fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
         let known = self.series.order_at(t, x);
         let error = self.series.attempt(&mut self.system, t, x, h, tolerance);
@@ -312,10 +312,6 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         self.series.end()
     }
 
-    fn end_slope(&mut self, t: f64, slope: &mut D::State) {
-        self.system.driven.slope(t, self.series.end(), slope);
-    }
-
     fn state_inside(&mut self, s: f64, state: &mut D::State) {
         self.series.state_inside(s, state);
     }
@@ -329,8 +325,12 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         self.series.reach(link)
     }
 
-    fn contact_forces(&self, t: f64, x: &D::State, slope: &D::State, forces: &mut [ContactForce]) {
-        self.system.driven.mode.contact_forces(x, slope, self.ground(t), forces);
+    fn weigh(&mut self, t: f64, x: &D::State, which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.driven.weigh(t, x, which, forces);
+    }
+
+    fn weigh_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.driven.weigh(t, self.series.end(), which, forces);
     }
 
     /// Any: the first attempt finds the length of the step at the cost of no new coefficients.

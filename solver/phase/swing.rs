@@ -5,7 +5,7 @@
 
 use super::inside::PANELS_PER_TURN;
 use super::pendulum::{Pendulum, Swing};
-use super::{Ended, Phase, records_forces, segment};
+use super::{Ended, Phase, interfaces, records_forces, segment};
 use crate::dynamics::StateVector;
 use crate::event::first_crossing;
 use crate::simulate::Run;
@@ -65,7 +65,7 @@ impl<V: StateVector> Phase<V> {
         self.gaps[0].start_roots = 0;
         self.stepper.begin(until, &self.x);
         if self.reads_forces(run) && !is_landed {
-            self.weigh(until, [theta, omega]);
+            self.stepper.weigh(until, &self.x, interfaces(run), &mut self.forces);
             self.remember_forces(run);
         }
         run.note_peaks_of(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
@@ -117,7 +117,7 @@ impl<V: StateVector> Phase<V> {
                 self.weigh_at(run, course, from + s * (to - from));
                 self.margin(run, interface)
             };
-            if let Some(s) = first_crossing(guard, start, None, first.map_or(1.0, |(s, _)| s)) {
+            if let Some(s) = first_crossing(guard, start, first.map_or(1.0, |(s, _)| s)) {
                 first = Some((s, interface));
             }
         }
@@ -133,14 +133,8 @@ impl<V: StateVector> Phase<V> {
     /// Contact forces at an angle of the swing.
     fn weigh_at(&mut self, run: &Run, course: &Course, psi: f64) {
         let v = course.swing.rate_at(psi).unwrap_or(0.0);
-        self.weigh(run.t, course.state([psi, v]));
-    }
-
-    /// Contact forces in a state.
-    fn weigh(&mut self, t: f64, state: [f64; 2]) {
-        self.inside.as_mut_slice().copy_from_slice(&state);
-        self.stepper.slope(t, &self.inside, &mut self.slope);
-        self.stepper.contact_forces(t, &self.inside, &self.slope, &mut self.forces);
+        self.inside.as_mut_slice().copy_from_slice(&course.state([psi, v]));
+        self.stepper.weigh(run.t, &self.inside, interfaces(run), &mut self.forces);
     }
 
     /// Rows up to a time.

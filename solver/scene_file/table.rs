@@ -130,6 +130,11 @@ impl Table {
             };
             let place = self.find(name);
             let entries = Arc::make_mut(&mut self.entries);
+            // As most often in a sweep: it is there, and no other of its kind beside it.
+            if let Some(entry) = entries.iter_mut().find(|entry| *entry.key == *name) {
+                entry.value = value;
+                return Some(());
+            }
             entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
             entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
             return Some(());

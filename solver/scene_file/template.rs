@@ -70,42 +70,18 @@ impl Template {
         &self,
         settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
     ) -> Result<Scene, SceneFileError> {
-        let (reader, root) = self.changed(settings)?;
-        reader.read(root).map(|read| read.scene)
-    }
-
-    /// Gives a scene made of this template another ground motion: that with these keys, all of it under `excitation`, set to these
-    /// values.
-    ///
-    /// # Errors
-    /// As [`Template::with`].
-    pub fn set_excitation<'s>(
-        &self,
-        scene: &mut Scene,
-        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
-    ) -> Result<(), SceneFileError> {
-        let (reader, mut root) = self.changed(settings)?;
-        scene.excitation = reader.excitation(&mut root, &scene.column)?;
-        scene.check().map_err(|error| reader.refused(&root, error))
-    }
-
-    /// The tables with some keys changed, and what reads them.
-    fn changed<'s>(
-        &self,
-        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
-    ) -> Result<(Reader<'_>, Table), SceneFileError> {
-        let reader = Reader { text: &self.text, file: &self.file, records: Some(&self.records) };
         let mut root = self.root.clone();
-        for (key, value) in settings {
-            root.set(key, value).ok_or_else(|| {
-                let (place, key) = (root.find(key), key.to_string());
-                let problem = "the scene has no such table".into();
-                let remedy =
-                    "name a key as in a scene file, e.g. `excitation.horizontal.amplitude_g` or `block[2].mass`";
-                reader.error(Wrong { place, key, problem, remedy: remedy.into() })
-            })?;
-        }
-        Ok((reader, root))
+        change(&mut root, settings).map_err(|wrong| self.reader().error(wrong))?;
+        self.reader().read(root).map(|read| read.scene)
+    }
+
+    /// The template for one who changes its ground motion again and again.
+    pub(crate) fn shaken(&self) -> Shaken<'_> {
+        Shaken { template: self, root: self.root.clone() }
+    }
+
+    fn reader(&self) -> Reader<'_> {
+        Reader { text: &self.text, file: &self.file, records: Some(&self.records) }
     }
 
     /// The full name of a key: as it is if it has a point, otherwise that of the only key in the scene called so, or where a scene
@@ -126,6 +102,42 @@ impl Template {
             [name] => Some(name.clone()),
             _ => None,
         }
+    }
+}
+
+/// Sets keys, under their dotted names.
+fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s Setting)>) -> Result<(), Wrong> {
+    for (key, value) in settings {
+        root.set(key, value).ok_or_else(|| {
+            let (place, key) = (root.find(key), key.to_string());
+            let problem = "the scene has no such table".into();
+            let remedy = "name a key as in a scene file, e.g. `excitation.horizontal.amplitude_g` or `block[2].mass`";
+            Wrong { place, key, problem, remedy: remedy.into() }
+        })?;
+    }
+    Ok(())
+}
+
+/// A template whose ground motion is changed again and again: only that is read anew.
+pub(crate) struct Shaken<'t> {
+    template: &'t Template,
+    root: Table,
+}
+
+impl Shaken<'_> {
+    /// Gives a scene of the template another ground motion: that with these keys, all of them under `excitation`, set to these values.
+    ///
+    /// # Errors
+    /// As [`Template::with`].
+    pub fn set<'s>(
+        &mut self,
+        scene: &mut Scene,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+    ) -> Result<(), SceneFileError> {
+        let reader = self.template.reader();
+        change(&mut self.root, settings).map_err(|wrong| reader.error(wrong))?;
+        scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
+        scene.check().map_err(|error| reader.refused(&self.root, error))
     }
 }
 
