@@ -58,14 +58,16 @@ where
         bencher.iter(|| generic.derivative(black_box(&values), black_box(GROUND), &mut other));
     });
 
-    // A whole ensemble, its states packed into lanes and its slopes unpacked again.
+    // A whole ensemble, its states in lanes.
     let pattern = pattern(dof);
     let modes = [(&column, &pattern); SCENES];
     let ensemble = Ensemble::<P>::new(&modes, GroundMotion::Horizontal, equations::linkage::<f64>);
     let ensemble = ensemble.expect("the build has it");
-    let (states, ground, mut slopes) = (values.repeat(SCENES), [GROUND; SCENES], vec![0.0; 2 * dof * SCENES]);
+    let states = ensemble.pack(&values.repeat(SCENES), 2 * dof);
+    let ground = ensemble.pack(&[GROUND.x, GROUND.gravity].repeat(SCENES), 2);
+    let mut slopes = states.clone();
     ensemble.slopes(&states, &ground, &mut slopes);
-    for lanes in slopes.chunks(2 * dof) {
+    for lanes in ensemble.unpack(&slopes, 2 * dof).chunks(2 * dof) {
         assert_eq!(lanes, rocking::dynamics::StateVector::as_slice(&slope), "bit for bit");
     }
     group.bench_function(BenchmarkId::new("lanes", dof), |bencher| {

@@ -5,7 +5,6 @@
 //! multiply-adds, so every lane is bit for bit what `f64` gives, on every machine.
 
 use crate::column::Column;
-use crate::dynamics::Ground;
 use crate::generated::{Linkages, geometry};
 use crate::program::{Scalar, StepProgram, slope};
 use crate::sine;
@@ -106,13 +105,15 @@ fn one_by_one<const W: usize>(angles: Lanes<W>) -> (Lanes<W>, Lanes<W>) {
 /// let pattern = Pattern::from_signs(&[1, -1]);
 /// let modes: Vec<_> = columns.iter().map(|column| (column, &pattern)).collect();
 /// let linkages = |blocks, mask| equations::linkage::<f64>(blocks, mask);
-/// let ensemble =
-///     Ensemble::<HorizontalDof2>::new(&modes, GroundMotion::Horizontal, linkages).expect("two blocks are in every build but the smallest");
+/// let ensemble = Ensemble::<HorizontalDof2>::new(&modes, GroundMotion::Horizontal, linkages);
+/// let ensemble = ensemble.expect("two blocks are in every build but the smallest");
 /// let (x, ground) = ([0.1, 0.02, 0.3, -0.2], Ground { x: 1.0, gravity: 9.81 });
-/// let mut slopes = [0.0; 4 * 11];
-/// ensemble.slopes(&x.repeat(11), &[ground; 11], &mut slopes);
+/// let states = ensemble.pack(&x.repeat(11), 4);
+/// let mut slopes = states.clone();
+/// ensemble.slopes(&states, &ensemble.pack(&[ground.x, ground.gravity].repeat(11), 2), &mut slopes);
 /// let alone = Mode::generated(&columns[10], &pattern).expect("as above").derivative(&x, ground);
-/// assert!(slopes[40..].iter().zip(&alone).all(|(a, b)| (a - b).abs() < 1e-14));
+/// let last = &ensemble.unpack(&slopes, 4)[40..];
+/// assert!(last.iter().zip(&alone).all(|(a, b)| (a - b).abs() < 1e-14));
 /// # Ok::<(), rocking::ColumnError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -151,36 +152,42 @@ impl<P: StepProgram<Lanes<WIDTH>>> Ensemble<P> {
         self.scenes == 0
     }
 
-    /// `[θ̇, θ̈]` of every scene, scene by scene, from their states `[θ, θ̇]` and ground motions: lengths `2 · dof · scenes` and scenes.
-    /// A panic means that lengths are others.
-    pub fn slopes(&self, states: &[f64], ground: &[Ground], slopes: &mut [f64]) {
-        let size = 2 * P::DOF;
-        assert_eq!((states.len(), ground.len()), (size * self.scenes, self.scenes), "as many states as scenes");
-        assert_eq!(slopes.len(), states.len(), "as many slopes as states");
+    /// A number per scene, of `count` each, scene by scene: into lanes, number by number within a group of scenes. A panic means that
+    /// there are not `count` for each.
+    pub fn pack(&self, values: &[f64], count: usize) -> Vec<Lanes<WIDTH>> {
+        assert_eq!(values.len(), count * self.scenes, "as many as scenes");
+        let group = |values: &[f64]| {
+            let last = values.len() / count - 1;
+            let lanes = |index| Lanes(std::array::from_fn(|lane: usize| values[lane.min(last) * count + index]));
+            (0..count).map(lanes).collect::<Vec<_>>()
+        };
+        values.chunks(WIDTH * count).flat_map(group).collect()
+    }
+
+    /// The other way round.
+    pub fn unpack(&self, lanes: &[Lanes<WIDTH>], count: usize) -> Vec<f64> {
+        let scene = |scene: usize| {
+            let group = &lanes[scene / WIDTH * count..][..count];
+            group.iter().map(move |lanes| lanes.0[scene % WIDTH])
+        };
+        (0..self.scenes).flat_map(scene).collect()
+    }
+
+    /// `[θ̇, θ̈]` of every scene from its state `[θ, θ̇]` and its ground motion, horizontal acceleration and effective gravity `[m/s²]`: all
+    /// in lanes, `2 · dof` of states and slopes, and two of ground motion, for each group of scenes. A panic means that there are not so
+    /// many.
+    pub fn slopes(&self, states: &[Lanes<WIDTH>], ground: &[Lanes<WIDTH>], slopes: &mut [Lanes<WIDTH>]) {
+        let (size, groups) = (2 * P::DOF, self.constants.len());
+        assert_eq!((states.len(), slopes.len()), (size * groups, size * groups), "as many states and slopes as scenes");
+        assert_eq!(ground.len(), 2 * groups, "as many ground motions as scenes");
         widest(
             #[inline(always)]
             || {
                 let mut state = P::state(Lanes::from_f64(0.0));
-                let mut slope_lanes = P::state(Lanes::from_f64(0.0));
-                let groups = states.chunks(WIDTH * size).zip(ground.chunks(WIDTH)).zip(slopes.chunks_mut(WIDTH * size));
-                for (constants, ((states, ground), slopes)) in self.constants.iter().zip(groups) {
-                    let last = ground.len() - 1;
-                    for (index, lanes) in state.as_mut().iter_mut().enumerate() {
-                        for lane in 0..WIDTH {
-                            lanes.0[lane] = states[lane.min(last) * size + index];
-                        }
-                    }
-                    let (mut x, mut gravity) = (Lanes([0.0; WIDTH]), Lanes([0.0; WIDTH]));
-                    for lane in 0..WIDTH {
-                        let ground = ground[lane.min(last)];
-                        (x.0[lane], gravity.0[lane]) = (ground.x, ground.gravity);
-                    }
-                    slope::<Lanes<WIDTH>, P>(constants, &state, x, gravity, slope_lanes.as_mut());
-                    for (lane, slopes) in slopes.chunks_mut(size).enumerate() {
-                        for (slope, lanes) in slopes.iter_mut().zip(slope_lanes.as_ref()) {
-                            *slope = lanes.0[lane];
-                        }
-                    }
+                let scenes = states.chunks_exact(size).zip(ground.chunks_exact(2)).zip(slopes.chunks_exact_mut(size));
+                for (constants, ((own, ground), slopes)) in self.constants.iter().zip(scenes) {
+                    state.as_mut().copy_from_slice(own);
+                    slope::<Lanes<WIDTH>, P>(constants, &state, ground[0], ground[1], slopes);
                 }
             },
         );

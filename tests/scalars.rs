@@ -92,8 +92,11 @@ fn an_ensemble_gives_bit_for_bit_what_its_scenes_give() {
         let inputs: Vec<_> = cases.iter().map(|(_, random)| inputs(random)).collect();
         let states: Vec<f64> = inputs.iter().flat_map(|(x, _, _)| *x).collect();
         let ground: Vec<Ground> = inputs.iter().map(|&(_, x, gravity)| Ground { x, gravity }).collect();
-        let mut slopes = vec![0.0; states.len()];
-        ensemble.slopes(&states, &ground, &mut slopes);
+        let states = ensemble.pack(&states, 6);
+        let shaken: Vec<f64> = ground.iter().flat_map(|ground| [ground.x, ground.gravity]).collect();
+        let mut slopes = states.clone();
+        ensemble.slopes(&states, &ensemble.pack(&shaken, 2), &mut slopes);
+        let slopes = ensemble.unpack(&slopes, 6);
         for (index, (column, pattern)) in modes.iter().enumerate() {
             type Alone = GeneratedMode<equations::Dof3>;
             let alone = Alone::new(column, pattern, GroundMotion::WithVertical, equations::linkage::<f64>);
