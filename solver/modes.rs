@@ -7,7 +7,7 @@ use crate::outcome::Barrier;
 use crate::phase::SmoothPhase;
 use crate::scene::{DynamicsSource, Scene, SolveOptions};
 use rocking_codegen::GroundMotion;
-use rocking_codegen::pattern::Pattern;
+use rocking_codegen::pattern::{Pattern, modes};
 
 /// Modes of a column, with their scene constants and the storage of their phases.
 #[derive(Default)]
@@ -40,15 +40,17 @@ struct Entered {
 impl Modes {
     /// Makes ready for a run: what does not hold for its scene goes.
     pub fn prepare(&mut self, scene: &Scene) {
-        let ground = match scene.excitation.vertical {
-            None => GroundMotion::Horizontal,
-            Some(_) => GroundMotion::WithVertical,
-        };
+        let is_horizontal = scene.excitation.vertical.is_none() && scene.options.skips.vertical;
+        let ground = if is_horizontal { GroundMotion::Horizontal } else { GroundMotion::WithVertical };
         let holds =
             |basis: &Basis| (basis.ground, &basis.column, &basis.options) == (ground, &scene.column, &scene.options);
         if !self.basis.as_ref().is_some_and(holds) {
             let basis = Basis { column: scene.column.clone(), options: scene.options.clone(), ground };
             *self = Modes { basis: Some(basis), ..Modes::default() };
+            if !scene.options.skips.modes {
+                let both = |(_, pattern): (_, Pattern)| [pattern.mirror(), pattern];
+                self.entered = modes(scene.column.len()).flat_map(both).map(|p| self.built(&p, scene)).collect();
+            }
         }
         for entered in &mut self.entered {
             (entered.is_entered, entered.time) = (false, 0.0);

@@ -166,7 +166,8 @@ fn segment<'r>(run: &'r Run) -> &'r Segment {
 
 /// Where contact forces are of use.
 fn interfaces(run: &Run) -> Interfaces {
-    if records_forces(run) { Interfaces::All } else { Interfaces::Closed }
+    let is_all = records_forces(run) || !run.scene.options.skips.forces;
+    if is_all { Interfaces::All } else { Interfaces::Closed }
 }
 
 /// Whether contact forces are recorded.
@@ -270,7 +271,7 @@ impl<V: StateVector> Phase<V> {
 
     /// Whether contact forces are of use in this phase: for guards of closed interfaces, or for the record.
     fn reads_forces(&self, run: &Run) -> bool {
-        !self.closed.is_empty() || records_forces(run)
+        !self.closed.is_empty() || interfaces(run) == Interfaces::All
     }
 
     /// The forces weighed last are those at the start of the next step.

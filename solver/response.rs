@@ -127,6 +127,10 @@ pub struct Work {
     pub phases: usize,
     /// Swings in closed form instead of steps.
     pub swings: usize,
+    /// Stretches of ground motion passed at rest without a step.
+    pub waits: usize,
+    /// Whether the run ended before its time because nothing could start it again, or its outcome was certain.
+    pub ended_early: bool,
 }
 
 /// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.

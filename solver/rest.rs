@@ -32,6 +32,7 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
             output_until(run, until);
             run.t = until;
         }
+        run.work.waits += 1;
         let start = earliest_start(run, &segment);
         let until = start.map_or(segment.end, |(t, _, _)| t);
         if run.scene.records_forces() {
@@ -56,17 +57,43 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
 
 /// The first instant in a segment from the present time on at which some interface opens, and its side.
 fn earliest_start(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface)> {
+    if !run.scene.options.skips.rests {
+        return by_steps(run, segment);
+    }
     if segment.is_quiet() {
         return None;
     }
+    start_before(run, segment, run.t, segment.end)
+}
+
+/// Steps that a rest is taken in where it is not skipped, per radian of the ground motion and, at least, per second.
+const STEPS: [f64; 2] = [20.0, 100.0];
+
+/// The same without leaving out anything: step by step, as an integrator would go.
+fn by_steps(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface)> {
+    let omega = segment.horizontal.omega().max(segment.vertical.omega());
+    let step = 1.0 / (STEPS[0] * omega).max(STEPS[1]);
+    let mut t = run.t;
+    loop {
+        let until = (t + step).min(segment.end);
+        let start = start_before(run, segment, t, until.next_up());
+        if start.is_some() || until >= segment.end {
+            return start;
+        }
+        t = until;
+    }
+}
+
+/// The first opening between two instants.
+fn start_before(run: &Run, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
     let column = &run.scene.column;
     let mut earliest: Option<(f64, usize, Interface)> = None;
     for interface in 0..column.len() {
         for side in [Interface::Right, Interface::Left] {
-            let until = earliest.map_or(segment.end, |(t, _, _)| t);
+            let until = earliest.map_or(until, |(t, _, _)| t);
             let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
             // It looks no further than what is known already.
-            if let Some(t) = first_zero(segment, column.gravity(), arm, side, run.t, until) {
+            if let Some(t) = first_zero(segment, column.gravity(), arm, side, from, until) {
                 earliest = Some((t, interface, side));
             }
         }

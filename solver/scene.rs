@@ -151,17 +151,34 @@ pub struct SolveOptions {
 }
 
 /// What a run leaves out because nothing comes of it, the answer being the same: all of it, by default. The switches are there to
-/// measure what each is worth (`docs/skips.csv`).
+/// measure what each is worth (`cargo bench --bench skips`, `docs/skips.csv`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Skips {
     /// Steps through phases of one free angle on a ground that does not move: these swing in closed form, to rounding. Only of
     /// [`Method::Auto`]; a method that is named takes all its steps.
     pub swings: bool,
+    /// Steps through times at rest, before the first uplift and later: the roots of the ground motion's guards are found with steps as
+    /// long as its curvature allows, and a ground that does not move is passed in one.
+    pub rests: bool,
+    /// Scene constants of modes that the run does not enter.
+    pub modes: bool,
+    /// Terms of a vertical ground motion that there is not.
+    pub vertical: bool,
+    /// Contact forces that nobody reads: where nothing is recorded, those at open interfaces, and all where none is closed.
+    pub forces: bool,
+    /// The time after the outcome is certain, where nothing else is wanted ([`crate::outcome`]).
+    pub certainty: bool,
+}
+
+impl Skips {
+    /// Nothing is left out.
+    pub const NOTHING: Skips =
+        Skips { swings: false, rests: false, modes: false, vertical: false, forces: false, certainty: false };
 }
 
 impl Default for Skips {
     fn default() -> Skips {
-        Skips { swings: true }
+        Skips { swings: true, rests: true, modes: true, vertical: true, forces: true, certainty: true }
     }
 }
 

@@ -247,7 +247,8 @@ impl<'a> Run<'a> {
             time_at_rest: 0.0,
         };
         let segments = Excitation::segments(&scene.excitation, scene.options.t_end);
-        let comes_to_rest = scene.options.wanted == Wanted::Outcome && segments.last().is_some_and(Segment::is_quiet);
+        let may_end = scene.options.wanted == Wanted::Outcome && scene.options.skips.certainty;
+        let comes_to_rest = may_end && segments.last().is_some_and(Segment::is_quiet);
         let barrier = comes_to_rest.then(|| modes.barrier(scene));
         Run {
             scene,
@@ -539,6 +540,7 @@ impl<'a> Run<'a> {
 
     fn finish(mut self, status: StopReason, overturned_block: Option<usize>) -> Response {
         let t_final = self.t;
+        self.work.ended_early = matches!(status, StopReason::AtRest | StopReason::Stands);
         if status == StopReason::AtRest {
             self.t = self.scene.options.t_end;
             self.history.time_at_rest += self.t - t_final;

@@ -1,0 +1,180 @@
+//! `cargo bench --bench skips`: what each thing left out is worth, on a scene that has it and on one that has not.
+//!
+//! Every scene runs with all skips and with one of them turned off; both must give the same answer before anything is timed. Times are
+//! medians of rounds in which the two take turns. The figures go to `target/bench/skips.csv`; `docs/skips.csv` is the copy of record.
+//! What biases them: scenes are chosen to show the matter, and run one after another by one [`Simulator`], so that storage is there.
+
+mod common;
+
+use rocking::{Column, Method, Motion, Record, Response, Restitution, Scene, Simulator, Skips, Wanted};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// A skip: what it is called, how it is turned off, a scene that has the matter and one that has not.
+struct Case {
+    name: &'static str,
+    off: fn(&mut Scene),
+    has: (&'static str, Scene),
+    lacks: (&'static str, Scene),
+}
+
+fn column(blocks: usize) -> Scene {
+    let mut scene = Scene::new(Column::equal_blocks(blocks, 0.4, 1.56, 2700.0, 9.81).expect("valid"));
+    scene.restitution = Restitution::Eta(0.9);
+    scene.options.record_forces = false;
+    scene
+}
+
+fn shaken(blocks: usize, motion: Motion) -> Scene {
+    let mut scene = column(blocks);
+    scene.excitation.horizontal = Some(motion);
+    scene
+}
+
+fn pulse(start: f64) -> Motion {
+    Motion::SinePulse { amplitude: 7.3575, omega: 10.7, start }
+}
+
+/// Shaking without end: rocks on and never comes to rest.
+fn harmonic() -> Motion {
+    Motion::Harmonic { amplitude: 4.0, omega: 7.0, phase: 0.3, start: 0.0 }
+}
+
+/// Weak shaking, a strong part, weak shaking again: thirty seconds.
+fn record() -> Motion {
+    let strength = |t: f64| 0.4 + 5.0 * (-(t - 15.0) * (t - 15.0) / 4.0).exp();
+    let samples = (0..3000).map(|i| 0.01 * f64::from(i)).map(|t| strength(t) * (7.0 * t).sin());
+    Motion::Record(Record::new(samples.collect(), 0.01, 0.0).expect("samples"))
+}
+
+fn with(mut scene: Scene, change: impl Fn(&mut Scene)) -> Scene {
+    change(&mut scene);
+    scene
+}
+
+fn cases() -> Vec<Case> {
+    let steps_only = |scene: Scene| with(scene, |scene| scene.options.method = Method::Taylor);
+    let tilted = |motion| with(shaken(1, motion), |scene| scene.initial.theta = vec![0.05]);
+    let bounced = |scene: Scene| {
+        with(scene, |scene| {
+            scene.excitation.vertical = Some(Motion::Harmonic { amplitude: 1.0, omega: 20.0, phase: 0.0, start: 0.0 });
+        })
+    };
+    let outcome = |scene: Scene| with(scene, |scene| scene.options.wanted = Wanted::Outcome);
+    let long = |scene: Scene| with(scene, |scene| scene.options.t_end = 30.0);
+    vec![
+        Case {
+            name: "steps of free swings",
+            off: |scene| scene.options.skips.swings = false,
+            has: ("one block after a pulse", shaken(1, pulse(0.0))),
+            lacks: ("one block under a harmonic", tilted(harmonic())),
+        },
+        Case {
+            name: "steps at rest",
+            off: |scene| scene.options.skips.rests = false,
+            has: ("one block under a record", long(shaken(1, record()))),
+            lacks: ("one block under a harmonic", tilted(harmonic())),
+        },
+        Case {
+            name: "steps at rest after a late pulse",
+            off: |scene| scene.options.skips.rests = false,
+            has: ("three blocks, pulse after 5 s", long(shaken(3, pulse(5.0)))),
+            lacks: ("one block under a harmonic", tilted(harmonic())),
+        },
+        Case {
+            name: "modes never entered",
+            off: |scene| scene.options.skips.modes = false,
+            has: ("five blocks after a pulse", shaken(5, pulse(0.0))),
+            lacks: ("one block after a pulse", shaken(1, pulse(0.0))),
+        },
+        Case {
+            name: "vertical motion",
+            off: |scene| scene.options.skips.vertical = false,
+            has: ("three blocks, DOP853", with(shaken(3, pulse(0.0)), |scene| scene.options.method = Method::Dop853)),
+            lacks: (
+                "three blocks with vertical motion",
+                with(bounced(shaken(3, pulse(0.0))), |scene| scene.options.method = Method::Dop853),
+            ),
+        },
+        Case {
+            name: "contact forces that nobody reads",
+            off: |scene| scene.options.skips.forces = false,
+            has: ("one block under a harmonic", tilted(harmonic())),
+            lacks: (
+                "three blocks, forces recorded",
+                with(steps_only(shaken(3, pulse(0.0))), |scene| scene.options.record_forces = true),
+            ),
+        },
+        Case {
+            name: "rows that nobody reads",
+            off: |scene| scene.output_dt = Some(0.01),
+            has: ("three blocks after a pulse", shaken(3, pulse(0.0))),
+            lacks: ("none", shaken(3, pulse(0.0))),
+        },
+        Case {
+            name: "time after the outcome is certain",
+            off: |scene| scene.options.skips.certainty = false,
+            has: ("three blocks after a pulse, outcome", outcome(shaken(3, pulse(0.0)))),
+            lacks: ("three blocks after a pulse, history", shaken(3, pulse(0.0))),
+        },
+    ]
+}
+
+/// The same answer: what became of the column, and when.
+fn check(name: &str, a: &Response, b: &Response) {
+    assert_eq!(a.overturned_block, b.overturned_block, "{name}");
+    assert_eq!(a.overturned_at().is_some(), b.overturned_at().is_some(), "{name}");
+    for (a, b) in a.events.iter().zip(&b.events).take(20) {
+        assert_eq!((a.kind, &a.after), (b.kind, &b.after), "{name}");
+        assert!((a.t - b.t).abs() < 1e-6, "{name}: {} {}", a.t, b.t);
+    }
+}
+
+/// Median times `[µs]` of two scenes that take turns.
+fn compare(scenes: [&Scene; 2]) -> [f64; 2] {
+    let mut simulators = [Simulator::new(), Simulator::new()];
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..ROUNDS {
+        for side in 0..2 {
+            // Modes are part of the matter: none is there yet.
+            if !scenes[side].options.skips.modes || !scenes[1 - side].options.skips.modes {
+                simulators[side] = Simulator::new();
+            }
+            let start = Instant::now();
+            black_box(simulators[side].run(black_box(scenes[side])).expect("solved"));
+            times[side].push(1e6 * start.elapsed().as_secs_f64());
+        }
+    }
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    })
+}
+
+/// Rounds of a comparison.
+const ROUNDS: usize = 401;
+
+fn main() -> std::io::Result<()> {
+    let circumstances = common::circumstances();
+    let mut csv = format!("skip,scene,has_it,with_us,without_us,ratio,{}\n", common::CIRCUMSTANCES);
+    assert_ne!(Skips::default(), Skips::NOTHING);
+    for case in cases() {
+        for (has_it, (scene_name, scene)) in [(true, &case.has), (false, &case.lacks)] {
+            if *scene_name == "none" {
+                continue;
+            }
+            let mut off = scene.clone();
+            (case.off)(&mut off);
+            let [a, b] = [scene, &off].map(|scene| rocking::simulate(scene).expect("solved"));
+            check(case.name, &a, &b);
+            let [skipped, whole] = compare([scene, &off]);
+            let ratio = whole / skipped;
+            println!("{:<36}{scene_name:<38}{skipped:>10.1} µs{whole:>10.1} µs{ratio:>8.2}", case.name);
+            csv.push_str(&format!(
+                "{},\"{scene_name}\",{has_it},{skipped:.2},{whole:.2},{ratio:.3},{circumstances}\n",
+                case.name
+            ));
+        }
+    }
+    common::write("skips.csv", &csv)
+}
