@@ -21,6 +21,7 @@ pub struct Lanes<const W: usize>(pub [f64; W]);
 pub const WIDTH: usize = 8;
 
 /// `work`, with all that is inlined into it compiled for the widest instructions of this machine.
+#[inline(always)]
 pub fn widest<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)
 }

@@ -241,6 +241,9 @@ impl<V: StateVector> Phase<V> {
             return Some(Ended::Jump);
         }
         self.stepper.enter(segment(run).clone());
+        if !run.may_be_certain() {
+            return None;
+        }
         // The phase goes on as it would have: an answer that is not certain yet is that of a full run.
         let (theta, omega) = self.per_block(&self.x);
         run.is_certain_to_stand(&theta, &omega).then_some(Ended::Certain)

@@ -426,11 +426,16 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Whether the ground has come to rest for good, and the outcome alone is wanted.
+    pub fn may_be_certain(&self) -> bool {
+        self.barrier.is_some() && self.segment + 1 == self.segments.len()
+    }
+
     /// Whether the ground has come to rest for good and the column, with these angles and rates, is in the box of its barrier with
     /// too little energy to leave it.
     pub fn is_certain_to_stand(&self, theta: &[f64], omega: &[f64]) -> bool {
         let Some(Barrier { energy, angle }) = self.barrier else { return false };
-        if self.segment + 1 < self.segments.len() || theta.iter().any(|theta| theta.abs() > angle) {
+        if !self.may_be_certain() || theta.iter().any(|theta| theta.abs() > angle) {
             return false;
         }
         let column = &self.scene.column;

@@ -124,6 +124,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Attempts a step of length `h` from `(t, x)`: its error relative to `tolerance`, at most one if the step is good. From the
     /// same place again nothing is computed but what is missing.
+    #[inline(always)]
     pub fn attempt<S: SeriesSystem<State = V, Links = L>>(
         &mut self,
         system: &mut S,
@@ -173,6 +174,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     }
 
     /// One over what rates and angles may err by in a step.
+    #[inline(always)]
     fn scale(&self, h: f64, tolerance: Tolerance) -> L::Of<[f64; 2]> {
         let dof = self.cos_ddot.as_slice().len();
         let mut scale = self.cos_ddot.each([0.0; 2]);
@@ -263,6 +265,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.x.as_slice()[angle].abs() + reach
     }
 
+    #[inline(always)]
     fn expand<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V) {
         if self.is_at(t, x) {
             return;
@@ -288,6 +291,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     }
 
     /// One more order.
+    #[inline(always)]
     fn extend<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
         let (k, dof) = (self.order, self.cos_ddot.as_slice().len());
         let next = (k + 1) as f64;
@@ -332,12 +336,14 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     }
 
     /// The end of a step, by Horner's rule up to an order.
+    #[inline(always)]
     fn evaluate(&mut self, order: usize, h: f64) {
         let mut end = self.end.clone();
         self.horner(order, h, &mut end);
         self.end = end;
     }
 
+    #[inline(always)]
     fn horner(&self, order: usize, h: f64, state: &mut V) {
         let dof = self.cos_ddot.as_slice().len();
         let mut sums = self.cos_ddot.each([0.0; 2]);

@@ -1,7 +1,7 @@
 //! What lies inside a step: the first zero of a guard, contact forces, peaks, rows.
 
 use super::{Found, Phase, interfaces, records_forces, segment};
-use crate::dynamics::StateVector;
+use crate::dynamics::{Interfaces, StateVector};
 use crate::event::first_crossing;
 use crate::few::Few;
 use crate::ode::Difference;
@@ -47,36 +47,40 @@ impl<V: StateVector> Phase<V> {
         }
         let t = run.t;
         let mut first: Option<(Found, f64)> = None;
-        if !self.closed.is_empty() {
-            // A look at a place serves all interfaces.
-            let mut looks: Few<(f64, Few<f64>)> = Few::new();
-            for index in 0..self.closed.len() {
-                let (interface, start) = (self.closed[index], self.margins[index]);
-                if start <= 0.0 && t < run.hold.until {
-                    continue;
+        // A look at a place serves all interfaces.
+        let mut looks: Few<(f64, Few<f64>)> = Few::new();
+        for index in 0..self.closed.len() {
+            let (interface, start) = (self.closed[index], self.margins[index]);
+            if start <= 0.0 && t < run.hold.until {
+                continue;
+            }
+            let reach = first.map_or(reach, |(_, s)| s);
+            let guard = |s: f64| {
+                if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == s) {
+                    return margins[index];
                 }
-                let reach = first.map_or(reach, |(_, s)| s);
-                let guard = |s: f64| {
-                    if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == s) {
-                        return margins[index];
-                    }
-                    self.weigh_inside(run, h, s);
-                    let margins: Few<f64> = self.closed.iter().map(|&i| self.margin(run, i)).collect();
-                    let margin = margins[index];
-                    if looks.len() < looks.inline_size() {
-                        looks.push((s, margins));
-                    }
-                    margin
-                };
-                if let Some(s) = first_crossing(guard, start, reach) {
-                    first = Some((Found::Contact { interface }, s));
+                self.weigh_inside(run, h, s);
+                let margins: Few<f64> = self.closed.iter().map(|&i| self.margin(run, i)).collect();
+                let margin = margins[index];
+                if looks.len() < looks.inline_size() {
+                    looks.push((s, margins));
                 }
+                margin
+            };
+            if let Some(s) = first_crossing(guard, start, reach) {
+                first = Some((Found::Contact { interface }, s));
             }
         }
         if first.is_none() && reach >= 1.0 {
-            self.weigh_end(run, end);
-            self.note_step(run, h);
-            self.remember_forces(run);
+            match looks.iter().find(|(place, _)| *place == 1.0) {
+                // The look at the end is the next step's start, where nobody else wants the forces.
+                Some((_, margins)) if interfaces(run) == Interfaces::Closed => self.margins.copy_from_slice(margins),
+                _ => {
+                    self.weigh_end(run, end);
+                    self.note_step(run, h);
+                    self.remember_forces(run);
+                }
+            }
         }
         first
     }

