@@ -45,12 +45,16 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let mut table = Growing::open(&asked.out, &header(&columns), fingerprint, range.clone()).map_err(failed)?;
     let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
     let resumed = table.next - range.start;
-    let mut size = BATCH;
+    let (mut size, mut next, mut last) = (BATCH, table.next, Vec::new());
     while table.next < range.end {
         let begun = Instant::now();
-        let batch = table.next..range.end.min(table.next + size);
-        let lines = threads.install(|| sweep.lines(batch, |row| line(&row, columns.len())));
-        table.append(lines.into_iter()).map_err(failed)?;
+        let batch = next..range.end.min(next + size);
+        next = batch.end;
+        // A batch is written while the one after it runs.
+        let run = || sweep.lines(batch, |row| line(&row, columns.len()));
+        let (lines, written) = threads.install(|| rayon::join(run, || table.append(last.into_iter())));
+        written.map_err(failed)?;
+        last = lines;
         bar.reached(table.next - range.start);
         size = if begun.elapsed() < PATIENCE { (2 * size).min(MOST) } else { (size / 2).max(BATCH) };
     }
