@@ -415,11 +415,11 @@ fn dip_below(guard: &mut impl FnMut(f64) -> f64, [left, _, right]: [f64; 3], gue
 fn through(samples: &[f64; DEGREE + 1]) -> (Bernstein, f64) {
     let mut coefficients = [0.0; COEFFICIENTS];
     let mut last = 0.0;
-    for (k, sample) in samples.iter().enumerate() {
-        for j in 0..=DEGREE {
-            coefficients[j] += CARDINAL[k].0[j] * sample;
+    for (sample, (cardinal, leading)) in samples.iter().zip(&CARDINAL) {
+        for (sum, coefficient) in coefficients.iter_mut().zip(cardinal) {
+            *sum += coefficient * sample;
         }
-        last += CARDINAL[k].1 * sample;
+        last += leading * sample;
     }
     let size = samples.iter().fold(0.0f64, |size, sample| size.max(sample.abs()));
     // The cardinal polynomials cancel some digits: a thousand roundings.

@@ -35,7 +35,7 @@ macro_rules! lane_by_lane {
             #[inline(always)]
             fn $method(mut self, other: Lanes<W>) -> Lanes<W> {
                 for lane in 0..W {
-                    self.0[lane] = self.0[lane] $symbol other.0[lane];
+                    self.0[lane] $symbol other.0[lane];
                 }
                 self
             }
@@ -43,9 +43,9 @@ macro_rules! lane_by_lane {
     };
 }
 
-lane_by_lane!(Add, add, +);
-lane_by_lane!(Sub, sub, -);
-lane_by_lane!(Mul, mul, *);
+lane_by_lane!(Add, add, +=);
+lane_by_lane!(Sub, sub, -=);
+lane_by_lane!(Mul, mul, *=);
 
 impl<const W: usize> Neg for Lanes<W> {
     type Output = Lanes<W>;

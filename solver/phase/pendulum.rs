@@ -66,6 +66,11 @@ impl Swing {
         self.v
     }
 
+    /// Whether it neither turns nor passes the balance, to the last bit: it creeps towards it for ever.
+    pub fn is_endless(&self) -> bool {
+        self.kappa == 0.0
+    }
+
     /// Where it turns, if it is going to: `ψ`, at rate zero.
     pub fn turning_point(&self) -> Option<f64> {
         let turns = self.kappa > 0.0 && self.v * self.psi < 0.0;

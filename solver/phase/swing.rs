@@ -86,6 +86,9 @@ impl<V: StateVector> Phase<V> {
             return None;
         }
         let swing = pendulum.swing(start, rate);
+        if swing.is_endless() {
+            return None;
+        }
         let turn = swing.turning_point();
         // It goes out as long as it moves out, and falls out from beyond the balance.
         let goes_out = rate > 0.0 || (turn.is_some() || rate == 0.0) && start > 0.0;
