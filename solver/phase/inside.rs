@@ -59,7 +59,12 @@ impl<V: StateVector> Phase<V> {
                 if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == s) {
                     return margins[index];
                 }
-                self.weigh_inside(run, h, s);
+                // The end of the step is the state that the next one starts from, to the last bit.
+                if s == 1.0 {
+                    self.weigh_end(run, end);
+                } else {
+                    self.weigh_inside(run, h, s);
+                }
                 let margins: Few<f64> = self.closed.iter().map(|&i| self.margin(run, i)).collect();
                 let margin = margins[index];
                 if looks.len() < looks.inline_size() {
