@@ -1,6 +1,7 @@
 //! Pieces of several motions side by side: the spans of time in which each of them has one formula.
 
 use super::piece::Piece;
+use smallvec::{SmallVec, smallvec};
 
 /// A smooth piece and its time.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,30 +19,88 @@ pub struct Span {
 const SAME_TIME: f64 = 1e-13;
 
 /// Calls `visit(start, end, pieces)` for each span between break points of `motions` in `from .. to` `[s]`, in order of time, with the
-/// piece of each motion there. Finite bounds are break points as well; between infinite ones there are spans from the first to the
-/// last break point of the motions.
+/// piece of each motion there. The spans of each motion are in order. Finite bounds are break points as well; between infinite ones
+/// there are spans from the first to the last break point of the motions.
 pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &[Piece])) {
-    let inside = |t: &f64| *t > from && *t < to;
-    let mut breaks: Vec<f64> =
-        motions.iter().flatten().flat_map(|span| [span.start, span.end]).filter(inside).collect();
-    breaks.extend([from, to].iter().filter(|t| t.is_finite()));
-    if motions.iter().flatten().any(|span| span.end >= to) && to.is_infinite() {
-        breaks.push(to);
-    }
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|later, kept| later.is_finite() && *later - *kept <= SAME_TIME * later.abs().max(1.0));
-
-    let mut cursors = vec![0; motions.len()];
-    let mut pieces = vec![Piece::Zero; motions.len()];
-    for pair in breaks.windows(2) {
-        let inner = if pair[1].is_finite() { 0.5 * (pair[0] + pair[1]) } else { pair[0] + 1.0 };
-        for ((motion, cursor), piece) in motions.iter().zip(&mut cursors).zip(&mut pieces) {
-            while motion.get(*cursor).is_some_and(|span| span.end <= inner) {
-                *cursor += 1;
+    let first = motions.iter().filter_map(|motion| motion.first()).map(|span| span.start).fold(f64::INFINITY, f64::min);
+    let mut t = if from.is_finite() { from } else { first };
+    let mut rests: SmallVec<[&[Span]; 4]> = motions.iter().map(Vec::as_slice).collect();
+    let mut pieces: SmallVec<[Piece; 4]> = smallvec![Piece::Zero; motions.len()];
+    while t < to {
+        let now = t + SAME_TIME * t.abs().max(1.0);
+        let mut end = to.is_finite().then_some(to);
+        for (rest, piece) in rests.iter_mut().zip(&mut pieces) {
+            while let [span, later @ ..] = *rest
+                && span.end <= now
+            {
+                *rest = later;
             }
-            let found = motion.get(*cursor).filter(|span| span.start <= inner);
-            *piece = found.map_or(Piece::Zero, |span| span.piece.clone());
+            let next = match *rest {
+                [span, ..] if span.start <= now => {
+                    piece.clone_from(&span.piece);
+                    span.end
+                }
+                [span, ..] => {
+                    *piece = Piece::Zero;
+                    span.start
+                }
+                [] => {
+                    *piece = Piece::Zero;
+                    continue;
+                }
+            };
+            end = Some(end.map_or(next, |end| end.min(next)));
         }
-        visit(pair[0], pair[1], &pieces);
+        let Some(end) = end.filter(|end| *end > now) else { return };
+        visit(t, end, &pieces);
+        t = end;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spans(bounds: &[(f64, f64, f64)]) -> Vec<Span> {
+        let span = |&(start, end, value): &(f64, f64, f64)| {
+            let piece = Piece::Linear { value, slope: 0.0, start: 0.0 };
+            Span { start, end, piece }
+        };
+        bounds.iter().map(span).collect()
+    }
+
+    /// Start, end and the two values of each span.
+    fn laid_out(motions: [&[(f64, f64, f64)]; 2], from: f64, to: f64) -> Vec<[f64; 4]> {
+        let mut found = Vec::new();
+        overlay(&motions.map(spans), from, to, |start, end, pieces| {
+            found.push([start, end, pieces[0].value(0.0), pieces[1].value(0.0)]);
+        });
+        found
+    }
+
+    #[test]
+    fn spans_end_where_either_motion_does() {
+        let (a, b) = ([(0.5, 1.0, 1.0), (1.0, 3.0, 2.0)], [(0.0, 2.0, 5.0)]);
+        let both = [[0.5, 1.0, 1.0, 5.0], [1.0, 2.0, 2.0, 5.0], [2.0, 3.0, 2.0, 0.0]];
+        let from_zero = [&[[0.0, 0.5, 0.0, 5.0]][..], &both, &[[3.0, 4.0, 0.0, 0.0]]].concat();
+        assert_eq!(laid_out([&a, &b], 0.0, 4.0), from_zero);
+        assert_eq!(laid_out([&a, &b], 0.5, 3.0), both);
+        assert_eq!(laid_out([&a, &b], f64::NEG_INFINITY, f64::INFINITY), from_zero[..4]);
+    }
+
+    #[test]
+    fn gaps_and_what_never_ends_are_spans() {
+        let (a, b) = ([(1.0, 2.0, 1.0), (3.0, f64::INFINITY, 2.0)], []);
+        let spans = [[1.0, 2.0, 1.0, 0.0], [2.0, 3.0, 0.0, 0.0], [3.0, f64::INFINITY, 2.0, 0.0]];
+        assert_eq!(laid_out([&a, &b], f64::NEG_INFINITY, f64::INFINITY), spans);
+        assert_eq!(laid_out([&b, &b], f64::NEG_INFINITY, f64::INFINITY), [[0.0; 4]; 0]);
+        assert_eq!(laid_out([&b, &b], 0.0, 2.0), [[0.0, 2.0, 0.0, 0.0]]);
+    }
+
+    #[test]
+    fn ends_that_differ_by_rounding_are_one() {
+        let (a, b) = ([(0.0, 1.0, 1.0)], [(0.0, 1.0 + 1e-15, 5.0), (1.0 + 1e-15, 2.0, 6.0)]);
+        assert_eq!(laid_out([&a, &b], 0.0, 1.0 + 1e-14), [[0.0, 1.0, 1.0, 5.0]]);
+        assert_eq!(laid_out([&a, &b], 0.0, 2.0), [[0.0, 1.0, 1.0, 5.0], [1.0, 2.0, 0.0, 6.0]]);
     }
 }
