@@ -2,10 +2,8 @@
 
 mod common;
 
-use common::sweeps::{BASE, SWEEP, folder};
+use common::sweeps::{BASE, SWEEP, folder, kill_and_go_on, long};
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::Duration;
 
 fn table(folder: &Path, arguments: &[&str]) -> String {
     let all = [&["sweep", "sweep.toml", "--out", "t.csv", "--quiet"], arguments].concat();
@@ -137,24 +135,10 @@ fn a_build_without_parquet_names_the_remedy() {
 /// Killed without warning at any moment and started again, however often, a sweep gives the bytes of one that was left alone.
 #[test]
 fn a_sweep_that_is_killed_goes_on_to_the_same_bytes() {
-    let sweep = SWEEP.replace("steps = 5", "steps = 40").replace("steps = 6", "steps = 100").replace("[1, 2]", "[3]");
-    let folder = folder(&sweep);
+    let folder = folder(&long());
     let whole = table(folder.path(), &[]);
     std::fs::remove_file(folder.path().join("t.csv")).expect("there");
-    let mut kills = 0;
-    for wait in (15..).step_by(20) {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
-            .args(["sweep", "sweep.toml", "--out", "t.csv", "--threads", "1", "--quiet"])
-            .current_dir(folder.path())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("started");
-        std::thread::sleep(Duration::from_millis(wait));
-        child.kill().expect("SIGKILL");
-        if child.wait().expect("it ends").success() {
-            break;
-        }
-        kills += 1;
+    kill_and_go_on(folder.path(), "t.csv", || {
         assert!(!folder.path().join("t.csv").exists(), "the table has its name before it is whole");
         // A line that was cut within, as a full disk or a power cut leaves it.
         let part = std::fs::read_dir(folder.path()).expect("a folder").filter_map(Result::ok).map(|file| file.path());
@@ -163,8 +147,7 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_bytes() {
             let bytes = std::fs::read(&part).expect("readable");
             std::fs::write(&part, &bytes[..bytes.len().saturating_sub(7)]).expect("writable");
         }
-    }
-    assert!(kills > 0, "it was never killed");
+    });
     assert_eq!(std::fs::read_to_string(folder.path().join("t.csv")).expect("written"), whole);
     let left = std::fs::read_dir(folder.path()).expect("a folder").count();
     assert_eq!(left, 3, "base, sweep and table");

@@ -2,14 +2,12 @@
 
 mod common;
 
-use common::sweeps::{SWEEP, folder};
+use common::sweeps::{SWEEP, folder, kill_and_go_on, long};
 use parquet::basic::{LogicalType, Repetition, Type};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::Duration;
 
 /// Runs the sweep of the folder into a table and returns its bytes.
 fn table(folder: &Path, name: &str, arguments: &[&str]) -> Vec<u8> {
@@ -177,33 +175,19 @@ fn hidden(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn a_sweep_that_is_killed_goes_on_to_the_same_bytes() {
-    let sweep = SWEEP.replace("steps = 5", "steps = 40").replace("steps = 6", "steps = 100").replace("[1, 2]", "[3]");
-    let folder = folder(&sweep);
+    let folder = folder(&long());
     let path = folder.path().join("t.parquet");
     let whole = table(folder.path(), "t.parquet", &[]);
     let csv = table(folder.path(), "t.csv", &[]);
     assert_same_cells(&path, &csv);
     std::fs::remove_file(&path).expect("there");
-    let (mut kills, mut part) = (0, None);
-    for wait in (15..).step_by(20) {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
-            .args(["sweep", "sweep.toml", "--out", "t.parquet", "--threads", "1", "--quiet"])
-            .current_dir(folder.path())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("started");
-        std::thread::sleep(Duration::from_millis(wait));
-        child.kill().expect("SIGKILL");
-        if child.wait().expect("it ends").success() {
-            break;
-        }
-        kills += 1;
+    let mut part = None;
+    kill_and_go_on(folder.path(), "t.parquet", || {
         let named = std::fs::read(&path).ok();
         assert!(named.is_none_or(|bytes| bytes == whole), "the table has its name before it is whole");
-        part =
-            hidden(folder.path()).into_iter().find(|file| file.extension().is_some_and(|end| end == "part")).or(part);
-    }
-    assert!(kills > 0, "it was never killed");
+        let found = hidden(folder.path()).into_iter().find(|file| file.extension().is_some_and(|end| end == "part"));
+        part = found.or(part.take());
+    });
     assert!(std::fs::read(&path).expect("written") == whole);
     assert!(hidden(folder.path()).is_empty());
 

@@ -1,5 +1,9 @@
 //! A small sweep and a folder with it.
 
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
 /// Two blocks under a pulse.
 pub const BASE: &str = "[column]
 blocks = 2
@@ -31,4 +35,30 @@ pub fn folder(sweep: &str) -> tempfile::TempDir {
     std::fs::write(folder.path().join("base.toml"), BASE).expect("written");
     std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
     folder
+}
+
+/// The sweep with points enough to be killed while it runs.
+pub fn long() -> String {
+    SWEEP.replace("steps = 5", "steps = 40").replace("steps = 6", "steps = 100").replace("[1, 2]", "[3]")
+}
+
+/// Runs the sweep of the folder, kills it without warning after longer and longer times, and starts it again until it comes to its end.
+pub fn kill_and_go_on(folder: &Path, table: &str, mut after_kill: impl FnMut()) {
+    let mut kills = 0;
+    for wait in (15..).step_by(20) {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
+            .args(["sweep", "sweep.toml", "--out", table, "--threads", "1", "--quiet"])
+            .current_dir(folder)
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("started");
+        std::thread::sleep(Duration::from_millis(wait));
+        child.kill().expect("SIGKILL");
+        if child.wait().expect("it ends").success() {
+            break;
+        }
+        kills += 1;
+        after_kill();
+    }
+    assert!(kills > 0, "it was never killed");
 }
