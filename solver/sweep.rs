@@ -178,12 +178,15 @@ impl<'s> Worker<'s> {
         let scene = match self.scene.take() {
             // Most often nothing but the ground motion changes from one point to the next.
             Some(mut scene) if others.all(|((_, setting), last)| setting == last) => {
-                let ground = axes().filter(|(axis, _)| of_ground(axis));
-                let ground = ground.map(|(axis, setting)| (axis.key.as_str(), *setting));
-                self.shaken.set(&mut scene, ground)?;
+                let changes = axes().zip(&last).filter(|((axis, setting), last)| of_ground(axis) && setting != last);
+                self.shaken.set(&mut scene, changes.map(|((axis, setting), _)| (axis.key.as_str(), *setting)))?;
                 scene
             }
-            _ => self.sweep.scene(index)?,
+            _ => {
+                let ground = axes().filter(|(axis, _)| of_ground(axis));
+                self.shaken.go_to(ground.map(|(axis, setting)| (axis.key.as_str(), *setting)))?;
+                self.sweep.scene(index)?
+            }
         };
         let response = self.simulator.run(&scene)?;
         let outcome = self.sweep.outcome(&scene, &response);

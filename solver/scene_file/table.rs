@@ -53,6 +53,9 @@ impl Value {
     }
 }
 
+/// Keys that a table is usually asked for.
+const USUAL_KEYS: usize = 16;
+
 /// A table under way of being read.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -128,13 +131,13 @@ impl Table {
                 Setting::Number(number) => Value::Number(*number),
                 Setting::Text(text) => Value::Text(text.as_str().into()),
             };
-            let place = self.find(name);
-            let entries = Arc::make_mut(&mut self.entries);
             // As most often in a sweep: it is there, and no other of its kind beside it.
-            if let Some(entry) = entries.iter_mut().find(|entry| *entry.key == *name) {
+            if let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) {
                 entry.value = value;
                 return Some(());
             }
+            let place = self.find(name);
+            let entries = Arc::make_mut(&mut self.entries);
             entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
             entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
             return Some(());
@@ -185,7 +188,8 @@ impl Table {
             Value::Text(text) => Some(Setting::Text(text.to_string())),
             _ => None,
         };
-        let Some(entry) = self.ask(key.to_string()).cloned() else { return Ok(None) };
+        self.ask(key.to_string());
+        let Some(entry) = self.entry(key) else { return Ok(None) };
         let values = match &entry.value {
             Value::Array(items) => items.iter().map(|(item, _)| single(item)).collect(),
             Value::Table(_) => return Ok(None),
@@ -218,10 +222,16 @@ impl Table {
         Wrong { place: self.place(), key: self.dotted(key), problem: "it is missing".into(), remedy: remedy.into() }
     }
 
-    fn ask(&mut self, key: impl Into<Cow<'static, str>>) -> Option<&Entry> {
+    /// Notes that a key is known here.
+    fn ask(&mut self, key: impl Into<Cow<'static, str>>) {
+        if self.asked.is_empty() {
+            self.asked.reserve(USUAL_KEYS);
+        }
         self.asked.push(key.into());
-        let key = self.asked.last()?;
-        self.entries.iter().find(|entry| *entry.key == **key)
+    }
+
+    fn entry(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| *entry.key == *key)
     }
 
     fn has_asked(&self, key: &str) -> bool {
@@ -234,19 +244,23 @@ impl Table {
 
     /// Text.
     pub fn text(&mut self, key: &'static str) -> Result<Option<(String, Place)>, Wrong> {
-        match self.ask(key).cloned() {
+        self.ask(key);
+        match self.entry(key) {
             None => Ok(None),
-            Some(Entry { value: Value::Text(text), value_place, .. }) => Ok(Some((text.to_string(), value_place))),
+            Some(Entry { value: Value::Text(text), value_place, .. }) => {
+                Ok(Some((text.to_string(), value_place.clone())))
+            }
             Some(entry) => Err(self.expected(key, &entry.value, "text in quotes")),
         }
     }
 
     /// A finite number.
     pub fn number(&mut self, key: &'static str) -> Result<Option<(f64, Place)>, Wrong> {
-        match self.ask(key).cloned() {
+        self.ask(key);
+        match self.entry(key) {
             None => Ok(None),
             Some(Entry { value: Value::Number(value), value_place, .. }) if value.is_finite() => {
-                Ok(Some((value, value_place)))
+                Ok(Some((*value, value_place.clone())))
             }
             Some(Entry { value: Value::Number(value), .. }) => {
                 Err(self.wrong(key, format!("{value} is not finite"), "give a finite number"))
@@ -257,16 +271,18 @@ impl Table {
 
     /// True or false.
     pub fn flag(&mut self, key: &'static str) -> Result<Option<bool>, Wrong> {
-        match self.ask(key).cloned() {
+        self.ask(key);
+        match self.entry(key) {
             None => Ok(None),
-            Some(Entry { value: Value::Flag(flag), .. }) => Ok(Some(flag)),
+            Some(Entry { value: Value::Flag(flag), .. }) => Ok(Some(*flag)),
             Some(entry) => Err(self.expected(key, &entry.value, "true or false, without quotes")),
         }
     }
 
     /// A name, or a number in its place, as text.
     pub fn name(&mut self, key: &'static str) -> Result<Option<String>, Wrong> {
-        match self.ask(key).cloned() {
+        self.ask(key);
+        match self.entry(key) {
             None => Ok(None),
             Some(Entry { value: Value::Text(text), .. }) => Ok(Some(text.to_string())),
             Some(Entry { value: Value::Number(number), .. }) => Ok(Some(format!("{number}"))),
@@ -286,7 +302,8 @@ impl Table {
 
     /// A list of finite numbers.
     pub fn numbers(&mut self, key: &'static str) -> Result<Option<Vec<f64>>, Wrong> {
-        let items = match self.ask(key).cloned() {
+        self.ask(key);
+        let items = match self.entry(key) {
             None => return Ok(None),
             Some(Entry { value: Value::Array(items), .. }) => items,
             Some(entry) => return Err(self.expected(key, &entry.value, "a list of numbers")),
@@ -343,11 +360,11 @@ impl Table {
     /// A table within.
     pub fn table(&mut self, key: impl Into<Cow<'static, str>>) -> Result<Option<Table>, Wrong> {
         let key = key.into();
-        match self.ask(key.clone()).cloned() {
+        self.ask(key.clone());
+        match self.entry(&key) {
             None => Ok(None),
-            Some(Entry { value: Value::Table(mut table), key_place, .. }) => {
-                table.place = key_place;
-                Ok(Some(table))
+            Some(Entry { value: Value::Table(table), key_place, .. }) => {
+                Ok(Some(Table { place: key_place.clone(), ..table.clone() }))
             }
             Some(entry) => Err(self.expected(&key, &entry.value, &format!("a table: [{}]", self.dotted(&key)))),
         }
@@ -355,7 +372,8 @@ impl Table {
 
     /// An array of tables.
     pub fn tables(&mut self, key: &'static str) -> Result<Option<Vec<Table>>, Wrong> {
-        let items = match self.ask(key).cloned() {
+        self.ask(key);
+        let items = match self.entry(key) {
             None => return Ok(None),
             Some(Entry { value: Value::Array(items), .. }) => items,
             Some(entry) => return Err(self.expected(key, &entry.value, &format!("tables: [[{}]]", self.dotted(key)))),

@@ -125,7 +125,18 @@ pub(crate) struct Shaken<'t> {
 }
 
 impl Shaken<'_> {
-    /// Gives a scene of the template another ground motion: that with these keys, all of them under `excitation`, set to these values.
+    /// Goes to the ground motion with these keys, all of them under `excitation`, set to these values.
+    ///
+    /// # Errors
+    /// As [`Template::with`].
+    pub fn go_to<'s>(
+        &mut self,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+    ) -> Result<(), SceneFileError> {
+        change(&mut self.root, settings).map_err(|wrong| self.template.reader().error(wrong))
+    }
+
+    /// Gives a scene of the template another ground motion: the present one but for these keys, which are set to these values.
     ///
     /// # Errors
     /// As [`Template::with`].
@@ -134,8 +145,8 @@ impl Shaken<'_> {
         scene: &mut Scene,
         settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
     ) -> Result<(), SceneFileError> {
+        self.go_to(settings)?;
         let reader = self.template.reader();
-        change(&mut self.root, settings).map_err(|wrong| reader.error(wrong))?;
         scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
         scene.check().map_err(|error| reader.refused(&self.root, error))
     }
