@@ -44,7 +44,7 @@ impl GenericMode {
 }
 
 /// First moments and levers of the links, base first.
-fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
+pub(crate) fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
     let link = pattern.linkage().link_of_block();
     let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
     let (mut moments, mut levers) = (Vec::new(), Vec::new());

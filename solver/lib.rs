@@ -50,6 +50,7 @@ pub mod excitation;
 pub mod few;
 pub mod generated;
 pub mod generic;
+mod history;
 pub mod kinematics;
 pub mod lanes;
 pub mod mode;

@@ -8,7 +8,7 @@ use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateV
 use crate::generated;
 use crate::generic::GenericMode;
 use crate::ode::{self, Dop853, DormandPrince54, KuttaMerson, Pair, RungeKutta4, System, Tolerance};
-use crate::phase::{Phase, RungeKutta, SmoothPhase, Stepper, TaylorSeries};
+use crate::phase::{Margins, Phase, RungeKutta, SmoothPhase, Stepper, TaylorSeries};
 use crate::scene::{Method, Scene};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
@@ -59,14 +59,15 @@ impl<D: Dynamics + 'static> Equations for D {
     fn phase(self: Rc<Self>, pattern: &Pattern, scene: &Scene) -> Box<dyn SmoothPhase> {
         let (gravity, options) = (scene.column.gravity(), &scene.options);
         let (free, fixed) = (None, Some(options.step));
+        let margins = Rc::new(Margins::new(&scene.column, pattern));
         let stepper: Box<dyn Stepper<D::State>> = match scene.method() {
-            Method::Taylor => Box::new(TaylorSeries::new(self, gravity, options.rtol)),
+            Method::Taylor => Box::new(TaylorSeries::new(self, Rc::clone(&margins), gravity, options.rtol)),
             Method::Auto | Method::Dop853 => Box::new(RungeKutta::<D, Dop853<D::State>>::new(self, gravity, free)),
             Method::DormandPrince54 => Box::new(RungeKutta::<D, DormandPrince54<D::State>>::new(self, gravity, free)),
             Method::KuttaMerson => Box::new(RungeKutta::<D, KuttaMerson<D::State>>::new(self, gravity, free)),
             Method::RungeKutta4 => Box::new(RungeKutta::<D, RungeKutta4<D::State>>::new(self, gravity, fixed)),
         };
-        Box::new(Phase::new(pattern, stepper, scene.swings_in_closed_form()))
+        Box::new(Phase::new(pattern, stepper, margins, scene.swings_in_closed_form()))
     }
 
     fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {

@@ -57,6 +57,11 @@ impl Modes {
         }
     }
 
+    /// Whether the modes have the terms of vertical ground motion.
+    pub fn have_vertical(&self) -> bool {
+        self.basis.as_ref().is_some_and(|basis| basis.ground == GroundMotion::WithVertical)
+    }
+
     /// The barrier against overturning, computed once.
     pub fn barrier(&mut self, scene: &Scene) -> Barrier {
         *self.barrier.get_or_insert_with(|| scene.column.barrier(scene.options.overturn_angle))

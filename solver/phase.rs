@@ -10,9 +10,11 @@
 //! |---|---|---|
 //! | `s_i φ_i` | open interface `i` closes | the dense output's polynomial |
 //! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
-//! | `c_i N_i - abs(M_i)` | closed interface `i` opens | samples and parabolas |
+//! | `c_i N_i - abs(M_i)` | closed interface `i` opens | its Taylor series, or samples |
 
+mod harmonics;
 mod inside;
+mod margins;
 mod pendulum;
 mod stepper;
 mod swing;
@@ -24,8 +26,10 @@ use crate::few::Few;
 use crate::ode::{Difference, Tolerance};
 use crate::response::ModeName;
 use crate::simulate::{Run, SolveError};
+pub(crate) use margins::Margins;
 use pendulum::Pendulum;
 use rocking_codegen::pattern::{Interface, Pattern};
+use std::rc::Rc;
 pub(crate) use stepper::{RungeKutta, Stepper, TaylorSeries};
 
 /// How a stretch of time ended.
@@ -88,6 +92,8 @@ pub(crate) struct Phase<V> {
     links: Few<usize>,
     gaps: Few<Gap>,
     closed: Few<usize>,
+    /// Margins of the closed interfaces, as formulas.
+    of_closed: Rc<Margins>,
     x: V,
     slope: V,
     /// A state inside a step.
@@ -95,8 +101,11 @@ pub(crate) struct Phase<V> {
     forces: Few<ContactForce>,
     /// Contact forces at the start of the step, where they are recorded.
     start_forces: Few<ContactForce>,
-    /// Values of the contact guards at the start of the step, per closed interface.
+    /// Values of the contact guards at the present state, per closed interface, where they are known.
     margins: Few<f64>,
+    are_margins_known: bool,
+    /// Contact forces evaluated.
+    force_calls: usize,
 }
 
 impl<V: StateVector> SmoothPhase for Phase<V> {
@@ -155,6 +164,7 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
         run.suggested_step = Some(wanted);
         self.leave(run);
         run.work.rhs_calls += self.stepper.calls() - calls;
+        run.work.force_calls += std::mem::take(&mut self.force_calls);
         Ok(ended)
     }
 }
@@ -176,8 +186,8 @@ fn records_forces(run: &Run) -> bool {
 }
 
 impl<V: StateVector> Phase<V> {
-    /// The phases of a pattern; in closed form where that may be and is wanted.
-    pub fn new(pattern: &Pattern, stepper: Box<dyn Stepper<V>>, in_closed_form: bool) -> Self {
+    /// The phases of a pattern with the margins of its closed interfaces; in closed form where that may be and is wanted.
+    pub fn new(pattern: &Pattern, stepper: Box<dyn Stepper<V>>, of_closed: Rc<Margins>, in_closed_form: bool) -> Self {
         let zero = stepper.zero();
         let blocks = pattern.0.len();
         let mut dof = 0;
@@ -201,7 +211,10 @@ impl<V: StateVector> Phase<V> {
             links,
             gaps,
             margins: Few::from_elem(0.0, closed.len()),
+            are_margins_known: false,
+            force_calls: 0,
             closed,
+            of_closed,
             x: zero.clone(),
             slope: zero.clone(),
             inside: zero,
@@ -221,12 +234,21 @@ impl<V: StateVector> Phase<V> {
         }
         self.stepper.begin(run.t, &self.x);
         self.arm(run);
-        if self.reads_forces(run) {
+        self.are_margins_known = false;
+        if interfaces(run) == Interfaces::All {
+            self.weigh_start(run);
+        }
+        if records_forces(run) {
+            run.history.note_forces(&self.forces);
+        }
+    }
+
+    /// Contact forces at the present state, if nobody has asked for them yet.
+    fn weigh_start(&mut self, run: &Run) {
+        if !self.are_margins_known {
+            self.force_calls += 1;
             self.stepper.weigh(run.t, &self.x, interfaces(run), &mut self.forces);
             self.remember_forces(run);
-            if records_forces(run) {
-                run.history.note_forces(&self.forces);
-            }
         }
     }
 
@@ -272,16 +294,12 @@ impl<V: StateVector> Phase<V> {
         across.of(accelerations).abs() <= verge
     }
 
-    /// Whether contact forces are of use in this phase: for guards of closed interfaces, or for the record.
-    fn reads_forces(&self, run: &Run) -> bool {
-        !self.closed.is_empty() || interfaces(run) == Interfaces::All
-    }
-
     /// The forces weighed last are those at the start of the next step.
     fn remember_forces(&mut self, run: &Run) {
         for index in 0..self.closed.len() {
             self.margins[index] = self.margin(run, self.closed[index]);
         }
+        self.are_margins_known = true;
         if records_forces(run) {
             self.start_forces.clone_from(&self.forces);
         }
@@ -355,7 +373,8 @@ impl<V: StateVector> Phase<V> {
         self.stepper.accept();
         self.note_peaks(run, h);
         let end = if h == segment(run).end - t { segment(run).end } else { t + h };
-        if records_forces(run) || is_mistaken || matches!(found, Found::Contact { .. }) {
+        self.are_margins_known = false;
+        if records_forces(run) || matches!(found, Found::Contact { .. }) {
             self.weigh_end(run, end);
             self.note_step(run, h);
             self.remember_forces(run);

@@ -121,6 +121,10 @@ pub struct Work {
     pub repeated: usize,
     /// Right-hand sides.
     pub rhs_calls: usize,
+    /// Evaluations of contact forces within smooth phases.
+    pub force_calls: usize,
+    /// Whether the equations had the terms of vertical ground motion.
+    pub with_vertical: bool,
     /// Distinct patterns whose scene constants were computed.
     pub modes_entered: usize,
     /// Smooth phases: how often the integrator was entered.
@@ -160,7 +164,7 @@ pub struct Response {
     /// Largest size of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
-    /// rest for good is in it until `t_end`.
+    /// rest for good is in it until `t_end`. Empty where nothing but the outcome is wanted.
     pub time_in_mode: BTreeMap<String, f64>,
     /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
     /// Empty if the scene's options ask for no forces.

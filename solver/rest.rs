@@ -32,7 +32,7 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
             output_until(run, until);
             run.t = until;
         }
-        run.work.waits += 1;
+        run.work.waits += usize::from(run.scene.options.skips.rests);
         let start = earliest_start(run, &segment);
         let until = start.map_or(segment.end, |(t, _, _)| t);
         if run.scene.records_forces() {
@@ -84,50 +84,82 @@ fn by_steps(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface)> {
     }
 }
 
-/// The first opening between two instants.
+/// The first opening between two instants: the first zero of a guard. All are looked at together, at places that none of them can
+/// have passed zero before.
 fn start_before(run: &Run, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
     let column = &run.scene.column;
-    let mut earliest: Option<(f64, usize, Interface)> = None;
-    for interface in 0..column.len() {
-        for side in [Interface::Right, Interface::Left] {
-            let until = earliest.map_or(until, |(t, _, _)| t);
+    let mut t = from;
+    loop {
+        let motion = Shaking::at(segment, column.gravity(), t);
+        let mut step = f64::INFINITY;
+        for interface in 0..column.len() {
             let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
-            // It looks no further than what is known already.
-            if let Some(t) = first_zero(segment, column.gravity(), arm, side, from, until) {
-                earliest = Some((t, interface, side));
+            for side in [Interface::Right, Interface::Left] {
+                match motion.step_to_zero(arm, side) {
+                    // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
+                    Some(0.0) => return Some((t, interface, side)),
+                    Some(own) => step = step.min(own),
+                    None => {}
+                }
             }
         }
+        t = if t + step > t { t + step } else { t + 2.0 * f64::EPSILON * t.abs().max(1e-12) };
+        if t >= until {
+            return None;
+        }
     }
-    earliest
 }
 
 /// Whether some interface cannot stay closed under the present acceleration.
 fn is_thrown_open(run: &Run) -> bool {
-    let ground = run.ground();
-    let column = &run.scene.column;
-    let margin = |i: usize| column.contact_half_width(i) * ground.gravity - column.centroid_height(i) * ground.x.abs();
-    (0..column.len()).any(|interface| margin(interface) < 0.0)
+    least_margin(run) < 0.0
 }
 
-/// First zero of `c (g + ÿ_g) + s h ẍ_g` (positive `ẍ_g` tips to the left) in `from .. until`.
-fn first_zero(
-    segment: &Segment,
-    gravity: f64,
-    [half_width, height]: [f64; 2],
-    side: Interface,
-    from: f64,
-    until: f64,
-) -> Option<f64> {
-    let sign = f64::from(side.sign());
-    let bend = half_width * segment.vertical.curvature_bound() + height * segment.horizontal.curvature_bound();
-    let mut t = from;
-    loop {
-        let ground = segment.ground(t, gravity);
+/// Whether some interface may open under the present acceleration: where rounding may decide, what does is the contact problem.
+pub(crate) fn may_open(run: &Run) -> bool {
+    least_margin(run) < 1e-9
+}
+
+/// The least margin against opening, relative to its own scale.
+fn least_margin(run: &Run) -> f64 {
+    let (ground, column) = (run.ground(), &run.scene.column);
+    let margin = |i: usize| {
+        let arms = [column.contact_half_width(i) * ground.gravity, column.centroid_height(i) * ground.x.abs()];
+        (arms[0] - arms[1]) / (arms[0].abs() + arms[1])
+    };
+    (0..column.len()).map(margin).fold(f64::INFINITY, f64::min)
+}
+
+/// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
+struct Shaking {
+    t: f64,
+    ground: Ground,
+    rates: [f64; 2],
+    bends: [f64; 2],
+}
+
+impl Shaking {
+    fn at(segment: &Segment, gravity: f64, t: f64) -> Shaking {
+        let Segment { horizontal, vertical, .. } = segment;
+        Shaking {
+            t,
+            ground: segment.ground(t, gravity),
+            rates: [horizontal.rate(t), vertical.rate(t)],
+            bends: [horizontal.curvature_bound(), vertical.curvature_bound()],
+        }
+    }
+
+    /// The guard `c (g + ÿ_g) + s h ẍ_g` of a side (positive `ẍ_g` tips to the left): zero if it falls below zero here, else a time
+    /// before which it does not, `None` if it never does.
+    fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
+        let Shaking { t, ground, rates, bends } = self;
+        let sign = f64::from(side.sign());
         let value = half_width * ground.gravity + sign * height * ground.x;
-        let slope = half_width * segment.vertical.rate(t) + sign * height * segment.horizontal.rate(t);
+        let slope = half_width * rates[1] + sign * height * rates[0];
+        let bend = half_width * bends[1] + height * bends[0];
         let scale = half_width * ground.gravity.abs() + height * ground.x.abs();
         if value <= ZERO * scale && slope < 0.0 {
-            return Some(t);
+            return Some(0.0);
         }
         // The longest step for which value + slope h - bend h²/2 stays at or above zero, without cancellation for either slope.
         let value = value.max(0.0);
@@ -137,19 +169,7 @@ fn first_zero(
             (false, true) => (slope + root) / bend,
             (false, false) => return None,
         };
-        let next = t + step;
-        if next >= until {
-            return None;
-        }
-        if next == t {
-            // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
-            if slope < 0.0 {
-                return Some(t);
-            }
-            t += 2.0 * f64::EPSILON * t.abs().max(1e-12);
-            continue;
-        }
-        t = next;
+        Some(if t + step == *t && slope < 0.0 { 0.0 } else { step.max(f64::MIN_POSITIVE) })
     }
 }
 
@@ -193,6 +213,19 @@ mod tests {
     use super::*;
     use crate::excitation::Piece;
 
+    /// First zero of one guard.
+    fn first_zero(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {
+        let mut t = segment.start;
+        while t < segment.end {
+            match Shaking::at(segment, 9.81, t).step_to_zero(arm, side) {
+                Some(0.0) => return Some(t),
+                Some(step) => t += step,
+                None => return None,
+            }
+        }
+        None
+    }
+
     fn segment(amplitude: f64) -> Segment {
         let horizontal = Piece::Sine { amplitude, omega: 10.0, start: 0.0, phase: 0.0 };
         Segment { start: 0.0, end: 0.6, horizontal, vertical: Piece::Zero, jumps: false }
@@ -203,19 +236,19 @@ mod tests {
         // sin(10 t) = c g / (h A) = 0.5, tipping to the left.
         let arm = [0.2, 0.8];
         let amplitude = 0.2 * 9.81 / (0.8 * 0.5);
-        let t = first_zero(&segment(amplitude), 9.81, arm, Interface::Left, 0.0, 0.6).expect("it starts");
+        let t = first_zero(&segment(amplitude), arm, Interface::Left).expect("it starts");
         assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
-        let later = first_zero(&segment(amplitude), 9.81, arm, Interface::Right, 0.0, 0.6).expect("it starts");
+        let later = first_zero(&segment(amplitude), arm, Interface::Right).expect("it starts");
         assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
     }
 
     #[test]
     fn a_needle_starts_at_once_and_a_threshold_above_the_crest_is_never_reached() {
-        let t = first_zero(&segment(3.0), 9.81, [1e-200, 1.6], Interface::Left, 0.0, 0.6).expect("it starts");
+        let t = first_zero(&segment(3.0), [1e-200, 1.6], Interface::Left).expect("it starts");
         assert!(t < 1e-199);
         let arm = [0.2, 0.8];
         let crest = 0.2 * 9.81 / 0.8;
-        assert_eq!(first_zero(&segment(crest * (1.0 - 1e-12)), 9.81, arm, Interface::Left, 0.0, 0.6), None);
-        assert!(first_zero(&segment(crest * (1.0 + 1e-9)), 9.81, arm, Interface::Left, 0.0, 0.6).is_some());
+        assert_eq!(first_zero(&segment(crest * (1.0 - 1e-12)), arm, Interface::Left), None);
+        assert!(first_zero(&segment(crest * (1.0 + 1e-9)), arm, Interface::Left).is_some());
     }
 }

@@ -1,7 +1,7 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
 use crate::column::Column;
-use crate::excitation::{Excitation, Motion};
+use crate::excitation::Excitation;
 use crate::generated::Equations;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -43,14 +43,14 @@ pub struct Initial {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// What costs least for the scene and its tolerance, by the work-precision benchmark: the default. See [`Scene::method`].
+    /// What costs least, by the work-precision benchmark: Taylor series, and closed forms where there are any. The default.
     #[default]
     Auto,
     /// Order 8(5,3), dense output of order 7.
     Dop853,
-    /// Dormand & Prince 5(4): for tolerances above about 1e-6.
+    /// Dormand & Prince 5(4): for comparison; at tolerances above 1e-5, and under records, it comes close to Taylor series.
     DormandPrince54,
-    /// Taylor series of an order that follows from the tolerance: for tolerances from about 1e-7 on.
+    /// Taylor series of an order that follows from the tolerance and the number of free angles.
     Taylor,
     /// Merson's method of order 4, the paper's: for comparison.
     KuttaMerson,
@@ -117,7 +117,7 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns: no rows, events, peaks or forces, and the run ends as soon as the answer is certain
+    /// Whether and how the column overturns: no rows, events, times in modes, peaks or forces, and the run ends as soon as the answer is certain
     /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
 }
@@ -245,17 +245,10 @@ pub struct SceneError {
     pub remedy: String,
 }
 
-/// Tolerance above which a pair of order 5 costs less than Taylor series under a record: steps end at its samples.
-const STEPS_OF_SAMPLES: f64 = 1e-7;
-
 impl Scene {
-    /// The method that a run uses: the one that the options name, or, for [`Method::Auto`], by the ground motion and `rtol`.
+    /// The method that a run uses: the one that the options name; Taylor series for [`Method::Auto`].
     pub fn method(&self) -> Method {
-        let rtol = self.options.rtol;
-        let components = [&self.excitation.horizontal, &self.excitation.vertical];
-        let has_record = components.iter().any(|motion| matches!(motion, Some(Motion::Record(_))));
         match self.options.method {
-            Method::Auto if has_record && rtol > STEPS_OF_SAMPLES => Method::DormandPrince54,
             Method::Auto => Method::Taylor,
             named => named,
         }

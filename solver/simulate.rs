@@ -4,6 +4,7 @@ use crate::contact::{self, Decision, ImpactLaw};
 use crate::dynamics::{ContactForce, Ground};
 use crate::excitation::{Excitation, Segment};
 use crate::few::{Few, for_size};
+use crate::history::History;
 use crate::kinematics::{Posture, Turn};
 use crate::modes::Modes;
 use crate::outcome::Barrier;
@@ -210,42 +211,13 @@ pub(crate) struct Hold {
     span: f64,
 }
 
-/// What is recorded of a run.
-pub(crate) struct History {
-    pub samples: Vec<Sample>,
-    pub next_sample: usize,
-    /// Segment of the row recorded last.
-    sample_segment: usize,
-    pub peak_theta: Few<f64>,
-    pub friction_demand: Few<f64>,
-    pub min_normal_force: Few<f64>,
-    events: Vec<Event>,
-    impacts: usize,
-    /// When the last two events were `[s]`.
-    last_events: [f64; 2],
-    separations: Vec<Separation>,
-    time_at_rest: f64,
-}
-
 impl<'a> Run<'a> {
     fn new(scene: &'a Scene, modes: &'a mut Modes, progress: &'a mut dyn FnMut(f64)) -> Run<'a> {
         modes.prepare(scene);
+        let with_vertical = modes.have_vertical();
         let blocks = scene.column.len();
         let or_zero =
             |given: &[f64]| if given.is_empty() { Few::from_elem(0.0, blocks) } else { Few::from_slice(given) };
-        let history = History {
-            samples: Vec::new(),
-            next_sample: 0,
-            sample_segment: 0,
-            peak_theta: Few::from_elem(0.0, blocks),
-            friction_demand: Few::from_elem(0.0, blocks),
-            min_normal_force: Few::from_elem(f64::INFINITY, blocks),
-            events: Vec::new(),
-            impacts: 0,
-            last_events: [f64::NAN; 2],
-            separations: Vec::new(),
-            time_at_rest: 0.0,
-        };
         let segments = Excitation::segments(&scene.excitation, scene.options.t_end);
         let may_end = scene.options.wanted == Wanted::Outcome && scene.options.skips.certainty;
         let comes_to_rest = may_end && segments.last().is_some_and(Segment::is_quiet);
@@ -262,8 +234,8 @@ impl<'a> Run<'a> {
             released: Vec::new(),
             hold: Hold { until: f64::NEG_INFINITY, span: SHORTEST_HOLD },
             suggested_step: None,
-            work: Work::default(),
-            history,
+            work: Work { with_vertical, ..Work::default() },
+            history: History::new(blocks),
             progress,
             kappa: scene.restitution.factors(&scene.column),
             barrier,
@@ -286,6 +258,9 @@ impl<'a> Run<'a> {
         }
         self.note_peaks();
         let at_rest = self.pattern.dof() == 0;
+        if at_rest && !rest::may_open(self) {
+            return Ok(());
+        }
         let before = self.pattern.clone();
         let decision = self.decide_forces(&[])?;
         self.adopt(decision, EventKind::Start);
@@ -510,17 +485,9 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Notes the present angles.
     pub fn note_peaks(&mut self) {
-        for (peak, theta) in self.history.peak_theta.iter_mut().zip(&self.theta) {
-            *peak = peak.max(theta.abs());
-        }
-    }
-
-    /// Notes angles of the blocks, base first.
-    pub fn note_peaks_of(&mut self, theta: impl Iterator<Item = f64>) {
-        for (peak, theta) in self.history.peak_theta.iter_mut().zip(theta) {
-            *peak = peak.max(theta.abs());
-        }
+        self.history.note_peaks(self.theta.iter().copied());
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -568,10 +535,12 @@ impl<'a> Run<'a> {
             self.history.min_normal_force.clear();
         }
         let mut time_in_mode = BTreeMap::new();
-        let at_rest = (ModeName::REST, self.history.time_at_rest);
-        let moving = self.modes.times().map(|(pattern, time)| (ModeName::of(pattern), time));
-        for (mode, time) in moving.chain((at_rest.1 > 0.0).then_some(at_rest)) {
-            *time_in_mode.entry(mode.to_string()).or_insert(0.0) += time;
+        if self.scene.options.wanted == Wanted::Everything {
+            let at_rest = (ModeName::REST, self.history.time_at_rest);
+            let moving = self.modes.times().map(|(pattern, time)| (ModeName::of(pattern), time));
+            for (mode, time) in moving.chain((at_rest.1 > 0.0).then_some(at_rest)) {
+                *time_in_mode.entry(mode.to_string()).or_insert(0.0) += time;
+            }
         }
         let History { samples, peak_theta, friction_demand, min_normal_force, events, impacts, separations, .. } =
             self.history;
@@ -591,51 +560,4 @@ impl<'a> Run<'a> {
             used_generic: self.modes.used_generic(),
         }
     }
-}
-
-impl History {
-    /// Notes contact forces of an instant, base first.
-    pub fn note_forces(&mut self, forces: &[ContactForce]) {
-        for (interface, force) in forces.iter().enumerate() {
-            self.note_normal(interface, force.normal);
-            self.note_friction(interface, friction(force));
-        }
-    }
-
-    /// Notes the extremes within a step from its contact forces at start, middle and end: those of the parabolas through them.
-    pub fn note_step(&mut self, forces: [&[ContactForce]; 3]) {
-        for interface in 0..self.friction_demand.len() {
-            let [a, b, c] = forces.map(|forces| forces[interface]);
-            self.note_normal(interface, -crest([a, b, c].map(|force| -force.normal)));
-            let demand = [a, b, c].map(|force| friction(&force));
-            let is_finite = demand.iter().all(|demand| demand.is_finite());
-            self.note_friction(interface, if is_finite { crest(demand) } else { f64::INFINITY });
-        }
-    }
-
-    fn note_normal(&mut self, interface: usize, normal: f64) {
-        let least = &mut self.min_normal_force[interface];
-        *least = least.min(normal);
-    }
-
-    fn note_friction(&mut self, interface: usize, demand: f64) {
-        let most = &mut self.friction_demand[interface];
-        *most = most.max(demand);
-    }
-}
-
-/// `|T| / N`; infinite where the contact parts and something is still to be held.
-fn friction(force: &ContactForce) -> f64 {
-    match (force.normal > 0.0, force.tangential == 0.0) {
-        (true, _) => force.tangential.abs() / force.normal,
-        (false, true) => 0.0,
-        (false, false) => f64::INFINITY,
-    }
-}
-
-/// The largest value of the parabola through three equally spaced values, between the outer two.
-fn crest([a, b, c]: [f64; 3]) -> f64 {
-    let largest = a.max(b).max(c);
-    let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
-    if bend < 0.0 && slope.abs() < -bend { largest.max(b - 0.5 * slope * slope / bend) } else { largest }
 }

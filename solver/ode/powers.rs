@@ -80,7 +80,7 @@ impl Powers {
 
     /// Value and slope at `s`.
     #[inline(always)]
-    fn with_slope(&self, s: f64) -> [f64; 2] {
+    pub fn with_slope(&self, s: f64) -> [f64; 2] {
         let (mut value, mut slope) = (0.0, 0.0);
         for c in self.terms().iter().rev() {
             slope = slope * s + value;
@@ -106,17 +106,6 @@ impl Powers {
         let mut terms = self.terms().iter().enumerate().skip(2).map(bend);
         let first = terms.next().unwrap_or(0.0);
         first + terms.map(|term| term.max(0.0)).sum::<f64>() < 0.0
-    }
-
-    /// Whether the slope has the same sign throughout, by the sizes of its terms.
-    fn is_monotone(&self) -> bool {
-        let rise = |(k, c): (usize, &f64)| k as f64 * c;
-        let (mut least, mut most) = (self.coefficients[1], self.coefficients[1]);
-        for term in self.terms().iter().enumerate().skip(2).map(rise) {
-            least += term.min(0.0);
-            most += term.max(0.0);
-        }
-        least >= 0.0 || most <= 0.0
     }
 
     /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `roots` known roots at zero left out; `None` where
@@ -148,15 +137,27 @@ impl Powers {
 
     /// The largest size on `[0, 1]`, if it is above `known`, else `known`; `None` where bounds do not tell.
     pub fn largest_size(&self, known: f64) -> Option<f64> {
-        if self.size() <= known {
-            return Some(known);
-        }
-        let [last, end_slope] = self.with_slope(1.0);
+        // Sums of sizes, of terms, and of what the terms of the slope may take away or add.
         let (first, start_slope) = (self.coefficients[0], self.coefficients[1]);
-        let known = known.max(first.abs()).max(last.abs());
-        if self.is_monotone() {
+        let [mut size, mut last] = [first.abs() + start_slope.abs(), first + start_slope];
+        let [mut fall, mut rise] = [0.0, 0.0];
+        let mut k = 1.0;
+        for c in self.terms().iter().skip(2) {
+            k += 1.0;
+            size += c.abs();
+            last += c;
+            let share = k * c;
+            fall += share.min(0.0);
+            rise += share.max(0.0);
+        }
+        if size <= known {
             return Some(known);
         }
+        let known = known.max(first.abs()).max(last.abs());
+        if start_slope + fall >= 0.0 || start_slope + rise <= 0.0 {
+            return Some(known);
+        }
+        let [_, end_slope] = self.with_slope(1.0);
         let sign = if self.is_bent(1.0) {
             1.0
         } else if self.is_bent(-1.0) {

@@ -1,5 +1,6 @@
 //! What lies inside a step: the first zero of a guard, contact forces, peaks, rows.
 
+use super::margins::Outlook;
 use super::{Found, Phase, interfaces, records_forces, segment};
 use crate::dynamics::{Interfaces, StateVector};
 use crate::event::first_crossing;
@@ -17,19 +18,23 @@ impl<V: StateVector> Phase<V> {
                 first = Some((found, s));
             }
         };
+        // An angle is a sum of gaps.
+        let mut reach = 0.0;
         for &gap in &self.gaps {
             let track = self.stepper.track(gap.across, gap.start_roots > 0);
-            if gap.start_roots > 0 && track.size() <= self.resolution() {
+            let size = track.size();
+            reach += size;
+            if gap.start_roots > 0 && size <= self.resolution() {
                 continue;
             }
             offer(Found::Gap(gap), track.first_root(gap.start_roots));
         }
         let limit = run.scene.options.overturn_angle;
-        for link in 0..self.dof {
-            let angle = |sign: f64| Difference { sign, upper: link, lower: None };
-            if self.stepper.reach(link) >= limit {
+        let tilting = if reach < limit { 0..0 } else { 0..self.dof };
+        for link in tilting {
+            let track = self.stepper.track(Difference { sign: 1.0, upper: link, lower: None }, false);
+            if track.size() >= limit {
                 let sign = if self.stepper.end().as_slice()[link] < 0.0 { -1.0 } else { 1.0 };
-                let track = self.stepper.track(angle(1.0), false);
                 offer(Found::Tilt { link, sign }, track.shifted(-sign, limit).first_root(0));
             }
         }
@@ -40,58 +45,81 @@ impl<V: StateVector> Phase<V> {
         }
     }
 
-    /// The first opening of a closed interface before `reach`; if there is none in the whole step, margins move on to its end.
+    /// The first opening of a closed interface before `reach`; if there is none in the whole step, what is known of its end is kept.
     fn search_contacts(&mut self, run: &mut Run, h: f64, end: f64, reach: f64) -> Option<(Found, f64)> {
-        if !self.reads_forces(run) {
-            return None;
-        }
-        let t = run.t;
         let mut first: Option<(Found, f64)> = None;
-        // A look at a place serves all interfaces.
-        let mut looks: Few<(f64, Few<f64>)> = Few::new();
+        let mut looks = Looks::new();
         for index in 0..self.closed.len() {
-            let (interface, start) = (self.closed[index], self.margins[index]);
-            if start <= 0.0 && t < run.hold.until {
-                continue;
-            }
             let reach = first.map_or(reach, |(_, s)| s);
-            let guard = |s: f64| {
-                if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == s) {
-                    return margins[index];
-                }
-                // The end of the step is the state that the next one starts from, to the last bit.
-                if s == 1.0 {
-                    self.weigh_end(run, end);
-                } else {
-                    self.weigh_inside(run, h, s);
-                }
-                let margins: Few<f64> = self.closed.iter().map(|&i| self.margin(run, i)).collect();
-                let margin = margins[index];
-                if looks.len() < looks.inline_size() {
-                    looks.push((s, margins));
-                }
-                margin
-            };
-            if let Some(s) = first_crossing(guard, start, reach) {
-                first = Some((Found::Contact { interface }, s));
+            if let Some(s) = self.opening_before(run, [h, end], index, reach, &mut looks) {
+                first = Some((Found::Contact { interface: self.closed[index] }, s));
             }
         }
         if first.is_none() && reach >= 1.0 {
-            match looks.iter().find(|(place, _)| *place == 1.0) {
-                // The look at the end is the next step's start, where nobody else wants the forces.
-                Some((_, margins)) if interfaces(run) == Interfaces::Closed => self.margins.copy_from_slice(margins),
-                _ => {
-                    self.weigh_end(run, end);
-                    self.note_step(run, h);
-                    self.remember_forces(run);
-                }
+            self.are_margins_known = false;
+            if interfaces(run) == Interfaces::All {
+                self.weigh_end(run, end);
+                self.note_step(run, h);
+                self.remember_forces(run);
+            } else if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == 1.0) {
+                self.margins.copy_from_slice(margins);
+                self.are_margins_known = true;
             }
         }
         first
     }
 
+    /// When the closed interface of this index opens in a step of length and end `[h, end]`, 0 to `reach`.
+    fn opening_before(
+        &mut self,
+        run: &Run,
+        [h, end]: [f64; 2],
+        index: usize,
+        reach: f64,
+        looks: &mut Looks,
+    ) -> Option<f64> {
+        let is_held = run.t < run.hold.until;
+        let outlook = if is_held { Outlook::Unclear } else { self.stepper.outlook(index, reach * h) };
+        if outlook == Outlook::StaysClosed {
+            return None;
+        }
+        if let Outlook::Opens { s, slope } = outlook {
+            let guard = |s: f64| self.look(run, [h, end], index, s, looks);
+            let opening = polished(guard, s * reach, slope / reach, reach);
+            if opening.is_some() {
+                return opening;
+            }
+        }
+        self.weigh_start(run);
+        let start = self.margins[index];
+        if start <= 0.0 && is_held {
+            return None;
+        }
+        first_crossing(|s| self.look(run, [h, end], index, s, looks), start, reach)
+    }
+
+    /// The margin of a closed interface at a place in the step.
+    fn look(&mut self, run: &Run, [h, end]: [f64; 2], index: usize, s: f64, looks: &mut Looks) -> f64 {
+        if let Some((_, margins)) = looks.iter().find(|(place, _)| *place == s) {
+            return margins[index];
+        }
+        // The end of the step is the state that the next one starts from, to the last bit.
+        if s == 1.0 {
+            self.weigh_end(run, end);
+        } else {
+            self.weigh_inside(run, h, s);
+        }
+        let margins: Few<f64> = self.closed.iter().map(|&i| self.margin(run, i)).collect();
+        let margin = margins[index];
+        if looks.len() < looks.inline_size() {
+            looks.push((s, margins));
+        }
+        margin
+    }
+
     /// Contact forces at the end of the last attempt, at time `end`.
     pub(super) fn weigh_end(&mut self, run: &Run, end: f64) {
+        self.force_calls += 1;
         self.stepper.weigh_end(end, interfaces(run), &mut self.forces);
     }
 
@@ -99,6 +127,7 @@ impl<V: StateVector> Phase<V> {
     fn weigh_inside(&mut self, run: &Run, h: f64, s: f64) {
         let t = run.t + s * h;
         self.stepper.state_inside(s, &mut self.inside);
+        self.force_calls += 1;
         self.stepper.weigh(t, &self.inside, interfaces(run), &mut self.forces);
     }
 
@@ -158,6 +187,33 @@ impl<V: StateVector> Phase<V> {
             }
         }
     }
+}
+
+/// Margins of the closed interfaces at places in a step: a look at one serves them all.
+type Looks = Few<(f64, Few<f64>)>;
+
+/// Rounds of Newton's rule with the slope of a series, which is right to some digits: each round brings as many.
+const ROUNDS: usize = 8;
+
+/// Change of a root that rounding may leave where the guard is flat.
+const ROUNDING: f64 = 1e-11;
+
+/// The zero of a falling guard, from a place that is right to some digits and the slope there; `None` if that was mistaken.
+fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
+    let mut last = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let change = -guard(s) / slope;
+        if change.abs() <= f64::EPSILON {
+            return Some(s);
+        }
+        let is_better = change.abs() < 0.25 * last;
+        let next = s + change;
+        if !(is_better && next > 0.0 && next <= reach) {
+            return (change.abs() <= ROUNDING).then_some(s);
+        }
+        (s, last) = (next, change.abs());
+    }
+    None
 }
 
 /// Panels per radian that the fastest link turns in a step, and per radian of the ground motion: forces vary with sines and squares of

@@ -48,11 +48,48 @@ impl Pendulum {
         self.balance + sign * psi
     }
 
+    /// A swing at its start and further on by fifths of a turn.
+    pub fn fifths(&self, swing: &Swing, sign: f64) -> [Place; 5] {
+        let ((sin, cos), (sin_psi, cos_psi)) = (libm::sincos(self.theta(swing.psi, sign)), libm::sincos(swing.psi));
+        let square = self.rate * self.rate;
+        FIFTHS.map(|[c, s]| {
+            let fallen = cos_psi - (cos_psi * c - sin_psi * s);
+            Place {
+                cos: cos * c - sign * sin * s,
+                sin: sin * c + sign * cos * s,
+                acceleration: sign * square * (sin_psi * c + cos_psi * s),
+                square_of_rate: swing.v * swing.v + 2.0 * square * fallen,
+            }
+        })
+    }
+
     /// The swing through `ψ` with rate `v`.
     pub fn swing(&self, psi: f64, v: f64) -> Swing {
         let (p, q) = (self.rate, square_of_half_sine(psi));
         Swing { p, psi, v, q, kappa: q - v * v / (4.0 * p * p) }
     }
+}
+
+/// Cosines and sines of fifths of a turn.
+pub(crate) const FIFTHS: [[f64; 2]; 5] = [
+    [1.0, 0.0],
+    [0.309_016_994_374_947_45, 0.951_056_516_295_153_5],
+    [-0.809_016_994_374_947_5, 0.587_785_252_292_473_1],
+    [-0.809_016_994_374_947_5, -0.587_785_252_292_473_1],
+    [0.309_016_994_374_947_45, -0.951_056_516_295_153_5],
+];
+
+/// A place of a swing, which it need not come to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// Of the angle `θ`.
+    pub cos: f64,
+    /// Of the angle `θ`.
+    pub sin: f64,
+    /// `θ¨ [rad/s²]`
+    pub acceleration: f64,
+    /// `θ̇²`, below zero where the swing does not come `[rad²/s²]`.
+    pub square_of_rate: f64,
 }
 
 fn square_of_half_sine(psi: f64) -> f64 {

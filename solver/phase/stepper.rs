@@ -3,6 +3,7 @@
 //! The phase calls it a few times per step through a table; what happens within a step is compiled for the mode. It is kept as long
 //! as the mode: entering a phase asks for no memory.
 
+use super::margins::{Margins, Outlook};
 use super::pendulum::Pendulum;
 use crate::dynamics::{ContactForce, Dynamics, Ground, Interfaces, StateVector};
 use crate::event::Track;
@@ -39,8 +40,8 @@ pub(crate) trait Stepper<V> {
     fn state_inside(&mut self, s: f64, state: &mut V);
     /// Angles, or the difference of two, inside the last attempt; exactly zero at its start where that is known.
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
-    /// A bound of an angle's size inside the last attempt.
-    fn reach(&mut self, link: usize) -> f64;
+    /// What is known of a closed interface, by its place among the closed ones, for a time from the start of the last attempt on.
+    fn outlook(&self, index: usize, reach: f64) -> Outlook;
     /// Contact forces anywhere, base first.
     fn weigh(&mut self, t: f64, x: &V, which: Interfaces, forces: &mut [ContactForce]);
     /// The same at the end of the last attempt, at `t`.
@@ -191,8 +192,9 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
         Track::Bernstein(polynomial)
     }
 
-    fn reach(&mut self, link: usize) -> f64 {
-        self.interpolant().bernstein(|x| x[link]).size()
+    /// Dense output says nothing of accelerations.
+    fn outlook(&self, _: usize, _: f64) -> Outlook {
+        Outlook::Unclear
     }
 
     fn weigh(&mut self, t: f64, x: &D::State, which: Interfaces, forces: &mut [ContactForce]) {
@@ -256,15 +258,22 @@ impl<D: Dynamics> SeriesSystem for Expanded<D> {
 /// Steps by Taylor series. Each order counts as a right-hand side.
 pub(crate) struct TaylorSeries<D: Dynamics> {
     system: Expanded<D>,
+    margins: Rc<Margins>,
     series: Taylor<D::State, D::Links>,
 }
 
 impl<D: Dynamics> TaylorSeries<D> {
-    /// The series of a mode, with gravity `[m/s²]`, of an order for this tolerance.
-    pub fn new(mode: Rc<D>, gravity: f64, rtol: f64) -> Self {
+    /// The series of a mode with these margins, with gravity `[m/s²]`, of an order for this tolerance.
+    pub fn new(mode: Rc<D>, margins: Rc<Margins>, gravity: f64, rtol: f64) -> Self {
         let series = Taylor::new(&mode.zero_state(), &mode.zero_links(), rtol);
         let driven = Driven { mode, segment: Segment::QUIET, gravity, calls: 0 };
-        TaylorSeries { system: Expanded { driven, ground: [[0.0; MAX_ORDER]; 2] }, series }
+        TaylorSeries { system: Expanded { driven, ground: [[0.0; MAX_ORDER]; 2] }, margins, series }
+    }
+
+    /// All terms of the margins of a closed interface.
+    #[cfg(test)]
+    pub fn margin_terms(&self, index: usize, reach: f64) -> Option<[wide::f64x2; MAX_ORDER]> {
+        self.margins.terms(index, &self.series, &self.system.ground, reach, |_, _| false)
     }
 }
 
@@ -321,8 +330,8 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         Track::Powers(if starts_at_zero { track.from_zero() } else { track })
     }
 
-    fn reach(&mut self, link: usize) -> f64 {
-        self.series.reach(link)
+    fn outlook(&self, index: usize, reach: f64) -> Outlook {
+        self.margins.outlook(index, &self.series, &self.system.ground, reach)
     }
 
     fn weigh(&mut self, t: f64, x: &D::State, which: Interfaces, forces: &mut [ContactForce]) {

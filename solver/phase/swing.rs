@@ -3,11 +3,13 @@
 //! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back:
 //! the guards of closed interfaces are looked at over the angles of the swing, once.
 
+use super::harmonics::{Harmonics, OnTheVerge};
 use super::inside::PANELS_PER_TURN;
 use super::pendulum::{Pendulum, Swing};
 use super::{Ended, Phase, interfaces, records_forces, segment};
-use crate::dynamics::StateVector;
+use crate::dynamics::{Interfaces, StateVector};
 use crate::event::first_crossing;
+use crate::few::Few;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
 
@@ -20,6 +22,8 @@ struct Course {
     start: f64,
     outmost: f64,
     inmost: f64,
+    /// Of the closed interfaces.
+    margins: Few<Harmonics>,
 }
 
 /// How a swing ends, at which angle and rate beyond the balance, and when from its start `[s]`.
@@ -64,11 +68,11 @@ impl<V: StateVector> Phase<V> {
         run.t = until;
         self.gaps[0].start_roots = 0;
         self.stepper.begin(until, &self.x);
-        if self.reads_forces(run) && !is_landed {
-            self.stepper.weigh(until, &self.x, interfaces(run), &mut self.forces);
-            self.remember_forces(run);
+        self.are_margins_known = false;
+        if interfaces(run) == Interfaces::All && !is_landed {
+            self.weigh_start(run);
         }
-        run.note_peaks_of(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
+        run.history.note_peaks(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
         Some((!is_cut).then_some(end.ended))
     }
 
@@ -103,7 +107,14 @@ impl<V: StateVector> Phase<V> {
         let time = swing.time_to(psi, v);
         let outmost = if is_overturned { overturned } else { crest.unwrap_or(start) };
         let inmost = if is_overturned { turn.filter(|_| rate < 0.0).unwrap_or(start) } else { landing };
-        let course = Course { pendulum, swing, sign, start, outmost, inmost };
+        let margins = match self.closed.len() {
+            0 => Few::new(),
+            closed => {
+                let (fifths, gravity) = (pendulum.fifths(&swing, sign), run.scene.column.gravity());
+                (0..closed).map(|index| self.of_closed.over_swing(index, gravity, &fifths)).collect()
+            }
+        };
+        let course = Course { pendulum, swing, sign, start, outmost, inmost, margins };
         (time >= 0.0).then_some((course, End { ended, psi, v, time }))
     }
 
@@ -115,14 +126,21 @@ impl<V: StateVector> Phase<V> {
         }
         let mut first: Option<(f64, usize)> = None;
         for index in 0..self.closed.len() {
-            let (interface, start) = (self.closed[index], self.margins[index]);
-            let guard = |s: f64| {
-                self.weigh_at(run, course, from + s * (to - from));
-                self.margin(run, interface)
+            let reach = first.map_or(1.0, |(s, _)| s);
+            let crossing = match course.margins[index].opening(to - from) {
+                Ok(crossing) => crossing.filter(|s| *s < reach),
+                Err(OnTheVerge) => {
+                    let interface = self.closed[index];
+                    self.weigh_start(run);
+                    let start = self.margins[index];
+                    let guard = |s: f64| {
+                        self.weigh_at(run, course, from + s * (to - from));
+                        self.margin(run, interface)
+                    };
+                    first_crossing(guard, start, reach)
+                }
             };
-            if let Some(s) = first_crossing(guard, start, first.map_or(1.0, |(s, _)| s)) {
-                first = Some((s, interface));
-            }
+            first = crossing.map(|s| (s, self.closed[index])).or(first);
         }
         let (s, interface) = first?;
         let psi = from + s * (to - from);
@@ -137,6 +155,7 @@ impl<V: StateVector> Phase<V> {
     fn weigh_at(&mut self, run: &Run, course: &Course, psi: f64) {
         let v = course.swing.rate_at(psi).unwrap_or(0.0);
         self.inside.as_mut_slice().copy_from_slice(&course.state([psi, v]));
+        self.force_calls += 1;
         self.stepper.weigh(run.t, &self.inside, interfaces(run), &mut self.forces);
     }
 
@@ -156,7 +175,7 @@ impl<V: StateVector> Phase<V> {
         let turn = course.swing.turning_point().filter(|_| has_turned);
         if let Some(turn) = turn {
             let theta = course.pendulum.theta(turn, course.sign);
-            run.note_peaks_of(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
+            run.history.note_peaks(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
         }
         if records_forces(run) {
             self.note_leg(run, course, turn.unwrap_or(course.start));

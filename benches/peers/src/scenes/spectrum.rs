@@ -29,9 +29,9 @@ const T_END: f64 = 20.0;
 
 /// Counts wrong cells, then times both.
 pub fn run() -> Vec<Point> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("spectrum.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../common/spectrum.toml");
     let sweep = Sweep::from_file(&file).expect("the sweep is valid");
-    assert_eq!(sweep.len(), 2 * CELLS, "one block, then three");
+    assert_eq!(sweep.len(), 3 * CELLS, "one block, then three, then five");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build().expect("two threads");
     let pulses: Vec<Pulse> = (0..CELLS).map(|index| pulse(&sweep, index)).collect();
 
