@@ -178,7 +178,9 @@ impl<'s> Worker<'s> {
         let scene = match self.scene.take() {
             // Most often nothing but the ground motion changes from one point to the next.
             Some(mut scene) if others.all(|((_, setting), last)| setting == last) => {
-                let changes = axes().zip(&last).filter(|((axis, setting), last)| of_ground(axis) && setting != last);
+                // From the first that differs on, all: a key may take the place of an earlier one.
+                let ground = axes().zip(&last).filter(|((axis, _), _)| of_ground(axis));
+                let changes = ground.skip_while(|((_, setting), last)| setting == last);
                 self.shaken.set(&mut scene, changes.map(|((axis, setting), _)| (axis.key.as_str(), *setting)))?;
                 scene
             }

@@ -1,0 +1,37 @@
+//! A row of a sweep depends on its point alone, not on the points that the same thread has run before.
+
+use rocking::scene_file::{Setting, Template};
+use rocking::sweep::{Ask, Axis, Combine, Sweep};
+use std::path::Path;
+
+fn sweep(combine: Combine, axes: &[(&str, &[f64])]) -> Sweep {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/sweeps/column.toml");
+    let axis = |(key, values): &(&str, &[f64])| {
+        let values = values.iter().map(|value| Setting::Number(*value)).collect();
+        Axis { key: (*key).into(), values }
+    };
+    let template = Template::from_file(&file).expect("a scene");
+    Sweep { template, axes: axes.iter().map(axis).collect(), combine, ask: Ask::Peaks }
+}
+
+#[test]
+fn rows_are_those_of_points_run_alone() {
+    let (uplift, in_g) = ("excitation.horizontal.amplitude_uplift", "excitation.horizontal.amplitude_g");
+    let (omega, omega_p) = ("excitation.horizontal.omega", "excitation.horizontal.omega_p");
+    for (combine, axes) in [
+        // Keys of which a scene takes one, so that the later takes the place of the earlier.
+        (Combine::Paired, &[(uplift, &[1.5, 2.0, 3.0][..]), (in_g, &[0.9, 0.9, 0.9][..])][..]),
+        (Combine::Cartesian, &[(in_g, &[0.5, 0.9]), (uplift, &[3.0])]),
+        (Combine::Cartesian, &[(omega, &[3.0, 9.0]), (omega_p, &[5.0]), (uplift, &[2.0, 4.0])]),
+        // Points without a scene, and a column that changes, in between.
+        (Combine::Cartesian, &[(omega_p, &[4.0, -1.0, 6.0]), (uplift, &[2.0, 4.0])]),
+        (Combine::Cartesian, &[("column.blocks", &[1.0, 0.0, 2.0]), (uplift, &[2.0, 4.0]), (omega_p, &[5.0, -1.0])]),
+    ] {
+        let sweep = sweep(combine, axes);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+        let rows = pool.install(|| sweep.rows(0..sweep.len()));
+        let alone: Vec<_> = (0..sweep.len()).map(|index| sweep.row(index)).collect();
+        assert_eq!(rows, alone, "{axes:?}");
+        assert!(rows.iter().any(|row| row.result.is_ok()), "{axes:?}");
+    }
+}
