@@ -10,7 +10,7 @@
 //! |---|---|---|
 //! | `s_i φ_i` | open interface `i` closes | the dense output's polynomial |
 //! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
-//! | `c_i N_i - abs(M_i)` | closed interface `i` opens | its Taylor series, or samples |
+//! | `c_i N_i - abs(M_i)` | closed interface `i` opens | its Taylor series or its formula, or samples |
 
 mod harmonics;
 mod inside;
@@ -234,7 +234,7 @@ impl<V: StateVector> Phase<V> {
         }
         self.stepper.begin(run.t, &self.x);
         self.arm(run);
-        self.are_margins_known = false;
+        (self.are_margins_known, self.force_calls) = (false, 0);
         if interfaces(run) == Interfaces::All {
             self.weigh_start(run);
         }

@@ -123,7 +123,7 @@ pub struct Work {
     pub rhs_calls: usize,
     /// Evaluations of contact forces within smooth phases.
     pub force_calls: usize,
-    /// Whether the equations had the terms of vertical ground motion.
+    /// Whether generated equations had the terms of vertical ground motion.
     pub with_vertical: bool,
     /// Distinct patterns whose scene constants were computed.
     pub modes_entered: usize,

@@ -96,14 +96,13 @@ fn start_before(run: &Run, segment: &Segment, from: f64, until: f64) -> Option<(
             let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
             for side in [Interface::Right, Interface::Left] {
                 match motion.step_to_zero(arm, side) {
-                    // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
                     Some(0.0) => return Some((t, interface, side)),
                     Some(own) => step = step.min(own),
                     None => {}
                 }
             }
         }
-        t = if t + step > t { t + step } else { t + 2.0 * f64::EPSILON * t.abs().max(1e-12) };
+        t += step;
         if t >= until {
             return None;
         }
@@ -169,7 +168,12 @@ impl Shaking {
             (false, true) => (slope + root) / bend,
             (false, false) => return None,
         };
-        Some(if t + step == *t && slope < 0.0 { 0.0 } else { step.max(f64::MIN_POSITIVE) })
+        Some(match (t + step > *t, slope < 0.0) {
+            (true, _) => step,
+            // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
+            (false, true) => 0.0,
+            (false, false) => 2.0 * f64::EPSILON * t.abs().max(1e-12),
+        })
     }
 }
 

@@ -164,7 +164,8 @@ pub struct Skips {
     pub modes: bool,
     /// Terms of a vertical ground motion that there is not.
     pub vertical: bool,
-    /// Contact forces that nobody reads: where nothing is recorded, those at open interfaces, and all where none is closed.
+    /// Contact forces that nobody reads: where nothing is recorded, those at open interfaces, all where none is closed, and all in steps
+    /// in which no interface can open.
     pub forces: bool,
     /// The time after the outcome is certain, where nothing else is wanted ([`crate::outcome`]).
     pub certainty: bool,

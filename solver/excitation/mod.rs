@@ -90,7 +90,8 @@ impl Excitation {
             let (before, quiet) = (segments.last(), Segment::QUIET);
             let Segment { horizontal, vertical, .. } = before.unwrap_or(&quiet);
             let jumps = pieces[0].jumps_from(horizontal, start) || pieces[1].jumps_from(vertical, start);
-            let (horizontal, vertical) = (pieces[0].clone(), pieces[1].clone());
+            let [horizontal, vertical] =
+                [0, 1].map(|motion: usize| std::mem::replace(&mut pieces[motion], Piece::Zero));
             segments.push(Segment { start, end, horizontal, vertical, jumps });
         });
         segments

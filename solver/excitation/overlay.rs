@@ -19,9 +19,9 @@ pub struct Span {
 const SAME_TIME: f64 = 1e-13;
 
 /// Calls `visit(start, end, pieces)` for each span between break points of `motions` in `from .. to` `[s]`, in order of time, with the
-/// piece of each motion there. The spans of each motion are in order. Finite bounds are break points as well; between infinite ones
+/// piece of each motion there, which it may take. The spans of each motion are in order. Finite bounds are break points as well; between infinite ones
 /// there are spans from the first to the last break point of the motions.
-pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &[Piece])) {
+pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &mut [Piece])) {
     let first = motions.iter().filter_map(|motion| motion.first()).map(|span| span.start).fold(f64::INFINITY, f64::min);
     let mut t = if from.is_finite() { from } else { first };
     let mut rests: SmallVec<[&[Span]; 4]> = motions.iter().map(Vec::as_slice).collect();
@@ -37,7 +37,7 @@ pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(
             }
             let next = match *rest {
                 [span, ..] if span.start <= now => {
-                    piece.clone_from(&span.piece);
+                    *piece = span.piece.clone();
                     span.end
                 }
                 [span, ..] => {
@@ -52,7 +52,7 @@ pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(
             end = Some(end.map_or(next, |end| end.min(next)));
         }
         let Some(end) = end.filter(|end| *end > now) else { return };
-        visit(t, end, &pieces);
+        visit(t, end, &mut pieces);
         t = end;
     }
 }

@@ -293,6 +293,9 @@ impl Piece {
 
     /// Whether the acceleration changes by more than rounding when `before` gives way to this piece at `t`.
     pub fn jumps_from(&self, before: &Piece, t: f64) -> bool {
+        if let (Piece::Zero, Piece::Zero) = (before, self) {
+            return false;
+        }
         let (old, new) = (before.value(t), self.value(t));
         let size = self.size().max(before.size());
         (new - old).abs() > SAME_ACCELERATION * size

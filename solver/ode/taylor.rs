@@ -12,10 +12,10 @@
 //! ```
 //!
 //! where `°` leaves out what `θ̈[k]` itself contributes; that share is the coupling, so one factorisation of `M` serves all
-//! orders. Four convolutions per angle, side by side in four lanes, are all the work that grows with the order. The series is
+//! orders. Four convolutions per angle, in two pairs, are all the work that grows with the order. The series is
 //! its own dense output, and a step that has to be shortened is the same series at another place.
 //!
-//! Choose it wherever events are located: finding one costs no right-hand side. Order: about `3 - ln(rtol) / 2`, more with one angle,
+//! Choose it wherever events are located: finding one costs no right-hand side. Order: about `2 - ln(rtol) / 2`, more with one angle,
 //! after which a higher one costs more than the longer step saves (Jorba & Zou, 2005, and what a step costs beside
 //! its coefficients); fewer where the step is short.
 
@@ -168,7 +168,10 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             last = size;
         }
         self.factor_wanted = self.wanted(error, order, tolerance.rtol);
-        // With all that is known, as what lies inside.
+        if error <= 1.0 {
+            // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
+            self.order = order;
+        }
         self.evaluate(self.order, h);
         if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }
     }

@@ -13,11 +13,13 @@ pub(crate) struct Harmonics {
     second: [f64x2; 2],
 }
 
-/// Way of a swing over which a trigonometric polynomial of degree two is its Taylor polynomial to rounding: `1.2^19 / 19! < 3e-16`.
+/// Way of a swing over which a trigonometric polynomial of degree two is its Taylor polynomial to rounding: `1.2^19 / 19! < 3e-16`. On a
+/// longer one it is not; shorter ones are more pieces.
 const LONGEST_WAY: f64 = 0.6;
 
-/// Share of the terms below which a margin is zero to rounding.
-const VERGE: f64 = 1e-12;
+/// Share of the terms below which their rounding tells on a margin: those of a very slender column, and of any on the verge. Lower, and
+/// its openings are found in the wrong place; higher, and more is searched for that could be computed.
+const VERGE: f64 = 1e-9;
 
 impl Harmonics {
     /// Adds the share of a value at one of the fifths of a turn.
@@ -54,9 +56,9 @@ impl Harmonics {
         self.start() + rise.fast_min(f64x2::ZERO) - f64x2::splat(0.5 * way * way) * bend
     }
 
-    /// Where on a way of this angle either margin falls to zero, 0 to 1 of it; `None` where it does not, and an error where rounding
-    /// decides about its start.
-    pub fn opening(&self, way: f64) -> Result<Option<f64>, OnTheVerge> {
+    /// Where on a way of this angle either margin falls to zero, 0 to 1 of it, and its slope there; `None` where it does not, and an error
+    /// where rounding decides about its start.
+    pub fn opening(&self, way: f64) -> Result<Option<[f64; 2]>, OnTheVerge> {
         let scale = [self.first, self.second].as_flattened().iter().fold(self.mean.abs(), |sum, part| sum + part.abs());
         let clear = self.start() - f64x2::splat(VERGE) * scale;
         if clear.to_array().iter().any(|start| *start <= 0.0) {
@@ -68,9 +70,14 @@ impl Harmonics {
             let here = if piece > 0.0 { self.from(piece * own) } else { *self };
             let least = here.least(own).to_array();
             let doubtful = (0..2).filter(|side| least[*side] <= 0.0);
-            let roots = doubtful.filter_map(|side| Track::Powers(here.powers(own, side)).first_root(0));
-            if let Some(root) = roots.reduce(f64::min) {
-                return Ok(Some((piece + root) / pieces));
+            let root = |side: usize| {
+                let margin = here.powers(own, side);
+                let s = Track::Powers(margin).first_root(0)?;
+                Some([(piece + s) / pieces, pieces * margin.with_slope(s)[1]])
+            };
+            let first = doubtful.filter_map(root).min_by(|a, b| a[0].total_cmp(&b[0]));
+            if first.is_some() {
+                return Ok(first);
             }
             piece += 1.0;
         }
@@ -134,8 +141,10 @@ mod tests {
             if right(middle) > 0.0 { above = middle } else { below = middle }
         }
         for way in [1.2, 1.6, 2.4] {
-            let share = harmonics().opening(way).expect("a margin at first").expect("it opens");
+            let [share, slope] = harmonics().opening(way).expect("a margin at first").expect("it opens");
             assert!((share * way - above).abs() < 4e-15, "{way}: {} {above}", share * way);
+            let expected = way * (right(above + 1e-6) - right(above - 1e-6)) / 2e-6;
+            assert!((slope / expected - 1.0).abs() < 1e-8, "{way}: {slope} {expected}");
         }
         assert_eq!(harmonics().opening(0.9 * above), Ok(None));
         assert_eq!(harmonics().opening(-0.5), Ok(None), "the other way it stays closed");

@@ -199,7 +199,7 @@ const ROUNDS: usize = 8;
 const ROUNDING: f64 = 1e-11;
 
 /// The zero of a falling guard, from a place that is right to some digits and the slope there; `None` if that was mistaken.
-fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
+pub(super) fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
     let mut last = f64::INFINITY;
     for _ in 0..ROUNDS {
         let change = -guard(s) / slope;

@@ -78,10 +78,11 @@ impl Margins {
         ground: &[[f64; MAX_ORDER]; 2],
         reach: f64,
     ) -> Outlook {
-        let mut least = f64x2::ZERO;
-        let stays_closed = |k: usize, [before, last]: [f64x2; 2]| {
-            least += if k == 0 { last } else { last.fast_min(f64x2::ZERO) };
-            let rest = f64x2::splat(REST) * (before.abs() + last.abs());
+        let (mut least, mut lasts) = (f64x2::ZERO, [f64x2::ZERO; 3]);
+        let stays_closed = |k: usize, term: f64x2| {
+            least += if k == 0 { term } else { term.fast_min(f64x2::ZERO) };
+            lasts = [lasts[1], lasts[2], term.abs()];
+            let rest = f64x2::splat(REST) * (lasts[0] + lasts[1] + lasts[2]);
             k >= SETTLED && (least - rest).to_array().iter().all(|margin| *margin > 0.0)
         };
         match self.terms(index, series, ground, reach, stays_closed) {
@@ -110,20 +111,19 @@ impl Margins {
         harmonics
     }
 
-    /// Taylor terms of both margins at `reach`, up to the series' order; `None` as soon as `is_enough` of an order, its term and the
-    /// one before.
+    /// Taylor terms of both margins at `reach`, up to the series' order; `None` as soon as `is_enough` of an order and its term.
     pub(super) fn terms<V: StateVector, L: StateVector>(
         &self,
         index: usize,
         series: &Taylor<V, L>,
         ground: &[[f64; MAX_ORDER]; 2],
         reach: f64,
-        mut is_enough: impl FnMut(usize, [f64x2; 2]) -> bool,
+        mut is_enough: impl FnMut(usize, f64x2) -> bool,
     ) -> Option<[f64x2; MAX_ORDER]> {
         let corners = &self.corners[index];
         let own = corners.link.checked_sub(1);
         let (mut terms, mut weights) = ([f64x2::ZERO; MAX_ORDER], [[f64x2::ZERO; 2]; MAX_ORDER]);
-        let (mut power, mut before) = (1.0, f64x2::ZERO);
+        let mut power = 1.0;
         for k in 0..series.order() {
             weights[k] = self.weights(corners, series.second_derivatives(k), [ground[0][k], ground[1][k]]);
             let mut sum = weights[k][0];
@@ -136,10 +136,9 @@ impl Margins {
             }
             terms[k] = sum * f64x2::splat(power);
             power *= reach;
-            if is_enough(k, [before, terms[k]]) {
+            if is_enough(k, terms[k]) {
                 return None;
             }
-            before = terms[k];
         }
         Some(terms)
     }
@@ -215,12 +214,17 @@ impl Corners {
     }
 }
 
-/// Terms after which those that follow are bounded by the last two.
+/// Order from which on those that follow are bounded by the last three. Lower, and parts of a term that cancel by chance are taken for
+/// a series that has settled; higher, and all of it is computed for nothing.
 const SETTLED: usize = 5;
 
-/// How many times the last two terms all that follow may be: of a series whose terms fall by a fifth each, it is four times. They
-/// fall by more, or the step would not have been accepted.
-const REST: f64 = 4.0;
+/// How many times the last three terms all that follow may be: of a series whose terms fall by a quarter each, it is once and a half.
+/// They fall by more, or the step would not have been accepted. Lower, and an opening late in a long step could be missed.
+const REST: f64 = 2.0;
+
+/// Doubts that a margin falls through between the earliest place that it may be zero at and the place where it seems to be: more means
+/// that it stays close to zero, or comes there twice.
+const CLOSE: f64 = 4.0;
 
 /// What the polynomials `Σ terms[k] s^k` of both margins tell, which are cut off where their method's series is.
 fn outlook(terms: &[f64x2]) -> Outlook {
@@ -233,16 +237,11 @@ fn outlook(terms: &[f64x2]) -> Outlook {
         let mut margin = Powers::constant(of(&terms[0]));
         terms[1..].iter().for_each(|term| margin.push(of(term)));
         let doubt = of(&doubts);
-        let Some(s) = Track::Powers(margin).first_root(0) else {
-            // What has no root may be touched.
-            match Track::Powers(margin.shifted(1.0, -doubt)).first_root(0) {
-                Some(_) => return Outlook::Unclear,
-                None => continue,
-            }
-        };
-        // Without a margin at first, or a slope, its place is not known.
+        let Some(earliest) = Track::Powers(margin.shifted(1.0, -doubt)).first_root(0) else { continue };
+        // What has no root may be touched, and a touch may come before a root.
+        let Some(s) = Track::Powers(margin).first_root(0) else { return Outlook::Unclear };
         let [_, slope] = margin.with_slope(s);
-        if of(&terms[0]) <= doubt || slope >= -doubt {
+        if of(&terms[0]) <= doubt || (s - earliest) * -slope > CLOSE * doubt || slope >= -doubt {
             return Outlook::Unclear;
         }
         if first.is_none_or(|(earlier, _)| s < earlier) {

@@ -1,10 +1,10 @@
 //! A phase of one free angle on a ground that does not move, in closed form instead of steps ([`super::pendulum`]).
 //!
-//! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back:
-//! the guards of closed interfaces are looked at over the angles of the swing, once.
+//! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back: the
+//! margins of closed interfaces are polynomials of sine and cosine of the angle ([`super::harmonics`]).
 
 use super::harmonics::{Harmonics, OnTheVerge};
-use super::inside::PANELS_PER_TURN;
+use super::inside::{PANELS_PER_TURN, polished};
 use super::pendulum::{Pendulum, Swing};
 use super::{Ended, Phase, interfaces, records_forces, segment};
 use crate::dynamics::{Interfaces, StateVector};
@@ -127,20 +127,26 @@ impl<V: StateVector> Phase<V> {
         let mut first: Option<(f64, usize)> = None;
         for index in 0..self.closed.len() {
             let reach = first.map_or(1.0, |(s, _)| s);
-            let crossing = match course.margins[index].opening(to - from) {
-                Ok(crossing) => crossing.filter(|s| *s < reach),
-                Err(OnTheVerge) => {
-                    let interface = self.closed[index];
+            let interface = self.closed[index];
+            let margin = |phase: &mut Self, s: f64| {
+                phase.weigh_at(run, course, from + s * (to - from));
+                phase.margin(run, interface)
+            };
+            // The formula's place is right but for the rounding of a weight that turns: the force itself brings the rest.
+            let known = match course.margins[index].opening(to - from) {
+                Ok(None) => continue,
+                Ok(Some([s, slope])) => polished(|s| margin(self, s), s, slope, 1.0),
+                Err(OnTheVerge) => None,
+            };
+            let crossing = match known {
+                Some(s) => Some(s).filter(|s| *s < reach),
+                None => {
                     self.weigh_start(run);
                     let start = self.margins[index];
-                    let guard = |s: f64| {
-                        self.weigh_at(run, course, from + s * (to - from));
-                        self.margin(run, interface)
-                    };
-                    first_crossing(guard, start, reach)
+                    first_crossing(|s| margin(self, s), start, reach)
                 }
             };
-            first = crossing.map(|s| (s, self.closed[index])).or(first);
+            first = crossing.map(|s| (s, interface)).or(first);
         }
         let (s, interface) = first?;
         let psi = from + s * (to - from);
