@@ -493,9 +493,43 @@ fn crossing_between(guard: &mut impl FnMut(f64) -> f64, above: (f64, f64), below
             })
 }
 
+/// Rounds of Newton's rule with the slope of a series, which is right to some digits: each round brings as many.
+const POLISHING_ROUNDS: usize = 8;
+
+/// Change of a root that rounding may leave where the guard is flat.
+const FLAT: f64 = 1e-11;
+
+/// The zero of a falling guard, from a place that is right to some digits and the slope there; `None` if that was mistaken.
+pub fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
+    let mut last = f64::INFINITY;
+    for _ in 0..POLISHING_ROUNDS {
+        let change = -guard(s) / slope;
+        if change.abs() <= f64::EPSILON {
+            return Some(s);
+        }
+        let is_better = change.abs() < 0.25 * last;
+        let next = s + change;
+        if !(is_better && next > 0.0 && next <= reach) {
+            return (change.abs() <= FLAT).then_some(s);
+        }
+        (s, last) = (next, change.abs());
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_root_known_to_some_digits_is_polished_and_a_mistaken_one_is_not() {
+        // cos 2 s comes down to zero at π/4, with slope -2.
+        let guard = |s: f64| libm::cos(2.0 * s);
+        let root = polished(guard, 0.78, -1.99, 1.0).expect("it is close");
+        assert!((root - std::f64::consts::FRAC_PI_4).abs() < 4e-16, "{root}");
+        assert_eq!(polished(guard, 0.78, -1.99, 0.785), None, "beyond reach");
+        assert_eq!(polished(|s| 0.1 + (s - 0.5) * (s - 0.5), 0.5, -1e-3, 1.0), None, "a touch");
+    }
 
     /// Bernstein coefficients of `Σ power[i] s^i`.
     fn polynomial(power: &[f64]) -> Bernstein {

@@ -3,7 +3,7 @@
 use super::margins::Outlook;
 use super::{Found, Phase, interfaces, records_forces, segment};
 use crate::dynamics::{Interfaces, StateVector};
-use crate::event::first_crossing;
+use crate::event::{first_crossing, polished};
 use crate::few::Few;
 use crate::ode::Difference;
 use crate::scene::Wanted;
@@ -191,30 +191,6 @@ impl<V: StateVector> Phase<V> {
 
 /// Margins of the closed interfaces at places in a step: a look at one serves them all.
 type Looks = Few<(f64, Few<f64>)>;
-
-/// Rounds of Newton's rule with the slope of a series, which is right to some digits: each round brings as many.
-const ROUNDS: usize = 8;
-
-/// Change of a root that rounding may leave where the guard is flat.
-const ROUNDING: f64 = 1e-11;
-
-/// The zero of a falling guard, from a place that is right to some digits and the slope there; `None` if that was mistaken.
-pub(super) fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
-    let mut last = f64::INFINITY;
-    for _ in 0..ROUNDS {
-        let change = -guard(s) / slope;
-        if change.abs() <= f64::EPSILON {
-            return Some(s);
-        }
-        let is_better = change.abs() < 0.25 * last;
-        let next = s + change;
-        if !(is_better && next > 0.0 && next <= reach) {
-            return (change.abs() <= ROUNDING).then_some(s);
-        }
-        (s, last) = (next, change.abs());
-    }
-    None
-}
 
 /// Panels per radian that the fastest link turns in a step, and per radian of the ground motion: forces vary with sines and squares of
 /// rates, and a parabola over a twentieth of a radian is right to 1e-4 of the weight.

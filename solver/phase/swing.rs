@@ -4,11 +4,11 @@
 //! margins of closed interfaces are polynomials of sine and cosine of the angle ([`super::harmonics`]).
 
 use super::harmonics::{Harmonics, OnTheVerge};
-use super::inside::{PANELS_PER_TURN, polished};
+use super::inside::PANELS_PER_TURN;
 use super::pendulum::{Pendulum, Swing};
 use super::{Ended, Phase, interfaces, records_forces, segment};
 use crate::dynamics::{Interfaces, StateVector};
-use crate::event::first_crossing;
+use crate::event::{first_crossing, polished};
 use crate::few::Few;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
