@@ -4,6 +4,8 @@
 //! contact forces of a mode come either from generated code ([`crate::generated`]) or from hand-written code for any number
 //! of blocks ([`crate::generic`]); the integrator is compiled once for each number of degrees of freedom.
 
+use crate::ode::{AtNodes, Motion, NODES};
+
 /// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
 pub trait StateVector: Clone {
     /// As many things of another kind.
@@ -113,6 +115,23 @@ pub trait Dynamics {
 
     /// Writes `[θ̇, θ̈]` into `derivative`.
     fn derivative(&self, state: &Self::State, ground: Ground, derivative: &mut Self::State);
+
+    /// Writes `θ̈` at several instants, per free angle, into `acceleration`; `ground` has the horizontal acceleration and the effective
+    /// gravity there `[m/s²]`. One after another, unless equations are compiled for more.
+    fn accelerations(&self, motion: Motion<'_>, ground: [AtNodes; 2], acceleration: &mut [AtNodes]) {
+        let (dof, mut state) = (acceleration.len(), self.zero_state());
+        let mut derivative = state.clone();
+        for node in 0..NODES {
+            let angles_and_rates = motion.theta.iter().chain(motion.omega);
+            for (own, at_nodes) in state.as_mut_slice().iter_mut().zip(angles_and_rates) {
+                *own = at_nodes.0[node];
+            }
+            self.derivative(&state, Ground { x: ground[0].0[node], gravity: ground[1].0[node] }, &mut derivative);
+            for (own, value) in acceleration.iter_mut().zip(&derivative.as_slice()[dof..]) {
+                own.0[node] = *value;
+            }
+        }
+    }
 
     /// Energies relative to the moving ground, with `gravity` the effective one `[m/s²]`.
     fn energy(&self, state: &Self::State, gravity: f64) -> Energy;

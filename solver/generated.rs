@@ -27,6 +27,7 @@
 use crate::column::{Block, Column};
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use crate::mode::Mode;
+use crate::ode::{AtNodes, Motion};
 use crate::program::{
     ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, SeriesProgram, StepProgram,
     slope, split,
@@ -82,28 +83,36 @@ pub(crate) fn mask(pattern: &Pattern) -> usize {
 
 /// The mode of a pattern on a step program and the scene constants of its linkage; `None` if there are no equations for it,
 /// or `P` has another number of free angles. Called by generated modules.
-pub fn generated_mode<P: StepProgram<f64> + 'static>(
+pub fn generated_mode<P: Program + 'static>(
     column: &Column,
     pattern: &Pattern,
     ground: GroundMotion,
     linkages: Linkages,
-) -> Option<Mode>
-where
-    P::State: StateVector,
-    P::Vector: StateVector,
-{
+) -> Option<Mode> {
     let dynamics = GeneratedMode::<P>::new(column, pattern, ground, linkages)?;
     Some(Mode::from_dynamics(pattern.clone(), dynamics))
 }
 
+/// A step program as the solver runs it: on one state, and on those at the nodes of a step side by side.
+pub trait Program: StepProgram<f64, State: StateVector, Vector: StateVector> + StepProgram<AtNodes> {}
+
+impl<P: StepProgram<f64, State: StateVector, Vector: StateVector> + StepProgram<AtNodes>> Program for P {}
+
+type State<P> = <P as StepProgram<f64>>::State;
+type Vector<P> = <P as StepProgram<f64>>::Vector;
+type Energies<P> = <P as StepProgram<f64>>::Energies;
+type Series<P> = <P as StepProgram<f64>>::Series;
+
 /// A mode of a column on generated equations.
-pub struct GeneratedMode<P: StepProgram<f64>> {
-    constants: P::Constants,
+pub struct GeneratedMode<P: Program> {
+    constants: <P as StepProgram<f64>>::Constants,
+    /// The same for all nodes.
+    constants_at_nodes: <P as StepProgram<AtNodes>>::Constants,
     geometry: Geometry<f64>,
     energies: SceneConstants<f64>,
     series: SceneConstants<f64>,
-    energy_constants: OnceCell<<P::Energies as EnergyProgram<f64>>::Constants>,
-    series_constants: OnceCell<<P::Series as SeriesProgram<f64>>::Constants>,
+    energy_constants: OnceCell<<Energies<P> as EnergyProgram<f64>>::Constants>,
+    series_constants: OnceCell<<Series<P> as SeriesProgram<f64>>::Constants>,
     interfaces: Vec<InterfaceForces>,
 }
 
@@ -115,7 +124,7 @@ struct InterfaceForces {
     pivot: f64,
 }
 
-impl<P: StepProgram<f64>> GeneratedMode<P> {
+impl<P: Program> GeneratedMode<P> {
     /// As [`generated_mode`], with the program's type known: for callers that want no dispatch at all.
     pub fn new(
         column: &Column,
@@ -124,7 +133,7 @@ impl<P: StepProgram<f64>> GeneratedMode<P> {
         linkages: Linkages,
     ) -> Option<GeneratedMode<P>> {
         let equations = linkages(column.len(), mask(pattern))?;
-        if equations.dof != P::DOF {
+        if equations.dof != <P as StepProgram<f64>>::DOF {
             return None;
         }
         let geometry = geometry(column, pattern);
@@ -135,9 +144,10 @@ impl<P: StepProgram<f64>> GeneratedMode<P> {
             pivot,
         });
         let interfaces = interfaces.collect();
-        let constants = P::Constants::try_from(&constants).ok()?;
+        let at_nodes: Vec<AtNodes> = constants.iter().map(|constant| AtNodes::from_f64(*constant)).collect();
         Some(GeneratedMode {
-            constants,
+            constants: TryFrom::try_from(&constants[..]).ok()?,
+            constants_at_nodes: TryFrom::try_from(&at_nodes[..]).ok()?,
             geometry,
             energies: equations.energies,
             series: equations.series,
@@ -148,12 +158,12 @@ impl<P: StepProgram<f64>> GeneratedMode<P> {
     }
 
     /// Scene constants of mass matrix and energies: computed where they are read.
-    fn energy_constants(&self) -> &<P::Energies as EnergyProgram<f64>>::Constants {
+    fn energy_constants(&self) -> &<Energies<P> as EnergyProgram<f64>>::Constants {
         self.energy_constants.get_or_init(|| fixed((self.energies)(&self.geometry)))
     }
 
     /// Scene constants of the weights: computed where they are read.
-    fn series_constants(&self) -> &<P::Series as SeriesProgram<f64>>::Constants {
+    fn series_constants(&self) -> &<Series<P> as SeriesProgram<f64>>::Constants {
         self.series_constants.get_or_init(|| fixed((self.series)(&self.geometry)))
     }
 }
@@ -221,62 +231,71 @@ fn fixed<C: for<'a> TryFrom<&'a [f64]>>(constants: Vec<f64>) -> C {
     }
 }
 
-impl<P: StepProgram<f64>> Dynamics for GeneratedMode<P>
-where
-    P::State: StateVector,
-    P::Vector: StateVector,
-{
-    type State = P::State;
-    type Links = P::Vector;
+impl<P: Program> Dynamics for GeneratedMode<P> {
+    type State = State<P>;
+    type Links = Vector<P>;
 
-    fn zero_links(&self) -> P::Vector {
-        P::vector(0.0)
+    fn zero_links(&self) -> Vector<P> {
+        <P as StepProgram<f64>>::vector(0.0)
     }
 
     #[inline(always)]
-    fn coupling(&self, _: &P::State, cos: &P::Vector, sin: &P::Vector, matrix: &mut [f64]) {
-        let rows = P::Energies::mass_matrix(self.energy_constants(), cos, sin);
-        for (row, entries) in matrix.chunks_mut(P::DOF).zip(rows.as_ref()) {
+    fn coupling(&self, _: &State<P>, cos: &Vector<P>, sin: &Vector<P>, matrix: &mut [f64]) {
+        let rows = Energies::<P>::mass_matrix(self.energy_constants(), cos, sin);
+        for (row, entries) in matrix.chunks_mut(<P as StepProgram<f64>>::DOF).zip(rows.as_ref()) {
             row.copy_from_slice(entries.as_ref());
         }
     }
 
     #[inline(always)]
-    fn weights(&self, cos_ddot: &P::Vector, sin_ddot: &P::Vector, ground: Ground) -> [P::Vector; 2] {
-        P::Series::weights(self.series_constants(), cos_ddot, sin_ddot, ground.x, ground.gravity)
+    fn weights(&self, cos_ddot: &Vector<P>, sin_ddot: &Vector<P>, ground: Ground) -> [Vector<P>; 2] {
+        Series::<P>::weights(self.series_constants(), cos_ddot, sin_ddot, ground.x, ground.gravity)
     }
 
-    fn zero_state(&self) -> P::State {
-        P::state(0.0)
+    fn zero_state(&self) -> State<P> {
+        <P as StepProgram<f64>>::state(0.0)
     }
 
     #[inline(always)]
-    fn derivative(&self, state: &P::State, ground: Ground, derivative: &mut P::State) {
+    fn derivative(&self, state: &State<P>, ground: Ground, derivative: &mut State<P>) {
         slope::<f64, P>(&self.constants, state, ground.x, ground.gravity, derivative.as_mut_slice());
     }
 
-    fn energy(&self, state: &P::State, gravity: f64) -> Energy {
+    #[inline(always)]
+    fn accelerations(&self, motion: Motion<'_>, ground: [AtNodes; 2], acceleration: &mut [AtNodes]) {
+        let vector = |values: &[AtNodes]| {
+            let mut vector = <P as StepProgram<AtNodes>>::vector(AtNodes::from_f64(0.0));
+            vector.as_mut().copy_from_slice(values);
+            vector
+        };
+        let (cos, sin, omega) = (vector(motion.cos), vector(motion.sin), vector(motion.omega));
+        let [ground_x, gravity] = ground;
+        let result = P::acceleration(&self.constants_at_nodes, &cos, &sin, &omega, ground_x, gravity);
+        acceleration.copy_from_slice(result.as_ref());
+    }
+
+    fn energy(&self, state: &State<P>, gravity: f64) -> Energy {
         let (cos, sin, omega) = split::<f64, P>(state.as_slice());
-        let [kinetic, potential] = P::Energies::energies(self.energy_constants(), &cos, &sin, &omega, gravity);
+        let [kinetic, potential] = Energies::<P>::energies(self.energy_constants(), &cos, &sin, &omega, gravity);
         Energy { kinetic, potential }
     }
 
-    fn mass_matrix(&self, state: &P::State) -> Vec<f64> {
+    fn mass_matrix(&self, state: &State<P>) -> Vec<f64> {
         let (cos, sin, _) = split::<f64, P>(state.as_slice());
-        let matrix = P::Energies::mass_matrix(self.energy_constants(), &cos, &sin);
+        let matrix = Energies::<P>::mass_matrix(self.energy_constants(), &cos, &sin);
         matrix.as_ref().iter().flat_map(|row| row.as_ref().iter().copied()).collect()
     }
 
     fn contact_forces(
         &self,
-        state: &P::State,
-        derivative: &P::State,
+        state: &State<P>,
+        derivative: &State<P>,
         ground: Ground,
         which: Interfaces,
         forces: &mut [ContactForce],
     ) {
         let (cos, sin, omega) = split::<f64, P>(state.as_slice());
-        let alpha = &derivative.as_slice()[P::DOF..];
+        let alpha = &derivative.as_slice()[<P as StepProgram<f64>>::DOF..];
         let (cos, sin, omega) = (cos.as_ref(), sin.as_ref(), omega.as_ref());
         for (interface, force) in self.interfaces.iter().zip(forces) {
             if which == Interfaces::Closed && interface.pivot != 0.0 {

@@ -4,7 +4,10 @@
 use rocking::dynamics::{Dynamics, Ground};
 use rocking::generated::GeneratedMode;
 use rocking::generated::equations::{Dof3, linkage};
-use rocking::ode::{Dop853, DormandPrince54, Interpolant, Pair, System, Tolerance};
+use rocking::lanes::Lanes;
+use rocking::ode::{
+    Accurate, AtNodes, Dop853, DormandPrince54, Gauss, Interpolant, Motion, Pair, SecondOrder, System, Tolerance,
+};
 use rocking::pattern::Pattern;
 use rocking::{Column, GroundMotion};
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
@@ -41,6 +44,30 @@ impl System for Mode {
     }
 }
 
+impl SecondOrder for Mode {
+    type State = [f64; 6];
+    type Links = [f64; 3];
+
+    fn go_to(&mut self, _: f64, _: AtNodes) {}
+
+    fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
+        self.0.accelerations(motion, [Lanes([1.0; 8]), Lanes([9.81; 8])], acceleration);
+    }
+
+    fn sin_cos(angle: f64) -> (f64, f64) {
+        angle.sin_cos()
+    }
+}
+
+fn collocation(system: &mut Mode) -> f64 {
+    let mut x = [0.01, 0.02, 0.03, 0.1, 0.0, -0.1];
+    let mut gauss = Gauss::new(&x, &[0.0; 3]);
+    let tolerance = Tolerance { rtol: 1e-9, atol: 1e-12 };
+    let error = gauss.attempt(system, 0.0, &x.clone(), 0.05, tolerance, Accurate::Throughout);
+    gauss.state_inside(0.5, &mut x);
+    error + x[0]
+}
+
 fn step<P: Pair<[f64; 6]>>(system: &mut Mode, interpolant: &mut Interpolant<[f64; 6]>) -> f64 {
     let x = [0.01, 0.02, 0.03, 0.1, 0.0, -0.1];
     let mut pair = P::new(&x);
@@ -66,6 +93,7 @@ fn a_step_does_not_allocate() {
     let results = [
         step::<Dop853<[f64; 6]>>(&mut system, &mut interpolant),
         step::<DormandPrince54<[f64; 6]>>(&mut system, &mut interpolant),
+        collocation(&mut system),
     ];
     let after = ALLOCATIONS.load(Ordering::SeqCst);
     assert!(results.iter().all(|result| result.is_finite()));

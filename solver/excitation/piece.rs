@@ -1,5 +1,7 @@
 //! One smooth stretch of ground acceleration.
 
+use crate::lanes::Lanes;
+use crate::program::Scalar;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -128,6 +130,30 @@ impl Piece {
             }
             Piece::Sum(ref terms) => total(terms, t),
         }
+    }
+
+    /// Accelerations at several instants, `offsets` after `t` `[m/s²]`.
+    #[inline(always)]
+    pub fn values<const W: usize>(&self, t: f64, offsets: Lanes<W>) -> Lanes<W> {
+        let splat = Lanes::<W>::from_f64;
+        match *self {
+            Piece::Zero => splat(0.0),
+            Piece::Linear { slope, .. } => splat(self.value(t)) + splat(slope) * offsets,
+            Piece::Sine { amplitude, omega, start, phase } => {
+                let (sin, cos) = libm::sincos(omega * (t - start) + phase);
+                splat(amplitude) * turned(sin, cos, splat(omega) * offsets)
+            }
+            Piece::Cosine { amplitude, omega, start } => {
+                let (sin, cos) = libm::sincos(omega * (t - start));
+                splat(amplitude) * turned(cos, -sin, splat(omega) * offsets)
+            }
+            _ => self.values_one_by_one(t, offsets),
+        }
+    }
+
+    fn values_one_by_one<const W: usize>(&self, t: f64, mut offsets: Lanes<W>) -> Lanes<W> {
+        offsets.0.iter_mut().for_each(|offset| *offset = self.value(t + *offset));
+        offsets
     }
 
     /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
@@ -315,6 +341,18 @@ impl Piece {
     }
 }
 
+/// `sin (x + angle)` of sine and cosine of `x`. Half a turn is four times what polynomials reach: their quarter is doubled twice.
+#[inline(always)]
+fn turned<const W: usize>(sin: f64, cos: f64, angle: Lanes<W>) -> Lanes<W> {
+    let splat = Lanes::<W>::from_f64;
+    let (mut of_sin, mut of_cos) = (splat(0.25) * angle).sin_cos();
+    for _ in 0..2 {
+        let twice = of_sin + of_sin;
+        (of_sin, of_cos) = (twice * of_cos, splat(1.0) - twice * of_sin);
+    }
+    splat(sin) * of_cos + splat(cos) * of_sin
+}
+
 /// Out of line: a sum of sums does not end for the compiler.
 fn total(terms: &[Piece], t: f64) -> f64 {
     terms.iter().map(|term| term.value(t)).sum()
@@ -386,6 +424,14 @@ mod tests {
             // 0.3^20 / 20! and, for the Ricker pulse, 0.3^20 / 10!: below rounding of the amplitude.
             assert!((sum - piece.value(t + at)).abs() < 1e-14, "{piece:?}");
             assert!((coefficients[1] - piece.rate(t)).abs() < 1e-14, "{piece:?}");
+            // Within what polynomials reach, at four times that, and beyond.
+            for reach in [0.3, 1.0, 3.0] {
+                let offsets = Lanes([0.0, 0.1, 0.4, 1.0].map(|share| share * reach));
+                let values = piece.values(t, offsets).0;
+                for (value, offset) in values.iter().zip(offsets.0) {
+                    assert!((value - piece.value(t + offset)).abs() < 1e-14, "{piece:?} {offset}");
+                }
+            }
             let bend = (piece.rate(t + d) - piece.rate(t - d)) / (2.0 * d);
             assert!(bend.abs() <= piece.curvature_bound() + 1e-6, "{piece:?}");
         }

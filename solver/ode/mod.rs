@@ -7,6 +7,7 @@
 mod control;
 mod dop853;
 mod dormand_prince;
+mod gauss;
 mod interpolant;
 mod kutta_merson;
 mod powers;
@@ -16,6 +17,7 @@ mod taylor;
 pub use control::{StepControl, Tolerance};
 pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince54;
+pub use gauss::{Accurate, AtNodes, Gauss, Motion, NODES, SecondOrder, solve_second_order};
 pub use interpolant::{Bernstein, Interpolant};
 pub use kutta_merson::KuttaMerson;
 pub use powers::{Difference, Powers};

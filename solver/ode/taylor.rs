@@ -429,7 +429,7 @@ fn rate_of(driver: &[f64x2; 2]) -> f64 {
 
 /// `x^(1/n)` to half a per cent, of normal numbers, the same on every machine: steps need no more.
 #[inline(always)]
-fn rough_root(x: f64, n: usize) -> f64 {
+pub(super) fn rough_root(x: f64, n: usize) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let (bits, one) = (x.to_bits(), 1.0f64.to_bits());
     // A parabola through both ends of an octave for the logarithm, and its like for the power.

@@ -1,0 +1,811 @@
+//! Gauss collocation for equations of second order, `θ̈ = f(t, θ, θ̇)`, with its eight nodes side by side in lanes.
+//!
+//! The accelerations at the nodes determine a polynomial, and with it the angles and rates there:
+//!
+//! ```text
+//! θ(c_i) = θ₀ + c_i h θ̇₀ + h² Σ_j a²_ij f_j,     θ̇(c_i) = θ̇₀ + h Σ_j a_ij f_j
+//! ```
+//!
+//! The method (Kuntzmann, Butcher; Hairer, Nørsett & Wanner, II.7) is implicit: it is iterated. A round evaluates the right-hand side at all nodes
+//! at once, which in lanes costs little more than at one, and gains a factor that itself falls from round to round, as each integrates twice.
+//! A step ends with order sixteen; what lies inside it is a polynomial of degree nine.
+//!
+//! Choose it where right-hand sides are smooth and cost more than what is done with them.
+
+use super::taylor::rough_root;
+use super::{Bernstein, Difference, Tolerance};
+use crate::dynamics::StateVector;
+use crate::lanes::{Lanes, widest};
+
+/// Nodes of a step.
+pub const NODES: usize = 8;
+
+/// A value for each node.
+pub type AtNodes = Lanes<NODES>;
+
+/// Equations of second order at several instants at once.
+pub trait SecondOrder {
+    /// `[θ, θ̇]`
+    type State: StateVector;
+    /// One value per angle.
+    type Links: StateVector;
+
+    /// Goes to other instants: those of the forcing are these, seconds after `t`.
+    fn go_to(&mut self, t: f64, offsets: AtNodes);
+
+    /// Writes `θ̈`, per angle, into `acceleration`.
+    fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]);
+
+    /// Sine and cosine.
+    fn sin_cos(angle: f64) -> (f64, f64);
+}
+
+/// States of several instants, per angle.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    /// `[rad]`
+    pub theta: &'a [AtNodes],
+    /// Their cosines.
+    pub cos: &'a [AtNodes],
+    /// Their sines.
+    pub sin: &'a [AtNodes],
+    /// Rates `[rad/s]`.
+    pub omega: &'a [AtNodes],
+}
+
+/// Where a step is to be accurate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accurate {
+    /// At its end: what lies inside is not read.
+    AtEnd,
+    /// Inside as well.
+    Throughout,
+}
+
+/// The last attempt, and what it takes for the next one.
+#[derive(Clone, Debug)]
+pub struct Gauss<V, L: StateVector> {
+    t: f64,
+    x: V,
+    h: f64,
+    end: V,
+    /// Where the end is, 0 to 1 of the attempt.
+    end_place: f64,
+    /// Legendre coefficients of the accelerations over the attempt.
+    spectrum: L::Of<AtNodes>,
+    is_begun: bool,
+    factor_wanted: f64,
+    theta: L::Of<AtNodes>,
+    cos: L::Of<AtNodes>,
+    sin: L::Of<AtNodes>,
+    omega: L::Of<AtNodes>,
+    now: L::Of<AtNodes>,
+    next: L::Of<AtNodes>,
+    /// Cosine and sine at the start, and what an acceleration weighs in angle and rate if it lasts for the step.
+    start: L::Of<[f64; 4]>,
+    /// Rounds so far.
+    rounds: usize,
+}
+
+impl<V: StateVector, L: StateVector> Gauss<V, L> {
+    /// Storage for states like `zero` and angles like `zero_links`.
+    pub fn new(zero: &V, zero_links: &L) -> Gauss<V, L> {
+        let each = || zero_links.each(splat(0.0));
+        Gauss {
+            t: 0.0,
+            x: zero.clone(),
+            h: 0.0,
+            end: zero.clone(),
+            end_place: 1.0,
+            spectrum: each(),
+            is_begun: false,
+            factor_wanted: 1.0,
+            theta: each(),
+            cos: each(),
+            sin: each(),
+            omega: each(),
+            now: each(),
+            next: each(),
+            start: zero_links.each([0.0; 4]),
+            rounds: 0,
+        }
+    }
+
+    /// Forgets the last attempt: what comes next has nothing to do with it.
+    pub fn forget(&mut self) {
+        self.is_begun = false;
+    }
+
+    /// Attempts a step of length `h` from `(t, x)`: its error relative to `tolerance`, at most one if the step is good.
+    pub fn attempt<S: SecondOrder<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        x: &V,
+        h: f64,
+        tolerance: Tolerance,
+        accurate: Accurate,
+    ) -> f64 {
+        widest(
+            #[inline(always)]
+            || self.collocate(system, t, x, h, tolerance, accurate),
+        )
+    }
+
+    #[inline(always)]
+    fn collocate<S: SecondOrder<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        x: &V,
+        h: f64,
+        tolerance: Tolerance,
+        accurate: Accurate,
+    ) -> f64 {
+        self.guess(x, h);
+        (self.t, self.h, self.end_place, self.is_begun, self.factor_wanted) = (t, h, 1.0, false, 1.0);
+        self.x.clone_from(x);
+        system.go_to(t, RULE.nodes * splat(h));
+        self.begin::<S>();
+        let (mut last, mut noise, mut converges) = (0.0, 0.0, false);
+        for round in 0..MOST_ROUNDS {
+            self.place();
+            let (theta, omega) = (self.theta.as_ref(), self.omega.as_ref());
+            let motion = Motion { theta, cos: self.cos.as_ref(), sin: self.sin.as_ref(), omega };
+            system.acceleration(motion, self.next.as_mut());
+            if round == 0 {
+                noise = self.weigh(tolerance);
+            }
+            let change = self.change();
+            std::mem::swap(&mut self.now, &mut self.next);
+            self.rounds += 1;
+            // The next round would change as much less as this one has.
+            let rate = change / last;
+            if change * if rate < 1.0 { rate } else { 1.0 } <= SETTLED || change <= noise {
+                converges = true;
+                break;
+            }
+            if round > 0 && !(rate < if round < FIRST_VERDICT { FASTEST_GROWTH } else { SLOWEST }) {
+                // Each round integrates twice: what it gains goes with the square of the step.
+                self.factor_wanted = (rough_root(tolerance.rtol, GAIN) / rate).sqrt();
+                break;
+            }
+            if round == FIRST_VERDICT {
+                let error = self.error(accurate);
+                if error > HOPELESS {
+                    self.is_begun = true;
+                    return error;
+                }
+            }
+            last = change;
+        }
+        if !converges {
+            self.factor_wanted = if self.factor_wanted < 0.5 { self.factor_wanted } else { 0.5 };
+            let is_finite = self.now.as_ref().iter().flat_map(|own| own.0).all(f64::is_finite);
+            return if is_finite { f64::INFINITY } else { f64::NAN };
+        }
+        self.is_begun = true;
+        let error = self.error(accurate);
+        self.finish();
+        if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }
+    }
+
+    /// Accelerations to begin with: from the last attempt if this one is inside it, or goes on from its end.
+    #[inline(always)]
+    fn guess(&mut self, x: &V, h: f64) {
+        let ratio = h / self.h;
+        let is_within = x.as_slice() == self.x.as_slice() && ratio <= 1.0;
+        let goes_on = x.as_slice() == self.end.as_slice();
+        if !self.is_begun || !(is_within || goes_on) {
+            self.now.as_mut().fill(splat(0.0));
+            return;
+        }
+        let (origin, terms) = match (is_within, ratio <= FAR) {
+            (true, _) => (-1.0, NODES),
+            (false, true) => (2.0 * self.end_place - 1.0, EXTRAPOLATED),
+            (false, false) => (2.0 * self.end_place - 1.0, 1),
+        };
+        let place = splat(origin) + splat(2.0 * ratio) * RULE.nodes;
+        let (mut before, mut legendre) = (splat(1.0), place);
+        for (now, spectrum) in self.now.as_mut().iter_mut().zip(self.spectrum.as_ref()) {
+            *now = splat(spectrum.0[0]);
+        }
+        for k in 1..terms {
+            for (now, spectrum) in self.now.as_mut().iter_mut().zip(self.spectrum.as_ref()) {
+                *now = *now + splat(spectrum.0[k]) * legendre;
+            }
+            let [a, b] = recurrence(k);
+            (before, legendre) = (legendre, splat(a) * place * legendre - splat(b) * before);
+        }
+    }
+
+    /// Cosines and sines at the start.
+    #[inline(always)]
+    fn begin<S: SecondOrder<State = V, Links = L>>(&mut self) {
+        for (start, theta) in self.start.as_mut().iter_mut().zip(self.x.as_slice()) {
+            let (sin, cos) = S::sin_cos(*theta);
+            *start = [cos, sin, 0.0, 0.0];
+        }
+    }
+
+    /// What changes of the accelerations weigh, by the accelerations of the first round, and what their roundings come to.
+    #[inline(always)]
+    fn weigh(&mut self, tolerance: Tolerance) -> f64 {
+        let dof = self.now.as_ref().len();
+        let (x, h, mut noise) = (self.x.as_slice(), self.h, 0.0);
+        for (link, (start, own)) in self.start.as_mut().iter_mut().zip(self.next.as_ref()).enumerate() {
+            let (theta, rate) = (x[link], x[dof + link]);
+            let end = [theta + h * rate, rate + h * sum(*own * RULE.end_once)];
+            start[2] = h * h / tolerance.scale(theta, end[0]);
+            start[3] = h / tolerance.scale(rate, end[1]);
+            noise = larger(ROUNDINGS * f64::EPSILON * size(*own) * at_end(start), noise);
+        }
+        noise
+    }
+
+    /// What the last round has changed, weighed.
+    #[inline(always)]
+    fn change(&self) -> f64 {
+        let mut largest = splat(0.0);
+        let links = self.next.as_ref().iter().zip(self.now.as_ref());
+        for ((next, now), start) in links.zip(self.start.as_ref()) {
+            let own = (*next - *now) * splat(at_end(start));
+            for node in 0..NODES {
+                largest.0[node] = larger(own.0[node].abs(), largest.0[node]);
+            }
+        }
+        size(largest)
+    }
+
+    /// States at the nodes for the present accelerations.
+    #[inline(always)]
+    fn place(&mut self) {
+        let dof = self.now.as_ref().len();
+        let (x, h) = (self.x.as_slice(), self.h);
+        let (step, square) = (splat(h), splat(h * h));
+        for link in 0..dof {
+            let own = &self.now.as_ref()[link].0;
+            let (mut once, mut twice) = (splat(0.0), splat(0.0));
+            for (own, (a, b)) in own.iter().zip(RULE.once.iter().zip(&RULE.twice)) {
+                once = once + splat(*own) * *a;
+                twice = twice + splat(*own) * *b;
+            }
+            let turned = RULE.nodes * splat(h * x[dof + link]) + square * twice;
+            let [cos, sin, ..] = self.start.as_ref()[link];
+            // Of the way from the start: that is within reach of the polynomials wherever the start is.
+            let (sin_turned, cos_turned) = crate::program::Scalar::sin_cos(turned);
+            self.theta.as_mut()[link] = splat(x[link]) + turned;
+            self.omega.as_mut()[link] = splat(x[dof + link]) + step * once;
+            self.sin.as_mut()[link] = splat(sin) * cos_turned + splat(cos) * sin_turned;
+            self.cos.as_mut()[link] = splat(cos) * cos_turned - splat(sin) * sin_turned;
+        }
+    }
+
+    /// The error that the accelerations tell, and what that says of the next step.
+    #[inline(always)]
+    fn error(&mut self, accurate: Accurate) -> f64 {
+        let mut error = 0.0f64;
+        let links = self.spectrum.as_mut().iter_mut().zip(self.now.as_ref());
+        for ((spectrum, own), start) in links.zip(self.start.as_ref()) {
+            *spectrum = splat(0.0);
+            for (own, legendre) in own.0.iter().zip(&RULE.legendre) {
+                *spectrum = *spectrum + splat(*own) * *legendre;
+            }
+            let tail = spectrum.0[6].abs() + spectrum.0[7].abs();
+            let before = spectrum.0[4].abs() + spectrum.0[5].abs();
+            let of_link = match accurate {
+                Accurate::AtEnd => tail * (tail / size(*own)) * at_end(start),
+                Accurate::Throughout => {
+                    let left = tail * if tail < before { tail / before } else { 1.0 };
+                    left * larger(start[2] * LEFT_OF_ANGLE, start[3] * LEFT_OF_RATE)
+                }
+            };
+            error = larger(of_link, error);
+        }
+        let order = match accurate {
+            Accurate::AtEnd => 13,
+            Accurate::Throughout => 9,
+        };
+        self.factor_wanted = SAFETY / rough_root(error.max(1e-30), order);
+        error
+    }
+
+    /// The end of the step.
+    #[inline(always)]
+    fn finish(&mut self) {
+        let dof = self.now.as_ref().len();
+        let (x, h, end) = (self.x.as_slice(), self.h, self.end.as_mut_slice());
+        for (link, own) in self.now.as_ref().iter().enumerate() {
+            end[link] = x[link] + h * (x[dof + link] + h * sum(*own * RULE.end_twice));
+            end[dof + link] = x[dof + link] + h * sum(*own * RULE.end_once);
+        }
+    }
+
+    /// The step that the last attempt calls for, relative to it.
+    pub fn factor_wanted(&self) -> f64 {
+        self.factor_wanted.clamp(0.02, 3.0)
+    }
+
+    /// Ends the last attempt earlier, after `h`, on the same polynomial.
+    pub fn cut(&mut self, h: f64) {
+        self.end_place = h / self.h;
+        let mut end = self.end.clone();
+        self.state_inside(self.end_place, &mut end);
+        self.end = end;
+    }
+
+    /// State at the end of the last attempt.
+    pub fn end(&self) -> &V {
+        &self.end
+    }
+
+    /// Rounds of all attempts so far: each is a right-hand side at all nodes.
+    pub fn rounds(&self) -> usize {
+        self.rounds
+    }
+
+    /// State inside the last attempt, `s` from 0 to 1 of it.
+    pub fn state_inside(&self, s: f64, state: &mut V) {
+        let dof = self.now.as_ref().len();
+        let (x, h, [once, twice]) = (self.x.as_slice(), self.h, integrals(s));
+        for (link, spectrum) in self.spectrum.as_ref().iter().enumerate() {
+            let (mut rate, mut angle) = (0.0, 0.0);
+            for (own, (once, twice)) in spectrum.0.iter().zip(once.iter().zip(&twice)) {
+                rate += own * once;
+                angle += own * twice;
+            }
+            state.as_mut_slice()[link] = x[link] + h * (s * x[dof + link] + h * angle);
+            state.as_mut_slice()[dof + link] = x[dof + link] + h * rate;
+        }
+    }
+
+    /// Writes `[θ̇, θ̈]` where the last attempt began into `slope`.
+    pub fn start_slope(&self, slope: &mut V) {
+        let dof = self.now.as_ref().len();
+        for (link, spectrum) in self.spectrum.as_ref().iter().enumerate() {
+            slope.as_mut_slice()[link] = self.x.as_slice()[dof + link];
+            slope.as_mut_slice()[dof + link] = start_of(spectrum);
+        }
+    }
+
+    /// A difference of two angles over the last attempt, as a polynomial.
+    pub fn track(&self, angles: Difference) -> Bernstein {
+        let dof = self.now.as_ref().len();
+        let (x, h) = (self.x.as_slice(), self.h);
+        let (start, rate) = (angles.of(&x[..dof]), angles.of(&x[dof..]));
+        let spectrum = self.spectrum.as_ref();
+        let mut polynomial = Bernstein { coefficients: [0.0; Bernstein::LARGEST_DEGREE + 1], degree: NODES + 1 };
+        for (j, coefficient) in polynomial.coefficients[..NODES + 2].iter_mut().enumerate() {
+            *coefficient = start + h * rate * j as f64 / (NODES + 1) as f64;
+        }
+        for (k, bernstein) in TWICE_BERNSTEIN.iter().enumerate() {
+            let own = h * h * angles.by(|link| spectrum[link].0[k]);
+            for (coefficient, shape) in polynomial.coefficients.iter_mut().zip(bernstein) {
+                *coefficient += own * shape;
+            }
+        }
+        polynomial
+    }
+}
+
+/// The states at `times` (ascending) of the solution that is `x` at the first of them; `None` if a step falls below the resolution of the
+/// time before the tolerance is met. Where no time lies inside a step, that is not looked at.
+pub fn solve_second_order<S: SecondOrder>(
+    system: &mut S,
+    gauss: &mut Gauss<S::State, S::Links>,
+    mut x: S::State,
+    times: &[f64],
+    tolerance: Tolerance,
+) -> Option<Vec<S::State>> {
+    let (Some(&start), Some(&end)) = (times.first(), times.last()) else { return Some(Vec::new()) };
+    let (mut t, mut states, mut wanted) = (start, vec![x.clone()], end - start);
+    gauss.forget();
+    while let Some(&next) = times.get(states.len()) {
+        let left = end - t;
+        let h = wanted.min(left);
+        let accurate = if next - t < h { Accurate::Throughout } else { Accurate::AtEnd };
+        let error = if h > 0.0 { gauss.attempt(system, t, &x, h, tolerance, accurate) } else { 0.0 };
+        if error.is_nan() || error > 1.0 {
+            wanted = h * if error.is_nan() { 0.1 } else { gauss.factor_wanted().min(0.9) };
+            if t + wanted == t {
+                return None;
+            }
+            continue;
+        }
+        let reached = if h == left { end } else { t + h };
+        while let Some(time) = times.get(states.len()).filter(|time| **time <= reached) {
+            let mut state = gauss.end().clone();
+            if *time < reached {
+                gauss.state_inside((time - t) / h, &mut state);
+            }
+            states.push(if h > 0.0 { state } else { x.clone() });
+        }
+        if h > 0.0 {
+            x.clone_from(gauss.end());
+        }
+        t = reached;
+        wanted = h * gauss.factor_wanted();
+    }
+    Some(states)
+}
+
+/// The acceleration at the start of a step.
+fn start_of(spectrum: &AtNodes) -> f64 {
+    spectrum.0.iter().rev().fold(0.0, |sum, own| own - sum)
+}
+
+#[inline(always)]
+fn splat(value: f64) -> AtNodes {
+    Lanes([value; NODES])
+}
+
+/// The largest size of those that are numbers.
+#[inline(always)]
+fn size(values: AtNodes) -> f64 {
+    let mut sizes = values.0;
+    for own in &mut sizes {
+        *own = larger(own.abs(), 0.0);
+    }
+    let mut half = NODES / 2;
+    while half > 0 {
+        for i in 0..half {
+            sizes[i] = larger(sizes[i], sizes[i + half]);
+        }
+        half /= 2;
+    }
+    sizes[0]
+}
+
+/// The sum, in pairs.
+#[inline(always)]
+fn sum(values: AtNodes) -> f64 {
+    let mut sums = values.0;
+    let mut half = NODES / 2;
+    while half > 0 {
+        for i in 0..half {
+            sums[i] += sums[i + half];
+        }
+        half /= 2;
+    }
+    sums[0]
+}
+
+/// The larger of two; the second where one is not a number.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// What an acceleration weighs at the end of a step.
+#[inline(always)]
+fn at_end(start: &[f64; 4]) -> f64 {
+    larger(start[3], 0.5 * start[2])
+}
+
+/// Rounds after which an attempt is given up: a shorter step converges in fewer, all together.
+const MOST_ROUNDS: usize = 24;
+
+/// The round from which on one that gains too little ends the attempt, and what is too little: the first ones work on a guess.
+const FIRST_VERDICT: usize = 2;
+const SLOWEST: f64 = 0.7;
+
+/// Error that the same round's accelerations may tell: by then they are good to a per cent or so. Smaller, and good steps are given up; larger,
+/// and rounds are spent on steps that are refused.
+const HOPELESS: f64 = 3.0;
+
+/// Growth of the change beyond which there is no use in waiting for that.
+const FASTEST_GROWTH: f64 = 2.0;
+
+/// The root of the tolerance that a round gains where steps are as long as that allows, as measured.
+const GAIN: usize = 8;
+
+/// Roundings of an acceleration beyond which a change tells nothing.
+const ROUNDINGS: f64 = 8.0;
+
+/// Change, in tolerances, that the round after the last may still make.
+const SETTLED: f64 = 0.3;
+
+/// Legendre terms that the last step's accelerations are continued with, into a step no longer than [`FAR`] times it: more of them grow faster
+/// outside than what they add is worth.
+const EXTRAPOLATED: usize = 5;
+const FAR: f64 = 1.5;
+
+/// Aim below the step that would just meet the tolerance by this factor: the error goes with a high power of it, and a step refused costs rounds.
+const SAFETY: f64 = 0.85;
+
+/// What integrating once and twice leaves of the first terms that are left out, inside a step: somewhat more than `1 / 17` and `1 / (4 · 15 · 17)`
+/// of terms that fall by less than expected.
+const LEFT_OF_RATE: f64 = 0.125;
+const LEFT_OF_ANGLE: f64 = 1.0 / 128.0;
+
+/// Nodes and weights on `[0, 1]`.
+struct Rule {
+    nodes: AtNodes,
+    /// Integrals from the start to each node of the polynomial that is one at this node and zero at the others.
+    once: [AtNodes; NODES],
+    /// The same, integrated again.
+    twice: [AtNodes; NODES],
+    /// The same polynomial's Legendre coefficients.
+    legendre: [AtNodes; NODES],
+    /// Integrals over the whole step, by node.
+    end_once: AtNodes,
+    end_twice: AtNodes,
+}
+
+/// Gauss's.
+const RULE: Rule = {
+    let zero = Lanes([0.0; NODES]);
+    let mut rule = Rule {
+        nodes: zero,
+        once: [zero; NODES],
+        twice: [zero; NODES],
+        legendre: [zero; NODES],
+        end_once: zero,
+        end_twice: zero,
+    };
+    let roots = roots();
+    let mut j = 0;
+    while j < NODES {
+        let (x, values) = (roots[j], legendre(roots[j]));
+        let slope = NODES as f64 * (x * values[NODES] - values[NODES - 1]) / (x * x - 1.0);
+        let weight = 1.0 / ((1.0 - x * x) * slope * slope);
+        rule.nodes.0[j] = 0.5 * (1.0 + x);
+        rule.end_once.0[j] = weight;
+        rule.end_twice.0[j] = weight * (0.5 * (1.0 - x));
+        let mut k = 0;
+        while k < NODES {
+            rule.legendre[j].0[k] = (2 * k + 1) as f64 * weight * values[k];
+            k += 1;
+        }
+        j += 1;
+    }
+    let mut i = 0;
+    while i < NODES {
+        let [once, twice] = integrals(rule.nodes.0[i]);
+        let mut j = 0;
+        while j < NODES {
+            let mut k = 0;
+            while k < NODES {
+                rule.once[j].0[i] += rule.legendre[j].0[k] * once[k];
+                rule.twice[j].0[i] += rule.legendre[j].0[k] * twice[k];
+                k += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    rule
+};
+
+/// Factors of `x P_k` and `P_(k-1)` in the next Legendre polynomial.
+const fn recurrence(k: usize) -> [f64; 2] {
+    [(2 * k + 1) as f64 / (k + 1) as f64, k as f64 / (k + 1) as f64]
+}
+
+/// Legendre polynomials at `x`, -1 to 1.
+const fn legendre(x: f64) -> [f64; NODES + 2] {
+    let mut values = [1.0; NODES + 2];
+    values[1] = x;
+    let mut k = 1;
+    while k <= NODES {
+        let [a, b] = recurrence(k);
+        values[k + 1] = a * x * values[k] - b * values[k - 1];
+        k += 1;
+    }
+    values
+}
+
+/// The roots of the Legendre polynomial of degree [`NODES`], in order, by halving.
+const fn roots() -> [f64; NODES] {
+    const CELLS: usize = 64;
+    let mut roots = [0.0; NODES];
+    let (mut found, mut cell) = (0, 0);
+    while cell < CELLS {
+        let (mut low, mut high) = (cell as f64 / CELLS as f64, (cell + 1) as f64 / CELLS as f64);
+        let is_above = legendre(low)[NODES] > 0.0;
+        if is_above != (legendre(high)[NODES] > 0.0) {
+            let mut round = 0;
+            while round < 60 {
+                let middle = 0.5 * (low + high);
+                if is_above == (legendre(middle)[NODES] > 0.0) {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+                round += 1;
+            }
+            roots[NODES / 2 + found] = low;
+            roots[NODES / 2 - 1 - found] = -low;
+            found += 1;
+        }
+        cell += 1;
+    }
+    roots
+}
+
+/// Integrals from 0 to `s` of the Legendre polynomials on `[0, 1]`, once and twice.
+const fn integrals(s: f64) -> [[f64; NODES]; 2] {
+    let values = legendre(2.0 * s - 1.0);
+    let mut once = [s; NODES + 1];
+    let mut twice = [0.5 * s * s; NODES];
+    let mut k = 1;
+    while k <= NODES {
+        once[k] = 0.5 * (values[k + 1] - values[k - 1]) / (2 * k + 1) as f64;
+        k += 1;
+    }
+    let mut of_rates = [s; NODES];
+    k = 1;
+    while k < NODES {
+        of_rates[k] = once[k];
+        twice[k] = 0.5 * (once[k + 1] - once[k - 1]) / (2 * k + 1) as f64;
+        k += 1;
+    }
+    [of_rates, twice]
+}
+
+/// Bernstein coefficients, of degree nine, of the Legendre polynomials on `[0, 1]` integrated twice.
+const TWICE_BERNSTEIN: [[f64; NODES + 2]; NODES] = {
+    let mut table = [[0.0; NODES + 2]; NODES];
+    let mut k = 0;
+    while k < NODES {
+        // Of degree k they are binomial coefficients with alternating signs.
+        let mut own = [0.0; NODES + 2];
+        own[0] = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let mut i = 0;
+        while i < k {
+            own[i + 1] = -own[i] * (k - i) as f64 / (i + 1) as f64;
+            i += 1;
+        }
+        // Raised to the highest degree, and summed up twice.
+        let mut degree = k;
+        while degree < NODES - 1 {
+            let mut i = degree + 1;
+            while i > 0 {
+                let share = i as f64 / (degree + 1) as f64;
+                own[i] = share * own[i - 1] + (1.0 - share) * own[i];
+                i -= 1;
+            }
+            degree += 1;
+        }
+        while degree < NODES + 1 {
+            degree += 1;
+            let (mut i, mut sum) = (0, 0.0);
+            while i <= degree {
+                let term = own[i];
+                own[i] = sum / degree as f64;
+                sum += term;
+                i += 1;
+            }
+        }
+        table[k] = own;
+        k += 1;
+    }
+    table
+};
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Dop853, Pair, System, solve};
+    use super::*;
+
+    /// `θ̈ = -weight · sin θ + push · t^power`
+    struct Pendulum {
+        weight: f64,
+        push: f64,
+        power: i32,
+        forcing: AtNodes,
+    }
+
+    const FREE: Pendulum = Pendulum { weight: 1.0, push: 0.0, power: 0, forcing: Lanes([0.0; NODES]) };
+
+    impl SecondOrder for Pendulum {
+        type State = [f64; 2];
+        type Links = [f64; 1];
+
+        fn go_to(&mut self, t: f64, offsets: AtNodes) {
+            self.forcing = Lanes(offsets.0.map(|offset| self.push * (t + offset).powi(self.power)));
+        }
+
+        fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
+            acceleration[0] = self.forcing - splat(self.weight) * motion.sin[0];
+        }
+
+        fn sin_cos(angle: f64) -> (f64, f64) {
+            libm::sincos(angle)
+        }
+    }
+
+    const TIGHT: Tolerance = Tolerance { rtol: 1e-14, atol: 1e-16 };
+
+    /// Rates of order sixteen: to the power fifteen, and no further.
+    #[test]
+    fn powers_of_time_are_integrated_exactly_up_to_the_order() {
+        for power in 0..=16 {
+            let mut system = Pendulum { weight: 0.0, push: 1.0, power, ..FREE };
+            let mut gauss = Gauss::new(&[0.0; 2], &[0.0]);
+            let (t, h) = (0.5f64, 0.8f64);
+            gauss.attempt(&mut system, t, &[0.3, -0.2], h, TIGHT, Accurate::AtEnd);
+            let exact = |t: f64, h: f64| {
+                let integral = |n: i32| ((t + h).powi(n) - t.powi(n)) / f64::from(n);
+                let rate = integral(power + 1);
+                let twice = integral(power + 2) / f64::from(power + 1) - h * t.powi(power + 1) / f64::from(power + 1);
+                [0.3 - 0.2 * h + twice, -0.2 + rate]
+            };
+            let off = |found: &[f64; 2], h: f64| {
+                let exact = exact(t, h);
+                (found[0] - exact[0]).abs().max((found[1] - exact[1]).abs())
+            };
+            let exact_end = exact(t, h);
+            let [of_angle, of_rate] = [0, 1].map(|i| (gauss.end()[i] - exact_end[i]).abs() / 1.3f64.powi(power + 1));
+            assert!(power > 14 || of_angle < 4e-15, "{power}: {of_angle:e}");
+            assert!(power > 15 || of_rate < 4e-15, "{power}: {of_rate:e}");
+            assert!(power < 16 || of_rate > 2e-14, "the test must be able to fail: {of_rate:e}");
+            if power < NODES as i32 {
+                let track = gauss.track(Difference { sign: 1.0, upper: 0, lower: None });
+                for s in [0.0, 0.2, 0.7, 1.0] {
+                    let mut inside = [0.0; 2];
+                    gauss.state_inside(s, &mut inside);
+                    assert!(
+                        off(&inside, s * h) < 1e-14 * 1.3f64.powi(power + 1),
+                        "{power} {s}: {:e}",
+                        off(&inside, s * h)
+                    );
+                    assert!((track.evaluate(s) - inside[0]).abs() < 1e-14, "{power} {s}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn states_are_those_of_a_pair_inside_steps_and_at_their_ends() {
+        struct Plain;
+        impl System for Plain {
+            type State = [f64; 2];
+            fn slope(&mut self, t: f64, x: &[f64; 2], slope: &mut [f64; 2]) {
+                *slope = [x[1], t * t - libm::sin(x[0])];
+            }
+        }
+        let (mut forced, mut gauss) = (Pendulum { push: 1.0, power: 2, ..FREE }, Gauss::new(&[0.0; 2], &[0.0]));
+        let tolerance = Tolerance { rtol: 1e-11, atol: 1e-13 };
+        for times in [vec![0.0, 2.0], (0..=40).map(|i| 0.05 * f64::from(i)).collect(), vec![0.0, 0.0, 1.3, 2.0]] {
+            let start = [0.4, -0.1];
+            let found = solve_second_order(&mut forced, &mut gauss, start, &times, tolerance).expect("smooth");
+            let mut pair = Dop853::new(&start);
+            let expected = solve(&mut Plain, &mut pair, start, &times, TIGHT).expect("smooth");
+            assert_eq!(found.len(), times.len());
+            for ((found, expected), time) in found.iter().zip(&expected).zip(&times) {
+                let off = (found[0] - expected[0]).abs().max((found[1] - expected[1]).abs());
+                assert!(off < 2e-11, "{time}: {off:e}");
+            }
+        }
+        assert_eq!(solve_second_order(&mut forced, &mut gauss, [0.0; 2], &[], tolerance), Some(Vec::new()));
+    }
+
+    #[test]
+    fn what_is_no_number_is_told() {
+        let (mut system, mut gauss) = (Pendulum { push: f64::NAN, ..FREE }, Gauss::new(&[0.0; 2], &[0.0]));
+        let error = gauss.attempt(&mut system, 0.0, &[0.1, 0.0], 0.1, TIGHT, Accurate::AtEnd);
+        assert!(error.is_nan());
+        assert_eq!(solve_second_order(&mut system, &mut gauss, [0.1, 0.0], &[0.0, 1.0], TIGHT), None);
+    }
+
+    #[test]
+    fn energy_is_kept_to_rounding() {
+        let energy = |x: &[f64; 2]| 0.5 * x[1] * x[1] - libm::cos(x[0]);
+        let mut system = FREE;
+        let mut gauss = Gauss::new(&[0.0; 2], &[0.0]);
+        let (mut t, mut x, mut h, mut steps) = (0.0, [2.0, 0.0], 0.5, 0);
+        let start = energy(&x);
+        while t < 800.0 {
+            let error = gauss.attempt(&mut system, t, &x, h, TIGHT, Accurate::AtEnd);
+            if error <= 1.0 {
+                t += h;
+                x = *gauss.end();
+                steps += 1;
+            }
+            h *= gauss.factor_wanted();
+        }
+        assert!((energy(&x) - start).abs() < 2e-14, "{:e}", energy(&x) - start);
+        assert!(steps < 4000, "{steps}");
+    }
+}
