@@ -165,7 +165,8 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
                 converges = true;
                 break;
             }
-            if round > 0 && !(rate < if round < FIRST_VERDICT { FASTEST_GROWTH } else { SLOWEST }) {
+            let slowest = if round < FIRST_VERDICT { FASTEST_GROWTH } else { SLOWEST };
+            if round > 0 && (rate >= slowest || rate.is_nan()) {
                 // Each round integrates twice: what it gains goes with the square of the step.
                 self.factor_wanted = (rough_root(tolerance.rtol, GAIN) / rate).sqrt();
                 break;
