@@ -22,7 +22,7 @@ pub use synthetic::Synthetic;
 pub use unit::AccelerationUnit;
 
 use crate::dynamics::Ground;
-use overlay::overlay;
+use overlay::{lay_out, overlay};
 use serde::Serialize;
 
 /// Ground motion in both directions.
@@ -86,14 +86,21 @@ impl Excitation {
     pub fn segments(&self, t_end: f64) -> Vec<Segment> {
         let motions = [&self.horizontal, &self.vertical].map(|m| m.as_ref().map(Motion::pieces).unwrap_or_default());
         let mut segments: Vec<Segment> = Vec::with_capacity(motions.iter().map(Vec::len).sum::<usize>() + 2);
-        overlay(&motions, 0.0, t_end, |start, end, pieces| {
+        let mut push = |start: f64, end: f64, [horizontal, vertical]: [Piece; 2]| {
             let (before, quiet) = (segments.last(), Segment::QUIET);
-            let Segment { horizontal, vertical, .. } = before.unwrap_or(&quiet);
-            let jumps = pieces[0].jumps_from(horizontal, start) || pieces[1].jumps_from(vertical, start);
-            let [horizontal, vertical] =
-                [0, 1].map(|motion: usize| std::mem::replace(&mut pieces[motion], Piece::Zero));
+            let before = before.unwrap_or(&quiet);
+            let jumps =
+                horizontal.jumps_from(&before.horizontal, start) || vertical.jumps_from(&before.vertical, start);
             segments.push(Segment { start, end, horizontal, vertical, jumps });
-        });
+        };
+        match motions {
+            [horizontal, vertical] if vertical.is_empty() => {
+                lay_out(horizontal, 0.0, t_end, |start, end, piece| push(start, end, [piece, Piece::Zero]));
+            }
+            motions => overlay(&motions, 0.0, t_end, |start, end, pieces| {
+                push(start, end, [0, 1].map(|motion: usize| std::mem::replace(&mut pieces[motion], Piece::Zero)));
+            }),
+        }
         segments
     }
 }

@@ -57,6 +57,40 @@ pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(
     }
 }
 
+/// The same for one motion, whose pieces it gives away.
+pub fn lay_out(spans: Vec<Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
+    let mut t = from;
+    let is_over = |t: f64, end: f64| end <= t + SAME_TIME * t.abs().max(1.0);
+    for Span { start, end, piece } in spans {
+        if is_over(t, end) {
+            continue;
+        }
+        if t >= to {
+            return;
+        }
+        if !is_over(t, start) {
+            let until = start.min(to);
+            if is_over(t, until) {
+                return;
+            }
+            visit(t, until, Piece::Zero);
+            t = until;
+            if t >= to {
+                return;
+            }
+        }
+        let until = end.min(to);
+        if is_over(t, until) {
+            return;
+        }
+        visit(t, until, piece);
+        t = until;
+    }
+    if t < to && !is_over(t, to) {
+        visit(t, to, Piece::Zero);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,6 +120,24 @@ mod tests {
         assert_eq!(laid_out([&a, &b], 0.0, 4.0), from_zero);
         assert_eq!(laid_out([&a, &b], 0.5, 3.0), both);
         assert_eq!(laid_out([&a, &b], f64::NEG_INFINITY, f64::INFINITY), from_zero[..4]);
+    }
+
+    #[test]
+    fn one_motion_alone_is_laid_out_as_beside_none() {
+        let cases: [&[(f64, f64, f64)]; 5] = [
+            &[],
+            &[(0.5, 1.0, 1.0), (1.0, 3.0, 2.0)],
+            &[(-2.0, -1.0, 1.0), (-0.5, 0.5, 2.0), (0.7, 9.0, 3.0)],
+            &[(0.0, 1e-15, 1.0), (1e-15, 1.0, 2.0), (1.0, f64::INFINITY, 4.0)],
+            &[(6.0, 7.0, 1.0)],
+        ];
+        for case in cases {
+            for to in [4.0, 0.6, 1.0, 1.0 + 1e-15, 1e-15] {
+                let mut found = Vec::new();
+                lay_out(spans(case), 0.0, to, |start, end, piece| found.push([start, end, piece.value(0.0), 0.0]));
+                assert_eq!(found, laid_out([case, &[]], 0.0, to), "{case:?} {to}");
+            }
+        }
     }
 
     #[test]

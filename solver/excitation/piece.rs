@@ -318,13 +318,23 @@ impl Piece {
     }
 
     /// Whether the acceleration changes by more than rounding when `before` gives way to this piece at `t`.
+    #[inline]
     pub fn jumps_from(&self, before: &Piece, t: f64) -> bool {
-        if let (Piece::Zero, Piece::Zero) = (before, self) {
-            return false;
+        match (before, self) {
+            (Piece::Zero, Piece::Zero) => false,
+            // Of a record, whose pieces are many.
+            (
+                &Piece::Linear { value: old, slope: before, start: since },
+                &Piece::Linear { value: new, slope, start },
+            ) => is_jump(old + before * (t - since), new + slope * (t - start), old.abs().max(new.abs())),
+            _ => self.jumps_from_any(before, t),
         }
+    }
+
+    fn jumps_from_any(&self, before: &Piece, t: f64) -> bool {
         let (old, new) = (before.value(t), self.value(t));
         let size = self.size().max(before.size());
-        (new - old).abs() > SAME_ACCELERATION * size
+        is_jump(old, new, size)
     }
 
     /// Scale of the acceleration `[m/s²]`, against which rounding is judged.
@@ -351,6 +361,12 @@ fn turned<const W: usize>(sin: f64, cos: f64, angle: Lanes<W>) -> Lanes<W> {
         (of_sin, of_cos) = (twice * of_cos, splat(1.0) - twice * of_sin);
     }
     splat(sin) * of_cos + splat(cos) * of_sin
+}
+
+/// Whether accelerations differ by more than rounding at this scale.
+#[inline]
+fn is_jump(old: f64, new: f64, size: f64) -> bool {
+    (new - old).abs() > SAME_ACCELERATION * size
 }
 
 /// Out of line: a sum of sums does not end for the compiler.

@@ -100,6 +100,8 @@ pub struct Taylor<V, L: StateVector> {
     factor: Vec<f64>,
     cos_ddot: L,
     sin_ddot: L,
+    /// How far each angle, and its rate, move in the last attempt, at most.
+    reach: L::Of<[f64; 2]>,
     /// Step that the terms of the last attempt call for, relative to it.
     factor_wanted: f64,
     /// `rtol^(1 / largest_order)`
@@ -127,6 +129,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             factor: vec![0.0; dof * dof],
             cos_ddot: zero_links.clone(),
             sin_ddot: zero_links.clone(),
+            reach: zero_links.each([0.0; 2]),
             factor_wanted: 1.0,
             root_of_rtol: rough_root(rtol, largest_order),
         }
@@ -292,6 +295,17 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         track
     }
 
+    /// How far a difference of two angles moves from its start in the last attempt, at most.
+    pub fn reach(&self, angles: Difference) -> f64 {
+        let reach = self.reach.as_ref();
+        reach[angles.upper][0] + angles.lower.map_or(0.0, |lower| reach[lower][0])
+    }
+
+    /// Whether an angle surely goes one way all through the last attempt.
+    pub fn is_one_way(&self, link: usize) -> bool {
+        rate_of(&self.driver[0].as_ref()[link]).abs() > self.reach.as_ref()[link][1]
+    }
+
     #[inline(always)]
     fn expand<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V) {
         if self.is_at(t, x) {
@@ -364,24 +378,32 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.order = k + 1;
     }
 
-    /// The end of a step, by Horner's rule up to an order.
+    /// The end of a step, by Horner's rule up to an order, and how far the angles move until then.
     #[inline(always)]
     fn evaluate(&mut self, order: usize, h: f64) {
         let mut end = self.end.clone();
-        self.horner(order, h, &mut end);
+        let sizes = self.horner(order, h, &mut end);
         self.end = end;
+        let rates = &self.x.as_slice()[self.cos_ddot.as_slice().len()..];
+        for (reach, (sizes, rate)) in self.reach.as_mut().iter_mut().zip(sizes.as_ref().iter().zip(rates)) {
+            let [of_rate, of_mean] = sizes.to_array();
+            *reach = [h * (rate.abs() + of_mean), of_rate];
+        }
     }
 
+    /// A state of the series, and the sums over the sizes of the terms of `[rate, mean rate]`, the first left out.
     #[inline(always)]
-    fn horner(&self, order: usize, h: f64, state: &mut V) {
+    fn horner(&self, order: usize, h: f64, state: &mut V) -> L::Of<f64x2> {
         let dof = self.cos_ddot.as_slice().len();
-        // Of rates, and of their means.
-        let mut sums = self.cos_ddot.each(f64x2::ZERO);
-        let step = f64x2::splat(h);
+        let zero = || self.cos_ddot.each(f64x2::ZERO);
+        let (mut sums, mut sizes, step) = (zero(), zero(), f64x2::splat(h));
         for j in (1..=order.min(MAX_ORDER)).rev() {
             let shares = f64x2::new([1.0, RECIPROCAL[j + 1]]);
-            for (sum, driver) in sums.as_mut().iter_mut().zip(self.driver[j].as_ref()) {
-                *sum = (*sum + driver[0] * shares) * step;
+            let links = sums.as_mut().iter_mut().zip(sizes.as_mut()).zip(self.driver[j].as_ref());
+            for ((sum, size), driver) in links {
+                let own = driver[0] * shares;
+                *sum = (*sum + own) * step;
+                *size = (*size + own.abs()) * step;
             }
         }
         let x = self.x.as_slice();
@@ -390,6 +412,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             state.as_mut_slice()[dof + link] = start + rate;
             state.as_mut_slice()[link] = x[link] + h * (start + mean);
         }
+        sizes
     }
 }
 

@@ -21,6 +21,12 @@ impl<V: StateVector> Phase<V> {
         // An angle is a sum of gaps.
         let mut reach = 0.0;
         for &gap in &self.gaps {
+            let start = gap.across.of(&self.x.as_slice()[..self.dof]);
+            let most = start + self.stepper.reach(gap.across);
+            if gap.start_roots == 0 && most < CLEAR * start {
+                reach += most;
+                continue;
+            }
             let track = self.stepper.track(gap.across, gap.start_roots > 0);
             let size = track.size();
             reach += size;
@@ -172,15 +178,25 @@ impl<V: StateVector> Phase<V> {
             return;
         }
         for link in 0..self.dof {
-            let blocks = self.links.iter().zip(&run.history.peak_theta).filter(|(own, _)| **own == link + 1);
-            let known = blocks.fold(f64::INFINITY, |least, (_, peak)| least.min(*peak));
-            let (x, end) = (self.x.as_slice(), self.stepper.end().as_slice());
-            let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);
-            if control.iter().all(|c| c.abs() <= known) {
+            let angle = Difference { sign: 1.0, upper: link, lower: None };
+            let most = self.x.as_slice()[link].abs() + self.stepper.reach(angle);
+            let mut known = f64::INFINITY;
+            for (own, peak) in self.links.iter().zip(&run.history.peak_theta) {
+                known = if *own == link + 1 { known.min(*peak) } else { known };
+            }
+            if most <= known {
                 continue;
             }
-            let track = self.stepper.track(Difference { sign: 1.0, upper: link, lower: None }, false);
-            let peak = track.largest_size(known);
+            let (x, end) = (self.x.as_slice(), self.stepper.end().as_slice());
+            let peak = if self.stepper.is_one_way(link) {
+                x[link].abs().max(end[link].abs())
+            } else {
+                let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);
+                if control.iter().all(|c| c.abs() <= known) {
+                    continue;
+                }
+                self.stepper.track(angle, false).largest_size(known)
+            };
             for (block, _) in self.links.iter().enumerate().filter(|(_, own)| **own == link + 1) {
                 let noted = &mut run.history.peak_theta[block];
                 *noted = noted.max(peak);
@@ -188,6 +204,10 @@ impl<V: StateVector> Phase<V> {
         }
     }
 }
+
+/// A gap that a step does not widen to this many times its start cannot close in it either: it would have to move as far. Less than two by
+/// more than rounding.
+const CLEAR: f64 = 1.999;
 
 /// Margins of the closed interfaces at places in a step: a look at one serves them all.
 type Looks = Few<(f64, Few<f64>)>;

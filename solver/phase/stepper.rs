@@ -38,6 +38,15 @@ pub(crate) trait Stepper<V> {
     fn end(&self) -> &V;
     /// State inside the last attempt, `s` from 0 to 1 of it.
     fn state_inside(&mut self, s: f64, state: &mut V);
+    /// How far angles, or the difference of two, move from their start in the last attempt, at most, where that is known for less than their
+    /// track.
+    fn reach(&self, _angles: Difference) -> f64 {
+        f64::INFINITY
+    }
+    /// Whether it is known for less than its track that an angle goes one way all through the last attempt.
+    fn is_one_way(&self, _link: usize) -> bool {
+        false
+    }
     /// Angles, or the difference of two, inside the last attempt; exactly zero at its start where that is known.
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
     /// What is known of a closed interface, by its place among the closed ones, for a time from the start of the last attempt on.
@@ -323,6 +332,14 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
 
     fn state_inside(&mut self, s: f64, state: &mut D::State) {
         self.series.state_inside(s, state);
+    }
+
+    fn reach(&self, angles: Difference) -> f64 {
+        self.series.reach(angles)
+    }
+
+    fn is_one_way(&self, link: usize) -> bool {
+        self.series.is_one_way(link)
     }
 
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
