@@ -749,7 +749,7 @@ fn error<const D: usize, const N: usize>(ends: &[[f64; N]], reference: &[[f64; N
 fn study<P, const D: usize, const N: usize>(name: &str, record: &Record, (start, phase): ([f64; N], f64)) -> Vec<Row>
 where
     GeneratedMode<P>: Dynamics<State = [f64; N], Links = [f64; D]>,
-    P: rocking::program::StepProgram<f64>,
+    P: rocking::generated::Program,
 {
     let column =
         Column::equal_blocks(D, 0.397_474_589_530_778_3, 1.556_636_636_984_904_5, 1.0, GRAVITY).expect("a column");

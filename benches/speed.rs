@@ -33,7 +33,7 @@ fn state(dof: usize) -> Vec<f64> {
 fn right_hand_side<P>(criterion: &mut Criterion, dof: usize)
 where
     GeneratedMode<P>: Dynamics,
-    P: rocking::program::StepProgram<f64> + rocking::program::StepProgram<rocking::lanes::Lanes<8>>,
+    P: rocking::generated::Program,
 {
     let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
     let generated =

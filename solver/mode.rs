@@ -9,7 +9,7 @@ use crate::generated;
 use crate::generic::GenericMode;
 use crate::lanes::Lanes;
 use crate::ode::{
-    AtNodes, Dop853, DormandPrince54, Gauss, KuttaMerson, Motion, RungeKutta4, SecondOrder, Tolerance,
+    Accurate, AtNodes, Dop853, DormandPrince54, Gauss, KuttaMerson, Motion, RungeKutta4, SecondOrder, Tolerance,
     solve_second_order,
 };
 use crate::phase::{Margins, Phase, RungeKutta, SmoothPhase, Stepper, TaylorSeries};
@@ -121,7 +121,8 @@ impl<D: Dynamics + 'static> Equations for D {
     ) -> Option<Vec<Vec<f64>>> {
         let mut system = Forced { mode: self, ground, at_nodes: [AtNodes::from_f64(0.0); 2] };
         let mut gauss = Gauss::new(&self.zero_state(), &self.zero_links());
-        let states = solve_second_order(&mut system, &mut gauss, state(self, x), times, tolerance)?;
+        let states =
+            solve_second_order(&mut system, &mut gauss, state(self, x), times, tolerance, Accurate::Throughout)?;
         Some(states.iter().map(|state| state.as_slice().to_vec()).collect())
     }
 }
@@ -193,7 +194,8 @@ impl Mode {
     }
 
     /// States at `times` `[s]` (ascending, the first is that of `x`) in this mode alone: hinges that hold both ways, no
-    /// events, Gauss collocation of order 16 ([`Gauss`]). `ground` must be smooth. `None` if the tolerance cannot be met.
+    /// events, Gauss collocation of order 16 ([`Gauss`]). `ground` must be smooth. `None` if the tolerance cannot be met or times are not in
+    /// order.
     pub fn integrate(
         &self,
         x: &[f64],

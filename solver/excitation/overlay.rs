@@ -57,7 +57,7 @@ pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(
     }
 }
 
-/// The same for one motion, whose pieces it gives away.
+/// The same for one motion, whose pieces it gives away, between finite bounds.
 pub fn lay_out(spans: Vec<Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
     let mut t = from;
     let is_over = |t: f64, end: f64| end <= t + SAME_TIME * t.abs().max(1.0);
@@ -75,8 +75,8 @@ pub fn lay_out(spans: Vec<Span>, from: f64, to: f64, mut visit: impl FnMut(f64, 
             }
             visit(t, until, Piece::Zero);
             t = until;
-            if t >= to {
-                return;
+            if is_over(t, end) {
+                continue;
             }
         }
         let until = end.min(to);
@@ -124,12 +124,13 @@ mod tests {
 
     #[test]
     fn one_motion_alone_is_laid_out_as_beside_none() {
-        let cases: [&[(f64, f64, f64)]; 5] = [
+        let cases: [&[(f64, f64, f64)]; 6] = [
             &[],
             &[(0.5, 1.0, 1.0), (1.0, 3.0, 2.0)],
             &[(-2.0, -1.0, 1.0), (-0.5, 0.5, 2.0), (0.7, 9.0, 3.0)],
             &[(0.0, 1e-15, 1.0), (1e-15, 1.0, 2.0), (1.0, f64::INFINITY, 4.0)],
             &[(6.0, 7.0, 1.0)],
+            &[(0.5, 0.5 + 1e-14, 1.0), (0.5 + 1e-14, 2.0, 2.0), (3.0, 3.0 + 1e-14, 3.0)],
         ];
         for case in cases {
             for to in [4.0, 0.6, 1.0, 1.0 + 1e-15, 1e-15] {
