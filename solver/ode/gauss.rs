@@ -13,7 +13,7 @@
 //! Choose it where right-hand sides are smooth and cost more than what is done with them.
 
 use super::Tolerance;
-use super::taylor::rough_root;
+use super::control::rough_root;
 use crate::dynamics::StateVector;
 use crate::lanes::{Lanes, widest};
 

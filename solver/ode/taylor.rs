@@ -19,6 +19,7 @@
 //! after which a higher one costs more than the longer step saves (Jorba & Zou, 2005, and what a step costs beside
 //! its coefficients); fewer where the step is short.
 
+use super::control::rough_root;
 use super::{Difference, Powers, Tolerance};
 use crate::dynamics::StateVector;
 use wide::f64x2;
@@ -450,24 +451,6 @@ fn rate_of(driver: &[f64x2; 2]) -> f64 {
     driver[0].as_array()[0]
 }
 
-/// `x^(1/n)` to half a per cent, of normal numbers, the same on every machine: steps need no more.
-#[inline(always)]
-pub(super) fn rough_root(x: f64, n: usize) -> f64 {
-    const MANTISSA: u64 = (1 << 52) - 1;
-    let (bits, one) = (x.to_bits(), 1.0f64.to_bits());
-    // A parabola through both ends of an octave for the logarithm, and its like for the power.
-    let part = f64::from_bits(bits & MANTISSA | one) - 1.0;
-    let octaves = (bits >> 52) as f64 - 1023.0 + part + BULGE * part * (1.0 - part);
-    let root = octaves * RECIPROCAL[n];
-    let whole = root.floor();
-    let part = root - whole;
-    let power = 1.0 + part - BULGE * part * (1.0 - part);
-    f64::from_bits(power.to_bits().wrapping_add_signed((whole as i64) << 52))
-}
-
-/// `4 (log₂ 3/2 - 1/2)`, about: the height of a logarithm over its chord.
-const BULGE: f64 = 0.3435;
-
 /// `[Σ c ω, Σ s ω]` and `[Σ c C, Σ s S]` of each angle, with indices that sum to that of the last ones. Those, which have only just
 /// been computed, come last: all else is summed meanwhile.
 #[inline(always)]
@@ -604,17 +587,6 @@ mod tests {
         // Three thousand steps of some roundings each, at random: 1e-16 · 55, three times over.
         assert!((energy(&x) - start).abs() < 2e-14, "{:e}", energy(&x) - start);
         assert!(steps < 4000, "{steps}");
-    }
-
-    #[test]
-    fn rough_roots_are_right_to_half_a_per_cent() {
-        for n in [4, 7, 12, MAX_ORDER] {
-            for power in -300..300 {
-                let x = 1.37f64.powi(power);
-                assert!((rough_root(x, n) / libm::pow(x, 1.0 / n as f64) - 1.0).abs() < 0.005, "{x:e} {n}");
-            }
-        }
-        assert!(rough_root(f64::INFINITY, 4) > 1e70);
     }
 
     #[test]
