@@ -4,7 +4,7 @@
 //! contact forces of a mode come either from generated code ([`crate::generated`]) or from hand-written code for any number
 //! of blocks ([`crate::generic`]); the integrator is compiled once for each number of degrees of freedom.
 
-use crate::ode::{AtNodes, Motion, NODES};
+use crate::ode::{AtNodes, NODES, States};
 
 /// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
 pub trait StateVector: Clone {
@@ -118,11 +118,11 @@ pub trait Dynamics {
 
     /// Writes `θ̈` at several instants, per free angle, into `acceleration`; `ground` has the horizontal acceleration and the effective
     /// gravity there `[m/s²]`. One after another, unless equations are compiled for more.
-    fn accelerations(&self, motion: Motion<'_>, ground: [AtNodes; 2], acceleration: &mut [AtNodes]) {
+    fn accelerations(&self, states: States<'_>, ground: [AtNodes; 2], acceleration: &mut [AtNodes]) {
         let (dof, mut state) = (acceleration.len(), self.zero_state());
         let mut derivative = state.clone();
         for node in 0..NODES {
-            let angles_and_rates = motion.theta.iter().chain(motion.omega);
+            let angles_and_rates = states.theta.iter().chain(states.omega);
             for (own, at_nodes) in state.as_mut_slice().iter_mut().zip(angles_and_rates) {
                 *own = at_nodes.0[node];
             }

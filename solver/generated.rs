@@ -27,7 +27,7 @@
 use crate::column::{Block, Column};
 use crate::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use crate::mode::Mode;
-use crate::ode::{AtNodes, Motion};
+use crate::ode::{AtNodes, States};
 use crate::program::{
     ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, SeriesProgram, StepProgram,
     slope, split,
@@ -262,13 +262,13 @@ impl<P: Program> Dynamics for GeneratedMode<P> {
     }
 
     #[inline(always)]
-    fn accelerations(&self, motion: Motion<'_>, ground: [AtNodes; 2], acceleration: &mut [AtNodes]) {
+    fn accelerations(&self, states: States<'_>, ground: [AtNodes; 2], acceleration: &mut [AtNodes]) {
         let vector = |values: &[AtNodes]| {
             let mut vector = <P as StepProgram<AtNodes>>::vector(AtNodes::from_f64(0.0));
             vector.as_mut().copy_from_slice(values);
             vector
         };
-        let (cos, sin, omega) = (vector(motion.cos), vector(motion.sin), vector(motion.omega));
+        let (cos, sin, omega) = (vector(states.cos), vector(states.sin), vector(states.omega));
         let [ground_x, gravity] = ground;
         let result = P::acceleration(&self.constants_at_nodes, &cos, &sin, &omega, ground_x, gravity);
         acceleration.copy_from_slice(result.as_ref());

@@ -9,7 +9,7 @@ use crate::generated;
 use crate::generic::GenericMode;
 use crate::lanes::Lanes;
 use crate::ode::{
-    Accurate, AtNodes, Dop853, DormandPrince54, Gauss, KuttaMerson, Motion, RungeKutta4, SecondOrder, Tolerance,
+    Accurate, AtNodes, Dop853, DormandPrince54, Gauss, KuttaMerson, RungeKutta4, SecondOrder, States, Tolerance,
     solve_second_order,
 };
 use crate::phase::{Margins, Phase, RungeKutta, SmoothPhase, Stepper, TaylorSeries};
@@ -60,13 +60,8 @@ impl<D: Dynamics, G: FnMut(f64) -> Ground> SecondOrder for Forced<'_, D, G> {
     }
 
     #[inline(always)]
-    fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
-        self.mode.accelerations(motion, self.at_nodes, acceleration);
-    }
-
-    #[inline(always)]
-    fn sin_cos(angle: f64) -> (f64, f64) {
-        Scalar::sin_cos(angle)
+    fn acceleration(&mut self, states: States<'_>, acceleration: &mut [AtNodes]) {
+        self.mode.accelerations(states, self.at_nodes, acceleration);
     }
 }
 
@@ -225,9 +220,9 @@ mod tests {
             let at_nodes = |i: usize| Lanes(std::array::from_fn(|node| 0.3 * libm::sin((3 * i + 5 * node) as f64)));
             let (theta, omega): (Vec<_>, Vec<_>) = (0..dof).map(|i| (at_nodes(i), at_nodes(dof + i))).unzip();
             let (sin, cos): (Vec<_>, Vec<_>) = theta.iter().map(|theta| Scalar::sin_cos(*theta)).unzip();
-            let motion = Motion { theta: &theta, cos: &cos, sin: &sin, omega: &omega };
+            let states = States { theta: &theta, cos: &cos, sin: &sin, omega: &omega };
             let (ground, mut found) = ([at_nodes(7), Lanes([9.0; NODES])], vec![at_nodes(0); dof]);
-            generic.accelerations(motion, ground, &mut found);
+            generic.accelerations(states, ground, &mut found);
             for node in 0..NODES {
                 let x: Vec<f64> = theta.iter().chain(&omega).map(|own| own.0[node]).collect();
                 let ground = Ground { x: ground[0].0[node], gravity: ground[1].0[node] };

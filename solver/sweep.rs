@@ -3,8 +3,8 @@
 //! A sweep is data: the point of any index is found without the others, so that ranges of them can be run anywhere, in any order
 //! and again, and always give the same rows. Points run in parallel; a scene that cannot be read or solved is a row with its error.
 //!
-//! Within a thread they run one after another: sixteen side by side, with Taylor coefficients in lanes of eight, took 1.2 to 1.4 times
-//! as long, as events, contact and set-up stay scalar and lose their place in the cache.
+//! Within a thread they run one after another: sixteen side by side, with Taylor coefficients in lanes of eight, took longer, as events,
+//! contact and set-up stay scalar and lose their place in the cache.
 
 use crate::response::{ModeName, Response, StopReason};
 use crate::scene::{Scene, Wanted};

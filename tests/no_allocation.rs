@@ -6,7 +6,7 @@ use rocking::generated::GeneratedMode;
 use rocking::generated::equations::{Dof3, linkage};
 use rocking::lanes::Lanes;
 use rocking::ode::{
-    Accurate, AtNodes, Dop853, DormandPrince54, Gauss, Interpolant, Motion, Pair, SecondOrder, System, Tolerance,
+    Accurate, AtNodes, Dop853, DormandPrince54, Gauss, Interpolant, Pair, SecondOrder, States, System, Tolerance,
 };
 use rocking::pattern::Pattern;
 use rocking::{Column, GroundMotion};
@@ -50,12 +50,8 @@ impl SecondOrder for Mode {
 
     fn go_to(&mut self, _: f64, _: AtNodes) {}
 
-    fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
-        self.0.accelerations(motion, [Lanes([1.0; 8]), Lanes([9.81; 8])], acceleration);
-    }
-
-    fn sin_cos(angle: f64) -> (f64, f64) {
-        angle.sin_cos()
+    fn acceleration(&mut self, states: States<'_>, acceleration: &mut [AtNodes]) {
+        self.0.accelerations(states, [Lanes([1.0; 8]), Lanes([9.81; 8])], acceleration);
     }
 }
 

@@ -7,15 +7,20 @@
 //! ```
 //!
 //! The method (Kuntzmann, Butcher; Hairer, Nørsett & Wanner, II.7) is implicit: it is iterated. A round evaluates the right-hand side at all nodes
-//! at once, which in lanes costs little more than at one, and gains a factor that itself falls from round to round, as each integrates twice.
+//! at once, in lanes, and gains a factor that itself falls from round to round, as each integrates twice. A round of three hinges takes as long
+//! as some six right-hand sides alone, all that belongs to a step included: eight of them and their integrals.
 //! A step ends with order sixteen; what lies inside it is a polynomial of degree nine.
 //!
 //! Choose it where right-hand sides are smooth and cost more than what is done with them.
+
+mod rule;
 
 use super::Tolerance;
 use super::control::rough_root;
 use crate::dynamics::StateVector;
 use crate::lanes::{Lanes, widest};
+use crate::program::Scalar;
+use rule::{RULE, integrals, recurrence};
 
 /// Nodes of a step.
 pub const NODES: usize = 8;
@@ -34,15 +39,12 @@ pub trait SecondOrder {
     fn go_to(&mut self, t: f64, offsets: AtNodes);
 
     /// Writes `θ̈`, per angle, into `acceleration`.
-    fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]);
-
-    /// Sine and cosine.
-    fn sin_cos(angle: f64) -> (f64, f64);
+    fn acceleration(&mut self, states: States<'_>, acceleration: &mut [AtNodes]);
 }
 
 /// States of several instants, per angle.
 #[derive(Clone, Copy, Debug)]
-pub struct Motion<'a> {
+pub struct States<'a> {
     /// `[rad]`
     pub theta: &'a [AtNodes],
     /// Their cosines.
@@ -139,13 +141,13 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
         (self.h, self.is_begun, self.factor_wanted) = (h, false, 1.0);
         self.x.clone_from(x);
         system.go_to(t, RULE.nodes * splat(h));
-        self.begin::<S>();
+        self.begin();
         let (mut last, mut noise, mut converges) = (0.0, 0.0, false);
         for round in 0..MOST_ROUNDS {
             self.place();
             let (theta, omega) = (self.theta.as_ref(), self.omega.as_ref());
-            let motion = Motion { theta, cos: self.cos.as_ref(), sin: self.sin.as_ref(), omega };
-            system.acceleration(motion, self.next.as_mut());
+            let states = States { theta, cos: self.cos.as_ref(), sin: self.sin.as_ref(), omega };
+            system.acceleration(states, self.next.as_mut());
             std::mem::swap(&mut self.now, &mut self.next);
             if round == 0 {
                 noise = self.weigh(tolerance);
@@ -223,9 +225,9 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
 
     /// Cosines and sines at the start.
     #[inline(always)]
-    fn begin<S: SecondOrder<State = V, Links = L>>(&mut self) {
+    fn begin(&mut self) {
         for (start, theta) in self.start.as_mut().iter_mut().zip(self.x.as_slice()) {
-            let (sin, cos) = S::sin_cos(*theta);
+            let (sin, cos) = Scalar::sin_cos(*theta);
             *start = [cos, sin, 0.0, 0.0];
         }
     }
@@ -276,7 +278,7 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
             let turned = RULE.nodes * splat(h * x[dof + link]) + square * twice;
             let [cos, sin, ..] = self.start.as_ref()[link];
             // Of the way from the start: that is within reach of the polynomials wherever the start is.
-            let (sin_turned, cos_turned) = crate::program::Scalar::sin_cos(turned);
+            let (sin_turned, cos_turned) = turned.sin_cos();
             self.theta.as_mut()[link] = splat(x[link]) + turned;
             self.omega.as_mut()[link] = splat(x[dof + link]) + step * once;
             self.sin.as_mut()[link] = splat(sin) * cos_turned + splat(cos) * sin_turned;
@@ -360,13 +362,17 @@ pub fn solve_second_order<S: SecondOrder>(
         return None;
     }
     let (Some(&start), Some(&end)) = (times.first(), times.last()) else { return Some(Vec::new()) };
-    let (mut t, mut states, mut wanted) = (start, vec![x.clone()], end - start);
+    let (mut t, mut states, mut wanted) = (start, Vec::with_capacity(times.len()), end - start);
     gauss.forget();
-    while let Some(&next) = times.get(states.len()) {
+    loop {
+        while times.get(states.len()) == Some(&t) {
+            states.push(x.clone());
+        }
+        let Some(&next) = times.get(states.len()) else { return Some(states) };
         let left = end - t;
         let h = wanted.min(left);
         let accurate = if next - t < h { Accurate::Throughout } else { accurate };
-        let error = if h > 0.0 { gauss.attempt(system, t, &x, h, tolerance, accurate) } else { 0.0 };
+        let error = gauss.attempt(system, t, &x, h, tolerance, accurate);
         if error.is_nan() || error > 1.0 {
             wanted = h * if error.is_nan() { 0.1 } else { gauss.factor_wanted().min(0.9) };
             if t + wanted == t {
@@ -375,20 +381,15 @@ pub fn solve_second_order<S: SecondOrder>(
             continue;
         }
         let reached = if h == left { end } else { t + h };
-        while let Some(time) = times.get(states.len()).filter(|time| **time <= reached) {
-            let mut state = gauss.end().clone();
-            if *time < reached {
-                gauss.state_inside((time - t) / h, &mut state);
-            }
-            states.push(if h > 0.0 { state } else { x.clone() });
+        while let Some(time) = times.get(states.len()).filter(|time| **time < reached) {
+            let mut state = x.clone();
+            gauss.state_inside((time - t) / h, &mut state);
+            states.push(state);
         }
-        if h > 0.0 {
-            x.clone_from(gauss.end());
-        }
+        x.clone_from(gauss.end());
         t = reached;
         wanted = h * gauss.factor_wanted();
     }
-    Some(states)
 }
 
 #[inline(always)]
@@ -478,131 +479,6 @@ const SAFETY: f64 = 0.85;
 const LEFT_OF_RATE: f64 = 0.125;
 const LEFT_OF_ANGLE: f64 = 1.0 / 128.0;
 
-/// Nodes and weights on `[0, 1]`.
-struct Rule {
-    nodes: AtNodes,
-    /// Integrals from the start to each node of the polynomial that is one at this node and zero at the others.
-    once: [AtNodes; NODES],
-    /// The same, integrated again.
-    twice: [AtNodes; NODES],
-    /// The same polynomial's Legendre coefficients.
-    legendre: [AtNodes; NODES],
-    /// Integrals over the whole step, by node.
-    end_once: AtNodes,
-    end_twice: AtNodes,
-}
-
-/// Gauss's.
-const RULE: Rule = {
-    let zero = Lanes([0.0; NODES]);
-    let mut rule = Rule {
-        nodes: zero,
-        once: [zero; NODES],
-        twice: [zero; NODES],
-        legendre: [zero; NODES],
-        end_once: zero,
-        end_twice: zero,
-    };
-    let roots = roots();
-    let mut j = 0;
-    while j < NODES {
-        let (x, values) = (roots[j], legendre(roots[j]));
-        let slope = NODES as f64 * (x * values[NODES] - values[NODES - 1]) / (x * x - 1.0);
-        let weight = 1.0 / ((1.0 - x * x) * slope * slope);
-        rule.nodes.0[j] = 0.5 * (1.0 + x);
-        rule.end_once.0[j] = weight;
-        rule.end_twice.0[j] = weight * (0.5 * (1.0 - x));
-        let mut k = 0;
-        while k < NODES {
-            rule.legendre[j].0[k] = (2 * k + 1) as f64 * weight * values[k];
-            k += 1;
-        }
-        j += 1;
-    }
-    let mut i = 0;
-    while i < NODES {
-        let [once, twice] = integrals(rule.nodes.0[i]);
-        let mut j = 0;
-        while j < NODES {
-            let mut k = 0;
-            while k < NODES {
-                rule.once[j].0[i] += rule.legendre[j].0[k] * once[k];
-                rule.twice[j].0[i] += rule.legendre[j].0[k] * twice[k];
-                k += 1;
-            }
-            j += 1;
-        }
-        i += 1;
-    }
-    rule
-};
-
-/// Factors of `x P_k` and `P_(k-1)` in the next Legendre polynomial.
-const fn recurrence(k: usize) -> [f64; 2] {
-    [(2 * k + 1) as f64 / (k + 1) as f64, k as f64 / (k + 1) as f64]
-}
-
-/// Legendre polynomials at `x`, -1 to 1.
-const fn legendre(x: f64) -> [f64; NODES + 2] {
-    let mut values = [1.0; NODES + 2];
-    values[1] = x;
-    let mut k = 1;
-    while k <= NODES {
-        let [a, b] = recurrence(k);
-        values[k + 1] = a * x * values[k] - b * values[k - 1];
-        k += 1;
-    }
-    values
-}
-
-/// The roots of the Legendre polynomial of degree [`NODES`], in order, by halving.
-const fn roots() -> [f64; NODES] {
-    const CELLS: usize = 64;
-    let mut roots = [0.0; NODES];
-    let (mut found, mut cell) = (0, 0);
-    while cell < CELLS {
-        let (mut low, mut high) = (cell as f64 / CELLS as f64, (cell + 1) as f64 / CELLS as f64);
-        let is_above = legendre(low)[NODES] > 0.0;
-        if is_above != (legendre(high)[NODES] > 0.0) {
-            let mut round = 0;
-            while round < 60 {
-                let middle = 0.5 * (low + high);
-                if is_above == (legendre(middle)[NODES] > 0.0) {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-                round += 1;
-            }
-            roots[NODES / 2 + found] = low;
-            roots[NODES / 2 - 1 - found] = -low;
-            found += 1;
-        }
-        cell += 1;
-    }
-    roots
-}
-
-/// Integrals from 0 to `s` of the Legendre polynomials on `[0, 1]`, once and twice.
-const fn integrals(s: f64) -> [[f64; NODES]; 2] {
-    let values = legendre(2.0 * s - 1.0);
-    let mut once = [s; NODES + 1];
-    let mut twice = [0.5 * s * s; NODES];
-    let mut k = 1;
-    while k <= NODES {
-        once[k] = 0.5 * (values[k + 1] - values[k - 1]) / (2 * k + 1) as f64;
-        k += 1;
-    }
-    let mut of_rates = [s; NODES];
-    k = 1;
-    while k < NODES {
-        of_rates[k] = once[k];
-        twice[k] = 0.5 * (once[k + 1] - once[k - 1]) / (2 * k + 1) as f64;
-        k += 1;
-    }
-    [of_rates, twice]
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{Dop853, Pair, System, solve};
@@ -626,12 +502,8 @@ mod tests {
             self.forcing = Lanes(offsets.0.map(|offset| self.push * (t + offset).powi(self.power)));
         }
 
-        fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
-            acceleration[0] = self.forcing - splat(self.weight) * motion.sin[0];
-        }
-
-        fn sin_cos(angle: f64) -> (f64, f64) {
-            libm::sincos(angle)
+        fn acceleration(&mut self, states: States<'_>, acceleration: &mut [AtNodes]) {
+            acceleration[0] = self.forcing - splat(self.weight) * states.sin[0];
         }
     }
 
@@ -756,11 +628,8 @@ mod tests {
             fn go_to(&mut self, t: f64, offsets: AtNodes) {
                 self.0 = Lanes(offsets.0.map(|offset| forcing(t + offset)));
             }
-            fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
-                acceleration[0] = self.0 - motion.sin[0];
-            }
-            fn sin_cos(angle: f64) -> (f64, f64) {
-                libm::sincos(angle)
+            fn acceleration(&mut self, states: States<'_>, acceleration: &mut [AtNodes]) {
+                acceleration[0] = self.0 - states.sin[0];
             }
         }
         struct Plain;

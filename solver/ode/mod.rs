@@ -17,7 +17,7 @@ mod taylor;
 pub use control::{StepControl, Tolerance};
 pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince54;
-pub use gauss::{Accurate, AtNodes, Gauss, Motion, NODES, SecondOrder, solve_second_order};
+pub use gauss::{Accurate, AtNodes, Gauss, NODES, SecondOrder, States, solve_second_order};
 pub use interpolant::{Bernstein, Interpolant};
 pub use kutta_merson::KuttaMerson;
 pub use powers::{Difference, Powers};

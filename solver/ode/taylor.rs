@@ -590,6 +590,34 @@ mod tests {
     }
 
     #[test]
+    fn angles_stay_within_their_reach_and_go_one_way_where_that_is_said() {
+        let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
+        let angle = Difference { sign: 1.0, upper: 0, lower: None };
+        let mut one_way = [0, 0];
+        for (x, h) in [([1.2, -0.4], 0.2), ([1.2, 0.4], 0.2), ([0.3, 0.02], 0.2), ([0.0, 0.5], 0.1)] {
+            let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
+            assert!(taylor.attempt(&mut Pendulum, 0.0, &x, h, tolerance) <= 1.0);
+            for part in [1.0, 0.3] {
+                taylor.cut(part * h);
+                let places = (0..=50).map(|i| f64::from(i) / 50.0);
+                let states = places.map(|s| {
+                    let mut state = [0.0; 2];
+                    taylor.state_inside(s, &mut state);
+                    state
+                });
+                let states: Vec<[f64; 2]> = states.collect();
+                let moved = states.iter().map(|state| (state[0] - x[0]).abs()).fold(0.0, f64::max);
+                let turns = states.windows(2).any(|pair| pair[0][1] * pair[1][1] < 0.0);
+                assert!(moved <= taylor.reach(angle) * (1.0 + 1e-14), "{x:?} {part}: {moved} {}", taylor.reach(angle));
+                assert!(taylor.reach(angle) < 3.0 * moved + 0.02, "a bound of use: {x:?} {part}: {moved}");
+                assert!(!(turns && taylor.is_one_way(0)), "{x:?} {part}");
+                one_way[usize::from(taylor.is_one_way(0))] += 1;
+            }
+        }
+        assert!(one_way.iter().all(|count| *count > 0), "both are told: {one_way:?}");
+    }
+
+    #[test]
     fn the_interpolant_is_the_series() {
         let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
         let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);

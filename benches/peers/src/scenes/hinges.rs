@@ -17,7 +17,7 @@ use rocking::dynamics::{Dynamics, Ground};
 use rocking::excitation::{Piece, Segment};
 use rocking::generated::{GeneratedMode, equations};
 use rocking::ode::{
-    self, Accurate, AtNodes, Gauss, MAX_ORDER, Motion, Pair, SecondOrder, SeriesSystem, System, Taylor, Tolerance,
+    self, Accurate, AtNodes, Gauss, MAX_ORDER, Pair, SecondOrder, SeriesSystem, States, System, Taylor, Tolerance,
 };
 use rocking::pattern::Pattern;
 use rocking::program::Scalar;
@@ -139,13 +139,8 @@ impl SecondOrder for Driven<'_> {
     }
 
     #[inline(always)]
-    fn acceleration(&mut self, motion: Motion<'_>, acceleration: &mut [AtNodes]) {
-        self.mode.accelerations(motion, self.at_nodes, acceleration);
-    }
-
-    #[inline(always)]
-    fn sin_cos(angle: f64) -> (f64, f64) {
-        Scalar::sin_cos(angle)
+    fn acceleration(&mut self, states: States<'_>, acceleration: &mut [AtNodes]) {
+        self.mode.accelerations(states, self.at_nodes, acceleration);
     }
 }
 
