@@ -70,40 +70,44 @@ struct Instant<'a, S: Size> {
 }
 
 /// The column in one pattern, with its masses.
-#[derive(Clone)]
 struct Mechanism<'a, S: Size> {
-    pattern: Pattern,
+    states: S::List<Interface>,
     posture: Posture<'a, S>,
     mass: Factorised<S>,
 }
 
 impl<'a, S: Size> Instant<'a, S> {
+    #[inline(always)]
     fn new(size: S, column: &'a Column, theta: &'a [f64]) -> Instant<'a, S> {
         Instant { size, column, theta, turns: Turn::all(size, theta) }
     }
 
     #[inline(always)]
-    fn posture(&self, pattern: &Pattern) -> Posture<'a, S> {
-        Posture::of(self.size, self.column, pattern, &self.turns)
+    fn states(&self, pattern: &Pattern) -> S::List<Interface> {
+        self.size.copied(&pattern.0)
     }
 
     #[inline(always)]
-    fn mechanism(&self, pattern: &Pattern) -> Result<Mechanism<'a, S>, SingularMass> {
-        let posture = self.posture(pattern);
-        let mass = posture.factorised_mass().ok_or(SingularMass)?;
-        Ok(Mechanism { pattern: pattern.clone(), posture, mass })
+    fn posture(&self, states: &[Interface]) -> Posture<'a, S> {
+        Posture::of(self.size, self.column, states, &self.turns)
     }
 
-    /// Motion in a pattern at the blocks' rates.
+    #[inline(always)]
+    fn mechanism(&self, states: S::List<Interface>) -> Result<Mechanism<'a, S>, SingularMass> {
+        let posture = self.posture(&states);
+        let mass = posture.factorised_mass().ok_or(SingularMass)?;
+        Ok(Mechanism { states, posture, mass })
+    }
+
+    /// Motion in a posture at the blocks' rates.
     #[inline(always)]
     fn motion(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Motion<S> {
-        Motion { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.list_of(|block| omega[block]) }
+        Motion { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.copied(omega) }
     }
 }
 
 /// How one candidate pattern answers a contact problem.
-struct Answer<'a, S: Size> {
-    mechanism: Mechanism<'a, S>,
+struct Answer<S: Size> {
     /// Rates after an impact, or accelerations, per block.
     motion: S::List<f64>,
     resultants: S::List<ContactForce>,
@@ -111,45 +115,28 @@ struct Answer<'a, S: Size> {
     change: Motion<S>,
 }
 
-impl<S: Size> Answer<'_, S> {
-    fn pattern(&self) -> &Pattern {
-        &self.mechanism.pattern
-    }
-
-    /// Half the squared distance in the metric of the masses: what breaks ties.
-    fn distance(&self) -> f64 {
-        self.mechanism.posture.kinetic_energy(&self.change.linear, &self.change.angular)
-    }
-}
-
-/// A contact problem: which interfaces choose, and how a pattern is answered.
+/// A contact problem: which interfaces choose, and how a mechanism answers it.
 struct Problem<'i, 'a, S: Size, F> {
     instant: &'i Instant<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
-    free: S::List<bool>,
+    free: &'i [bool],
     /// Relative motion above which an open interface parts: zero of accelerations, rounding of rates.
     least_parting: f64,
     answer: F,
 }
 
-impl<'a, S: Size, F: Fn(Mechanism<'a, S>) -> Answer<'a, S>> Problem<'_, 'a, S, F> {
+impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> Problem<'_, 'a, S, F> {
     #[inline(always)]
-    fn answer(&self, pattern: &Pattern) -> Result<Answer<'a, S>, SingularMass> {
-        self.instant.mechanism(pattern).map(&self.answer)
-    }
-
-    #[inline(always)]
-    fn parts(&self, answer: &Answer<S>, interface: usize) -> bool {
-        let apart = f64::from(answer.pattern().0[interface].sign()) * relative(&answer.motion, interface);
-        apart >= self.least_parting
+    fn parts(&self, state: Interface, answer: &Answer<S>, interface: usize) -> bool {
+        f64::from(state.sign()) * relative(&answer.motion, interface) >= self.least_parting
     }
 
     /// What interface would rather be, if it is not content.
     #[inline(always)]
-    fn wish(&self, answer: &Answer<S>, interface: usize) -> Option<Interface> {
+    fn wish(&self, state: Interface, answer: &Answer<S>, interface: usize) -> Option<Interface> {
         let contact = answer.resultants[interface];
         let half_width = self.instant.column.contact_half_width(interface);
-        match answer.pattern().0[interface] {
+        match state {
             Interface::Closed => {
                 let reach = half_width * contact.normal;
                 (contact.moment.abs() > reach + VERGE * half_width * contact.normal.abs()).then_some(
@@ -157,82 +144,87 @@ impl<'a, S: Size, F: Fn(Mechanism<'a, S>) -> Answer<'a, S>> Problem<'_, 'a, S, F
                     if contact.moment < 0.0 { Interface::Right } else { Interface::Left },
                 )
             }
-            _ if !self.parts(answer, interface) || contact.normal < 0.0 => Some(Interface::Closed),
+            _ if !self.parts(state, answer, interface) || contact.normal < 0.0 => Some(Interface::Closed),
             _ => None,
         }
     }
 
     #[inline(always)]
-    fn is_admissible(&self, answer: &Answer<S>) -> bool {
-        chosen(&self.free).all(|interface| self.wish(answer, interface).is_none())
+    fn is_admissible(&self, states: &[Interface], answer: &Answer<S>) -> bool {
+        chosen(self.free).all(|interface| self.wish(states[interface], answer, interface).is_none())
     }
 
-    /// The admissible answer, or the nearest one whose opened interfaces part; `true` where it is a separation. `first` is a guess.
+    /// Puts the admissible pattern and its answer, or the nearest one whose opened interfaces part, in the place of a guess and its
+    /// answer; `true` where it is a separation.
     #[inline(always)]
-    fn solve(&self, first: Answer<'a, S>) -> Result<(Answer<'a, S>, bool), SingularMass> {
-        if self.is_admissible(&first) {
-            return Ok((first, false));
-        }
-        self.search(first)
+    fn solve(&self, guess: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
+        if self.is_admissible(&guess.states, answer) { Ok(false) } else { self.search(guess, answer) }
     }
 
     /// The same, where the guess is not admissible.
     #[inline(never)]
-    fn search(&self, first: Answer<'a, S>) -> Result<(Answer<'a, S>, bool), SingularMass> {
-        let (guess, choices) = (first.pattern().clone(), chosen(&self.free).count());
-        let mut visited: Vec<Pattern> = Vec::new();
-        let mut answer = first;
+    fn search(&self, mechanism: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
+        let (guess, choices) = (mechanism.states.clone(), chosen(self.free).count());
+        let go_to = |states: S::List<Interface>, mechanism: &mut Mechanism<'a, S>, answer: &mut Answer<S>| {
+            *mechanism = self.instant.mechanism(states)?;
+            *answer = (self.answer)(mechanism);
+            Ok(())
+        };
+        let mut visited: Vec<S::List<Interface>> = Vec::new();
+        let was_visited = |visited: &[S::List<Interface>], states: &[Interface]| visited.iter().any(|v| **v == *states);
         loop {
-            let wishes = chosen(&self.free).filter_map(|i| self.wish(&answer, i).map(|state| (i, state)));
-            let wishes: Few<_> = wishes.collect();
-            let Some(&(lowest, state)) = wishes.first() else { return Ok((answer, false)) };
-            let pattern = answer.pattern().clone();
-            visited.push(pattern.clone());
-            let mut next = pattern.clone();
-            wishes.iter().for_each(|&(interface, state)| next.0[interface] = state);
-            if visited.contains(&next) {
-                // All at once goes in circles: one at a time, from the base.
-                next = pattern;
-                next.0[lowest] = state;
+            let states = mechanism.states.clone();
+            let wishes = chosen(self.free).filter_map(|i| self.wish(states[i], answer, i).map(|state| (i, state)));
+            let mut next = states.clone();
+            let mut lowest = None;
+            for (interface, state) in wishes {
+                next[interface] = state;
+                lowest = lowest.or(Some((interface, state)));
             }
-            if visited.contains(&next) || visited.len() >= 8 * choices + 8 {
+            let Some((lowest, state)) = lowest else { return Ok(false) };
+            visited.push(states.clone());
+            if was_visited(&visited, &next) {
+                // All at once goes in circles: one at a time, from the base.
+                next = states;
+                next[lowest] = state;
+            }
+            if was_visited(&visited, &next) || visited.len() >= 8 * choices + 8 {
                 break;
             }
-            answer = self.answer(&next)?;
+            go_to(next, mechanism, answer)?;
         }
         let candidates = if choices <= MOST_ENUMERATED { self.all(&guess) } else { visited };
-        let mut nearest: Option<(Answer<'a, S>, f64)> = None;
+        let mut nearest: Option<(S::List<Interface>, f64)> = None;
         for candidate in candidates {
-            let answer = self.answer(&candidate)?;
-            if self.is_admissible(&answer) {
-                return Ok((answer, false));
+            go_to(candidate.clone(), mechanism, answer)?;
+            if self.is_admissible(&candidate, answer) {
+                return Ok(false);
             }
-            let mut opened = chosen(&self.free).filter(|&interface| candidate.0[interface].is_open());
-            let all_part = opened.all(|interface| self.parts(&answer, interface));
-            let distance = answer.distance();
+            let mut opened = chosen(self.free).filter(|&interface| candidate[interface].is_open());
+            let all_part = opened.all(|interface| self.parts(candidate[interface], answer, interface));
+            // In the metric of the masses, half the square.
+            let distance = mechanism.posture.kinetic_energy(&answer.change.linear, &answer.change.angular);
             if all_part && nearest.as_ref().is_none_or(|(_, least)| distance < *least) {
-                nearest = Some((answer, distance));
+                nearest = Some((candidate, distance));
             }
         }
-        match nearest {
-            Some((answer, _)) => Ok((answer, true)),
-            None => Ok((self.answer(&guess)?, true)),
-        }
+        go_to(nearest.map_or(guess, |(nearest, _)| nearest), mechanism, answer)?;
+        Ok(true)
     }
 
     /// All patterns that the free interfaces may take, those with few open interfaces first.
-    fn all(&self, base: &Pattern) -> Vec<Pattern> {
+    fn all(&self, base: &S::List<Interface>) -> Vec<S::List<Interface>> {
         let mut patterns = vec![base.clone()];
-        for interface in chosen(&self.free) {
+        for interface in chosen(self.free) {
             let states = [Interface::Closed, Interface::Right, Interface::Left];
-            let with = |pattern: &Pattern, state| {
+            let with = |pattern: &S::List<Interface>, state| {
                 let mut next = pattern.clone();
-                next.0[interface] = state;
+                next[interface] = state;
                 next
             };
             patterns = patterns.iter().flat_map(|p| states.map(|state| with(p, state))).collect();
         }
-        patterns.sort_by_key(Pattern::dof);
+        patterns.sort_by_key(|pattern| pattern.iter().filter(|state| state.is_open()).count());
         patterns
     }
 }
@@ -296,26 +288,26 @@ impl<S: Size> Motion<S> {
 
 /// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (MODEL.md section 5, item 1).
 #[inline(always)]
-fn project<'a, S: Size>(mechanism: Mechanism<'a, S>, before: &Motion<S>) -> Answer<'a, S> {
+fn project<S: Size>(mechanism: &Mechanism<S>, before: &Motion<S>) -> Answer<S> {
     let posture = &mechanism.posture;
     let mut rates = posture.generalised(&before.linear, &before.angular);
     mechanism.mass.solve(&mut rates);
     let motion = posture.angular(&rates);
     let change = Motion { linear: posture.linear(&rates), angular: motion.clone() }.less(before);
     let resultants = posture.resultants(&change.linear, &change.angular);
-    Answer { mechanism, motion, resultants, change }
+    Answer { motion, resultants, change }
 }
 
 /// The accelerations of a pattern at the blocks' rates, and what its contacts carry (MODEL.md section 4).
 #[inline(always)]
-fn accelerate<'a, S: Size>(mechanism: Mechanism<'a, S>, omega: &[f64], ground: Ground) -> Answer<'a, S> {
+fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], ground: Ground) -> Answer<S> {
     let posture = &mechanism.posture;
     let mut total = imposed_acceleration(posture, &posture.link_rates(omega), ground);
     let alpha = link_acceleration(posture, &mechanism.mass, &total);
     total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
     let motion = posture.angular(&alpha);
     let resultants = posture.resultants(&total, &motion);
-    Answer { mechanism, change: Motion { linear: total, angular: motion.clone() }, motion, resultants }
+    Answer { change: Motion { linear: total, angular: motion.clone() }, motion, resultants }
 }
 
 /// Restitution and rest, as a scene sets them.
@@ -354,41 +346,42 @@ fn impact_at<S: Size>(
     ground: Ground,
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
-    let posture = instant.posture(pattern);
+    let states = instant.states(pattern);
+    let posture = instant.posture(&states);
     let before = instant.motion(&posture, omega);
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
 
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
-    let mut guess = pattern.clone();
-    closing.iter().for_each(|&interface| guess.0[interface] = pattern.0[interface].mirror());
+    let mut guess = states.clone();
+    closing.iter().for_each(|&interface| guess[interface] = states[interface].mirror());
+    let mut mechanism = instant.mechanism(guess)?;
     // Closed ones, closing ones, and those that an earlier impact of the same instant has just opened.
     let free = instant.size.list_of(|interface| is_rounding(instant.theta, interface));
-    let answer = |candidate| project(candidate, &before);
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
-    let problem = Problem { instant, free, least_parting, answer };
-    let (plastic, mut separation) = problem.solve(problem.answer(&guess)?)?;
-    let free = problem.free;
+    let mut plastic = project(&mechanism, &before);
+    let projected = |candidate: &Mechanism<S>| project(candidate, &before);
+    let problem = Problem { instant, free: &free, least_parting, answer: projected };
+    let mut separation = problem.solve(&mut mechanism, &mut plastic)?;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
-    let is_striking = |&i: &usize| f64::from(pattern.0[i].sign()) * relative(omega, i) < 0.0;
+    let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
-    let rebound = restitute(&plastic, striking, &free, law.kappa, energy_before);
-    let rates = rebound.unwrap_or(plastic.motion);
-    let (forced, rates) = settle(instant, plastic.mechanism, rates, &free, ground, law.stick_angle)?;
-    let posture = &forced.mechanism.posture;
+    let rebound = restitute(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
+    let mut rates = rebound.unwrap_or(plastic.motion);
+    let mut forced = settle(instant, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
+    let posture = &mechanism.posture;
     let after = instant.motion(posture, &rates);
     let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
     let change = after.less(&before);
     let impulses = Few::from_slice(&posture.resultants(&change.linear, &change.angular));
 
-    let free = instant.size.list_of(may_open(instant, forced.pattern(), &rates));
-    let answer = |candidate| accelerate(candidate, &rates, ground);
-    let problem = Problem { instant, free, least_parting: 0.0, answer };
-    let (opened, has_flown) = problem.solve(forced)?;
-    separation |= has_flown;
+    let free = instant.size.list_of(may_open(instant, &mechanism.states, &rates));
+    let forces = |candidate: &Mechanism<S>| accelerate(candidate, &rates, ground);
+    let problem = Problem { instant, free: &free, least_parting: 0.0, answer: forces };
+    separation |= problem.solve(&mut mechanism, &mut forced)?;
     let energy_lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
     Ok(Decision {
-        pattern: opened.mechanism.pattern,
+        pattern: Pattern::from_states(&mechanism.states),
         omega: Few::from_slice(&rates),
         separation,
         energy_lost,
@@ -406,17 +399,18 @@ pub(crate) fn stick(
     closing: &[usize],
 ) -> Result<Decision, SingularMass> {
     let instant = Instant::new(Any(column.len()), column, theta);
-    let posture = instant.posture(pattern);
+    let mut states = instant.states(pattern);
+    let posture = instant.posture(&states);
     let before = instant.motion(&posture, omega);
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
-    let mut closed = pattern.clone();
-    closing.iter().for_each(|&interface| closed.0[interface] = Interface::Closed);
-    let answer = project(instant.mechanism(&closed)?, &before);
-    let posture = &answer.mechanism.posture;
+    closing.iter().for_each(|&interface| states[interface] = Interface::Closed);
+    let mechanism = instant.mechanism(states)?;
+    let answer = project(&mechanism, &before);
+    let posture = &mechanism.posture;
     let after = instant.motion(posture, &answer.motion);
     let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
     Ok(Decision {
-        pattern: closed,
+        pattern: Pattern::from_states(&mechanism.states),
         omega: Few::from_slice(&answer.motion),
         separation: true,
         energy_lost: if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 },
@@ -426,14 +420,15 @@ pub(crate) fn stick(
 
 /// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or MODEL.md leaves it out.
 fn restitute<S: Size>(
+    mechanism: &Mechanism<S>,
     plastic: &Answer<S>,
     striking: impl Iterator<Item = usize>,
     free: &[bool],
     kappa: &[f64],
     energy_before: f64,
 ) -> Option<S::List<f64>> {
-    let Mechanism { pattern, posture, mass } = &plastic.mechanism;
-    let rebounding: Few<usize> = striking.filter(|&i| pattern.0[i].is_open()).collect();
+    let Mechanism { states, posture, mass } = mechanism;
+    let rebounding: Few<usize> = striking.filter(|&i| states[i].is_open()).collect();
     if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
         return None;
     }
@@ -472,8 +467,8 @@ fn restitute<S: Size>(
     let rebound = posture.angular(&rates);
 
     let flips = |i: usize| {
-        let sign = f64::from(pattern.0[i].sign());
-        pattern.0[i].is_open() && sign * relative(&plastic.motion, i) > 0.0 && sign * relative(&rebound, i) < 0.0
+        let sign = f64::from(states[i].sign());
+        states[i].is_open() && sign * relative(&plastic.motion, i) > 0.0 && sign * relative(&rebound, i) < 0.0
     };
     let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
     let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
@@ -490,32 +485,33 @@ const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 /// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest): all of them at
 /// once, judged by the rates and accelerations before any of them is closed. What then hops by less than angles resolve is
 /// closed as well.
-/// Answers with the forces in the pattern that is left, and its rates.
+/// Mechanism and rates are then those that are left; answers with their forces.
+#[inline(always)]
 fn settle<'a, S: Size>(
     instant: &Instant<'a, S>,
-    mut mechanism: Mechanism<'a, S>,
-    mut rates: S::List<f64>,
+    mechanism: &mut Mechanism<'a, S>,
+    rates: &mut S::List<f64>,
     free: &[bool],
     ground: Ground,
     stick_angle: f64,
-) -> Result<(Answer<'a, S>, S::List<f64>), SingularMass> {
+) -> Result<Answer<S>, SingularMass> {
     let mut height = stick_angle;
     loop {
-        let forced = accelerate(mechanism, &rates, ground);
-        let pattern = forced.pattern();
+        let forced = accelerate(mechanism, rates, ground);
+        let states = &mechanism.states;
         let hops_short = |interface: usize| {
-            let sign = f64::from(pattern.0[interface].sign());
-            let (rate, back) = (relative(&rates, interface), -sign * relative(&forced.motion, interface));
-            pattern.0[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * height
+            let sign = f64::from(states[interface].sign());
+            let (rate, back) = (relative(rates, interface), -sign * relative(&forced.motion, interface));
+            states[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * height
         };
         if !chosen(free).any(hops_short) {
-            return Ok((forced, rates));
+            return Ok(forced);
         }
-        let mut closed = pattern.clone();
-        chosen(free).filter(|i| hops_short(*i)).for_each(|interface| closed.0[interface] = Interface::Closed);
-        let before = instant.motion(&forced.mechanism.posture, &rates);
-        let answer = project(instant.mechanism(&closed)?, &before);
-        (mechanism, rates) = (answer.mechanism, answer.motion);
+        let mut closed = states.clone();
+        chosen(free).filter(|i| hops_short(*i)).for_each(|interface| closed[interface] = Interface::Closed);
+        let before = instant.motion(&mechanism.posture, rates);
+        *mechanism = instant.mechanism(closed)?;
+        *rates = project(mechanism, &before).motion;
         height = height.min(UNRESOLVED_HOP);
     }
 }
@@ -537,13 +533,13 @@ pub fn open(
     for_size!(column.len(), size => open_at(&Instant::new(size, column, theta), pattern, omega, ground, released))
 }
 
-/// Whether an interface of a pattern is closed, or has only just opened: it may choose its state anew.
+/// Whether an interface is closed, or has only just opened: it may choose its state anew.
 fn may_open<'f, S: Size>(
     instant: &'f Instant<S>,
-    pattern: &'f Pattern,
+    states: &'f [Interface],
     omega: &'f [f64],
 ) -> impl Fn(usize) -> bool + 'f {
-    move |i: usize| !pattern.0[i].is_open() || is_motionless(instant.theta, omega, i)
+    move |i: usize| !states[i].is_open() || is_motionless(instant.theta, omega, i)
 }
 
 fn open_at<S: Size>(
@@ -553,24 +549,27 @@ fn open_at<S: Size>(
     ground: Ground,
     released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
-    let mut guess = pattern.clone();
-    let mut free = instant.size.list_of(may_open(instant, pattern, omega));
+    let mut guess = instant.states(pattern);
+    let mut free = instant.size.list_of(may_open(instant, &guess, omega));
     for &(interface, side) in released {
-        guess.0[interface] = side;
+        guess[interface] = side;
         free[interface] = false;
     }
-    let answer = |candidate| accelerate(candidate, omega, ground);
-    let mut problem = Problem { instant, free, least_parting: 0.0, answer };
-    let (mut answer, mut separation) = problem.solve(problem.answer(&guess)?)?;
+    let mut mechanism = instant.mechanism(guess)?;
+    let mut answer = accelerate(&mechanism, omega, ground);
+    let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
+    let problem = Problem { instant, free: &free, least_parting: 0.0, answer: &forces };
+    let mut separation = problem.solve(&mut mechanism, &mut answer)?;
     let tolerance = verge_acceleration(instant.column, &answer.motion, ground);
     let is_driven_back =
         |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
     let driven_back: Few<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
-        driven_back.iter().for_each(|&interface| problem.free[interface] = true);
-        (answer, separation) = problem.solve(answer)?;
+        driven_back.iter().for_each(|&interface| free[interface] = true);
+        let problem = Problem { instant, free: &free, least_parting: 0.0, answer: &forces };
+        separation = problem.solve(&mut mechanism, &mut answer)?;
     }
-    let (pattern, omega) = (answer.mechanism.pattern, Few::from_slice(omega));
+    let (pattern, omega) = (Pattern::from_states(&mechanism.states), Few::from_slice(omega));
     Ok(Decision { pattern, omega, separation, energy_lost: 0.0, impulses: Few::new() })
 }
 
@@ -654,26 +653,30 @@ mod tests {
                 return Ok(());
             }
             let instant = &Instant::new(Any(column.len()), &column, &theta);
-            let before = instant.motion(&instant.posture(&pattern), &omega);
-            let free = instant.size.list_of(|i| !pattern.0[i].is_open() || closing.contains(&i));
-            let answer = |candidate| project(candidate, &before);
-            let problem = Problem { instant, free, least_parting: f64::MIN_POSITIVE, answer };
+            let states = instant.states(&pattern);
+            let before = instant.motion(&instant.posture(&states), &omega);
+            let free = instant.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
+            let answer = |candidate: &Mechanism<Any>| project(candidate, &before);
+            let problem = Problem { instant, free: &free, least_parting: f64::MIN_POSITIVE, answer };
             let mut admissible = Vec::new();
-            for candidate in problem.all(&pattern) {
-                let answer = problem.answer(&candidate).expect("solvable");
-                if problem.is_admissible(&answer) {
-                    admissible.push(answer);
+            for candidate in problem.all(&states) {
+                let mechanism = instant.mechanism(candidate).expect("solvable");
+                let answer = (problem.answer)(&mechanism);
+                if problem.is_admissible(&mechanism.states, &answer) {
+                    let distance = mechanism.posture.kinetic_energy(&answer.change.linear, &answer.change.angular);
+                    admissible.push((answer, distance));
                 }
             }
             total.set(total.get() + 1);
             unique.set(unique.get() + usize::from(admissible.len() == 1));
-            let first = problem.answer(&pattern).expect("solvable");
-            let (found, separation) = problem.solve(first).map_err(|_| ()).expect("solvable");
+            let mut mechanism = instant.mechanism(states).expect("solvable");
+            let mut found = (problem.answer)(&mechanism);
+            let separation = problem.solve(&mut mechanism, &mut found).expect("solvable");
             prop_assert_eq!(separation, admissible.is_empty());
-            if let Some(best) = admissible.iter().min_by(|a, b| a.distance().total_cmp(&b.distance())) {
+            if let Some((best, _)) = admissible.iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
                 for (a, b) in found.motion.iter().zip(&*best.motion) {
                     // Both are solves of systems with a condition number of some thousands.
-                    prop_assert!((a - b).abs() < 1e-10, "{} and {}", found.pattern(), best.pattern());
+                    prop_assert!((a - b).abs() < 1e-10, "{:?} and {:?}", found.motion, best.motion);
                 }
             }
             Ok(())

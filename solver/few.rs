@@ -35,6 +35,14 @@ pub trait Size: Copy {
     /// A table with a row per block and this number of columns.
     fn table<T: Copy>(self, columns: usize, fill: T) -> Self::Table<T>;
 
+    /// A list with the first entries of another one, one per block.
+    #[inline(always)]
+    fn copied<T: Copy>(self, entries: &[T]) -> Self::List<T> {
+        let mut list = self.list(entries[0]);
+        list.copy_from_slice(&entries[..self.blocks()]);
+        list
+    }
+
     /// A list made entry by entry.
     #[inline(always)]
     fn list_of<T: Copy + Default>(self, entry: impl Fn(usize) -> T) -> Self::List<T> {

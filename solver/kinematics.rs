@@ -10,7 +10,7 @@ use crate::column::{Block, Column};
 use crate::dynamics::ContactForce;
 use crate::few::{Any, Size};
 use crate::sine;
-use rocking_codegen::pattern::Pattern;
+use rocking_codegen::pattern::{Interface, Pattern};
 
 /// A vector of the plane, `[x, y]`.
 pub type Vec2 = [f64; 2];
@@ -83,18 +83,18 @@ impl<'a> Posture<'a> {
     /// angles.
     pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
         let size = Any(column.len());
-        Posture::of(size, column, pattern, &Turn::all(size, theta))
+        Posture::of(size, column, &pattern.0, &Turn::all(size, theta))
     }
 }
 
 impl<'a, S: Size> Posture<'a, S> {
-    /// The geometry where the blocks are turned like this.
-    pub(crate) fn of(size: S, column: &'a Column, pattern: &Pattern, turns: &S::List<Turn>) -> Posture<'a, S> {
+    /// The geometry where interfaces are in these states and blocks are turned like this.
+    pub(crate) fn of(size: S, column: &'a Column, states: &[Interface], turns: &S::List<Turn>) -> Posture<'a, S> {
         let (mut link, mut dof) = (size.list(0), 0);
         let (mut pivots, mut centroid) = (size.list([0.0, 0.0]), size.list([0.0, 0.0]));
         let (mut lower, mut contact_centre) = (size.list(Turn::NONE), size.list([0.0, 0.0]));
         let (mut centre, mut below) = ([0.0, 0.0], Turn::NONE);
-        let (blocks, states) = (&column.blocks()[..size.blocks()], &pattern.0[..size.blocks()]);
+        let (blocks, states) = (&column.blocks()[..size.blocks()], &states[..size.blocks()]);
         for index in 0..size.blocks() {
             contact_centre[index] = centre;
             lower[index] = below;

@@ -428,9 +428,11 @@ impl<V: StateVector> Phase<V> {
 
     /// Hands the state back to the run.
     fn leave(&mut self, run: &mut Run) {
-        let (theta, omega) = self.per_block(&self.x);
-        run.theta.copy_from_slice(&theta);
-        run.omega.copy_from_slice(&omega);
+        let (angles, rates) = self.x.as_slice().split_at(self.dof);
+        for (link, (theta, omega)) in self.links.iter().zip(run.theta.iter_mut().zip(run.omega.iter_mut())) {
+            let of = |values: &[f64]| link.checked_sub(1).map_or(0.0, |link| values[link]);
+            (*theta, *omega) = (of(angles), of(rates));
+        }
         run.note_peaks();
     }
 }

@@ -19,6 +19,9 @@ use std::collections::BTreeMap;
 /// has not moved, as a separation. Fewer, and instants at which several interfaces are on the verge are cut short.
 const EVENTS_AT_ONCE: usize = 8;
 
+/// Room made for events when the first one comes.
+const USUAL_EVENTS: usize = 16;
+
 /// Shortest time for which guards that are below zero after a separation are left alone `[s]`; it doubles while separations
 /// follow each other. Shorter, and a column in flight costs thousands of contact problems; longer, and contact is regained late.
 const SHORTEST_HOLD: f64 = 1e-6;
@@ -261,9 +264,8 @@ impl<'a> Run<'a> {
         if at_rest && !rest::may_open(self) {
             return Ok(());
         }
-        let before = self.pattern.clone();
         let decision = self.decide_forces(&[])?;
-        self.adopt(decision, EventKind::Start);
+        let (before, _) = self.adopt(decision, EventKind::Start);
         if at_rest && self.pattern != before {
             self.record(EventKind::Start, &[], before, self.omega.clone(), None);
         }
@@ -314,21 +316,19 @@ impl<'a> Run<'a> {
 
     /// Adopts and records what an impact has decided.
     fn strike(&mut self, mut decision: Decision, closing: &[usize]) {
-        let (before, omega_before) = (self.pattern.clone(), Few::from_slice(&self.omega));
         let impulses = std::mem::take(&mut decision.impulses);
         let lost = decision.energy_lost;
-        self.adopt(decision, EventKind::Impact);
+        let (before, omega_before) = self.adopt(decision, EventKind::Impact);
         self.record(EventKind::Impact, closing, before, omega_before, Some((lost, impulses)));
     }
 
     /// Interfaces that had opened on the verge are driven back before they have moved: no impact, they are closed again, and those
     /// that opened in the same instant stay open.
     fn withdraw(&mut self, closing: &[usize]) -> Result<(), SolveError> {
-        let before = self.pattern.clone();
-        let mut pattern = before.clone();
+        let mut pattern = self.pattern.clone();
         closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
         let released: Vec<_> = self.released.iter().copied().filter(|(i, _)| !closing.contains(i)).collect();
-        self.adopt(
+        let (before, _) = self.adopt(
             Decision { pattern, omega: self.omega.clone(), separation: false, energy_lost: 0.0, impulses: Few::new() },
             EventKind::Impact,
         );
@@ -339,7 +339,6 @@ impl<'a> Run<'a> {
 
     /// An interface opens because its resultant has reached a corner, with those that have done so in the same instant.
     fn release(&mut self, interface: usize, side: Interface, kind: EventKind) -> Result<(), SolveError> {
-        let before = self.pattern.clone();
         let mut released = std::mem::take(&mut self.released);
         if self.history.last_events[1] != self.t {
             released.clear();
@@ -347,7 +346,7 @@ impl<'a> Run<'a> {
         released.retain(|(other, _)| *other != interface);
         released.push((interface, side));
         let decision = self.decide_forces(&released)?;
-        self.adopt(decision, kind);
+        let (before, _) = self.adopt(decision, kind);
         self.released = released;
         let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
         self.record(kind, opened, before, Few::from_slice(&self.omega), None);
@@ -356,10 +355,9 @@ impl<'a> Run<'a> {
 
     /// The ground acceleration has jumped: every closed interface is examined anew.
     fn jump(&mut self) -> Result<(), SolveError> {
-        let before = self.pattern.clone();
+        let kind = if self.pattern.dof() == 0 { EventKind::Start } else { EventKind::Jump };
         let decision = self.decide_forces(&[])?;
-        let kind = if before.dof() == 0 { EventKind::Start } else { EventKind::Jump };
-        self.adopt(decision, kind);
+        let (before, _) = self.adopt(decision, kind);
         if self.pattern != before {
             self.record(kind, &[], before, self.omega.clone(), None);
         }
@@ -376,15 +374,16 @@ impl<'a> Run<'a> {
         decision.map_err(|_| SolveError::SingularMass { time: self.t, pattern: self.pattern.to_string() })
     }
 
-    fn adopt(&mut self, decision: Decision, during: EventKind) {
+    /// Goes on with a decision; the pattern and the rates before.
+    fn adopt(&mut self, decision: Decision, during: EventKind) -> (Pattern, Few<f64>) {
         if decision.separation {
             self.history.separations.push(Separation { t: self.t, during });
             let is_repeated = self.t - self.hold.until <= 100.0 * self.hold.span;
             self.hold.span = if is_repeated { (2.0 * self.hold.span).min(LONGEST_HOLD) } else { SHORTEST_HOLD };
             self.hold.until = self.t + self.hold.span;
         }
-        self.pattern = decision.pattern;
-        self.omega = decision.omega;
+        let pattern = std::mem::replace(&mut self.pattern, decision.pattern);
+        let rates = std::mem::replace(&mut self.omega, decision.omega);
         self.released.clear();
         // What is closed, or has only just opened, is so to the last bit. Decided before anything is moved: a block that is snapped
         // to the one below must not open a gap to the one above.
@@ -399,6 +398,7 @@ impl<'a> Run<'a> {
                 self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
             }
         }
+        (pattern, rates)
     }
 
     /// Whether the ground has come to rest for good, and the outcome alone is wanted.
@@ -415,7 +415,7 @@ impl<'a> Run<'a> {
         }
         let column = &self.scene.column;
         let above_rest = for_size!(column.len(), size => {
-            let posture = Posture::of(size, column, &self.pattern, &Turn::all(size, theta));
+            let posture = Posture::of(size, column, &self.pattern.0, &Turn::all(size, theta));
             let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
             kinetic + (posture.potential_energy(column.gravity()) - rest::energy(column).potential)
         });
@@ -438,6 +438,9 @@ impl<'a> Run<'a> {
         }
         let (energy_lost, impulses) = impact.unzip();
         let (mode_before, mode) = (ModeName::of(&before), ModeName::of(&self.pattern));
+        if self.history.events.is_empty() {
+            self.history.events.reserve(USUAL_EVENTS);
+        }
         let numbers: Few<usize> = interfaces.iter().map(|interface| interface + 1).collect();
         self.history.events.push(Event {
             t: self.t,

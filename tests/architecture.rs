@@ -92,7 +92,7 @@ fn the_generic_dynamics_share_no_formula_with_the_generator() {
     for file in ["solver/generic.rs", "solver/kinematics.rs"] {
         let code = source(file);
         let shared = code.lines().filter(|line| line.contains("rocking_codegen"));
-        assert!(shared.clone().all(|line| line == "use rocking_codegen::pattern::Pattern;"), "{file}");
+        assert!(shared.clone().all(|line| line.starts_with("use rocking_codegen::pattern::")), "{file}");
         lacks(file, &code, &["generated", "equations::"]);
     }
 }

@@ -66,7 +66,7 @@ pub struct Pattern(pub SmallVec<[Interface; 16]>);
 // As one piece: the list's own goes entry by entry.
 impl Clone for Pattern {
     fn clone(&self) -> Pattern {
-        Pattern(SmallVec::from_slice(&self.0))
+        Pattern::from_states(&self.0)
     }
 
     fn clone_from(&mut self, other: &Pattern) {
@@ -84,6 +84,11 @@ impl Pattern {
     /// The pattern with these signs, base first.
     pub fn from_signs(signs: &[i8]) -> Pattern {
         Pattern(signs.iter().map(|&sign| Interface::from_sign(sign)).collect())
+    }
+
+    /// The pattern with these states, base first.
+    pub fn from_states(states: &[Interface]) -> Pattern {
+        Pattern(SmallVec::from_slice(states))
     }
 
     /// `+1`, `0`, `-1` per interface, base first.

@@ -302,9 +302,16 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         reach[angles.upper][0] + angles.lower.map_or(0.0, |lower| reach[lower][0])
     }
 
-    /// Whether an angle surely goes one way all through the last attempt.
+    /// Whether an angle surely goes one way all through the last attempt: its rate, taken positive at first, is above zero at the end
+    /// even without the terms that add to it beyond the first order. What is left is concave, so it is above zero in between.
     pub fn is_one_way(&self, link: usize) -> bool {
-        rate_of(&self.driver[0].as_ref()[link]).abs() > self.reach.as_ref()[link][1]
+        let (start, first) =
+            (rate_of(&self.driver[0].as_ref()[link]), self.h * rate_of(&self.driver[1].as_ref()[link]));
+        let way = if start == 0.0 { first } else { start };
+        let end = self.end.as_slice()[self.cos_ddot.as_slice().len() + link];
+        let [start, first, end] = [start, first, end].map(|rate| if way < 0.0 { -rate } else { rate });
+        let (sum, size) = (end - start - first, self.reach.as_ref()[link][1] - first.abs());
+        start + first + 0.5 * (sum - size) > 0.0
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Margins of a closed interface over a swing of one free angle: trigonometric polynomials, and where they come down to zero.
 
-use super::pendulum::FIFTHS;
+use super::pendulum::Wave;
 use crate::event::Track;
 use crate::ode::{MAX_ORDER, Powers};
 use wide::f64x2;
@@ -22,28 +22,28 @@ const LONGEST_WAY: f64 = 0.6;
 const VERGE: f64 = 1e-9;
 
 impl Harmonics {
-    /// Adds the share of a value at one of the fifths of a turn.
-    pub fn add(&mut self, number: usize, value: f64x2) {
-        self.mean += value * f64x2::splat(0.2);
-        for (harmonic, turn) in [(&mut self.first, FIFTHS[number]), (&mut self.second, FIFTHS[2 * number % 5])] {
-            for (part, share) in harmonic.iter_mut().zip(turn) {
-                *part += value * f64x2::splat(0.4 * share);
-            }
+    /// Adds so much of a wave.
+    #[inline(always)]
+    pub fn add(&mut self, share: f64x2, wave: &Wave) {
+        let [mean, first @ .., cos, sin] = wave.map(|part| share * f64x2::splat(part));
+        self.mean += mean;
+        for (part, own) in self.first.iter_mut().chain(&mut self.second).zip(first.into_iter().chain([cos, sin])) {
+            *part += own;
         }
     }
 
-    /// The same from an angle further on.
-    fn from(&self, angle: f64) -> Harmonics {
-        let turned = |[of_cos, of_sin]: [f64x2; 2], angle: f64| {
-            let (sin, cos) = libm::sincos(angle);
+    /// The same from an angle further on, of this sine and cosine.
+    pub fn from(&self, (sin, cos): (f64, f64)) -> Harmonics {
+        let turned = |[of_cos, of_sin]: [f64x2; 2], sin: f64, cos: f64| {
             let (sin, cos) = (f64x2::splat(sin), f64x2::splat(cos));
             [of_cos * cos + of_sin * sin, of_sin * cos - of_cos * sin]
         };
-        Harmonics { mean: self.mean, first: turned(self.first, angle), second: turned(self.second, 2.0 * angle) }
+        let second = turned(self.second, 2.0 * sin * cos, (cos - sin) * (cos + sin));
+        Harmonics { mean: self.mean, first: turned(self.first, sin, cos), second }
     }
 
     /// At the start.
-    fn start(&self) -> f64x2 {
+    pub fn start(&self) -> f64x2 {
         self.mean + self.first[0] + self.second[0]
     }
 
@@ -67,7 +67,7 @@ impl Harmonics {
         let pieces = (way.abs() / LONGEST_WAY).ceil();
         let (own, mut piece) = (way / pieces, 0.0);
         while piece < pieces {
-            let here = if piece > 0.0 { self.from(piece * own) } else { *self };
+            let here = if piece > 0.0 { self.from(libm::sincos(piece * own)) } else { *self };
             let least = here.least(own).to_array();
             let doubtful = (0..2).filter(|side| least[*side] <= 0.0);
             let root = |side: usize| {
@@ -117,17 +117,15 @@ mod tests {
 
     fn harmonics() -> Harmonics {
         let mut harmonics = Harmonics::default();
-        for number in 0..5 {
-            let value = right(number as f64 * std::f64::consts::TAU / 5.0);
-            harmonics.add(number, f64x2::new([value, value + 10.0]));
-        }
+        harmonics.add(f64x2::ONE, &[2.0, 1.0, -3.0, 0.5, 0.25]);
+        harmonics.add(f64x2::new([0.0, 10.0]), &[1.0, 0.0, 0.0, 0.0, 0.0]);
         harmonics
     }
 
     #[test]
-    fn five_values_tell_a_polynomial_of_degree_two() {
+    fn from_an_angle_on_they_are_the_same() {
         for psi in [-2.5, -0.4, 0.0, 0.3, 1.7] {
-            let found = harmonics().from(psi).start().to_array();
+            let found = harmonics().from(libm::sincos(psi)).start().to_array();
             assert!((found[0] - right(psi)).abs() < 4e-15 && (found[1] - right(psi) - 10.0).abs() < 8e-15, "{psi}");
         }
     }
@@ -148,6 +146,6 @@ mod tests {
         }
         assert_eq!(harmonics().opening(0.9 * above), Ok(None));
         assert_eq!(harmonics().opening(-0.5), Ok(None), "the other way it stays closed");
-        assert_eq!(harmonics().from(above).opening(0.1), Err(OnTheVerge));
+        assert_eq!(harmonics().from(libm::sincos(above)).opening(0.1), Err(OnTheVerge));
     }
 }

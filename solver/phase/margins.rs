@@ -14,7 +14,7 @@
 //! of `G` take two convolutions, and sums over them bound `G` on the whole step.
 
 use super::harmonics::Harmonics;
-use super::pendulum::Place;
+use super::pendulum::Waves;
 use crate::column::Column;
 use crate::dynamics::StateVector;
 use crate::event::Track;
@@ -91,24 +91,25 @@ impl Margins {
         }
     }
 
-    /// The margins of the closed interface of this index over a swing of the only link on a ground that does not move. With the square
-    /// of the rate, which varies as the cosine of the angle, they are trigonometric polynomials of degree two: five values tell them.
-    pub fn over_swing(&self, index: usize, gravity: f64, fifths: &[Place; 5]) -> Harmonics {
-        let corners = &self.corners[index];
-        let mut harmonics = Harmonics::default();
-        for (number, Place { cos, sin, acceleration, square_of_rate }) in fifths.iter().enumerate() {
-            let second = [-sin * acceleration - cos * square_of_rate, cos * acceleration - sin * square_of_rate];
-            let [of_cos, of_sin] = self.weights(corners, |_| second, [0.0, gravity]);
-            let value = match corners.link {
-                0 => of_cos,
-                _ => {
-                    let rotary = corners.inertia * f64x2::splat(*acceleration);
-                    f64x2::splat(*cos) * of_cos + f64x2::splat(*sin) * of_sin + rotary
-                }
-            };
-            harmonics.add(number, value);
+    /// The margins of the closed interface of this index over a swing of the only link on a ground that does not move, over the angle
+    /// from its start: below the link it bears the link's push, inside it is part of the pendulum.
+    pub fn over_swing(&self, index: usize, gravity: f64, waves: &Waves) -> Harmonics {
+        let (corners, [moment, _]) = (&self.corners[index], self.links[0]);
+        let [u, v] = corners.base.map(|base| f64x2::splat(-gravity) * base);
+        let mut margins = Harmonics::default();
+        if corners.link == 0 {
+            let ([top_u, top_v], [moment_u, moment_v]) = (corners.top, moment.map(f64x2::splat));
+            margins.add(u, &[1.0, 0.0, 0.0, 0.0, 0.0]);
+            margins.add(top_v * moment_u - top_u * moment_v, &waves.cos_ddot);
+            margins.add(top_v * moment_v + top_u * moment_u, &waves.sin_ddot);
+        } else {
+            let [cross, dot] = corners.own;
+            margins.add(u, &waves.cos);
+            margins.add(v, &waves.sin);
+            margins.add(-cross, &waves.square_of_rate);
+            margins.add(dot + corners.inertia, &waves.acceleration);
         }
-        harmonics
+        margins.from(waves.start)
     }
 
     /// Taylor terms of both margins at `reach`, up to the series' order; `None` as soon as `is_enough` of an order and its term.
@@ -306,6 +307,41 @@ mod tests {
                         let slack = 1e-10 * lever.abs().max(moment.abs());
                         for (found, expected) in found.to_array().into_iter().zip([lever + moment, lever - moment]) {
                             assert!((found - expected).abs() < slack, "{pattern} {interface} {s}: {found} {expected}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn harmonics_are_the_moments_about_both_corners() {
+        for blocks in 2..=4 {
+            let column = column(blocks);
+            let single = modes(blocks).map(|(_, pattern)| pattern).filter(|pattern| pattern.dof() == 1);
+            for pattern in single.flat_map(|pattern| [pattern.mirror(), pattern]) {
+                let (mode, margins) = (Rc::new(GenericMode::new(&column, &pattern)), Margins::new(&column, &pattern));
+                let mut series = TaylorSeries::new(mode, Rc::new(margins.clone()), column.gravity(), TOLERANCE.rtol);
+                let sign = f64::from(pattern.0.iter().map(|interface| interface.sign()).sum::<i8>());
+                let pendulum = series.pendulum().expect("it is driven");
+                let start = pendulum.beyond(0.02 * sign, sign);
+                let swing = pendulum.swing(start, 0.3);
+                let waves = pendulum.waves(&swing, sign);
+                for (index, interface) in (0..blocks).filter(|i| !pattern.0[*i].is_open()).enumerate() {
+                    let harmonics = margins.over_swing(index, column.gravity(), &waves);
+                    for way in [0.0, 0.01, -0.015] {
+                        let rate = swing.rate_at(start + way).expect("it comes there");
+                        let state = vec![pendulum.theta(start + way, sign), sign * rate];
+                        let mut forces = vec![ContactForce::default(); blocks];
+                        series.weigh(0.0, &state, Interfaces::Closed, &mut forces);
+                        let ContactForce { normal, moment, .. } = forces[interface];
+                        let lever = column.contact_half_width(interface) * normal;
+                        let found = harmonics.from(libm::sincos(way)).start().to_array();
+                        for (found, expected) in found.into_iter().zip([lever + moment, lever - moment]) {
+                            assert!(
+                                (found - expected).abs() < 1e-12 * lever,
+                                "{pattern} {interface} {way}: {found} {expected}"
+                            );
                         }
                     }
                 }

@@ -28,6 +28,8 @@ pub(crate) struct Swing {
     v: f64,
     q: f64,
     kappa: f64,
+    /// `ψ` where it turns, at rate zero, if it is going to.
+    turn: Option<f64>,
 }
 
 impl Pendulum {
@@ -48,48 +50,53 @@ impl Pendulum {
         self.balance + sign * psi
     }
 
-    /// A swing at its start and further on by fifths of a turn.
-    pub fn fifths(&self, swing: &Swing, sign: f64) -> [Place; 5] {
-        let ((sin, cos), (sin_psi, cos_psi)) = (libm::sincos(self.theta(swing.psi, sign)), libm::sincos(swing.psi));
+    /// The way of a swing to this side, as waves over `ψ`.
+    pub fn waves(&self, swing: &Swing, sign: f64) -> Waves {
+        let ((sin, cos), start) = (libm::sincos(self.balance), libm::sincos(swing.psi));
         let square = self.rate * self.rate;
-        FIFTHS.map(|[c, s]| {
-            let fallen = cos_psi - (cos_psi * c - sin_psi * s);
-            Place {
-                cos: cos * c - sign * sin * s,
-                sin: sin * c + sign * cos * s,
-                acceleration: sign * square * (sin_psi * c + cos_psi * s),
-                square_of_rate: swing.v * swing.v + 2.0 * square * fallen,
-            }
-        })
+        // θ̇² = energy - 2 p² cos ψ
+        let energy = swing.v * swing.v + 2.0 * square * start.1;
+        let (once, twice) = (0.5 * square, 1.5 * square);
+        Waves {
+            cos: [0.0, cos, -sign * sin, 0.0, 0.0],
+            sin: [0.0, sin, sign * cos, 0.0, 0.0],
+            acceleration: [0.0, 0.0, sign * square, 0.0, 0.0],
+            square_of_rate: [energy, -2.0 * square, 0.0, 0.0, 0.0],
+            cos_ddot: [once * cos, -energy * cos, energy * sign * sin, twice * cos, -twice * sign * sin],
+            sin_ddot: [once * sin, -energy * sin, -energy * sign * cos, twice * sin, twice * sign * cos],
+            start,
+        }
     }
 
     /// The swing through `ψ` with rate `v`.
     pub fn swing(&self, psi: f64, v: f64) -> Swing {
         let (p, q) = (self.rate, square_of_half_sine(psi));
-        Swing { p, psi, v, q, kappa: q - v * v / (4.0 * p * p) }
+        let kappa = q - v * v / (4.0 * p * p);
+        let turns = kappa > 0.0 && v * psi < 0.0;
+        Swing { p, psi, v, q, kappa, turn: turns.then(|| 2.0 * libm::asin(kappa.sqrt()).copysign(psi)) }
     }
 }
 
-/// Cosines and sines of fifths of a turn.
-pub(crate) const FIFTHS: [[f64; 2]; 5] = [
-    [1.0, 0.0],
-    [0.309_016_994_374_947_45, 0.951_056_516_295_153_5],
-    [-0.809_016_994_374_947_5, 0.587_785_252_292_473_1],
-    [-0.809_016_994_374_947_5, -0.587_785_252_292_473_1],
-    [0.309_016_994_374_947_45, -0.951_056_516_295_153_5],
-];
+/// A trigonometric polynomial of degree two in an angle `ψ`: mean, and shares of `cos ψ`, `sin ψ`, `cos 2ψ`, `sin 2ψ`.
+pub(crate) type Wave = [f64; 5];
 
-/// A place of a swing, which it need not come to.
+/// The way of a swing over the angle `ψ` beyond the balance, places that it does not come to included.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    /// Of the angle `θ`.
-    pub cos: f64,
-    /// Of the angle `θ`.
-    pub sin: f64,
+pub(crate) struct Waves {
+    /// `cos θ`
+    pub cos: Wave,
+    /// `sin θ`
+    pub sin: Wave,
     /// `θ¨ [rad/s²]`
-    pub acceleration: f64,
+    pub acceleration: Wave,
     /// `θ̇²`, below zero where the swing does not come `[rad²/s²]`.
-    pub square_of_rate: f64,
+    pub square_of_rate: Wave,
+    /// `(cos θ)¨ [1/s²]`
+    pub cos_ddot: Wave,
+    /// `(sin θ)¨ [1/s²]`
+    pub sin_ddot: Wave,
+    /// Sine and cosine of `ψ` at the start of the swing.
+    pub start: (f64, f64),
 }
 
 fn square_of_half_sine(psi: f64) -> f64 {
@@ -110,13 +117,17 @@ impl Swing {
 
     /// Where it turns, if it is going to: `ψ`, at rate zero.
     pub fn turning_point(&self) -> Option<f64> {
-        let turns = self.kappa > 0.0 && self.v * self.psi < 0.0;
-        turns.then(|| 2.0 * libm::asin(self.kappa.sqrt()).copysign(self.psi))
+        self.turn
+    }
+
+    /// `sin²(ψ/2)`; that of the start is known, and most swings end where they began.
+    fn q_at(&self, psi: f64) -> f64 {
+        if psi == self.psi { self.q } else { square_of_half_sine(psi) }
     }
 
     /// Size of the rate at another angle `ψ` of the swing; `None` if the swing does not come there.
     pub fn rate_at(&self, psi: f64) -> Option<f64> {
-        let square = self.v * self.v + 4.0 * self.p * self.p * (square_of_half_sine(psi) - self.q);
+        let square = self.v * self.v + 4.0 * self.p * self.p * (self.q_at(psi) - self.q);
         let is_beyond = self.kappa > 0.0 && psi * self.psi < 0.0;
         (square >= 0.0 && !is_beyond).then(|| square.sqrt())
     }
@@ -124,7 +135,7 @@ impl Swing {
     /// Time from the turning point (`κ > 0`), or from the balance (`κ < 0`), to an angle that is passed at this rate, signs as those of
     /// motion and place. Times the pendulum's rate.
     fn phase(&self, psi: f64, v: f64) -> f64 {
-        let (q, kappa) = (square_of_half_sine(psi), self.kappa);
+        let (q, kappa) = (self.q_at(psi), self.kappa);
         if kappa > 0.0 {
             let size = 0.5 * v / self.p * carlson(q * (1.0 - kappa), kappa * (1.0 - q), kappa * (1.0 - kappa));
             size.copysign(v * psi)

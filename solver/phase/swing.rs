@@ -110,8 +110,8 @@ impl<V: StateVector> Phase<V> {
         let margins = match self.closed.len() {
             0 => Few::new(),
             closed => {
-                let (fifths, gravity) = (pendulum.fifths(&swing, sign), run.scene.column.gravity());
-                (0..closed).map(|index| self.of_closed.over_swing(index, gravity, &fifths)).collect()
+                let (waves, gravity) = (pendulum.waves(&swing, sign), run.scene.column.gravity());
+                (0..closed).map(|index| self.of_closed.over_swing(index, gravity, &waves)).collect()
             }
         };
         let course = Course { pendulum, swing, sign, start, outmost, inmost, margins };
