@@ -70,6 +70,12 @@ fn cases() -> Vec<Case> {
             lacks: ("one block under a harmonic", tilted(harmonic())),
         },
         Case {
+            name: "steps from sample to sample",
+            off: |scene| scene.options.skips.samples = false,
+            has: ("one block under a record", long(shaken(1, record()))),
+            lacks: ("one block under a harmonic", tilted(harmonic())),
+        },
+        Case {
             name: "steps at rest",
             off: |scene| scene.options.skips.rests = false,
             has: ("one block under a record", long(shaken(1, record()))),

@@ -16,7 +16,7 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Ground};
-use crate::few::{Any, Few, Size, Square, for_size};
+use crate::few::{Any, Few, Size, for_size};
 use crate::generic::{imposed_acceleration, link_acceleration};
 use crate::kinematics::{Factorised, Posture, Turn, Vec2};
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -428,41 +428,51 @@ fn restitute<S: Size>(
     energy_before: f64,
 ) -> Option<S::List<f64>> {
     let Mechanism { states, posture, mass } = mechanism;
-    let rebounding: Few<usize> = striking.filter(|&i| states[i].is_open()).collect();
+    let (size, width) = (posture.size, posture.size.links(posture.dof));
+    let (mut rebounding, mut count) = (size.list(0), 0);
+    for interface in striking.filter(|&i| states[i].is_open()) {
+        rebounding[count] = interface;
+        count += 1;
+    }
+    let rebounding = &rebounding[..count];
     if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
         return None;
     }
-    // Column by column: the links' rates that a unit impulse at each rebounding interface causes.
-    let mut spread: Few<S::List<f64>> = Few::new();
-    let mut gain: Few<f64> = Few::new();
+    // Row by row: the links' rates that a unit impulse at each rebounding interface causes.
+    let (mut spread, mut gain) = (size.table(width, 0.0), size.list(0.0));
     let apart = |rates: &[f64], interface: usize| {
         let below = if interface > 0 { posture.link[interface - 1] } else { 0 };
         rates[posture.link[interface] - 1] - if below > 0 { rates[below - 1] } else { 0.0 }
     };
-    for &interface in &rebounding {
-        let mut column = posture.size.list(0.0);
-        column[posture.link[interface] - 1] = 1.0;
+    for (index, &interface) in rebounding.iter().enumerate() {
+        let row = &mut spread[index * width..][..width];
+        row[posture.link[interface] - 1] = 1.0;
         if interface > 0 && posture.link[interface - 1] > 0 {
-            column[posture.link[interface - 1] - 1] = -1.0;
+            row[posture.link[interface - 1] - 1] = -1.0;
         }
-        mass.solve(&mut column);
-        spread.push(column);
-        gain.push((kappa[interface] - 1.0) * relative(&plastic.motion, interface));
+        mass.solve(row);
+        gain[index] = (kappa[interface] - 1.0) * relative(&plastic.motion, interface);
     }
-    let compliance = rebounding.iter().flat_map(|&row| spread.iter().map(move |column| (row, column)));
-    let compliance: Square<f64> = compliance.map(|(row, column)| apart(column, row)).collect();
-    if let [compliance] = compliance[..] {
+    let row_of = |index: usize| &spread[index * width..][..width];
+    if count == 1 {
         // Most often one interface strikes.
+        let compliance = apart(row_of(0), rebounding[0]);
         if compliance.is_nan() || compliance <= 0.0 {
             return None;
         }
         gain[0] /= compliance;
     } else {
-        Factorised::<Any>::new(compliance, rebounding.len())?.solve(&mut gain);
+        let mut compliance = size.table(count, 0.0);
+        for (row, &interface) in rebounding.iter().enumerate() {
+            for column in 0..count {
+                compliance[row * count + column] = apart(row_of(column), interface);
+            }
+        }
+        Factorised::<S>::new(compliance, count)?.solve(&mut gain);
     }
     let mut rates = posture.link_rates(&plastic.motion);
-    for (column, impulse) in spread.iter().zip(&gain) {
-        rates.iter_mut().zip(&**column).for_each(|(rate, share)| *rate += share * impulse);
+    for (index, impulse) in gain[..count].iter().enumerate() {
+        rates.iter_mut().zip(row_of(index)).for_each(|(rate, share)| *rate += share * impulse);
     }
     let rebound = posture.angular(&rates);
 

@@ -83,7 +83,7 @@ impl<D: Dynamics + 'static> Equations for D {
             Method::KuttaMerson => Box::new(RungeKutta::<D, KuttaMerson<D::State>>::new(self, gravity, free)),
             Method::RungeKutta4 => Box::new(RungeKutta::<D, RungeKutta4<D::State>>::new(self, gravity, fixed)),
         };
-        Box::new(Phase::new(pattern, stepper, margins, scene.swings_in_closed_form()))
+        Box::new(Phase::new(pattern, stepper, margins, scene))
     }
 
     fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {

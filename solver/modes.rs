@@ -5,6 +5,7 @@ use crate::generated;
 use crate::mode::Mode;
 use crate::outcome::Barrier;
 use crate::phase::SmoothPhase;
+use crate::response::ModeName;
 use crate::scene::{DynamicsSource, Scene, SolveOptions};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::{Pattern, modes};
@@ -29,6 +30,8 @@ struct Basis {
 /// A pattern that runs have entered.
 struct Entered {
     pattern: Pattern,
+    /// Of its mode.
+    name: String,
     /// Not there while it runs.
     phase: Option<Box<dyn SmoothPhase>>,
     is_generic: bool,
@@ -91,7 +94,14 @@ impl Modes {
         };
         let is_generic = generated.is_none() && source != DynamicsSource::Generic;
         let mode = generated.or_else(|| Mode::generic(&scene.column, pattern)).expect("the column is not at rest");
-        Entered { pattern: pattern.clone(), phase: Some(mode.phase(scene)), is_generic, is_entered: false, time: 0.0 }
+        Entered {
+            pattern: pattern.clone(),
+            name: ModeName::of(pattern).to_string(),
+            phase: Some(mode.phase(scene)),
+            is_generic,
+            is_entered: false,
+            time: 0.0,
+        }
     }
 
     /// Hands out the phases of a pattern, to be brought back.
@@ -111,8 +121,8 @@ impl Modes {
         self.entered.iter().any(|entered| entered.is_entered && entered.is_generic)
     }
 
-    /// The patterns that the present run has entered, and for how long `[s]`.
-    pub fn times(&self) -> impl Iterator<Item = (&Pattern, f64)> {
-        self.entered.iter().filter(|entered| entered.is_entered).map(|entered| (&entered.pattern, entered.time))
+    /// The modes of the patterns that the present run has entered, and for how long `[s]`.
+    pub fn times(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.entered.iter().filter(|entered| entered.is_entered).map(|entered| (entered.name.as_str(), entered.time))
     }
 }

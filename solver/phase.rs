@@ -14,6 +14,7 @@
 
 mod harmonics;
 mod inside;
+mod leap;
 mod margins;
 mod pendulum;
 mod stepper;
@@ -25,7 +26,9 @@ use crate::excitation::Segment;
 use crate::few::Few;
 use crate::ode::{Difference, Tolerance};
 use crate::response::ModeName;
+use crate::scene::Scene;
 use crate::simulate::{Run, SolveError};
+use leap::Leaps;
 pub(crate) use margins::Margins;
 use pendulum::Pendulum;
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -79,14 +82,13 @@ enum Found {
 /// Newton's rounds when a step is made to end at a zero: the dense output is good to some digits, each round doubles them.
 const REPEATS: usize = 4;
 
-/// A progress bar needs no more.
-const STEPS_BETWEEN_REPORTS: usize = 1024;
-
 /// The phases of a mode.
 pub(crate) struct Phase<V> {
     stepper: Box<dyn Stepper<V>>,
     /// What the mode is on a ground that does not move, where it has one free angle and closed forms are wanted.
     pendulum: Option<Pendulum>,
+    /// Steps over several samples of a record, where the column is one block and they are wanted.
+    leaps: Option<Leaps>,
     dof: usize,
     /// Link of each block, base first, zero where it stands on the ground.
     links: Few<usize>,
@@ -131,6 +133,9 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
                 Some(None) => continue,
                 None => {}
             }
+            if self.leap(run, tolerance) {
+                continue;
+            }
             // A step that would leave a crumb leaves a part.
             let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
             let held = run.hold.until - t;
@@ -143,10 +148,7 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
                 continue;
             }
             self.stepper.accept();
-            run.work.steps += 1;
-            if run.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
-                (run.progress)(t);
-            }
+            run.count_step();
             let factor = self.stepper.factor(error);
             // A step cut short by a segment's end says nothing against the step wanted.
             wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };
@@ -186,8 +188,9 @@ fn records_forces(run: &Run) -> bool {
 }
 
 impl<V: StateVector> Phase<V> {
-    /// The phases of a pattern with the margins of its closed interfaces; in closed form where that may be and is wanted.
-    pub fn new(pattern: &Pattern, stepper: Box<dyn Stepper<V>>, of_closed: Rc<Margins>, in_closed_form: bool) -> Self {
+    /// The phases of a pattern with the margins of its closed interfaces; in closed form, and with leaps, where that may be and the scene
+    /// has it so.
+    pub fn new(pattern: &Pattern, stepper: Box<dyn Stepper<V>>, of_closed: Rc<Margins>, scene: &Scene) -> Self {
         let zero = stepper.zero();
         let blocks = pattern.0.len();
         let mut dof = 0;
@@ -203,10 +206,13 @@ impl<V: StateVector> Phase<V> {
         };
         let gaps = open.map(gap).collect();
         let closed: Few<usize> = (0..blocks).filter(|i| !pattern.0[*i].is_open()).collect();
-        let pendulum = if dof == 1 && in_closed_form { stepper.pendulum() } else { None };
+        let pendulum = if dof == 1 && scene.swings_in_closed_form() { stepper.pendulum() } else { None };
+        let may_leap = dof == 1 && closed.is_empty() && scene.leaps_over_samples();
+        let leaps = if may_leap { stepper.rocker().map(Leaps::new) } else { None };
         Phase {
             stepper,
             pendulum,
+            leaps,
             dof,
             links,
             gaps,
@@ -235,6 +241,9 @@ impl<V: StateVector> Phase<V> {
         self.stepper.begin(run.t, &self.x);
         self.arm(run);
         (self.are_margins_known, self.force_calls) = (false, 0);
+        if let Some(leaps) = &mut self.leaps {
+            leaps.begin();
+        }
         if interfaces(run) == Interfaces::All {
             self.weigh_start(run);
         }

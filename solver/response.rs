@@ -131,6 +131,8 @@ pub struct Work {
     pub phases: usize,
     /// Swings in closed form instead of steps.
     pub swings: usize,
+    /// Steps over several samples of a record at once.
+    pub leaps: usize,
     /// Stretches of ground motion passed at rest without a step.
     pub waits: usize,
     /// Whether the run ended before its time because nothing could start it again, or its outcome was certain.

@@ -43,7 +43,8 @@ pub struct Initial {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// What costs least, by the work-precision benchmark: Taylor series, and closed forms where there are any. The default.
+    /// What costs least, by the work-precision benchmark: Taylor series, closed forms where there are any, and collocation over several samples of
+    /// a record for one block. The default.
     #[default]
     Auto,
     /// Order 8(5,3), dense output of order 7.
@@ -157,6 +158,9 @@ pub struct Skips {
     /// Steps through phases of one free angle on a ground that does not move: these swing in closed form, to rounding. Only of
     /// [`Method::Auto`]; a method that is named takes all its steps.
     pub swings: bool,
+    /// Steps from sample to sample of a record: one block takes up to 32 intervals in one step, to the tolerance, and goes from sample to sample,
+    /// beside that, only where something is to be read inside. Only of [`Method::Auto`].
+    pub samples: bool,
     /// Steps through times at rest, before the first uplift and later: the roots of the ground motion's guards are found with steps as
     /// long as its curvature allows, and a ground that does not move is passed in one.
     pub rests: bool,
@@ -173,13 +177,20 @@ pub struct Skips {
 
 impl Skips {
     /// Nothing is left out.
-    pub const NOTHING: Skips =
-        Skips { swings: false, rests: false, modes: false, vertical: false, forces: false, certainty: false };
+    pub const NOTHING: Skips = Skips {
+        swings: false,
+        samples: false,
+        rests: false,
+        modes: false,
+        vertical: false,
+        forces: false,
+        certainty: false,
+    };
 }
 
 impl Default for Skips {
     fn default() -> Skips {
-        Skips { swings: true, rests: true, modes: true, vertical: true, forces: true, certainty: true }
+        Skips { swings: true, samples: true, rests: true, modes: true, vertical: true, forces: true, certainty: true }
     }
 }
 
@@ -258,6 +269,11 @@ impl Scene {
     /// Whether phases of one free angle on a ground that does not move are taken in closed form.
     pub(crate) fn swings_in_closed_form(&self) -> bool {
         self.options.skips.swings && self.options.method == Method::Auto
+    }
+
+    /// Whether phases of one free angle may take several samples of a record in one step.
+    pub(crate) fn leaps_over_samples(&self) -> bool {
+        self.options.skips.samples && self.options.method == Method::Auto
     }
 
     /// Whether friction demand and normal forces are recorded.

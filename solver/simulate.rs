@@ -14,10 +14,14 @@ use crate::rest;
 use crate::scene::{Scene, SceneError, Wanted};
 use rocking_codegen::pattern::{Interface, Pattern};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Events per block in one instant beyond which the laws of contact go in circles: the instant is then decided by closing what
 /// has not moved, as a separation. Fewer, and instants at which several interfaces are on the verge are cut short.
 const EVENTS_AT_ONCE: usize = 8;
+
+/// A progress bar needs no more.
+const STEPS_BETWEEN_REPORTS: usize = 1024;
 
 /// Room made for events when the first one comes.
 const USUAL_EVENTS: usize = 16;
@@ -118,7 +122,7 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
 }
 
 /// Runs scenes one after another. What those of one column have in common is computed once: scene constants, storage, the barrier
-/// against overturning. Results do not depend on what has been run before.
+/// against overturning; and what those of one record have, its layout in time. Results do not depend on what has been run before.
 ///
 /// ```
 /// use rocking::{Column, Motion, Scene, Simulator};
@@ -133,7 +137,18 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
 #[derive(Default)]
 pub struct Simulator {
     modes: Modes,
+    ground: Option<LaidOut>,
 }
+
+/// A ground motion of many segments, laid out in time.
+struct LaidOut {
+    excitation: Excitation,
+    t_end: f64,
+    segments: Rc<Vec<Segment>>,
+}
+
+/// Segments from which on they are kept from run to run: fewer are laid out anew in less time than it takes to see that they are the same.
+const MANY_SEGMENTS: usize = 16;
 
 impl Simulator {
     /// One that has run nothing yet.
@@ -155,7 +170,27 @@ impl Simulator {
     /// [`SolveError`]
     pub fn run_observed(&mut self, scene: &Scene, mut progress: impl FnMut(f64)) -> Result<Response, SolveError> {
         scene.check()?;
-        run(Run::new(scene, &mut self.modes, &mut progress))
+        self.run_valid(scene, &mut progress)
+    }
+
+    /// The same with a scene that has been checked.
+    pub(crate) fn run_valid(&mut self, scene: &Scene, progress: &mut dyn FnMut(f64)) -> Result<Response, SolveError> {
+        let segments = self.segments(scene);
+        run(Run::new(scene, &mut self.modes, segments, progress))
+    }
+
+    fn segments(&mut self, scene: &Scene) -> Rc<Vec<Segment>> {
+        let (excitation, t_end) = (&scene.excitation, scene.options.t_end);
+        if let Some(ground) = self.ground.as_ref().filter(|own| own.t_end == t_end && own.excitation == *excitation) {
+            return Rc::clone(&ground.segments);
+        }
+        let segments = Rc::new(Excitation::segments(excitation, t_end));
+        self.ground = (segments.len() >= MANY_SEGMENTS).then(|| LaidOut {
+            excitation: excitation.clone(),
+            t_end,
+            segments: Rc::clone(&segments),
+        });
+        segments
     }
 }
 
@@ -182,7 +217,7 @@ fn run(mut run: Run) -> Result<Response, SolveError> {
 pub(crate) struct Run<'a> {
     pub scene: &'a Scene,
     modes: &'a mut Modes,
-    pub segments: Vec<Segment>,
+    pub segments: Rc<Vec<Segment>>,
     /// Index of the segment that the present time is in.
     pub segment: usize,
     pub t: f64,
@@ -197,6 +232,8 @@ pub(crate) struct Run<'a> {
     pub hold: Hold,
     /// Step size suggested by what came before `[s]`.
     pub suggested_step: Option<f64>,
+    /// How many intervals of a record the next step tries to take, by their place among [`INTERVALS`](crate::ode::INTERVALS).
+    pub leap: usize,
     pub work: Work,
     pub history: History,
     pub progress: &'a mut dyn FnMut(f64),
@@ -215,13 +252,17 @@ pub(crate) struct Hold {
 }
 
 impl<'a> Run<'a> {
-    fn new(scene: &'a Scene, modes: &'a mut Modes, progress: &'a mut dyn FnMut(f64)) -> Run<'a> {
+    fn new(
+        scene: &'a Scene,
+        modes: &'a mut Modes,
+        segments: Rc<Vec<Segment>>,
+        progress: &'a mut dyn FnMut(f64),
+    ) -> Run<'a> {
         modes.prepare(scene);
         let with_vertical = modes.have_vertical();
         let blocks = scene.column.len();
         let or_zero =
             |given: &[f64]| if given.is_empty() { Few::from_elem(0.0, blocks) } else { Few::from_slice(given) };
-        let segments = Excitation::segments(&scene.excitation, scene.options.t_end);
         let may_end = scene.options.wanted == Wanted::Outcome && scene.options.skips.certainty;
         let comes_to_rest = may_end && segments.last().is_some_and(Segment::is_quiet);
         let barrier = comes_to_rest.then(|| modes.barrier(scene));
@@ -237,6 +278,7 @@ impl<'a> Run<'a> {
             released: Vec::new(),
             hold: Hold { until: f64::NEG_INFINITY, span: SHORTEST_HOLD },
             suggested_step: None,
+            leap: 0,
             work: Work { with_vertical, ..Work::default() },
             history: History::new(blocks),
             progress,
@@ -441,12 +483,12 @@ impl<'a> Run<'a> {
         if self.history.events.is_empty() {
             self.history.events.reserve(USUAL_EVENTS);
         }
-        let numbers: Few<usize> = interfaces.iter().map(|interface| interface + 1).collect();
+        let numbers = interfaces.iter().map(|interface| interface + 1);
         self.history.events.push(Event {
             t: self.t,
             kind,
-            interface: numbers.first().copied(),
-            interfaces: if numbers.len() > 1 { numbers } else { Few::new() },
+            interface: numbers.clone().next(),
+            interfaces: if numbers.len() > 1 { numbers.collect() } else { Few::new() },
             before,
             after: self.pattern.clone(),
             mode_before,
@@ -486,6 +528,14 @@ impl<'a> Run<'a> {
             return Err(SolveError::Stalled { time: self.t, events: self.events_at_once, pattern });
         }
         Ok(())
+    }
+
+    /// Counts a step that has been taken, and tells the time now and then.
+    pub fn count_step(&mut self) {
+        self.work.steps += 1;
+        if self.work.steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
+            (self.progress)(self.t);
+        }
     }
 
     /// Notes the present angles.
@@ -539,10 +589,11 @@ impl<'a> Run<'a> {
         }
         let mut time_in_mode = BTreeMap::new();
         if self.scene.options.wanted == Wanted::Everything {
-            let at_rest = (ModeName::REST, self.history.time_at_rest);
-            let moving = self.modes.times().map(|(pattern, time)| (ModeName::of(pattern), time));
-            for (mode, time) in moving.chain((at_rest.1 > 0.0).then_some(at_rest)) {
-                *time_in_mode.entry(mode.to_string()).or_insert(0.0) += time;
+            let time_at_rest = self.history.time_at_rest;
+            let at_rest = (time_at_rest > 0.0).then(|| (ModeName::REST.to_string(), time_at_rest));
+            let moving = self.modes.times().map(|(mode, time)| (mode.to_string(), time));
+            for (mode, time) in moving.chain(at_rest) {
+                *time_in_mode.entry(mode).or_insert(0.0) += time;
             }
         }
         let History { samples, peak_theta, friction_demand, min_normal_force, events, impacts, separations, .. } =

@@ -193,7 +193,8 @@ impl<'s> Worker<'s> {
                 self.sweep.scene(index)?
             }
         };
-        let response = self.simulator.run(&scene)?;
+        // Read from a file, it is valid.
+        let response = self.simulator.run_valid(&scene, &mut |_| {})?;
         let outcome = self.sweep.outcome(&scene, &response);
         self.scene = Some(scene);
         Ok(outcome)

@@ -134,7 +134,7 @@ fn the_default_method_is_taylor_series() {
         scene.options.rtol = rtol;
         assert_eq!((scene.options.method, scene.method()), (Method::Auto, Method::Taylor));
         // A method that is named takes all its steps.
-        scene.options.skips.swings = false;
+        (scene.options.skips.swings, scene.options.skips.samples) = (false, false);
         let auto = simulate(&scene).expect("solved");
         scene.options.method = Method::Taylor;
         assert_eq!(simulate(&scene).expect("solved").events, auto.events);

@@ -84,22 +84,31 @@ impl Excitation {
 
     /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.
     pub fn segments(&self, t_end: f64) -> Vec<Segment> {
-        let motions = [&self.horizontal, &self.vertical].map(|m| m.as_ref().map(Motion::pieces).unwrap_or_default());
-        let mut segments: Vec<Segment> = Vec::with_capacity(motions.iter().map(Vec::len).sum::<usize>() + 2);
-        let mut push = |start: f64, end: f64, [horizontal, vertical]: [Piece; 2]| {
+        let room = |motion: &Option<Motion>| match motion {
+            Some(Motion::Record(record)) => record.accel().len(),
+            _ => 2,
+        };
+        let mut segments: Vec<Segment> = Vec::with_capacity(room(&self.horizontal) + room(&self.vertical));
+        let mut push = |start: f64, end: f64, horizontal: Piece, vertical: Piece| {
             let (before, quiet) = (segments.last(), Segment::QUIET);
             let before = before.unwrap_or(&quiet);
             let jumps =
                 horizontal.jumps_from(&before.horizontal, start) || vertical.jumps_from(&before.vertical, start);
             segments.push(Segment { start, end, horizontal, vertical, jumps });
         };
-        match motions {
-            [horizontal, vertical] if vertical.is_empty() => {
-                lay_out(horizontal, 0.0, t_end, |start, end, piece| push(start, end, [piece, Piece::Zero]));
+        let pieces = |motion: &Option<Motion>| motion.as_ref().map(Motion::pieces).unwrap_or_default();
+        let mut alone = |start: f64, end: f64, piece: Piece| push(start, end, piece, Piece::Zero);
+        match (&self.horizontal, &self.vertical) {
+            // Of a record there are many: they are not written down twice.
+            (Some(Motion::Record(record)), None) => lay_out(record.pieces(), 0.0, t_end, &mut alone),
+            (horizontal, None) => lay_out(pieces(horizontal).into_iter(), 0.0, t_end, &mut alone),
+            (horizontal, vertical) => {
+                overlay(&[pieces(horizontal), pieces(vertical)], 0.0, t_end, |start, end, both| {
+                    let [horizontal, vertical] =
+                        [0, 1].map(|motion: usize| std::mem::replace(&mut both[motion], Piece::Zero));
+                    push(start, end, horizontal, vertical);
+                })
             }
-            motions => overlay(&motions, 0.0, t_end, |start, end, pieces| {
-                push(start, end, [0, 1].map(|motion: usize| std::mem::replace(&mut pieces[motion], Piece::Zero)));
-            }),
         }
         segments
     }

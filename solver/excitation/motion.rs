@@ -244,7 +244,7 @@ impl Motion {
                 });
                 spans
             }
-            Motion::Record(ref record) => record.pieces(),
+            Motion::Record(ref record) => record.pieces().collect(),
         }
     }
 

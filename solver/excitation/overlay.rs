@@ -58,35 +58,36 @@ pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(
 }
 
 /// The same for one motion, whose pieces it gives away, between finite bounds.
-pub fn lay_out(spans: Vec<Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
-    let mut t = from;
-    let is_over = |t: f64, end: f64| end <= t + SAME_TIME * t.abs().max(1.0);
+#[inline(always)]
+pub fn lay_out(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
+    let same = |t: f64| t + SAME_TIME * t.abs().max(1.0);
+    let (mut t, mut now) = (from, same(from));
     for Span { start, end, piece } in spans {
-        if is_over(t, end) {
+        if end <= now {
             continue;
         }
         if t >= to {
             return;
         }
-        if !is_over(t, start) {
+        if start > now {
             let until = start.min(to);
-            if is_over(t, until) {
+            if until <= now {
                 return;
             }
             visit(t, until, Piece::Zero);
-            t = until;
-            if is_over(t, end) {
+            (t, now) = (until, same(until));
+            if end <= now {
                 continue;
             }
         }
         let until = end.min(to);
-        if is_over(t, until) {
+        if until <= now {
             return;
         }
         visit(t, until, piece);
-        t = until;
+        (t, now) = (until, same(until));
     }
-    if t < to && !is_over(t, to) {
+    if t < to && to > now {
         visit(t, to, Piece::Zero);
     }
 }
@@ -135,7 +136,9 @@ mod tests {
         for case in cases {
             for to in [4.0, 0.6, 1.0, 1.0 + 1e-15, 1e-15] {
                 let mut found = Vec::new();
-                lay_out(spans(case), 0.0, to, |start, end, piece| found.push([start, end, piece.value(0.0), 0.0]));
+                lay_out(spans(case).into_iter(), 0.0, to, |start, end, piece| {
+                    found.push([start, end, piece.value(0.0), 0.0])
+                });
                 assert_eq!(found, laid_out([case, &[]], 0.0, to), "{case:?} {to}");
             }
         }

@@ -420,19 +420,16 @@ impl Record {
         self.start + sample as f64 * self.dt
     }
 
-    pub(super) fn pieces(&self) -> Vec<Span> {
-        let pairs = self.accel.windows(2).enumerate();
-        pairs
-            .map(|(index, pair)| {
-                let (start, end) = (self.time(index), self.time(index + 1));
-                let piece = match pair {
-                    [a, b] if *a == 0.0 && *b == 0.0 => Piece::Zero,
-                    [a, b] => Piece::Linear { value: *a, slope: (b - a) / (end - start), start },
-                    _ => Piece::Zero,
-                };
-                Span { start, end, piece }
-            })
-            .collect()
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Span> {
+        self.accel.windows(2).enumerate().map(|(index, pair)| {
+            let (start, end) = (self.time(index), self.time(index + 1));
+            let piece = match pair {
+                [a, b] if *a == 0.0 && *b == 0.0 => Piece::Zero,
+                [a, b] => Piece::Linear { value: *a, slope: (b - a) / (end - start), start },
+                _ => Piece::Zero,
+            };
+            Span { start, end, piece }
+        })
     }
 
     /// Acceleration at `t [s]`, `[m/s²]`.
@@ -460,7 +457,7 @@ mod tests {
         let record = Record::new(vec![1.0, 3.0, -1.0], 0.5, 2.0).expect("valid");
         let values: Vec<f64> = [1.9, 2.0, 2.25, 2.5, 2.75, 2.875, 3.0].iter().map(|t| record.value(*t)).collect();
         assert_eq!(values, [0.0, 1.0, 2.0, 3.0, 1.0, 0.0, 0.0]);
-        assert_eq!(record.pieces().len(), 2);
+        assert_eq!(record.pieces().count(), 2);
         assert_eq!(record.clone().scaled_to_peak(1.5).expect("moves").peak(), 1.5);
         assert_eq!(record.duration(), 1.0);
     }

@@ -14,6 +14,7 @@
 //! Choose it where right-hand sides are smooth and cost more than what is done with them.
 
 mod rule;
+mod sampled;
 
 use super::Tolerance;
 use super::control::rough_root;
@@ -21,6 +22,7 @@ use crate::dynamics::StateVector;
 use crate::lanes::{Lanes, widest};
 use crate::program::Scalar;
 use rule::{RULE, integrals, recurrence};
+pub use sampled::{GAPS, INTERVALS, LinearlyForced, SampledStep, sampled_step};
 
 /// Nodes of a step.
 pub const NODES: usize = 8;

@@ -41,19 +41,16 @@ pub struct Powers {
 const ROUNDS: usize = 40;
 
 impl Powers {
-    /// A constant.
+    /// A constant and the terms of higher powers, in order: no more than there is room for.
     #[inline(always)]
-    pub fn constant(value: f64) -> Powers {
+    pub fn with_terms(constant: f64, terms: impl Iterator<Item = f64>) -> Powers {
         let mut coefficients = [0.0; MAX_TERMS + 1];
-        coefficients[0] = value;
-        Powers { coefficients, degree: 0 }
-    }
-
-    /// One more power. A panic means that there are more than a series has.
-    #[inline(always)]
-    pub fn push(&mut self, coefficient: f64) {
-        self.degree += 1;
-        self.coefficients[self.degree] = coefficient;
+        coefficients[0] = constant;
+        let degree = coefficients[1..].iter_mut().zip(terms).fold(0, |degree, (place, term)| {
+            *place = term;
+            degree + 1
+        });
+        Powers { coefficients, degree }
     }
 
     fn terms(&self) -> &[f64] {
@@ -100,9 +97,9 @@ impl Powers {
         first + rest.iter().map(|c| c.min(0.0)).sum::<f64>()
     }
 
-    /// Whether the second derivative times `sign` is below zero throughout, by the sizes of its terms.
-    fn is_bent(&self, sign: f64) -> bool {
-        let bend = |(k, c): (usize, &f64)| (k * (k - 1)) as f64 * (sign * c);
+    /// Whether the second derivative is below zero throughout, by the sizes of its terms.
+    fn is_bent_down(&self) -> bool {
+        let bend = |(k, c): (usize, &f64)| (k * (k - 1)) as f64 * c;
         let mut terms = self.terms().iter().enumerate().skip(2).map(bend);
         let first = terms.next().unwrap_or(0.0);
         first + terms.map(|term| term.max(0.0)).sum::<f64>() < 0.0
@@ -115,7 +112,7 @@ impl Powers {
             return Some(None);
         }
         let rises = self.coefficients[0] > 0.0 || (roots == 1 && self.coefficients[1] > 0.0);
-        if !rises || !self.is_bent(1.0) {
+        if !rises || !self.is_bent_down() {
             return None;
         }
         // Above zero at first, and bent downwards throughout: one root, if the end is below; Newton's rule comes to it from there.
@@ -137,18 +134,23 @@ impl Powers {
 
     /// The largest size on `[0, 1]`, if it is above `known`, else `known`; `None` where bounds do not tell.
     pub fn largest_size(&self, known: f64) -> Option<f64> {
-        // Sums of sizes, of terms, and of what the terms of the slope may take away or add.
-        let (first, start_slope) = (self.coefficients[0], self.coefficients[1]);
+        // Sums of sizes, of terms, and of what the terms of slope and bend may take away or add.
+        let (first, start_slope, start_bend) = (self.coefficients[0], self.coefficients[1], 2.0 * self.coefficients[2]);
         let [mut size, mut last] = [first.abs() + start_slope.abs(), first + start_slope];
-        let [mut fall, mut rise] = [0.0, 0.0];
+        let [mut end_slope, mut fall, mut rise] = [start_slope, 0.0, 0.0];
+        let [mut bend_fall, mut bend_rise] = [-start_bend.min(0.0), -start_bend.max(0.0)];
         let mut k = 1.0;
         for c in self.terms().iter().skip(2) {
+            let before = k;
             k += 1.0;
             size += c.abs();
             last += c;
             let share = k * c;
+            end_slope += share;
             fall += share.min(0.0);
             rise += share.max(0.0);
+            bend_fall += (before * share).min(0.0);
+            bend_rise += (before * share).max(0.0);
         }
         if size <= known {
             return Some(known);
@@ -157,10 +159,9 @@ impl Powers {
         if start_slope + fall >= 0.0 || start_slope + rise <= 0.0 {
             return Some(known);
         }
-        let [_, end_slope] = self.with_slope(1.0);
-        let sign = if self.is_bent(1.0) {
+        let sign = if start_bend + bend_rise < 0.0 {
             1.0
-        } else if self.is_bent(-1.0) {
+        } else if start_bend + bend_fall > 0.0 {
             -1.0
         } else {
             return None;
@@ -179,11 +180,12 @@ impl Powers {
                 b = s;
             }
             let next = s - slope / bend;
-            // The crest is flat: half the digits of its place are all those of its height.
-            if (next - s).abs() < 1e-9 {
+            let step = (next - s).abs();
+            s = if next > a && next < b { next } else { 0.5 * (a + b) };
+            // Each round squares what is missing. And the crest is flat: half the digits of its place are all those of its height.
+            if step < 1e-5 {
                 break;
             }
-            s = if next > a && next < b { next } else { 0.5 * (a + b) };
         }
         Some(known.max(self.evaluate(s).abs()))
     }
@@ -208,9 +210,7 @@ mod tests {
     use super::*;
 
     fn powers(coefficients: &[f64]) -> Powers {
-        let mut powers = Powers::constant(coefficients[0]);
-        coefficients[1..].iter().for_each(|c| powers.push(*c));
-        powers
+        Powers::with_terms(coefficients[0], coefficients[1..].iter().copied())
     }
 
     #[test]

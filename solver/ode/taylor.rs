@@ -286,14 +286,13 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// A difference of two angles over the last attempt, as a polynomial.
     pub fn track(&self, angles: Difference) -> Powers {
-        let mut track = Powers::constant(angles.of(self.x.as_slice()));
         let mut power = 1.0;
-        for order in 0..=self.order {
+        let terms = self.driver[..=self.order].iter().zip(&RECIPROCAL[1..]).map(|(driver, reciprocal)| {
+            let rates = driver.as_ref();
             power *= self.h;
-            let rates = self.driver[order].as_ref();
-            track.push(angles.by(|link| rate_of(&rates[link])) * power * RECIPROCAL[order + 1]);
-        }
-        track
+            angles.by(|link| rate_of(&rates[link])) * power * reciprocal
+        });
+        Powers::with_terms(angles.of(self.x.as_slice()), terms)
     }
 
     /// How far a difference of two angles moves from its start in the last attempt, at most.

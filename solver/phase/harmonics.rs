@@ -88,16 +88,15 @@ impl Harmonics {
     fn powers(&self, way: f64, side: usize) -> Powers {
         let of = |part: f64x2| part.as_array()[side];
         let (first, second) = (self.first.map(of), self.second.map(of));
-        let mut margin = Powers::constant(of(self.start()));
         let (mut once, mut twice) = (1.0, 1.0);
-        for k in 1..MAX_ORDER {
+        let terms = (1..MAX_ORDER).map(|k| {
             once *= way / k as f64;
             twice *= 2.0 * way / k as f64;
             // Derivatives of cosine and sine come round in four.
             let term = once * first[k % 2] + twice * second[k % 2];
-            margin.push(if matches!(k % 4, 2 | 3) { -term } else { term });
-        }
-        margin
+            if matches!(k % 4, 2 | 3) { -term } else { term }
+        });
+        Powers::with_terms(of(self.start()), terms)
     }
 }
 

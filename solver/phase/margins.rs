@@ -235,8 +235,7 @@ fn outlook(terms: &[f64x2]) -> Outlook {
     let mut first: Option<(f64, f64)> = None;
     for side in (0..2).filter(|side| least.as_array()[*side] <= 0.0) {
         let of = |term: &f64x2| term.as_array()[side];
-        let mut margin = Powers::constant(of(&terms[0]));
-        terms[1..].iter().for_each(|term| margin.push(of(term)));
+        let margin = Powers::with_terms(of(&terms[0]), terms[1..].iter().map(of));
         let doubt = of(&doubts);
         let Some(earliest) = Track::Powers(margin.shifted(1.0, -doubt)).first_root(0) else { continue };
         // What has no root may be touched, and a touch may come before a root.

@@ -3,6 +3,7 @@
 //! The phase calls it a few times per step through a table; what happens within a step is compiled for the mode. It is kept as long
 //! as the mode: entering a phase asks for no memory.
 
+use super::leap::Rocker;
 use super::margins::{Margins, Outlook};
 use super::pendulum::Pendulum;
 use crate::dynamics::{ContactForce, Dynamics, Ground, Interfaces, StateVector};
@@ -22,6 +23,8 @@ pub(crate) trait Stepper<V> {
     fn ground(&self, t: f64) -> Ground;
     /// What the mode, of one free angle, is on a ground that does not move.
     fn pendulum(&self) -> Option<Pendulum>;
+    /// What the mode, of one free angle, is on a ground that moves to the side.
+    fn rocker(&self) -> Option<Rocker>;
     /// Begins at a state.
     fn begin(&mut self, t: f64, x: &V);
     /// `[θ̇, θ̈]` where the next step begins.
@@ -154,6 +157,10 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
 
     fn pendulum(&self) -> Option<Pendulum> {
         self.system.pendulum()
+    }
+
+    fn rocker(&self) -> Option<Rocker> {
+        Rocker::of(&*self.system.mode, self.system.gravity)
     }
 
     fn begin(&mut self, t: f64, x: &D::State) {
@@ -302,6 +309,10 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
 
     fn pendulum(&self) -> Option<Pendulum> {
         self.system.driven.pendulum()
+    }
+
+    fn rocker(&self) -> Option<Rocker> {
+        Rocker::of(&*self.system.driven.mode, self.system.driven.gravity)
     }
 
     fn begin(&mut self, _: f64, _: &D::State) {}

@@ -51,6 +51,17 @@ impl Value {
             Value::Other(what) => what,
         }
     }
+
+    fn apart(&self) -> Value {
+        match self {
+            Value::Text(text) => Value::Text((**text).into()),
+            Value::Array(items) => {
+                Value::Array(Arc::new(items.iter().map(|(item, place)| (item.apart(), place.clone())).collect()))
+            }
+            Value::Table(table) => Value::Table(table.apart()),
+            other => other.clone(),
+        }
+    }
 }
 
 /// Keys that a table is usually asked for.
@@ -101,6 +112,13 @@ impl Table {
         // In the order of the file, so that of several faults the first is named.
         entries.sort_by_key(|entry| entry.key_place.start);
         Table { name: name.into(), place, entries: Arc::new(entries), asked: Vec::new() }
+    }
+
+    /// A copy that has nothing in common with it: threads that count who shares what wait for each other.
+    pub fn apart(&self) -> Table {
+        let entry = |entry: &Entry| Entry { key: (*entry.key).into(), value: entry.value.apart(), ..entry.clone() };
+        let entries = Arc::new(self.entries.iter().map(entry).collect());
+        Table { name: (*self.name).into(), entries, ..self.clone() }
     }
 
     /// The full name of a key of this table.

@@ -77,7 +77,7 @@ impl Template {
 
     /// The template for one who changes its ground motion again and again.
     pub(crate) fn shaken(&self) -> Shaken<'_> {
-        Shaken { template: self, root: self.root.clone() }
+        Shaken { template: self, root: self.root.apart() }
     }
 
     fn reader(&self) -> Reader<'_> {

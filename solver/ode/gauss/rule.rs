@@ -70,7 +70,7 @@ pub const fn recurrence(k: usize) -> [f64; 2] {
 }
 
 /// Legendre polynomials at `x`, -1 to 1.
-const fn legendre(x: f64) -> [f64; NODES + 2] {
+pub const fn legendre(x: f64) -> [f64; NODES + 2] {
     let mut values = [1.0; NODES + 2];
     values[1] = x;
     let mut k = 1;

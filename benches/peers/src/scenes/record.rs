@@ -2,7 +2,8 @@
 //!
 //! b = 0.5 m, h = 3 m, plastic impacts; filtered noise of 4 m/s², seed 25. The block opens at 3.1 s and rocks to the end with
 //! 26 impacts, to 0.7 of its slenderness. What biases the figures: the peers are told that it opens once only, neither comes to
-//! rest nor overturns; heyoka is entered anew by Python at each of 2700 samples, which is most of its time.
+//! rest nor overturns; heyoka is entered anew by Python at each of 2700 samples, which is most of its time; ours keeps the record's layout in time from
+//! run to run, as the others are given their samples.
 
 use super::{bare, exact, ours};
 use crate::contest::{Answer, Contender, Point, contest};
