@@ -6,10 +6,11 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Energy, Ground};
-use crate::excitation::Segment;
+use crate::excitation::{Piece, Segment};
 use crate::phase::Ended;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
+use std::rc::Rc;
 
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const ZERO: f64 = 16.0 * f64::EPSILON;
@@ -25,18 +26,20 @@ const NOTED: (f64, f64) = (16.0, 4096.0);
 pub(crate) fn wait(run: &mut Run) -> Ended {
     let since = run.t;
     let first = run.segment;
+    let segments = Rc::clone(&run.segments);
+    let limit = least_uplift(&run.scene.column);
     loop {
-        let segment = run.segments[run.segment].clone();
+        let segment = &segments[run.segment];
         if run.t < run.hold.until {
             let until = run.hold.until.min(segment.end);
             output_until(run, until);
             run.t = until;
         }
         run.work.waits += usize::from(run.scene.options.skips.rests);
-        let start = earliest_start(run, &segment);
+        let start = earliest_start(run, segment, limit);
         let until = start.map_or(segment.end, |(t, _, _)| t);
         if run.scene.records_forces() {
-            note_forces(run, &segment, until);
+            note_forces(run, segment, until);
         }
         output_until(run, until);
         run.t = until;
@@ -55,10 +58,26 @@ pub(crate) fn wait(run: &mut Run) -> Ended {
     }
 }
 
-/// The first instant in a segment from the present time on at which some interface opens, and its side.
-fn earliest_start(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface)> {
+/// The horizontal acceleration that opens some interface where nothing else moves `[m/s²]`.
+fn least_uplift(column: &Column) -> f64 {
+    let own = |i: usize| column.gravity() * column.contact_half_width(i) / column.centroid_height(i);
+    (0..column.len()).map(own).fold(f64::INFINITY, f64::min)
+}
+
+/// Share of that acceleration below which rounding has no say.
+const CLEAR: f64 = 1.0 - 1e-9;
+
+/// The first instant in a segment from the present time on at which some interface opens, and its side; `limit` is [`least_uplift`].
+fn earliest_start(run: &Run, segment: &Segment, limit: f64) -> Option<(f64, usize, Interface)> {
     if !run.scene.options.skips.rests {
         return by_steps(run, segment);
+    }
+    if let (Piece::Linear { .. }, Piece::Zero) = (&segment.horizontal, &segment.vertical) {
+        // Of a record, whose stretches are many: the largest acceleration is at an end.
+        let largest = segment.horizontal.value(run.t).abs().max(segment.horizontal.value(segment.end).abs());
+        if largest < CLEAR * limit {
+            return None;
+        }
     }
     if segment.is_quiet() {
         return None;
