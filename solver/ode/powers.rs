@@ -180,12 +180,12 @@ impl Powers {
                 b = s;
             }
             let next = s - slope / bend;
-            let step = (next - s).abs();
-            s = if next > a && next < b { next } else { 0.5 * (a + b) };
             // Each round squares what is missing. And the crest is flat: half the digits of its place are all those of its height.
-            if step < 1e-5 {
+            if (next - s).abs() < 1e-5 {
+                s = next.clamp(0.0, 1.0);
                 break;
             }
+            s = if next > a && next < b { next } else { 0.5 * (a + b) };
         }
         Some(known.max(self.evaluate(s).abs()))
     }
@@ -250,6 +250,9 @@ mod tests {
         // 1 - 3 s + 0.3 s² = 0 at s = (3 - √7.8) / 0.6.
         let s = (3.0 - 7.8f64.sqrt()) / 0.6;
         assert!((crest - (0.2 + s - 1.5 * s * s + 0.1 * s * s * s)).abs() < 1e-15);
+        // Where the first guess is the crest.
+        let at_once = powers(&[0.2, 1.0, -1.0]).largest_size(0.1).expect("bent");
+        assert!((at_once - 0.45).abs() < 1e-15, "{at_once}");
         assert!((series(1, 1.2).bernstein().evaluate(0.7) - libm::sin(0.84)).abs() < 1e-15);
     }
 }
