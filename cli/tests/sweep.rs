@@ -215,11 +215,12 @@ fn records_and_seeds_are_axes() {
     let synthetic =
         BASE.replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"synthetic\"\npga_g = 0.5");
     std::fs::write(folder.path().join("base.toml"), synthetic).expect("written");
-    let seeds = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nseed = { from = 1, to = 6 }\n";
+    let seeds = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nseed = { from = 1, to = 50 }\n";
     std::fs::write(folder.path().join("sweep.toml"), seeds).expect("written");
     let rows = rows(&table(folder.path(), &[]));
     let peaks: std::collections::BTreeSet<&str> = rows[1..].iter().map(|row| row[6].as_str()).collect();
-    assert_eq!((rows.len(), peaks.len()), (7, 6), "each seed its own: {rows:?}");
+    assert!(rows.len() == 51 && rows.iter().flatten().all(|cell| !cell.starts_with("error")), "{rows:?}");
+    assert!(peaks.len() > 6, "each seed its own: {rows:?}");
 }
 
 #[test]

@@ -128,7 +128,8 @@ fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
         Setting::Number(match (share, is_log) {
             (0.0, _) => from,
             (1.0, _) => to,
-            (share, false) => from + share * (to - from),
+            // Whole numbers from end to end stay whole.
+            (_, false) => from + step as f64 * (to - from) / (steps - 1.0),
             (share, true) => libm::exp(libm::log(from) + share * (libm::log(to) - libm::log(from))),
         })
     };
