@@ -28,6 +28,7 @@ use crate::ode::{Difference, Tolerance};
 use crate::response::ModeName;
 use crate::scene::Scene;
 use crate::simulate::{Run, SolveError};
+use harmonics::Harmonics;
 use leap::Leaps;
 pub(crate) use margins::Margins;
 use pendulum::Pendulum;
@@ -96,6 +97,8 @@ pub(crate) struct Phase<V> {
     closed: Few<usize>,
     /// Margins of the closed interfaces, as formulas.
     of_closed: Rc<Margins>,
+    /// The same over the last swing.
+    over_swing: Few<Harmonics>,
     x: V,
     slope: V,
     /// A state inside a step.
@@ -221,6 +224,7 @@ impl<V: StateVector> Phase<V> {
             force_calls: 0,
             closed,
             of_closed,
+            over_swing: Few::new(),
             x: zero.clone(),
             slope: zero.clone(),
             inside: zero,

@@ -1,7 +1,7 @@
 //! The event-driven loop: rest, smooth phase, contact problem, next mode (see the pseudo-code in the crate's documentation).
 
-use crate::contact::{self, Decision, ImpactLaw};
-use crate::dynamics::{ContactForce, Ground};
+use crate::contact::{self, Decision, ImpactLaw, SingularMass};
+use crate::dynamics::Ground;
 use crate::excitation::{Excitation, Segment};
 use crate::few::{Few, for_size};
 use crate::history::History;
@@ -306,10 +306,10 @@ impl<'a> Run<'a> {
         if at_rest && !rest::may_open(self) {
             return Ok(());
         }
-        let decision = self.decide_forces(&[])?;
-        let (before, _) = self.adopt(decision, EventKind::Start);
-        if at_rest && self.pattern != before {
-            self.record(EventKind::Start, &[], before, self.omega.clone(), None);
+        let mut decision = self.decide_forces(&[])?;
+        self.adopt(&mut decision, EventKind::Start);
+        if at_rest && self.pattern != decision.pattern {
+            self.record(EventKind::Start, &[], decision);
         }
         Ok(())
     }
@@ -351,17 +351,16 @@ impl<'a> Run<'a> {
         let law = ImpactLaw { kappa: &self.kappa, stick_angle: self.scene.options.stick_angle };
         let column = &self.scene.column;
         let decision = contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
-        let decision = self.solved(decision)?;
-        self.strike(decision, closing);
+        self.strike(decision, closing)?;
         self.guard_against_stall()
     }
 
     /// Adopts and records what an impact has decided.
-    fn strike(&mut self, mut decision: Decision, closing: &[usize]) {
-        let impulses = std::mem::take(&mut decision.impulses);
-        let lost = decision.energy_lost;
-        let (before, omega_before) = self.adopt(decision, EventKind::Impact);
-        self.record(EventKind::Impact, closing, before, omega_before, Some((lost, impulses)));
+    fn strike(&mut self, decision: Result<Decision, SingularMass>, closing: &[usize]) -> Result<(), SolveError> {
+        let Ok(mut decision) = decision else { return Err(self.singular()) };
+        self.adopt(&mut decision, EventKind::Impact);
+        self.record(EventKind::Impact, closing, decision);
+        Ok(())
     }
 
     /// Interfaces that had opened on the verge are driven back before they have moved: no impact, they are closed again, and those
@@ -370,12 +369,11 @@ impl<'a> Run<'a> {
         let mut pattern = self.pattern.clone();
         closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
         let released: Vec<_> = self.released.iter().copied().filter(|(i, _)| !closing.contains(i)).collect();
-        let (before, _) = self.adopt(
-            Decision { pattern, omega: self.omega.clone(), separation: false, energy_lost: 0.0, impulses: Few::new() },
-            EventKind::Impact,
-        );
+        let omega = self.omega.clone();
+        let mut decision = Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: Few::new() };
+        self.adopt(&mut decision, EventKind::Impact);
         self.released = released;
-        self.record(EventKind::Impact, closing, before, self.omega.clone(), Some((0.0, Few::new())));
+        self.record(EventKind::Impact, closing, decision);
         self.guard_against_stall()
     }
 
@@ -387,21 +385,21 @@ impl<'a> Run<'a> {
         }
         released.retain(|(other, _)| *other != interface);
         released.push((interface, side));
-        let decision = self.decide_forces(&released)?;
-        let (before, _) = self.adopt(decision, kind);
+        let mut decision = self.decide_forces(&released)?;
+        self.adopt(&mut decision, kind);
         self.released = released;
         let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
-        self.record(kind, opened, before, Few::from_slice(&self.omega), None);
+        self.record(kind, opened, decision);
         self.guard_against_stall()
     }
 
     /// The ground acceleration has jumped: every closed interface is examined anew.
     fn jump(&mut self) -> Result<(), SolveError> {
         let kind = if self.pattern.dof() == 0 { EventKind::Start } else { EventKind::Jump };
-        let decision = self.decide_forces(&[])?;
-        let (before, _) = self.adopt(decision, kind);
-        if self.pattern != before {
-            self.record(kind, &[], before, self.omega.clone(), None);
+        let mut decision = self.decide_forces(&[])?;
+        self.adopt(&mut decision, kind);
+        if self.pattern != decision.pattern {
+            self.record(kind, &[], decision);
         }
         Ok(())
     }
@@ -409,38 +407,41 @@ impl<'a> Run<'a> {
     fn decide_forces(&self, released: &[(usize, Interface)]) -> Result<Decision, SolveError> {
         let decision =
             contact::open(&self.scene.column, &self.pattern, &self.theta, &self.omega, self.ground(), released);
-        self.solved(decision)
+        decision.map_err(|_| self.singular())
     }
 
-    fn solved(&self, decision: Result<Decision, contact::SingularMass>) -> Result<Decision, SolveError> {
-        decision.map_err(|_| SolveError::SingularMass { time: self.t, pattern: self.pattern.to_string() })
+    #[cold]
+    fn singular(&self) -> SolveError {
+        SolveError::SingularMass { time: self.t, pattern: self.pattern.to_string() }
     }
 
-    /// Goes on with a decision; the pattern and the rates before.
-    fn adopt(&mut self, decision: Decision, during: EventKind) -> (Pattern, Few<f64>) {
+    /// Goes on with a decision, which has the pattern and the rates before in exchange.
+    fn adopt(&mut self, decision: &mut Decision, during: EventKind) {
         if decision.separation {
             self.history.separations.push(Separation { t: self.t, during });
             let is_repeated = self.t - self.hold.until <= 100.0 * self.hold.span;
             self.hold.span = if is_repeated { (2.0 * self.hold.span).min(LONGEST_HOLD) } else { SHORTEST_HOLD };
             self.hold.until = self.t + self.hold.span;
         }
-        let pattern = std::mem::replace(&mut self.pattern, decision.pattern);
-        let rates = std::mem::replace(&mut self.omega, decision.omega);
+        std::mem::swap(&mut self.pattern, &mut decision.pattern);
+        std::mem::swap(&mut self.omega, &mut decision.omega);
         self.released.clear();
         // What is closed, or has only just opened, is so to the last bit. Decided before anything is moved: a block that is snapped
         // to the one below must not open a gap to the one above.
-        let (theta, omega): (Few<f64>, Few<f64>) = (Few::from_slice(&self.theta), Few::from_slice(&self.omega));
-        for interface in 0..theta.len() {
-            let (is_closed, below) = (!self.pattern.0[interface].is_open(), interface.checked_sub(1));
-            let is_gapless = is_closed || contact::is_gapless(&theta, interface);
+        let is_closed = |interface: usize| !self.pattern.0[interface].is_open();
+        let is_gapless = |interface: usize| is_closed(interface) || contact::is_gapless(&self.theta, interface);
+        let is_motionless =
+            |interface: usize| is_closed(interface) || contact::is_motionless(&self.theta, &self.omega, interface);
+        let joined: Few<[bool; 2]> = (0..self.theta.len()).map(|i| [is_gapless(i), is_motionless(i)]).collect();
+        for (interface, [is_gapless, is_motionless]) in joined.into_iter().enumerate() {
+            let below = interface.checked_sub(1);
             if is_gapless {
                 self.theta[interface] = below.map_or(0.0, |below| self.theta[below]);
             }
-            if is_closed || is_gapless && contact::is_motionless(&theta, &omega, interface) {
+            if is_motionless {
                 self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
             }
         }
-        (pattern, rates)
     }
 
     /// Whether the ground has come to rest for good, and the outcome alone is wanted.
@@ -465,40 +466,36 @@ impl<'a> Run<'a> {
         above_rest < energy - slack
     }
 
-    fn record(
-        &mut self,
-        kind: EventKind,
-        interfaces: &[usize],
-        before: Pattern,
-        omega_before: Few<f64>,
-        impact: Option<(f64, Few<ContactForce>)>,
-    ) {
+    /// Records what a decision, now adopted, has brought about.
+    fn record(&mut self, kind: EventKind, interfaces: &[usize], before: Decision) {
+        let is_impact = kind == EventKind::Impact;
         self.history.last_events = [self.history.last_events[1], self.t];
-        self.history.impacts += usize::from(kind == EventKind::Impact);
+        self.history.impacts += usize::from(is_impact);
         if self.scene.options.wanted == Wanted::Outcome {
             return;
         }
-        let (energy_lost, impulses) = impact.unzip();
-        let (mode_before, mode) = (ModeName::of(&before), ModeName::of(&self.pattern));
         if self.history.events.is_empty() {
             self.history.events.reserve(USUAL_EVENTS);
         }
         let numbers = interfaces.iter().map(|interface| interface + 1);
+        // Where nothing strikes, rates do not change but for what is snapped.
+        let omega_after = Few::from_slice(&self.omega);
+        let omega_before = if before.impulses.is_empty() { omega_after.clone() } else { before.omega };
         self.history.events.push(Event {
             t: self.t,
             kind,
             interface: numbers.clone().next(),
             interfaces: if numbers.len() > 1 { numbers.collect() } else { Few::new() },
-            before,
-            after: self.pattern.clone(),
-            mode_before,
-            mode,
+            mode_before: ModeName::of(&before.pattern),
+            mode: ModeName::of(&self.pattern),
             mirrored: self.pattern.is_mirrored(),
+            before: before.pattern,
+            after: self.pattern.clone(),
             theta: Few::from_slice(&self.theta),
             omega_before,
-            omega_after: Few::from_slice(&self.omega),
-            energy_lost,
-            impulses: impulses.unwrap_or_default().iter().map(Impulse::from).collect(),
+            omega_after,
+            energy_lost: is_impact.then_some(before.energy_lost),
+            impulses: before.impulses.iter().map(Impulse::from).collect(),
         });
     }
 
@@ -507,9 +504,7 @@ impl<'a> Run<'a> {
         let all = 0..self.theta.len();
         let closing: Vec<usize> = all.filter(|i| self.pattern.0[*i].is_open() && is_still(self, *i)).collect();
         let decision = contact::stick(&self.scene.column, &self.pattern, &self.theta, &self.omega, &closing);
-        let decision = self.solved(decision)?;
-        self.strike(decision, &closing);
-        Ok(())
+        self.strike(decision, &closing)
     }
 
     /// Breaks circles of events in one instant.

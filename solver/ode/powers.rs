@@ -37,8 +37,30 @@ pub struct Powers {
     degree: usize,
 }
 
-/// Rounds of Newton's rule, which doubles the digits: ten are enough for doubles, the rest is for guesses far off.
+/// Rounds of Halley's rule, which makes three digits of one: five are enough for doubles, the rest is for guesses far off.
 const ROUNDS: usize = 40;
+
+/// Where Newton's step to a root is shorter than this share of the way there, Halley's leaves less than rounding; to a crest, which is flat, less
+/// than rounding of its height.
+const NEAR_ROOT: f64 = 1e-6;
+const NEAR_CREST: f64 = 1e-4;
+
+/// Halley's step to where a function of this value, slope and half its bend is zero; Newton's where that would be more than twice as far.
+#[inline(always)]
+fn bent_step(value: f64, slope: f64, half_bend: f64) -> f64 {
+    let straight = -value / slope;
+    let share = 1.0 + straight * half_bend / slope;
+    if share > 0.5 { straight / share } else { straight }
+}
+
+/// Where a slope with these values and bends at 0 and 1 is about zero: by the cubic that has place over slope as it has there.
+#[inline(always)]
+fn crest_guess([start, end]: [f64; 2], [start_bend, end_bend]: [f64; 2]) -> f64 {
+    let (rise, t) = (end - start, start / (start - end));
+    let (left, own) = (1.0 - t, t * t * (3.0 - 2.0 * t));
+    let guess = own + rise * t * left * (left / start_bend - t / end_bend);
+    if guess > 0.0 && guess < 1.0 { guess } else { t }
+}
 
 impl Powers {
     /// A constant and the terms of higher powers, in order: no more than there is room for.
@@ -78,12 +100,20 @@ impl Powers {
     /// Value and slope at `s`.
     #[inline(always)]
     pub fn with_slope(&self, s: f64) -> [f64; 2] {
-        let (mut value, mut slope) = (0.0, 0.0);
+        self.around(s)
+    }
+
+    /// The first coefficients about `s`: value, slope, half the bend, and so on.
+    #[inline(always)]
+    fn around<const N: usize>(&self, s: f64) -> [f64; N] {
+        let mut around = [0.0; N];
         for c in self.terms().iter().rev() {
-            slope = slope * s + value;
-            value = value * s + c;
+            for k in (1..N).rev() {
+                around[k] = around[k] * s + around[k - 1];
+            }
+            around[0] = around[0] * s + c;
         }
-        [value, slope]
+        around
     }
 
     /// A bound of the polynomial's size.
@@ -115,19 +145,24 @@ impl Powers {
         if !rises || !self.is_bent_down() {
             return None;
         }
-        // Above zero at first, and bent downwards throughout: one root, if the end is below; Newton's rule comes to it from there.
-        let mut s = 1.0;
+        // Above zero at first, and bent downwards throughout: one root, if the end is below.
+        let (mut above, mut below, mut s) = (0.0, 1.0, 1.0);
         for _ in 0..ROUNDS {
-            let [value, slope] = self.with_slope(s);
+            let [value, slope, half_bend] = self.around(s);
             if value > 0.0 {
-                // At the end: none. Later: rounding.
-                return Some((s < 1.0).then_some(s));
+                if s == 1.0 {
+                    return Some(None);
+                }
+                above = s;
+            } else {
+                below = s;
             }
-            let next = s - value / slope;
-            if next >= s || next <= 0.0 {
-                break;
+            let next = s + bent_step(value, slope, half_bend);
+            if slope < 0.0 && value.abs() <= NEAR_ROOT * s * slope.abs() {
+                return Some(Some(next.min(1.0)));
             }
-            s = next;
+            // Before the crest steps lead elsewhere.
+            s = if slope < 0.0 && next > above && next < below { next } else { 0.5 * (above + below) };
         }
         Some(Some(s))
     }
@@ -138,6 +173,7 @@ impl Powers {
         let (first, start_slope, start_bend) = (self.coefficients[0], self.coefficients[1], 2.0 * self.coefficients[2]);
         let [mut size, mut last] = [first.abs() + start_slope.abs(), first + start_slope];
         let [mut end_slope, mut fall, mut rise] = [start_slope, 0.0, 0.0];
+        let mut end_bend = 0.0;
         let [mut bend_fall, mut bend_rise] = [-start_bend.min(0.0), -start_bend.max(0.0)];
         let mut k = 1.0;
         for c in self.terms().iter().skip(2) {
@@ -149,6 +185,7 @@ impl Powers {
             end_slope += share;
             fall += share.min(0.0);
             rise += share.max(0.0);
+            end_bend += before * share;
             bend_fall += (before * share).min(0.0);
             bend_rise += (before * share).max(0.0);
         }
@@ -171,32 +208,22 @@ impl Powers {
         }
         // The slope falls (rises) throughout: one crest, where it is zero.
         let (mut a, mut b) = (0.0, 1.0);
-        let mut s = start_slope / (start_slope - end_slope);
+        let mut s = crest_guess([start_slope, end_slope], [start_bend, end_bend]);
         for _ in 0..ROUNDS {
-            let [slope, bend] = self.slope_and_bend(s);
+            let [value, slope, half_bend, sixth] = self.around(s);
             if sign * slope > 0.0 {
                 a = s;
             } else {
                 b = s;
             }
-            let next = s - slope / bend;
-            // Each round squares what is missing. And the crest is flat: half the digits of its place are all those of its height.
-            if (next - s).abs() < 1e-5 {
-                s = next.clamp(0.0, 1.0);
-                break;
+            let change = bent_step(slope, 2.0 * half_bend, 3.0 * sixth);
+            if slope.abs() < NEAR_CREST * (2.0 * half_bend).abs() {
+                return Some(known.max((value + change * (slope + change * (half_bend + change * sixth))).abs()));
             }
+            let next = s + change;
             s = if next > a && next < b { next } else { 0.5 * (a + b) };
         }
         Some(known.max(self.evaluate(s).abs()))
-    }
-
-    fn slope_and_bend(&self, s: f64) -> [f64; 2] {
-        let (mut slope, mut bend) = (0.0, 0.0);
-        for (k, c) in self.terms().iter().enumerate().skip(1).rev() {
-            bend = bend * s + slope;
-            slope = slope * s + k as f64 * c;
-        }
-        [slope, bend]
     }
 
     /// The Bernstein form.
@@ -221,6 +248,17 @@ mod tests {
         assert_eq!(powers(&[0.0, 1.0, -2.0]).first_root(1), Some(Some(0.5)));
         // 1 - s²/2: bent, and above at the end.
         assert_eq!(powers(&[1.0, 0.9, -1.0]).first_root(0), Some(None));
+        // Where Halley's first step leads beyond zero.
+        for (terms, expected) in [
+            ([0.02, -1.0, -0.05, -0.15], 0.019_978_846_089_125_34),
+            ([1e-3, -1.0, -1e-6, -0.3], 9.999_996_990_002_715e-4),
+        ] {
+            let root = powers(&terms).first_root(0).expect("bent").expect("a root");
+            assert!((root / expected - 1.0).abs() < 1e-15, "{root}");
+        }
+        // A short hop.
+        let hop = powers(&[0.0, 1e-7, -1.0]).first_root(1).expect("bent").expect("a root");
+        assert!((hop / 1e-7 - 1.0).abs() < 1e-15, "{hop:e}");
         // A double root inside: bent the other way.
         assert_eq!(powers(&[0.25, -1.0, 1.0]).first_root(0), None);
         // One that ends on zero.
@@ -250,6 +288,9 @@ mod tests {
         // 1 - 3 s + 0.3 s² = 0 at s = (3 - √7.8) / 0.6.
         let s = (3.0 - 7.8f64.sqrt()) / 0.6;
         assert!((crest - (0.2 + s - 1.5 * s * s + 0.1 * s * s * s)).abs() < 1e-15);
+        // Hardly bent where the search begins.
+        let flat = powers(&[1.0, 1.25e-5, -1e-9, -0.5 / 6.0]).largest_size(0.1).expect("bent");
+        assert!((flat - 1.000_000_058_925_515_1).abs() < 1e-15, "{flat}");
         // Where the first guess is the crest.
         let at_once = powers(&[0.2, 1.0, -1.0]).largest_size(0.1).expect("bent");
         assert!((at_once - 0.45).abs() < 1e-15, "{at_once}");

@@ -17,6 +17,8 @@ pub(crate) struct Pendulum {
     rate: f64,
     /// `[rad]`
     balance: f64,
+    /// `q` where the angle is zero: most swings begin and end there.
+    upright: f64,
 }
 
 /// Where a pendulum is, and where it goes.
@@ -37,7 +39,8 @@ impl Pendulum {
     pub fn new(inertia: f64, [of_cos, of_sin]: [f64; 2]) -> Option<Pendulum> {
         let square = libm::hypot(of_cos, of_sin) / inertia;
         let is_driven = square > 0.0 && square.is_finite();
-        is_driven.then(|| Pendulum { rate: square.sqrt(), balance: libm::atan2(of_cos, -of_sin) })
+        let balance = libm::atan2(of_cos, -of_sin);
+        is_driven.then(|| Pendulum { rate: square.sqrt(), balance, upright: square_of_half_sine(balance) })
     }
 
     /// The angle `ψ` beyond the balance of an angle, with `sign` the side to which it leans, and the other way round.
@@ -70,7 +73,8 @@ impl Pendulum {
 
     /// The swing through `ψ` with rate `v`.
     pub fn swing(&self, psi: f64, v: f64) -> Swing {
-        let (p, q) = (self.rate, square_of_half_sine(psi));
+        let p = self.rate;
+        let q = if psi.abs() == self.balance.abs() { self.upright } else { square_of_half_sine(psi) };
         let kappa = q - v * v / (4.0 * p * p);
         let turns = kappa > 0.0 && v * psi < 0.0;
         Swing { p, psi, v, q, kappa, turn: turns.then(|| 2.0 * libm::asin(kappa.sqrt()).copysign(psi)) }
@@ -243,7 +247,8 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_2;
 
-    const PENDULUM: Pendulum = Pendulum { rate: 2.1, balance: 0.25 };
+    /// `sin² ⅛`
+    const PENDULUM: Pendulum = Pendulum { rate: 2.1, balance: 0.25, upright: 0.015_543_789_144_677_61 };
 
     /// `ψ¨ = p² sin ψ` by many small steps of the classic method.
     fn integrate(mut x: [f64; 2], time: f64) -> [f64; 2] {

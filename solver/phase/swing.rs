@@ -3,17 +3,17 @@
 //! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back: the
 //! margins of closed interfaces are polynomials of sine and cosine of the angle ([`super::harmonics`]).
 
-use super::harmonics::{Harmonics, OnTheVerge};
+use super::harmonics::OnTheVerge;
 use super::inside::PANELS_PER_TURN;
 use super::pendulum::{Pendulum, Swing};
 use super::{Ended, Phase, interfaces, records_forces, segment};
 use crate::dynamics::{Interfaces, StateVector};
 use crate::event::{first_crossing, polished};
-use crate::few::Few;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
 
 /// A swing of the one gap of a phase.
+#[derive(Clone, Copy)]
 struct Course {
     pendulum: Pendulum,
     swing: Swing,
@@ -22,8 +22,6 @@ struct Course {
     start: f64,
     outmost: f64,
     inmost: f64,
-    /// Of the closed interfaces.
-    margins: Few<Harmonics>,
 }
 
 /// How a swing ends, at which angle and rate beyond the balance, and when from its start `[s]`.
@@ -50,6 +48,12 @@ impl<V: StateVector> Phase<V> {
         }
         let (course, mut end) = self.course(run, pendulum)?;
         let left = segment(run).end - run.t;
+        if !self.closed.is_empty() {
+            let (waves, gravity) = (pendulum.waves(&course.swing, course.sign), run.scene.column.gravity());
+            let closed = 0..self.closed.len();
+            self.over_swing.clear();
+            self.over_swing.extend(closed.map(|index| self.of_closed.over_swing(index, gravity, &waves)));
+        }
         for leg in [course.outmost, course.inmost] {
             if let Some(opening) = self.opening(run, &course, leg).filter(|opening| opening.time < end.time.min(left)) {
                 end = opening;
@@ -107,15 +111,10 @@ impl<V: StateVector> Phase<V> {
         let time = swing.time_to(psi, v);
         let outmost = if is_overturned { overturned } else { crest.unwrap_or(start) };
         let inmost = if is_overturned { turn.filter(|_| rate < 0.0).unwrap_or(start) } else { landing };
-        let margins = match self.closed.len() {
-            0 => Few::new(),
-            closed => {
-                let (waves, gravity) = (pendulum.waves(&swing, sign), run.scene.column.gravity());
-                (0..closed).map(|index| self.of_closed.over_swing(index, gravity, &waves)).collect()
-            }
-        };
-        let course = Course { pendulum, swing, sign, start, outmost, inmost, margins };
-        (time >= 0.0).then_some((course, End { ended, psi, v, time }))
+        if time.is_nan() || time < 0.0 {
+            return None;
+        }
+        Some((Course { pendulum, swing, sign, start, outmost, inmost }, End { ended, psi, v, time }))
     }
 
     /// The first opening of a closed interface on a leg of the swing, from its start to an angle.
@@ -133,7 +132,7 @@ impl<V: StateVector> Phase<V> {
                 phase.margin(run, interface)
             };
             // The formula's place is right but for the rounding of a weight that turns: the force itself brings the rest.
-            let known = match course.margins[index].opening(to - from) {
+            let known = match self.over_swing[index].opening(to - from) {
                 Ok(None) => continue,
                 Ok(Some([s, slope])) => polished(|s| margin(self, s), s, slope, 1.0),
                 Err(OnTheVerge) => None,
