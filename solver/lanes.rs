@@ -75,11 +75,7 @@ impl<const W: usize> Scalar for Lanes<W> {
 
     #[inline(always)]
     fn sin_cos(self) -> (Lanes<W>, Lanes<W>) {
-        let mut is_within = true;
-        for lane in 0..W {
-            is_within &= sine::is_within_reach(self.0[lane]);
-        }
-        if is_within { sine::kernels(self) } else { one_by_one(self) }
+        if sine::are_within_reach(&self.0) { sine::kernels(self) } else { one_by_one(self) }
     }
 }
 

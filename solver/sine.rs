@@ -49,6 +49,16 @@ pub fn is_within_reach(x: f64) -> bool {
     x.abs().to_bits().wrapping_sub(1) < REACH.to_bits()
 }
 
+/// Whether they hold for all of these angles.
+#[inline(always)]
+pub fn are_within_reach(angles: &[f64]) -> bool {
+    let mut are_within = true;
+    for angle in angles {
+        are_within &= is_within_reach(*angle);
+    }
+    are_within
+}
+
 /// Both polynomials.
 #[inline(always)]
 pub fn kernels<S: Scalar>(x: S) -> (S, S) {

@@ -21,6 +21,7 @@ use super::control::rough_root;
 use crate::dynamics::StateVector;
 use crate::lanes::{Lanes, widest};
 use crate::program::Scalar;
+use crate::sine;
 use rule::{RULE, integrals, recurrence};
 pub use sampled::{GAPS, INTERVALS, LinearlyForced, SampledStep, sampled_step};
 
@@ -82,8 +83,10 @@ pub struct Gauss<V, L: StateVector> {
     sin: L::Of<AtNodes>,
     omega: L::Of<AtNodes>,
     now: L::Of<AtNodes>,
-    next: L::Of<AtNodes>,
-    /// Cosine and sine at the start, and what an acceleration weighs in angle and rate if it lasts for the step.
+    /// A round ago.
+    before: L::Of<AtNodes>,
+    /// Cosine and sine of where the first rate leads to in the middle of the step, and what an acceleration weighs in angle and rate if it lasts for
+    /// the step.
     start: L::Of<[f64; 4]>,
 }
 
@@ -103,7 +106,7 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
             sin: each(),
             omega: each(),
             now: each(),
-            next: each(),
+            before: each(),
             start: zero_links.each([0.0; 4]),
         }
     }
@@ -149,8 +152,8 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
             self.place();
             let (theta, omega) = (self.theta.as_ref(), self.omega.as_ref());
             let states = States { theta, cos: self.cos.as_ref(), sin: self.sin.as_ref(), omega };
-            system.acceleration(states, self.next.as_mut());
-            std::mem::swap(&mut self.now, &mut self.next);
+            system.acceleration(states, self.before.as_mut());
+            std::mem::swap(&mut self.now, &mut self.before);
             if round == 0 {
                 noise = self.weigh(tolerance);
             }
@@ -205,11 +208,8 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
             self.now.as_mut().fill(splat(0.0));
             return false;
         }
-        let (origin, terms) = match (is_within, ratio <= FAR) {
-            (true, _) => (-1.0, NODES),
-            (false, true) => (1.0, EXTRAPOLATED),
-            (false, false) => (1.0, 1),
-        };
+        let origin = if is_within { -1.0 } else { 1.0 };
+        let terms = if ratio <= FAR { NODES } else { 1 };
         let place = splat(origin) + splat(2.0 * ratio) * RULE.nodes;
         let (mut before, mut legendre) = (splat(1.0), place);
         for (now, spectrum) in self.now.as_mut().iter_mut().zip(self.spectrum.as_ref()) {
@@ -225,11 +225,13 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
         true
     }
 
-    /// Cosines and sines at the start.
+    /// Cosines and sines of where the links would be in the middle of the step at their first rates.
     #[inline(always)]
     fn begin(&mut self) {
-        for (start, theta) in self.start.as_mut().iter_mut().zip(self.x.as_slice()) {
-            let (sin, cos) = Scalar::sin_cos(*theta);
+        let dof = self.now.as_ref().len();
+        let (angles, rates) = self.x.as_slice().split_at(dof);
+        for (start, (theta, rate)) in self.start.as_mut().iter_mut().zip(angles.iter().zip(rates)) {
+            let (sin, cos) = Scalar::sin_cos(theta + 0.5 * (self.h * rate));
             *start = [cos, sin, 0.0, 0.0];
         }
     }
@@ -254,9 +256,9 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
     #[inline(always)]
     fn change(&self) -> f64 {
         let mut largest = splat(0.0);
-        let links = self.next.as_ref().iter().zip(self.now.as_ref());
-        for ((next, now), start) in links.zip(self.start.as_ref()) {
-            let own = (*next - *now) * splat(at_end(start));
+        let links = self.now.as_ref().iter().zip(self.before.as_ref());
+        for ((now, before), start) in links.zip(self.start.as_ref()) {
+            let own = (*now - *before) * splat(at_end(start));
             for node in 0..NODES {
                 largest.0[node] = larger(own.0[node].abs(), largest.0[node]);
             }
@@ -267,25 +269,45 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
     /// States at the nodes for the present accelerations.
     #[inline(always)]
     fn place(&mut self) {
-        let dof = self.now.as_ref().len();
-        let (x, h) = (self.x.as_slice(), self.h);
-        let (step, square) = (splat(h), splat(h * h));
-        for link in 0..dof {
-            let own = &self.now.as_ref()[link].0;
-            let (mut once, mut twice) = (splat(0.0), splat(0.0));
-            for (own, (a, b)) in own.iter().zip(RULE.once.iter().zip(&RULE.twice)) {
-                once = once + splat(*own) * *a;
-                twice = twice + splat(*own) * *b;
+        for link in 0..self.now.as_ref().len() {
+            let turned = self.turn(link);
+            // A loop that may end early is left as it is: otherwise links, not nodes, are put side by side.
+            if !sine::are_within_reach(&turned.0) {
+                return self.place_far(link);
             }
-            let turned = RULE.nodes * splat(h * x[dof + link]) + square * twice;
-            let [cos, sin, ..] = self.start.as_ref()[link];
-            // Of the way from the start: that is within reach of the polynomials wherever the start is.
-            let (sin_turned, cos_turned) = turned.sin_cos();
-            self.theta.as_mut()[link] = splat(x[link]) + turned;
-            self.omega.as_mut()[link] = splat(x[dof + link]) + step * once;
-            self.sin.as_mut()[link] = splat(sin) * cos_turned + splat(cos) * sin_turned;
-            self.cos.as_mut()[link] = splat(cos) * cos_turned - splat(sin) * sin_turned;
+            self.face(link, sine::kernels(turned));
         }
+    }
+
+    /// The same from a link on that turns by more than polynomials reach.
+    #[cold]
+    #[inline(always)]
+    fn place_far(&mut self, first: usize) {
+        for link in first..self.now.as_ref().len() {
+            let turned = self.turn(link);
+            self.face(link, turned.sin_cos());
+        }
+    }
+
+    /// Angles and rates of a link, and by how much it is turned from where it would be in the middle of the step at its first rate: that is small
+    /// wherever the start is.
+    #[inline(always)]
+    fn turn(&mut self, link: usize) -> AtNodes {
+        let (x, dof, h) = (self.x.as_slice(), self.now.as_ref().len(), self.h);
+        let own = &self.now.as_ref()[link].0;
+        let (once, twice) = (integrated(own, &RULE.once), integrated(own, &RULE.twice));
+        let (turned, way) = (splat(h * h) * twice, h * x[dof + link]);
+        self.theta.as_mut()[link] = splat(x[link]) + (RULE.nodes * splat(way) + turned);
+        self.omega.as_mut()[link] = splat(x[dof + link]) + splat(h) * once;
+        (RULE.nodes - splat(0.5)) * splat(way) + turned
+    }
+
+    /// Sine and cosine of a link from those of what it is turned by.
+    #[inline(always)]
+    fn face(&mut self, link: usize, (sin_turned, cos_turned): (AtNodes, AtNodes)) {
+        let [cos, sin, ..] = self.start.as_ref()[link];
+        self.sin.as_mut()[link] = splat(sin) * cos_turned + splat(cos) * sin_turned;
+        self.cos.as_mut()[link] = splat(cos) * cos_turned - splat(sin) * sin_turned;
     }
 
     /// The error that the accelerations tell, and what that says of the next step.
@@ -326,7 +348,7 @@ impl<V: StateVector, L: StateVector> Gauss<V, L> {
 
     /// The step that the last attempt calls for, relative to it.
     pub fn factor_wanted(&self) -> f64 {
-        self.factor_wanted.clamp(0.02, 3.0)
+        self.factor_wanted.clamp(0.02, FAR)
     }
 
     /// State at the end of the last attempt, which counts if its error is at most one.
@@ -399,6 +421,24 @@ fn splat(value: f64) -> AtNodes {
     Lanes([value; NODES])
 }
 
+/// What values at the nodes come to with these weights: in halves, so that no sum waits for all before it.
+#[inline(always)]
+fn integrated(values: &[f64; NODES], weights: &[AtNodes; NODES]) -> AtNodes {
+    const HALF: usize = NODES / 2;
+    let (mut early, mut late) = (splat(values[0]) * weights[0], splat(values[HALF]) * weights[HALF]);
+    for node in 1..HALF {
+        early = early + splat(values[node]) * weights[node];
+        late = late + splat(values[HALF + node]) * weights[HALF + node];
+    }
+    early + late
+}
+
+/// The same, from memory: lanes that are read one by one would otherwise be computed one by one.
+#[inline(always)]
+fn stored(values: AtNodes) -> AtNodes {
+    *std::hint::black_box(&values)
+}
+
 /// The largest size of those that are numbers.
 #[inline(always)]
 fn size(values: AtNodes) -> f64 {
@@ -465,13 +505,13 @@ const GAIN: usize = 8;
 /// Roundings of an acceleration beyond which a change tells nothing.
 const ROUNDINGS: f64 = 8.0;
 
-/// Change, in tolerances, that the rounds after the last may still make.
-const SETTLED: f64 = 0.3;
+/// Change, in tolerances, that the rounds after the last may still make. Larger, and what is left adds up from step to step: most of them leave it
+/// on the same side.
+const SETTLED: f64 = 0.03;
 
-/// Legendre terms that the last step's accelerations are continued with, into a step no longer than [`FAR`] times it: more of them grow faster
-/// outside than what they add is worth.
-const EXTRAPOLATED: usize = 5;
-const FAR: f64 = 1.5;
+/// Steps no longer than this many times the last one begin with its polynomial, continued: each term, measured, saves more rounds than its
+/// growth outside costs. Longer ones begin with its mean.
+const FAR: f64 = 3.0;
 
 /// Aim below the step that would just meet the tolerance by this factor: the error goes with a high power of it, and a step refused costs rounds.
 const SAFETY: f64 = 0.85;

@@ -90,59 +90,109 @@ struct Leap {
 
 /// What is known of an angle all through a step, out being positive.
 struct Bounds {
-    least: f64,
-    most: f64,
-    /// Whether it goes out all the way: its largest size is that at the end.
-    goes_out: bool,
+    /// From and until which share of the step the angle may have a crest above the peak so far.
+    crest: Option<[f64; 2]>,
+    /// Share of the step from which on the block may land or overturn; `None` if it does neither.
+    doubtful_from: Option<f64>,
 }
 
 impl Bounds {
-    /// Of a step of length `h` from an angle, on this side. Nodes lie where they are said to by far less than angles may sag between them.
-    fn new(rocker: Rocker, [start, sign]: [f64; 2], samples: &[f64], h: f64, step: &SampledStep) -> Bounds {
+    /// Of a step of length `h` from an angle, on this side.
+    fn new(
+        rocker: Rocker,
+        [start, sign]: [f64; 2],
+        samples: &[f64],
+        h: f64,
+        step: &SampledStep,
+        marks: Marks,
+    ) -> Bounds {
         let mut angles = [sign * start; NODES + 2];
         let later = step.theta.0.iter().chain(&step.end[..1]);
         angles[1..].iter_mut().zip(later).for_each(|(angle, theta)| *angle = sign * theta);
-        let ways = || angles.windows(2).map(|pair| pair[1] - pair[0]);
-        let (mut least, mut most, mut widest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
-        angles.iter().for_each(|angle| (least, most) = (least.min(*angle), most.max(*angle)));
-        ways().for_each(|way| widest = widest.max(way.abs()));
+        let widest = angles.windows(2).fold(0.0f64, |widest, pair| widest.max((pair[1] - pair[0]).abs()));
         // Between nodes angles, and accelerations with them, are others.
         let strongest = samples.iter().fold(0.0f64, |strongest, sample| strongest.max(sample.abs()));
         let (bound, square) = (rocker.bound(strongest), (h * WIDEST_GAP) * (h * WIDEST_GAP));
         let acceleration = step.acceleration + bound * (widest + 0.125 * square * bound);
-        let sag = 0.125 * square * acceleration;
-        // A rate is off its mean between two nodes by half of what it may change.
-        let goes_out = ways().zip(&GAPS).all(|(way, gap)| way > 0.5 * (h * gap) * (h * gap) * acceleration);
-        Bounds { least: least - sag, most: most + sag, goes_out }
+        let (mut bounds, mut passed) = (Bounds { crest: None, doubtful_from: None }, 0.0);
+        for (index, (pair, gap)) in angles.windows(2).zip(&GAPS).enumerate() {
+            let &[from, to] = pair else { continue };
+            // A rate is off its mean between two nodes by half of what it may change: most often the angle goes one way.
+            let bend = 0.5 * (h * gap) * (h * gap) * acceleration;
+            let rises = to - from > bend;
+            let slack = bend * if rises || from - to > bend { SLACK } else { SAG };
+            let least = if index == 0 && rises { from } else { from.min(to) - slack };
+            let most = from.max(to) + slack;
+            // Where it rises it is largest at the end, which is the start of what follows.
+            if !rises && most > marks.peak {
+                let from = bounds.crest.map_or(passed, |[from, _]| from);
+                bounds.crest = Some([from, passed + gap]);
+            }
+            if !(least > 0.0 && most < marks.overturned) {
+                bounds.doubtful_from = bounds.doubtful_from.or(Some(passed));
+            }
+            passed += gap;
+        }
+        bounds
     }
 }
+
+/// Angles that matter `[rad]`.
+#[derive(Clone, Copy)]
+struct Marks {
+    /// Where the block has overturned.
+    overturned: f64,
+    /// The largest size so far; infinite where it is of no interest.
+    peak: f64,
+}
+
+/// What an angle sags between two nodes, as a share of what it moves there by its acceleration from rest.
+const SAG: f64 = 0.25;
+
+/// Share of the same by which nodes, which are less accurate than the end of a step, may lie elsewhere: many times what they do, at tolerances
+/// looser than 1e-4 about as much, which is less than those.
+const SLACK: f64 = 1.0 / 16.0;
 
 /// Accelerations of the ground at equidistant times.
 struct Samples {
     values: [f64; MOST + 1],
-    dt: f64,
+    intervals: usize,
 }
 
 /// Intervals of the longest step.
 const MOST: usize = INTERVALS[INTERVALS.len() - 1];
 
 impl Samples {
-    /// Those of the next so many segments, the run being at the start of the first; `None` if they are anything but stretches of a record.
-    fn next(run: &Run, intervals: usize) -> Option<Samples> {
-        let stretch = run.segments.get(run.segment..run.segment + intervals)?;
-        let (first, last) = (stretch.first()?, stretch.last()?);
-        let mut samples = Samples { values: [0.0; MOST + 1], dt: (last.end - first.start) / intervals as f64 };
-        for (index, (own, sample)) in stretch.iter().zip(&mut samples.values).enumerate() {
-            let &Segment { start, end, ref horizontal, vertical: Piece::Zero, jumps } = own else { return None };
-            let Piece::Linear { .. } = horizontal else { return None };
-            if (jumps && index > 0) || ((end - start) - samples.dt).abs() > UNEVEN * samples.dt {
-                return None;
+    /// Those of the next segments, the run being at the start of the first: up to so many, as long as they are stretches of a record.
+    fn next(run: &Run, most: usize) -> Samples {
+        let mut samples = Samples { values: [0.0; MOST + 1], intervals: 0 };
+        let mut dt = 0.0;
+        for (index, own) in run.segments[run.segment..].iter().take(most).enumerate() {
+            let &Segment { start, end, ref horizontal, vertical: Piece::Zero, jumps } = own else { break };
+            let Piece::Linear { .. } = horizontal else { break };
+            let length = end - start;
+            dt = if index == 0 { length } else { dt };
+            if (jumps && index > 0) || (length - dt).abs() > UNEVEN * dt {
+                break;
             }
-            *sample = horizontal.value(start);
+            samples.values[index] = horizontal.value(start);
+            samples.values[index + 1] = horizontal.value(end);
+            samples.intervals = index + 1;
         }
-        samples.values[intervals] = last.horizontal.value(last.end);
-        Some(samples)
+        samples
     }
+}
+
+/// When a height with this rate and acceleration falls to zero; infinite where it does not `[s]`.
+fn fall_time(height: f64, rate: f64, acceleration: f64) -> f64 {
+    let square = rate * rate - 2.0 * acceleration * height;
+    let speed = square.sqrt() - rate;
+    if square >= 0.0 && speed > 0.0 { 2.0 * height / speed } else { f64::INFINITY }
+}
+
+/// The place of the largest number of intervals that is no more than this; `None` if it is less than all.
+fn place_of(intervals: f64) -> Option<usize> {
+    INTERVALS.iter().rposition(|own| *own as f64 <= intervals)
 }
 
 impl<V: StateVector> Phase<V> {
@@ -164,12 +214,14 @@ impl<V: StateVector> Phase<V> {
                 return false;
             }
         };
-        let last = run.segment + intervals - 1;
+        let (first, last) = (run.segment, run.segment + intervals - 1);
         let is_due = run.next_output().is_some_and(|time| time < run.segments[last].end);
-        let is_crest_known =
-            run.scene.options.wanted == Wanted::Outcome || bounds.goes_out || bounds.most < run.history.peak_theta[0];
-        if is_due || !is_crest_known || records_forces(run) {
+        if is_due || records_forces(run) {
             self.look_inside(run, last, tolerance);
+        } else if let Some(crest) = bounds.crest {
+            let [from, until] = crest.map(|share| share * intervals as f64);
+            self.leap_before(run, rocker, from, tolerance);
+            self.look_inside(run, last.min(first + until as usize), tolerance);
         }
         self.x.as_mut_slice().copy_from_slice(&end);
         run.segment = last;
@@ -189,37 +241,53 @@ impl<V: StateVector> Phase<V> {
     fn longest_leap(&self, run: &mut Run, rocker: Rocker, tolerance: Tolerance) -> Result<Leap, usize> {
         let x = [self.x.as_slice()[0], self.x.as_slice()[1]];
         let sign = self.gaps[0].across.sign;
-        let mut known: Option<Samples> = None;
-        for place in (0..=run.leap).rev() {
+        let is_peak_wanted = run.scene.options.wanted == Wanted::Everything;
+        let marks = Marks {
+            overturned: run.scene.options.overturn_angle,
+            peak: if is_peak_wanted { run.history.peak_theta[0] } else { f64::INFINITY },
+        };
+        let known = Samples::next(run, INTERVALS[run.leap]);
+        let mut place = place_of(known.intervals as f64).ok_or(INTERVALS[0])?;
+        let length = |intervals: usize| run.segments[run.segment + intervals - 1].end - run.t;
+        // Where it lands with its mean acceleration is worth no try.
+        let (all, dt) = (&known.values[..=INTERVALS[place]], length(1));
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let landing = fall_time(sign * x[0], sign * x[1], sign * rocker.acceleration(x[0], mean)) / dt;
+        place = place.min(place_of(BEFORE_LANDING * landing).ok_or(landing.max(1.0) as usize)?);
+        loop {
             let intervals = INTERVALS[place];
-            if known.is_none() {
-                known = Samples::next(run, intervals);
-            }
-            let Some(Samples { values, dt }) = &known else { continue };
-            let (samples, h) = (&values[..=intervals], dt * intervals as f64);
-            // With its mean acceleration it lands: not worth a try.
-            let mean = samples.iter().sum::<f64>() / samples.len() as f64;
-            if sign * (x[0] + h * (x[1] + 0.5 * h * rocker.acceleration(x[0], mean))) <= 0.0 {
-                continue;
-            }
-            let step = sampled_step(&rocker, x, samples, *dt, tolerance);
+            let (samples, h) = (&known.values[..=intervals], length(intervals));
+            let step = sampled_step(&rocker, x, samples, h / intervals as f64, tolerance);
             run.work.rhs_calls += NODES * step.rounds;
+            let allowed = place_of(intervals as f64 * step.factor_wanted()).unwrap_or(0);
             if step.error > 1.0 {
-                run.leap = place.saturating_sub(1);
-                if place == 0 {
-                    return Err(MOST);
-                }
+                place = allowed.min(place.checked_sub(1).ok_or(MOST)?);
+                run.leap = place;
                 continue;
             }
-            let bounds = Bounds::new(rocker, [x[0], sign], samples, h, &step);
-            if bounds.least > 0.0 && bounds.most < run.scene.options.overturn_angle {
-                if step.error < WELL_BELOW {
-                    run.leap = (place + 1).clamp(run.leap, INTERVALS.len() - 1);
-                }
+            let bounds = Bounds::new(rocker, [x[0], sign], samples, h, &step, marks);
+            let Some(share) = bounds.doubtful_from else {
+                // A step cut short says nothing against a longer one.
+                run.leap = if place < run.leap { run.leap.max(allowed) } else { allowed };
                 return Ok(Leap { intervals, end: step.end, bounds });
-            }
+            };
+            place = place_of(share * intervals as f64).ok_or(INTERVALS[0])?;
         }
-        Err(INTERVALS[0])
+    }
+
+    /// Goes over most of these samples, to look at what comes after them.
+    fn leap_before(&mut self, run: &mut Run, rocker: Rocker, intervals: f64, tolerance: Tolerance) {
+        let Some(place) = place_of(intervals) else { return };
+        let (x, known) = ([self.x.as_slice()[0], self.x.as_slice()[1]], Samples::next(run, INTERVALS[place]));
+        let next = run.segment + known.intervals;
+        let (samples, dt) = (&known.values[..=known.intervals], (segment(run).end - run.t));
+        let step = sampled_step(&rocker, x, samples, dt, tolerance);
+        run.work.rhs_calls += NODES * step.rounds;
+        if step.error <= 1.0 {
+            self.x.as_mut_slice().copy_from_slice(&step.end);
+            (run.t, run.segment) = (run.segments[next].start, next);
+            self.stepper.enter(segment(run).clone());
+        }
     }
 
     /// Goes from sample to sample up to the end of a segment, for rows, forces and peaks on the way: the state that the run goes on from is another.
@@ -265,5 +333,5 @@ const WIDEST_GAP: f64 = GAPS[GAPS.len() / 2];
 /// Intervals may differ by this share: times are rounded. A step takes them for equal.
 const UNEVEN: f64 = 1e-9;
 
-/// Error below which one over twice as many intervals is tried: it is some fifty times as large. Larger costs tries, smaller steps.
-const WELL_BELOW: f64 = 0.015;
+/// Share of the time to a landing at constant acceleration that a step may take.
+const BEFORE_LANDING: f64 = 0.95;

@@ -65,6 +65,7 @@ pub const RULE: Rule = {
 };
 
 /// Factors of `x P_k` and `P_(k-1)` in the next Legendre polynomial.
+#[inline(always)]
 pub const fn recurrence(k: usize) -> [f64; 2] {
     [(2 * k + 1) as f64 / (k + 1) as f64, k as f64 / (k + 1) as f64]
 }

@@ -14,13 +14,14 @@
 //! once more; added at the end of the step, they take away nine tenths of the error, and far more where steps are short against the time scale of `f`.
 
 use super::rule::{RULE, legendre};
-use super::{AtNodes, NODES, larger, size, splat, sum};
-use crate::lanes::widest;
+use super::{AtNodes, NODES, larger, size, splat, stored, sum};
+use crate::lanes::{Lanes, widest};
 use crate::ode::Tolerance;
-use std::sync::LazyLock;
+use crate::ode::control::rough_root;
+use std::sync::OnceLock;
 
-/// Intervals between samples that a step may take.
-pub const INTERVALS: [usize; 4] = [4, 8, 16, 32];
+/// Intervals between samples that a step may take: weights are kept for each.
+pub const INTERVALS: [usize; 12] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32];
 
 /// Equations of one angle, linear in a forcing.
 pub trait LinearlyForced {
@@ -41,6 +42,13 @@ pub struct SampledStep {
     pub rounds: usize,
     /// Relative to the tolerance, at most one if the step is good; infinite where it does not converge.
     pub error: f64,
+}
+
+impl SampledStep {
+    /// The step that the error calls for, relative to this one.
+    pub fn factor_wanted(&self) -> f64 {
+        AIM / rough_root(self.error.max(LEAST_ERROR), ERROR_ORDER)
+    }
 }
 
 /// Times from the start to the first node, from node to node, and from the last node to the end, as shares of the step.
@@ -68,12 +76,7 @@ struct Weights {
 }
 
 /// By their place among [`INTERVALS`], made when they are needed first.
-static WEIGHTS: [LazyLock<Weights>; INTERVALS.len()] = [
-    LazyLock::new(|| Weights::new(INTERVALS[0])),
-    LazyLock::new(|| Weights::new(INTERVALS[1])),
-    LazyLock::new(|| Weights::new(INTERVALS[2])),
-    LazyLock::new(|| Weights::new(INTERVALS[3])),
-];
+static WEIGHTS: [OnceLock<Weights>; INTERVALS.len()] = [const { OnceLock::new() }; INTERVALS.len()];
 
 impl Weights {
     /// Of steps over so many intervals: products of three polynomials, of degree nine at most, integrated piece by piece by Gauss's rule.
@@ -147,7 +150,6 @@ impl Forcing {
     #[inline(always)]
     fn new(samples: &[f64], weights: &Weights) -> Forcing {
         let (mut of_nodes, mut at_end) = ([splat(0.0); NODES], [splat(0.0); 2]);
-        let (mut strongest, mut sum) = (0.0, 0.0);
         for (sample, (twice, end)) in samples.iter().zip(weights.twice.iter().zip(&weights.end)) {
             let own = splat(*sample);
             for (sum, weight) in of_nodes.iter_mut().zip(twice) {
@@ -156,6 +158,10 @@ impl Forcing {
             for (sum, weight) in at_end.iter_mut().zip(end) {
                 *sum = *sum + own * *weight;
             }
+        }
+        of_nodes.iter_mut().chain(&mut at_end).for_each(|sum| *sum = stored(*sum));
+        let (mut strongest, mut sum) = (0.0, 0.0);
+        for sample in samples {
             strongest = larger(sample.abs(), strongest);
             sum += sample;
         }
@@ -183,10 +189,11 @@ pub fn sampled_step<F: LinearlyForced>(
     dt: f64,
     tolerance: Tolerance,
 ) -> SampledStep {
-    let Some(weights) = INTERVALS.iter().zip(&WEIGHTS).find(|(intervals, _)| **intervals + 1 == samples.len()) else {
+    let Some(place) = INTERVALS.iter().position(|intervals| intervals + 1 == samples.len()) else {
         return SampledStep { theta: splat(x[0]), end: x, acceleration: 0.0, rounds: 0, error: f64::INFINITY };
     };
-    let (intervals, weights) = (*weights.0, &**weights.1);
+    let intervals = INTERVALS[place];
+    let weights = WEIGHTS[place].get_or_init(|| Weights::new(intervals));
     widest(
         #[inline(always)]
         || collocate(forced, x, &Forcing::new(samples, weights), dt * intervals as f64, tolerance),
@@ -208,14 +215,12 @@ fn collocate<F: LinearlyForced>(
     while rounds < MOST_ROUNDS && !converges {
         rounds += 1;
         [now, slopes] = forced.parts(theta);
-        let (mut own, mut shaken) = (splat(0.0), splat(0.0));
-        for j in 0..NODES {
-            own = own + splat(now[0].0[j]) * RULE.twice[j];
-            shaken = shaken + splat(now[1].0[j]) * forcing.of_nodes[j];
-        }
-        let next = ahead + square * (own + shaken);
-        let change = size(next - theta);
-        theta = next;
+        let off = ahead + square * twice_integrated(now, forcing) - theta;
+        // What is off is off in the accelerations as well, about in proportion to their slopes.
+        let more = square * twice_integrated([slopes[0] * off, slopes[1] * off], forcing);
+        let (change, moved) = (size(stored(off)), off + more);
+        theta = stored(theta + moved);
+        now = [now[0] + slopes[0] * moved, now[1] + slopes[1] * moved];
         // Each round gains a factor, and more than the one before.
         let gain = change / last;
         let left = if gain < SLOWEST { change * gain / (1.0 - gain) } else { f64::INFINITY };
@@ -230,18 +235,18 @@ fn collocate<F: LinearlyForced>(
     let slope = of_own + forcing.mean * middle(shaken_slopes);
     let Forcing { at_end: [once, twice], rough, roughness, .. } = forcing;
     let end = [
-        start + h * (rate + h * (sum(now[0] * RULE.end_twice + now[1] * *twice) + slope * rough[1])),
-        rate + h * (sum(now[0] * RULE.end_once + now[1] * *once) + slope * rough[0]),
+        start + h * (rate + h * (sum(stored(now[0] * RULE.end_twice + now[1] * *twice)) + slope * rough[1])),
+        rate + h * (sum(stored(now[0] * RULE.end_once + now[1] * *once)) + slope * rough[0]),
     ];
     // What is smooth errs by the square of what is left out. The slope is not the same all through the step, and angles that err have accelerations
     // that err once more.
     let smooth = left_out(now[0]) + forcing.strongest * left_out(now[1]);
-    let varying = size(own_slopes - splat(of_own)) + forcing.spread * size(shaken_slopes);
+    let varying = size(stored(own_slopes - splat(of_own))) + forcing.spread * size(stored(shaken_slopes));
     let unsteady = UNSTEADY * (varying + (h * h * middle(slopes[0])).abs() * slope.abs());
     let of_angle = h * h * (smooth + unsteady * roughness[1]) / tolerance.scale(start, end[0]);
     let of_rate = h * (smooth + unsteady * roughness[0]) / tolerance.scale(rate, end[1]);
     let is_good = converges && end.iter().all(|value| value.is_finite());
-    let acceleration = size(now[0]) + forcing.strongest * size(now[1]);
+    let acceleration = size(stored(now[0])) + forcing.strongest * size(stored(now[1]));
     SampledStep {
         theta,
         end,
@@ -251,20 +256,41 @@ fn collocate<F: LinearlyForced>(
     }
 }
 
+/// Accelerations at the nodes, with the forcing's share in the second, integrated twice up to each of them.
+#[inline(always)]
+fn twice_integrated([own, shaken]: [AtNodes; 2], forcing: &Forcing) -> AtNodes {
+    let (own, shaken) = (stored(own), stored(shaken));
+    let (mut of_own, mut of_shaken) = (splat(0.0), splat(0.0));
+    for node in 0..NODES {
+        of_own = of_own + splat(own.0[node]) * RULE.twice[node];
+        of_shaken = of_shaken + splat(shaken.0[node]) * forcing.of_nodes[node];
+    }
+    of_own + of_shaken
+}
+
+/// The last Legendre coefficients of values at the nodes.
+const LAST_TERMS: [AtNodes; 2] = {
+    let mut terms = [Lanes([0.0; NODES]); 2];
+    let mut node = 0;
+    while node < NODES {
+        terms[0].0[node] = RULE.legendre[node].0[NODES - 2];
+        terms[1].0[node] = RULE.legendre[node].0[NODES - 1];
+        node += 1;
+    }
+    terms
+};
+
 /// What a smooth function errs by at the end of a step, by the last Legendre coefficients of its values at the nodes.
 #[inline(always)]
 fn left_out(values: AtNodes) -> f64 {
-    let mut spectrum = splat(0.0);
-    for (own, legendre) in values.0.iter().zip(&RULE.legendre) {
-        spectrum = spectrum + splat(*own) * *legendre;
-    }
-    let tail = spectrum.0[NODES - 2].abs() + spectrum.0[NODES - 1].abs();
-    tail * (tail / larger(size(values), f64::MIN_POSITIVE))
+    let tail = sum(stored(values * LAST_TERMS[0])).abs() + sum(stored(values * LAST_TERMS[1])).abs();
+    tail * (tail / larger(size(stored(values)), f64::MIN_POSITIVE))
 }
 
 /// In the middle of a step, of values at its nodes.
 #[inline(always)]
 fn middle(values: AtNodes) -> f64 {
+    let values = stored(values);
     0.5 * (values.0[NODES / 2 - 1] + values.0[NODES / 2])
 }
 
@@ -273,6 +299,15 @@ fn middle(values: AtNodes) -> f64 {
 fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
+
+/// Errors go with about this power of the length of a step.
+const ERROR_ORDER: usize = 6;
+
+/// Aim below the step that would just meet the tolerance by this factor.
+const AIM: f64 = 0.85;
+
+/// Error that calls for twice the step, a little more is the most that is asked: the samples to come may be rougher.
+const LEAST_ERROR: f64 = 0.0055;
 
 /// Rounds after which a step is given up: a shorter one converges in fewer, all together. Fewer, and the tightest tolerances are not met.
 const MOST_ROUNDS: usize = 12;
@@ -294,7 +329,7 @@ mod tests {
     /// All samples one: the weights are those of a constant.
     #[test]
     fn weights_of_a_constant_are_the_rules() {
-        for weights in &WEIGHTS {
+        for weights in INTERVALS.map(Weights::new) {
             for j in 0..NODES {
                 let sum = weights.twice.iter().fold(splat(0.0), |sum, own| sum + own[j]);
                 for (found, expected) in sum.0.iter().zip(RULE.twice[j].0) {
@@ -356,8 +391,11 @@ mod tests {
             let relative = |i: usize| (step.end[i] - exact[i]).abs() / (1e-9 * x[i].abs().max(step.end[i].abs()));
             let error = relative(0).max(relative(1));
             assert!(error < step.error && step.error < 1e3 * error, "{intervals}: {error} {}", step.error);
-            assert!(error > 10.0 * last, "{intervals}: {error} {last}");
-            last = error;
+            // The shortest err by what is left to converge, others by chance.
+            if [4, 8, 16, 32].contains(&intervals) {
+                assert!(error > 10.0 * last, "{intervals}: {error} {last}");
+                last = error;
+            }
         }
     }
 }
