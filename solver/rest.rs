@@ -10,6 +10,7 @@ use crate::excitation::{Piece, Segment};
 use crate::phase::Ended;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::rc::Rc;
 
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
@@ -82,7 +83,28 @@ fn earliest_start(run: &Run, segment: &Segment, limit: f64) -> Option<(f64, usiz
     if segment.is_quiet() {
         return None;
     }
-    start_before(run, segment, run.t, segment.end)
+    start_before(run, segment, run.t + until_sine_is(CLEAR * limit, segment, run.t), segment.end)
+}
+
+/// How long after `t` the ground's acceleration is below `limit` in size at least, where it is one sine; forever if it does not get there.
+fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
+    let (amplitude, omega, turned) = match (&segment.horizontal, &segment.vertical) {
+        (&Piece::Sine { amplitude, omega, start, phase }, Piece::Zero) => {
+            (amplitude, omega, omega * (t - start) + phase)
+        }
+        (&Piece::Cosine { amplitude, omega, start }, Piece::Zero) => {
+            (amplitude, omega, omega * (t - start) + FRAC_PI_2)
+        }
+        _ => return 0.0,
+    };
+    let share = limit / amplitude.abs();
+    if share > 1.0 {
+        return f64::INFINITY;
+    }
+    let (first, within) = (libm::asin(share), turned.rem_euclid(PI));
+    // From `first` to `π - first` of each half turn it is above the limit.
+    let before = if within > PI - first { within - PI } else { within };
+    (first - before).max(0.0) / omega
 }
 
 /// Steps that a rest is taken in where it is not skipped, per radian of the ground motion and, at least, per second.
@@ -108,7 +130,7 @@ fn by_steps(run: &Run, segment: &Segment) -> Option<(f64, usize, Interface)> {
 fn start_before(run: &Run, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
     let column = &run.scene.column;
     let mut t = from;
-    loop {
+    while t < until {
         let motion = Shaking::at(segment, column.gravity(), t);
         let mut step = f64::INFINITY;
         for interface in 0..column.len() {
@@ -122,10 +144,8 @@ fn start_before(run: &Run, segment: &Segment, from: f64, until: f64) -> Option<(
             }
         }
         t += step;
-        if t >= until {
-            return None;
-        }
     }
+    None
 }
 
 /// Whether some interface cannot stay closed under the present acceleration.
@@ -159,10 +179,11 @@ struct Shaking {
 impl Shaking {
     fn at(segment: &Segment, gravity: f64, t: f64) -> Shaking {
         let Segment { horizontal, vertical, .. } = segment;
+        let [(x, rate), (y, rate_upwards)] = [horizontal, vertical].map(|piece| piece.with_rate(t));
         Shaking {
             t,
-            ground: segment.ground(t, gravity),
-            rates: [horizontal.rate(t), vertical.rate(t)],
+            ground: Ground { x, gravity: gravity + y },
+            rates: [rate, rate_upwards],
             bends: [horizontal.curvature_bound(), vertical.curvature_bound()],
         }
     }

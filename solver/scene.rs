@@ -2,6 +2,7 @@
 
 use crate::column::Column;
 use crate::excitation::Excitation;
+use crate::few::Few;
 use crate::generated::Equations;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -22,10 +23,15 @@ pub enum Restitution {
 impl Restitution {
     /// `κ_i` per interface, base first: `eta / (1 - 2 m c_1² / I_O)`, the factors, or one.
     pub fn factors(&self, column: &Column) -> Vec<f64> {
+        self.per_interface(column).into_vec()
+    }
+
+    /// The same.
+    pub(crate) fn per_interface(&self, column: &Column) -> Few<f64> {
         match self {
-            Restitution::Plastic => vec![1.0; column.len()],
-            Restitution::Eta(eta) => vec![eta / column.housner_ratio(); column.len()],
-            Restitution::Factors(factors) => factors.clone(),
+            Restitution::Plastic => Few::from_elem(1.0, column.len()),
+            Restitution::Eta(eta) => Few::from_elem(eta / column.housner_ratio(), column.len()),
+            Restitution::Factors(factors) => Few::from_slice(factors),
         }
     }
 }
@@ -222,7 +228,7 @@ const LOOSEST: f64 = 1e-2;
 const SHORTEST_RUN: f64 = 1e-9;
 
 /// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
-const LARGEST: f64 = 1e6;
+pub(crate) const LARGEST: f64 = 1e6;
 
 /// What is simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -2,7 +2,7 @@
 
 use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::dynamics::Ground;
-use crate::excitation::{Excitation, Segment};
+use crate::excitation::{Layout, Segment};
 use crate::few::{Few, for_size};
 use crate::history::History;
 use crate::kinematics::{Posture, Turn};
@@ -137,18 +137,8 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
 #[derive(Default)]
 pub struct Simulator {
     modes: Modes,
-    ground: Option<LaidOut>,
+    ground: Layout,
 }
-
-/// A ground motion of many segments, laid out in time.
-struct LaidOut {
-    excitation: Excitation,
-    t_end: f64,
-    segments: Rc<Vec<Segment>>,
-}
-
-/// Segments from which on they are kept from run to run: fewer are laid out anew in less time than it takes to see that they are the same.
-const MANY_SEGMENTS: usize = 16;
 
 impl Simulator {
     /// One that has run nothing yet.
@@ -175,22 +165,8 @@ impl Simulator {
 
     /// The same with a scene that has been checked.
     pub(crate) fn run_valid(&mut self, scene: &Scene, progress: &mut dyn FnMut(f64)) -> Result<Response, SolveError> {
-        let segments = self.segments(scene);
+        let segments = self.ground.segments(&scene.excitation, scene.options.t_end);
         run(Run::new(scene, &mut self.modes, segments, progress))
-    }
-
-    fn segments(&mut self, scene: &Scene) -> Rc<Vec<Segment>> {
-        let (excitation, t_end) = (&scene.excitation, scene.options.t_end);
-        if let Some(ground) = self.ground.as_ref().filter(|own| own.t_end == t_end && own.excitation == *excitation) {
-            return Rc::clone(&ground.segments);
-        }
-        let segments = Rc::new(Excitation::segments(excitation, t_end));
-        self.ground = (segments.len() >= MANY_SEGMENTS).then(|| LaidOut {
-            excitation: excitation.clone(),
-            t_end,
-            segments: Rc::clone(&segments),
-        });
-        segments
     }
 }
 
@@ -237,7 +213,7 @@ pub(crate) struct Run<'a> {
     pub work: Work,
     pub history: History,
     pub progress: &'a mut dyn FnMut(f64),
-    kappa: Vec<f64>,
+    kappa: Few<f64>,
     /// Where nothing but the outcome is wanted and the ground comes to rest before the end: what it takes to overturn from then on.
     barrier: Option<Barrier>,
     events_at_once: usize,
@@ -282,7 +258,7 @@ impl<'a> Run<'a> {
             work: Work { with_vertical, ..Work::default() },
             history: History::new(blocks),
             progress,
-            kappa: scene.restitution.factors(&scene.column),
+            kappa: scene.restitution.per_interface(&scene.column),
             barrier,
             events_at_once: 0,
         }

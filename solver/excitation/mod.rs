@@ -4,6 +4,7 @@
 //! so that the integrator never steps across a kink or a jump and evaluates one formula without asking for the time.
 
 mod formats;
+mod layout;
 mod measures;
 mod motion;
 mod overlay;
@@ -14,6 +15,7 @@ mod travel;
 mod unit;
 
 pub use formats::{Format, RecordFile};
+pub(crate) use layout::Layout;
 pub use measures::Measures;
 pub use motion::Motion;
 pub use piece::Piece;
@@ -84,11 +86,19 @@ impl Excitation {
 
     /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.
     pub fn segments(&self, t_end: f64) -> Vec<Segment> {
+        let mut segments = Vec::new();
+        self.lay_out(t_end, &mut segments);
+        segments
+    }
+
+    /// The same, in place of what was there.
+    fn lay_out(&self, t_end: f64, segments: &mut Vec<Segment>) {
         let room = |motion: &Option<Motion>| match motion {
             Some(Motion::Record(record)) => record.accel().len(),
             _ => 2,
         };
-        let mut segments: Vec<Segment> = Vec::with_capacity(room(&self.horizontal) + room(&self.vertical));
+        segments.clear();
+        segments.reserve(room(&self.horizontal) + room(&self.vertical));
         let mut push = |start: f64, end: f64, horizontal: Piece, vertical: Piece| {
             let (before, quiet) = (segments.last(), Segment::QUIET);
             let before = before.unwrap_or(&quiet);
@@ -110,7 +120,6 @@ impl Excitation {
                 })
             }
         }
-        segments
     }
 }
 

@@ -7,10 +7,11 @@
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
 //! (their pulse, and Gabor's wavelet beside it).
 
-use super::overlay::{Span, overlay};
+use super::overlay::{Span, Spans, overlay};
 use super::piece::Piece;
 use super::record::Record;
 use serde::Serialize;
+use smallvec::smallvec;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Ground acceleration of one component.
@@ -177,7 +178,7 @@ enum Range {
 
 impl Motion {
     /// The smooth pieces in order of time, without overlap; nothing moves outside them.
-    pub(super) fn pieces(&self) -> Vec<Span> {
+    pub(super) fn pieces(&self) -> Spans {
         let span = |start: f64, duration: f64, piece: Piece| Span { start, end: start + duration, piece };
         let sine = |start: f64, duration: f64, [amplitude, omega, phase]: [f64; 3]| {
             span(start, duration, Piece::Sine { amplitude, omega, start, phase })
@@ -185,31 +186,37 @@ impl Motion {
         let level =
             |start: f64, duration: f64, value: f64| span(start, duration, Piece::Linear { value, slope: 0.0, start });
         match *self {
-            Motion::SinePulse { amplitude, omega, start } => vec![sine(start, TAU / omega, [amplitude, omega, 0.0])],
-            Motion::CosinePulse { amplitude, omega, start } => {
-                vec![span(start, TAU / omega, Piece::Cosine { amplitude, omega, start })]
+            Motion::SinePulse { amplitude, omega, start } => {
+                smallvec![sine(start, TAU / omega, [amplitude, omega, 0.0])]
             }
-            Motion::HalfSine { amplitude, omega, start } => vec![sine(start, PI / omega, [amplitude, omega, 0.0])],
+            Motion::CosinePulse { amplitude, omega, start } => {
+                smallvec![span(start, TAU / omega, Piece::Cosine { amplitude, omega, start })]
+            }
+            Motion::HalfSine { amplitude, omega, start } => smallvec![sine(start, PI / omega, [amplitude, omega, 0.0])],
             Motion::TypeC { amplitude, omega, start, cycles } => {
                 let phase = phase_of_type_c(cycles);
                 let duration = ((2.0 * f64::from(cycles) + 1.0) * PI - 2.0 * phase) / omega;
-                vec![sine(start, duration, [amplitude, omega, phase + FRAC_PI_2])]
+                smallvec![sine(start, duration, [amplitude, omega, phase + FRAC_PI_2])]
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                vec![sine(start, f64::INFINITY, [amplitude, omega, phase])]
+                smallvec![sine(start, f64::INFINITY, [amplitude, omega, phase])]
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                vec![sine(start, duration, [amplitude, omega, phase])]
+                smallvec![sine(start, duration, [amplitude, omega, phase])]
             }
             Motion::Ricker { amplitude, omega, start } => {
                 let omega = omega / SQRT_2;
                 let reach = RICKER_REACH / omega;
-                vec![span(start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })]
+                smallvec![span(start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })]
             }
             Motion::AntisymmetricRicker { amplitude, omega, start } => {
                 let omega = omega / 3f64.sqrt();
                 let reach = ANTISYMMETRIC_REACH / omega;
-                vec![span(start, 2.0 * reach, Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach })]
+                smallvec![span(
+                    start,
+                    2.0 * reach,
+                    Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach }
+                )]
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
                 // Twice the product of sines and cosines is a sum of them: the derivative of the velocity has three frequencies.
@@ -222,29 +229,48 @@ impl Motion {
                 };
                 let (above, below) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
                 let waves = [wave(1.0, 1.0), wave(above, 0.5 * above), wave(below, 0.5 * below)];
-                vec![span(start, 2.0 * reach, Piece::sum(&waves))]
+                smallvec![span(start, 2.0 * reach, Piece::sum(&waves))]
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
                 let reach = GABOR_REACH * gamma / omega;
                 let piece = Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma };
-                vec![span(start, 2.0 * reach, piece)]
+                smallvec![span(start, 2.0 * reach, piece)]
             }
-            Motion::Rectangular { amplitude, start, duration } => vec![level(start, duration, amplitude)],
+            Motion::Rectangular { amplitude, start, duration } => smallvec![level(start, duration, amplitude)],
             Motion::DoubleRectangular { amplitude, start, duration } => {
                 let half = 0.5 * duration;
                 let first = level(start, half, amplitude);
                 let second = Span { start: first.end, ..level(first.end, half, -amplitude) };
-                vec![first, Span { end: start + duration, ..second }]
+                smallvec![first, Span { end: start + duration, ..second }]
             }
             Motion::Sum { ref terms } => {
-                let terms: Vec<Vec<Span>> = terms.iter().map(Motion::pieces).collect();
-                let mut spans = Vec::new();
+                let terms: Vec<Spans> = terms.iter().map(Motion::pieces).collect();
+                let mut spans = Spans::new();
                 overlay(&terms, f64::NEG_INFINITY, f64::INFINITY, |start, end, pieces| {
                     spans.push(Span { start, end, piece: Piece::sum(pieces) });
                 });
                 spans
             }
             Motion::Record(ref record) => record.pieces().collect(),
+        }
+    }
+
+    /// The amplitude `[m/s²]` of a formula of which nothing else depends on it.
+    pub(crate) fn amplitude_mut(&mut self) -> Option<&mut f64> {
+        match self {
+            Motion::SinePulse { amplitude, .. }
+            | Motion::CosinePulse { amplitude, .. }
+            | Motion::HalfSine { amplitude, .. }
+            | Motion::TypeC { amplitude, .. }
+            | Motion::Harmonic { amplitude, .. }
+            | Motion::SineBurst { amplitude, .. }
+            | Motion::Ricker { amplitude, .. }
+            | Motion::AntisymmetricRicker { amplitude, .. }
+            | Motion::Rectangular { amplitude, .. }
+            | Motion::DoubleRectangular { amplitude, .. } => Some(amplitude),
+            Motion::MavroeidisPapageorgiou { .. } | Motion::Gabor { .. } | Motion::Sum { .. } | Motion::Record(_) => {
+                None
+            }
         }
     }
 

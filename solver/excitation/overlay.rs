@@ -14,6 +14,9 @@ pub struct Span {
     pub piece: Piece,
 }
 
+/// The spans of a motion, in order of time, without overlap: most have one.
+pub type Spans = SmallVec<[Span; 1]>;
+
 /// Break points closer than this, relative to the time, are one: the sum of start and period of two components that end
 /// together rounds differently. A step across such a gap would be shorter than the resolution of time.
 const SAME_TIME: f64 = 1e-13;
@@ -21,10 +24,10 @@ const SAME_TIME: f64 = 1e-13;
 /// Calls `visit(start, end, pieces)` for each span between break points of `motions` in `from .. to` `[s]`, in order of time, with the
 /// piece of each motion there, which it may take. The spans of each motion are in order. Finite bounds are break points as well; between infinite ones
 /// there are spans from the first to the last break point of the motions.
-pub fn overlay(motions: &[Vec<Span>], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &mut [Piece])) {
+pub fn overlay(motions: &[Spans], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &mut [Piece])) {
     let first = motions.iter().filter_map(|motion| motion.first()).map(|span| span.start).fold(f64::INFINITY, f64::min);
     let mut t = if from.is_finite() { from } else { first };
-    let mut rests: SmallVec<[&[Span]; 4]> = motions.iter().map(Vec::as_slice).collect();
+    let mut rests: SmallVec<[&[Span]; 4]> = motions.iter().map(SmallVec::as_slice).collect();
     let mut pieces: SmallVec<[Piece; 4]> = smallvec![Piece::Zero; motions.len()];
     while t < to {
         let now = t + SAME_TIME * t.abs().max(1.0);
@@ -96,7 +99,7 @@ pub fn lay_out(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit:
 mod tests {
     use super::*;
 
-    fn spans(bounds: &[(f64, f64, f64)]) -> Vec<Span> {
+    fn spans(bounds: &[(f64, f64, f64)]) -> Spans {
         let span = |&(start, end, value): &(f64, f64, f64)| {
             let piece = Piece::Linear { value, slope: 0.0, start: 0.0 };
             Span { start, end, piece }

@@ -202,11 +202,22 @@ impl Piece {
                         now[0] - narrow * (u * now[1] + omega * last[1]),
                     ];
                     *coefficient += omega * next[0];
-                    let scale = omega / (k + 1) as f64;
+                    let scale = omega * reciprocal(k + 1);
                     (last, now) = (now, next.map(|part| part * scale));
                 }
             }
             Piece::Sum(ref terms) => terms.iter().for_each(|term| term.add_expansion(t, coefficients)),
+        }
+    }
+
+    /// Acceleration `[m/s²]` at `t` and its rate `[m/s³]`.
+    pub fn with_rate(&self, t: f64) -> (f64, f64) {
+        match *self {
+            Piece::Sine { amplitude, omega, start, phase } => {
+                let (sin, cos) = libm::sincos(omega * (t - start) + phase);
+                (amplitude * sin, amplitude * omega * cos)
+            }
+            _ => (self.value(t), self.rate(t)),
         }
     }
 
@@ -379,6 +390,21 @@ fn total(terms: &[Piece], t: f64) -> f64 {
 const SERIES_REACH: f64 = 0.5;
 const SERIES_ORDER: usize = 24;
 
+/// `1 / n`, from a table where series of steps need it.
+#[inline(always)]
+fn reciprocal(n: usize) -> f64 {
+    const TABLE: [f64; SERIES_ORDER + 1] = {
+        let mut table = [0.0; SERIES_ORDER + 1];
+        let mut n = 1;
+        while n < table.len() {
+            table[n] = 1.0 / n as f64;
+            n += 1;
+        }
+        table
+    };
+    TABLE.get(n).map_or_else(|| 1.0 / n as f64, |reciprocal| *reciprocal)
+}
+
 /// Adds the coefficients of the oscillation with this value and, a quarter of a period later, this one.
 fn expand_circle(value: f64, quarter: f64, omega: f64, coefficients: &mut [f64]) {
     let (mut now, mut next) = (value, quarter);
@@ -386,7 +412,7 @@ fn expand_circle(value: f64, quarter: f64, omega: f64, coefficients: &mut [f64])
     for (k, coefficient) in coefficients.iter_mut().enumerate() {
         *coefficient += now * scale;
         (now, next) = (next, -now);
-        scale *= omega / (k + 1) as f64;
+        scale *= omega * reciprocal(k + 1);
     }
 }
 
@@ -395,7 +421,7 @@ fn expand_gaussian(amplitude: f64, polynomial: [f64; 4], u: f64, omega: f64, coe
     let mut last = [amplitude * libm::exp(-0.5 * u * u), 0.0, 0.0, 0.0];
     for (k, coefficient) in coefficients.iter_mut().enumerate() {
         *coefficient += polynomial.iter().zip(&last).map(|(factor, e)| factor * e).sum::<f64>();
-        let next = -omega / (k + 1) as f64 * (u * last[0] + omega * last[1]);
+        let next = -omega * reciprocal(k + 1) * (u * last[0] + omega * last[1]);
         last = [next, last[0], last[1], last[2]];
     }
 }

@@ -19,6 +19,8 @@
 //! after which a higher one costs more than the longer step saves (Jorba & Zou, 2005, and what a step costs beside
 //! its coefficients); fewer where the step is short.
 
+mod alone;
+
 use super::control::rough_root;
 use super::{Difference, Powers, Tolerance};
 use crate::dynamics::StateVector;
@@ -89,8 +91,9 @@ pub struct Taylor<V, L: StateVector> {
     x: V,
     h: f64,
     end: V,
-    /// Highest order of the rates' coefficients known.
+    /// Highest order of the rates' coefficients that the last attempt uses, and that are known.
     order: usize,
+    known: usize,
     largest_order: usize,
     is_begun: bool,
     /// `[c, s]` per angle, order by order.
@@ -123,6 +126,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             h: 0.0,
             end: zero.clone(),
             order: 0,
+            known: 0,
             largest_order,
             is_begun: false,
             circle: std::array::from_fn(|_| zero_links.each(f64x2::ZERO)),
@@ -157,7 +161,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         let scale = self.scale(h, tolerance);
         let (mut error, mut last, mut power, mut order) = (f64::INFINITY, 0.0, MARGIN, 0);
         while order < self.largest_order {
-            if order == self.order {
+            if order == self.known {
                 self.extend(system);
             }
             order += 1;
@@ -172,11 +176,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             last = size;
         }
         self.factor_wanted = self.wanted(error, order, tolerance.rtol);
-        if error <= 1.0 {
-            // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
-            self.order = order;
+        // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
+        self.order = order;
+        if error > 1.0 {
+            return if error.is_finite() { error } else { f64::NAN };
         }
-        self.evaluate(self.order, h);
+        self.evaluate(order, h);
         if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }
     }
 
@@ -243,8 +248,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     }
 
     /// Orders known of the series at a place: none if it is another one than the last attempt's.
-    pub fn order_at(&self, t: f64, x: &V) -> usize {
-        if self.is_at(t, x) { self.order } else { 0 }
+    pub fn known_at(&self, t: f64, x: &V) -> usize {
+        if self.is_at(t, x) { self.known } else { 0 }
     }
 
     /// Whether the present series is about this place.
@@ -257,7 +262,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.t + self.h
     }
 
-    /// Orders known of the present series.
+    /// Order of the last attempt's polynomial.
     pub fn order(&self) -> usize {
         self.order
     }
@@ -301,15 +306,21 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         reach[angles.upper][0] + angles.lower.map_or(0.0, |lower| reach[lower][0])
     }
 
-    /// Whether an angle surely goes one way all through the last attempt: its rate, taken positive at first, is above zero at the end
-    /// even without the terms that add to it beyond the first order. What is left is concave, so it is above zero in between.
-    pub fn is_one_way(&self, link: usize) -> bool {
-        let (start, first) =
-            (rate_of(&self.driver[0].as_ref()[link]), self.h * rate_of(&self.driver[1].as_ref()[link]));
+    /// Whether an angle, or the difference of two, surely goes one way all through the last attempt: its rate, taken positive at first,
+    /// is above zero at the end even without the terms that add to it beyond the first order. What is left is concave, so it is
+    /// above zero in between.
+    pub fn is_one_way(&self, angles: Difference) -> bool {
+        let [start, first] = [0, 1].map(|order: usize| {
+            let driver = self.driver[order].as_ref();
+            angles.by(|link| rate_of(&driver[link]))
+        });
+        let (first, reach) = (self.h * first, self.reach.as_ref());
         let way = if start == 0.0 { first } else { start };
-        let end = self.end.as_slice()[self.cos_ddot.as_slice().len() + link];
+        let end = angles.of(&self.end.as_slice()[self.cos_ddot.as_slice().len()..]);
+        // No smaller than the sum over the sizes of the differences.
+        let size = reach[angles.upper][1] + angles.lower.map_or(0.0, |lower| reach[lower][1]);
         let [start, first, end] = [start, first, end].map(|rate| if way < 0.0 { -rate } else { rate });
-        let (sum, size) = (end - start - first, self.reach.as_ref()[link][1] - first.abs());
+        let (sum, size) = (end - start - first, size - first.abs());
         start + first + 0.5 * (sum - size) > 0.0
     }
 
@@ -318,7 +329,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         if self.is_at(t, x) {
             return;
         }
-        (self.t, self.order, self.is_begun) = (t, 0, true);
+        (self.t, self.known, self.is_begun) = (t, 0, true);
         self.x.clone_from(x);
         let dof = self.cos_ddot.as_slice().len();
         let (x, circle) = (self.x.as_slice(), &mut self.circle[..2]);
@@ -334,14 +345,30 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         system.expand_at(t, self.largest_order);
         system.matrix(&self.x, &self.cos_ddot, &self.sin_ddot, &mut self.factor);
         factorise(&mut self.factor, dof);
-        self.extend(system);
+        if dof == 1 {
+            self.expand_alone(system);
+        } else {
+            self.extend(system);
+        }
     }
 
-    /// One more order.
+    /// All orders of one angle.
+    #[inline(always)]
+    fn expand_alone<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
+        let share = f64x2::splat(-self.factor[0]);
+        for (order, driver) in self.driver[1..=self.largest_order].iter_mut().enumerate() {
+            let [cos_weight, sin_weight] = system.weights(order, &self.cos_ddot, &self.sin_ddot);
+            driver.as_mut()[0][1] = f64x2::new([cos_weight.as_slice()[0], sin_weight.as_slice()[0]]) * share;
+        }
+        alone::expand::<L>(&mut self.circle, &mut self.driver, self.largest_order);
+        self.known = self.largest_order;
+    }
+
+    /// One more order of several angles.
     #[inline(always)]
     fn extend<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
         // The bound spares checks of indices.
-        let (k, dof) = (self.order.min(MAX_ORDER), self.cos_ddot.as_slice().len());
+        let (k, dof) = (self.known.min(MAX_ORDER), self.cos_ddot.as_slice().len());
         let next = NUMBER[k + 1];
         let mut sums = convolve(&self.cos_ddot, &self.circle[1..=k + 1], &self.driver[..=k]);
         let sums = sums.as_mut();
@@ -361,17 +388,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
         solve(&self.factor, load.as_mut_slice());
         let acceleration = load.as_slice();
-        // With one angle nothing couples: the weights are those of the forcing.
-        let [cos_weight, sin_weight] = if dof > 1 {
-            for link in 0..dof {
-                let [cos, sin] = start[link].to_array();
-                self.cos_ddot.as_mut_slice()[link] -= sin * acceleration[link];
-                self.sin_ddot.as_mut_slice()[link] += cos * acceleration[link];
-            }
-            system.weights(k, &self.cos_ddot, &self.sin_ddot)
-        } else {
-            [cos_weight, sin_weight]
-        };
+        for link in 0..dof {
+            let [cos, sin] = start[link].to_array();
+            self.cos_ddot.as_mut_slice()[link] -= sin * acceleration[link];
+            self.sin_ddot.as_mut_slice()[link] += cos * acceleration[link];
+        }
+        let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
         let (known, later) = self.circle.split_at_mut(1);
         let (start, later) = (known[0].as_ref(), later[k + 1].as_mut());
         let driver = self.driver[k + 1].as_mut();
@@ -382,7 +404,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             later[link] = (turned(sums[link][0]) + turned(start[link]) * rate) * reciprocal(k + 2);
             driver[link] = [rate, f64x2::new([cos_weight.as_slice()[link], sin_weight.as_slice()[link]])];
         }
-        self.order = k + 1;
+        self.known = k + 1;
     }
 
     /// The end of a step, by Horner's rule up to an order, and how far the angles move until then.
@@ -554,6 +576,7 @@ mod tests {
         for step in 0..steps {
             // A tolerance that nothing meets: all orders are used.
             taylor.attempt(&mut Pendulum, step as f64 * h, &x, h, Tolerance { rtol: 1e-300, atol: 1e-300 });
+            taylor.cut(h);
             x = *taylor.end();
         }
         x
@@ -616,8 +639,8 @@ mod tests {
                 let turns = states.windows(2).any(|pair| pair[0][1] * pair[1][1] < 0.0);
                 assert!(moved <= taylor.reach(angle) * (1.0 + 1e-14), "{x:?} {part}: {moved} {}", taylor.reach(angle));
                 assert!(taylor.reach(angle) < 3.0 * moved + 0.02, "a bound of use: {x:?} {part}: {moved}");
-                assert!(!(turns && taylor.is_one_way(0)), "{x:?} {part}");
-                one_way[usize::from(taylor.is_one_way(0))] += 1;
+                assert!(!(turns && taylor.is_one_way(angle)), "{x:?} {part}");
+                one_way[usize::from(taylor.is_one_way(angle))] += 1;
             }
         }
         assert!(one_way.iter().all(|count| *count > 0), "both are told: {one_way:?}");

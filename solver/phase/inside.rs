@@ -27,6 +27,11 @@ impl<V: StateVector> Phase<V> {
                 reach += most;
                 continue;
             }
+            let end = gap.across.of(&self.stepper.end().as_slice()[..self.dof]);
+            if end > self.resolution() && self.stepper.is_one_way(gap.across) {
+                reach += start.max(end);
+                continue;
+            }
             let track = self.stepper.track(gap.across, gap.start_roots > 0);
             let size = track.size();
             reach += size;
@@ -188,7 +193,7 @@ impl<V: StateVector> Phase<V> {
                 continue;
             }
             let (x, end) = (self.x.as_slice(), self.stepper.end().as_slice());
-            let peak = if self.stepper.is_one_way(link) {
+            let peak = if self.stepper.is_one_way(angle) {
                 x[link].abs().max(end[link].abs())
             } else {
                 let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], h);

@@ -46,8 +46,8 @@ pub(crate) trait Stepper<V> {
     fn reach(&self, _angles: Difference) -> f64 {
         f64::INFINITY
     }
-    /// Whether it is known for less than its track that an angle goes one way all through the last attempt.
-    fn is_one_way(&self, _link: usize) -> bool {
+    /// Whether it is known for less than its track that an angle, or the difference of two, goes one way all through the last attempt.
+    fn is_one_way(&self, _angles: Difference) -> bool {
         false
     }
     /// Angles, or the difference of two, inside the last attempt; exactly zero at its start where that is known.
@@ -323,9 +323,9 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
     }
 
     fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
-        let known = self.series.order_at(t, x);
+        let known = self.series.known_at(t, x);
         let error = self.series.attempt(&mut self.system, t, x, h, tolerance);
-        self.system.driven.calls += self.series.order() - known;
+        self.system.driven.calls += self.series.known_at(t, x) - known;
         error
     }
 
@@ -349,8 +349,8 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         self.series.reach(angles)
     }
 
-    fn is_one_way(&self, link: usize) -> bool {
-        self.series.is_one_way(link)
+    fn is_one_way(&self, angles: Difference) -> bool {
+        self.series.is_one_way(angles)
     }
 
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {

@@ -4,6 +4,7 @@ use super::table::{Table, Wrong};
 use super::{Reader, SceneFileError};
 use crate::column::Column;
 use crate::excitation::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};
+use crate::scene::LARGEST;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -36,12 +37,39 @@ struct Scales {
     p: f64,
 }
 
+impl Scales {
+    fn of(column: &Column) -> Scales {
+        let whole = column.stack(0);
+        Scales { gravity: column.gravity(), uplift: whole.uplift_acceleration(), p: whole.frequency_parameter() }
+    }
+}
+
+/// Sets an amplitude, under its dotted name, in a ground motion that has one and of which nothing else changes with it; `false` where it
+/// takes more to tell what comes of it.
+pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, column: &Column) -> bool {
+    let Some((component, name)) = key.strip_prefix("excitation.").and_then(|key| key.split_once('.')) else {
+        return false;
+    };
+    let motion = match component {
+        "horizontal" => &mut excitation.horizontal,
+        "vertical" => &mut excitation.vertical,
+        _ => return false,
+    };
+    let unit = match name {
+        "amplitude" => 1.0,
+        "amplitude_g" => column.gravity(),
+        "amplitude_uplift" => column.stack(0).uplift_acceleration(),
+        _ => return false,
+    };
+    let Some(own) = motion.as_mut().and_then(Motion::amplitude_mut) else { return false };
+    *own = value * unit;
+    own.abs() <= LARGEST
+}
+
 impl Reader<'_> {
     /// The ground motion of a scene.
     pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
-        let whole = column.stack(0);
-        let scales =
-            Scales { gravity: column.gravity(), uplift: whole.uplift_acceleration(), p: whole.frequency_parameter() };
+        let scales = Scales::of(column);
         let own = |wrong| self.error(wrong);
         let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
         let mut component = |name: &'static str| -> Result<Option<Motion>, SceneFileError> {

@@ -1,5 +1,6 @@
 //! A scene file with some of its keys replaced: what sweeps are made of.
 
+use super::excitation::set_amplitude;
 use super::table::{Table, Wrong};
 use super::{Reader, SceneFileError};
 use crate::excitation::Record;
@@ -77,7 +78,7 @@ impl Template {
 
     /// The template for one who changes its ground motion again and again.
     pub(crate) fn shaken(&self) -> Shaken<'_> {
-        Shaken { template: self, root: self.root.apart() }
+        Shaken { template: self, root: self.root.apart(), amplitude: None }
     }
 
     fn reader(&self) -> Reader<'_> {
@@ -122,33 +123,49 @@ fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s
 pub(crate) struct Shaken<'t> {
     template: &'t Template,
     root: Table,
+    /// An amplitude that the table does not have yet, under its dotted name.
+    amplitude: Option<(&'t str, &'t Setting)>,
 }
 
-impl Shaken<'_> {
+impl<'t> Shaken<'t> {
     /// Goes to the ground motion with these keys, all of them under `excitation`, set to these values.
     ///
     /// # Errors
     /// As [`Template::with`].
-    pub fn go_to<'s>(
-        &mut self,
-        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
-    ) -> Result<(), SceneFileError> {
-        change(&mut self.root, settings).map_err(|wrong| self.template.reader().error(wrong))
+    pub fn go_to(&mut self, settings: impl IntoIterator<Item = (&'t str, &'t Setting)>) -> Result<(), SceneFileError> {
+        change(&mut self.root, self.amplitude.take().into_iter().chain(settings))
+            .map_err(|wrong| self.template.reader().error(wrong))
     }
 
     /// Gives a scene of the template another ground motion: the present one but for these keys, which are set to these values.
     ///
     /// # Errors
     /// As [`Template::with`].
-    pub fn set<'s>(
+    pub fn set(
         &mut self,
         scene: &mut Scene,
-        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+        settings: impl IntoIterator<Item = (&'t str, &'t Setting)> + Clone,
     ) -> Result<(), SceneFileError> {
+        if self.set_amplitude(scene, settings.clone()) {
+            return Ok(());
+        }
         self.go_to(settings)?;
         let reader = self.template.reader();
         scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
         scene.check().map_err(|error| reader.refused(&self.root, error))
+    }
+
+    /// The same where an amplitude is all that changes: nothing is read. `false` if it is not, or not a valid one.
+    fn set_amplitude(&mut self, scene: &mut Scene, settings: impl IntoIterator<Item = (&'t str, &'t Setting)>) -> bool {
+        let mut settings = settings.into_iter();
+        let (Some((key, setting)), None) = (settings.next(), settings.next()) else { return false };
+        let Setting::Number(value) = setting else { return false };
+        let is_only_one = self.amplitude.is_none_or(|(last, _)| last == key);
+        if !is_only_one || !set_amplitude(&mut scene.excitation, key, *value, &scene.column) {
+            return false;
+        }
+        self.amplitude = Some((key, setting));
+        true
     }
 }
 
