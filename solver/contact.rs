@@ -317,6 +317,8 @@ pub struct ImpactLaw<'a> {
     pub kappa: &'a [f64],
     /// An interface that would hop by less closes `[rad]`.
     pub stick_angle: f64,
+    /// Whether anybody wants to know impulses and the energy lost; if not, decisions say none.
+    pub is_recorded: bool,
 }
 
 /// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (MODEL.md section 5).
@@ -369,17 +371,20 @@ fn impact_at<S: Size>(
     let rebound = restitute(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
     let mut rates = rebound.unwrap_or(plastic.motion);
     let mut forced = settle(instant, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
-    let posture = &mechanism.posture;
-    let after = instant.motion(posture, &rates);
-    let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
-    let change = after.less(&before);
-    let impulses = Few::from_slice(&posture.resultants(&change.linear, &change.angular));
+    let (mut energy_lost, mut impulses) = (0.0, Few::new());
+    if law.is_recorded {
+        let posture = &mechanism.posture;
+        let after = instant.motion(posture, &rates);
+        let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
+        energy_lost = share_lost(energy_before, energy_after);
+        let change = after.less(&before);
+        impulses.extend_from_slice(&posture.resultants(&change.linear, &change.angular));
+    }
 
     let free = instant.size.list_of(may_open(instant, &mechanism.states, &rates));
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, &rates, ground);
     let problem = Problem { instant, free: &free, least_parting: 0.0, answer: forces };
     separation |= problem.solve(&mut mechanism, &mut forced)?;
-    let energy_lost = if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 };
     Ok(Decision {
         pattern: Pattern::from_states(&mechanism.states),
         omega: Few::from_slice(&rates),
@@ -387,6 +392,11 @@ fn impact_at<S: Size>(
         energy_lost,
         impulses,
     })
+}
+
+/// Kinetic energy lost over that before, 0 to 1.
+fn share_lost(before: f64, after: f64) -> f64 {
+    if before > 0.0 { 1.0 - after / before } else { 0.0 }
 }
 
 /// The decision that these interfaces close, whatever their contacts would rather do: the projection onto the closed pattern,
@@ -413,7 +423,7 @@ pub(crate) fn stick(
         pattern: Pattern::from_states(&mechanism.states),
         omega: Few::from_slice(&answer.motion),
         separation: true,
-        energy_lost: if energy_before > 0.0 { 1.0 - energy_after / energy_before } else { 0.0 },
+        energy_lost: share_lost(energy_before, energy_after),
         impulses: Few::from_slice(&answer.resultants),
     })
 }
@@ -597,7 +607,7 @@ mod tests {
     fn one_block_loses_what_housner_says() {
         let column = Column::new(vec![Block::rectangle(0.4, 1.6, 1.0)], 9.81).expect("valid");
         let pattern = Pattern::from_signs(&[1]);
-        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9 };
+        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9, is_recorded: true };
         let after = impact(&column, &pattern, &[0.0], &[-0.7], &[0], GROUND, law).expect("solvable");
         let sine = libm::sin(libm::atan2(0.4, 1.6));
         assert_eq!(after.pattern, Pattern::from_signs(&[-1]));
@@ -614,7 +624,7 @@ mod tests {
     #[test]
     fn a_squat_block_stops_at_its_first_impact() {
         let column = Column::new(vec![Block::rectangle(2.0, 1.0, 1.0)], 9.81).expect("valid");
-        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9 };
+        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9, is_recorded: true };
         let after = impact(&column, &Pattern::from_signs(&[1]), &[0.0], &[-0.7], &[0], GROUND, law).expect("solvable");
         assert_eq!((after.pattern, after.omega), (Pattern::rest(1), Few::from_slice(&[0.0])));
     }

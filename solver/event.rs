@@ -61,9 +61,13 @@ impl Bernstein {
     pub(crate) fn of_powers(powers: &[f64]) -> Bernstein {
         let degree = powers.len() - 1;
         let mut coefficients = [0.0; COEFFICIENTS];
+        let mut shares = [0.0; COEFFICIENTS];
+        for ((share, power), binomial) in shares.iter_mut().zip(powers).zip(&BINOMIAL[degree]) {
+            *share = power / binomial;
+        }
         for (j, coefficient) in coefficients[..=degree].iter_mut().enumerate() {
-            for k in 0..=j {
-                *coefficient += BINOMIAL[j][k] / BINOMIAL[degree][k] * powers[k];
+            for (share, binomial) in shares[..=j].iter().zip(&BINOMIAL[j]) {
+                *coefficient += binomial * share;
             }
         }
         Bernstein { coefficients, degree }
@@ -115,7 +119,8 @@ impl Bernstein {
         (left, right)
     }
 
-    fn sign_changes(&self) -> usize {
+    /// As many roots as the polynomial has inside, or an even number more.
+    pub(crate) fn sign_changes(&self) -> usize {
         let signs = self.coefficients[..=self.degree].iter().map(|c| *c > 0.0);
         signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count()
     }
@@ -144,6 +149,23 @@ fn largest_size_in_piece(polynomial: &Bernstein, known: f64, width: f64) -> f64 
     let best = known.max(ends);
     if polynomial.size() <= best * (1.0 + PEAK_SHARE) || width < SMALLEST_PIECE {
         return best;
+    }
+    let mut slope = polynomial.derivative();
+    if slope.coefficients[0] == 0.0 && slope.degree > 0 {
+        slope = slope.deflated(1);
+    }
+    if slope.coefficients[0] < 0.0 {
+        slope.coefficients.iter_mut().for_each(|c| *c = -*c);
+    }
+    if slope.coefficients[0] > 0.0 {
+        match slope.sign_changes() {
+            // It goes one way.
+            0 => return best,
+            1 if slope.coefficients[slope.degree] < 0.0 => {
+                return best.max(polynomial.evaluate(only_root(&slope)).abs());
+            }
+            _ => {}
+        }
     }
     let (left, right) = polynomial.halves();
     let best = largest_size_in_piece(&left, best, 0.5 * width);
@@ -215,7 +237,9 @@ fn root_in_piece(piece: &Bernstein, start: f64, width: f64) -> Option<f64> {
     if first <= 0.0 {
         return Some(start);
     }
-    if piece.sign_changes() == 1 && last <= 0.0 {
+    // With a zero at its end and one change before, there may be another zero inside.
+    let is_only_one = last < 0.0 || (last == 0.0 && piece.coefficients[piece.degree - 1] > 0.0);
+    if piece.sign_changes() == 1 && is_only_one {
         return Some(start + width * only_root(piece));
     }
     if width < SMALLEST_PIECE {
@@ -562,6 +586,12 @@ mod tests {
     }
 
     #[test]
+    fn of_a_root_inside_and_one_at_the_end_the_first_is_found() {
+        // (1 - 4 s) (1 - s): exactly zero at the end.
+        assert_root(first_root(&polynomial(&[1.0, -5.0, 4.0]), 0), 0.25);
+    }
+
+    #[test]
     fn a_hop_of_a_millionth_of_a_step_is_found() {
         // s (1e-6 - s): up and down again.
         assert_root(first_root(&polynomial(&[0.0, 1e-6, -1.0]), 1), 1e-6);
@@ -579,6 +609,16 @@ mod tests {
         assert!((largest_size(&polynomial(&[0.0, 1.0, -1.0]), 0.0) - 0.25).abs() < 1e-14);
         assert_eq!(largest_size(&polynomial(&[0.0, -3.0]), 1.0), 3.0);
         assert_eq!(largest_size(&polynomial(&[0.0, 1.0, -1.0]), 0.5), 0.5);
+        // Level at the start, up, down below where it was: s² (1 - 1.5 s), 0.0658 at 4/9 and -0.5 at the end.
+        assert_eq!(largest_size(&polynomial(&[0.0, 0.0, 1.0, -1.5]), 0.0), 0.5);
+        assert!((largest_size(&polynomial(&[0.0, 0.0, 1.0, -1.04]), 0.0) - 4.0 / 27.0 / 1.04 / 1.04).abs() < 1e-15);
+        // A crest at 1/4, and level again at the end, exactly.
+        assert!((largest_size(&polynomial(&[1.0, 3.0, -7.5, 4.0]), 0.0) - 1.34375).abs() < 1e-15);
+        // A crest and a trough: s (s - 1/3) (s - 1).
+        let (s, root) = ((4.0 - 7f64.sqrt()) / 9.0, |s: f64| s * (s - 1.0 / 3.0) * (s - 1.0));
+        let other = (4.0 + 7f64.sqrt()) / 9.0;
+        let expected = root(s).abs().max(root(other).abs());
+        assert!((largest_size(&polynomial(&[0.0, 1.0 / 3.0, -4.0 / 3.0, 1.0]), 0.0) - expected).abs() < 1e-15);
     }
 
     #[test]

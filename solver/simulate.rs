@@ -2,7 +2,7 @@
 
 use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::dynamics::Ground;
-use crate::excitation::{Layout, Segment};
+use crate::excitation::{Layout, Segment, Timeline};
 use crate::few::{Few, for_size};
 use crate::history::History;
 use crate::kinematics::{Posture, Turn};
@@ -165,7 +165,7 @@ impl Simulator {
 
     /// The same with a scene that has been checked.
     pub(crate) fn run_valid(&mut self, scene: &Scene, progress: &mut dyn FnMut(f64)) -> Result<Response, SolveError> {
-        let segments = self.ground.segments(&scene.excitation, scene.options.t_end);
+        let segments = self.ground.timeline(&scene.excitation, scene.options.t_end);
         run(Run::new(scene, &mut self.modes, segments, progress))
     }
 }
@@ -193,7 +193,7 @@ fn run(mut run: Run) -> Result<Response, SolveError> {
 pub(crate) struct Run<'a> {
     pub scene: &'a Scene,
     modes: &'a mut Modes,
-    pub segments: Rc<Vec<Segment>>,
+    pub segments: Rc<Timeline>,
     /// Index of the segment that the present time is in.
     pub segment: usize,
     pub t: f64,
@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
     fn new(
         scene: &'a Scene,
         modes: &'a mut Modes,
-        segments: Rc<Vec<Segment>>,
+        segments: Rc<Timeline>,
         progress: &'a mut dyn FnMut(f64),
     ) -> Run<'a> {
         modes.prepare(scene);
@@ -324,7 +324,8 @@ impl<'a> Run<'a> {
         if closing.iter().all(|&interface| contact::is_motionless(&self.theta, &self.omega, interface)) {
             return self.withdraw(closing);
         }
-        let law = ImpactLaw { kappa: &self.kappa, stick_angle: self.scene.options.stick_angle };
+        let (stick_angle, is_recorded) = (self.scene.options.stick_angle, self.records_events());
+        let law = ImpactLaw { kappa: &self.kappa, stick_angle, is_recorded };
         let column = &self.scene.column;
         let decision = contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
         self.strike(decision, closing)?;
@@ -442,12 +443,17 @@ impl<'a> Run<'a> {
         above_rest < energy - slack
     }
 
+    /// Whether events are recorded, not only counted.
+    fn records_events(&self) -> bool {
+        self.scene.options.wanted != Wanted::Outcome
+    }
+
     /// Records what a decision, now adopted, has brought about.
     fn record(&mut self, kind: EventKind, interfaces: &[usize], before: Decision) {
         let is_impact = kind == EventKind::Impact;
         self.history.last_events = [self.history.last_events[1], self.t];
         self.history.impacts += usize::from(is_impact);
-        if self.scene.options.wanted == Wanted::Outcome {
+        if !self.records_events() {
             return;
         }
         if self.history.events.is_empty() {

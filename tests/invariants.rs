@@ -147,7 +147,7 @@ fn impact_never_adds_energy() {
                 let ground = Ground { x: 0.0, gravity: 9.81 };
                 for kappa in [1.0, kappa, 1.1] {
                     let factors = vec![kappa; column.len()];
-                    let law = ImpactLaw { kappa: &factors, stick_angle: 1e-9 };
+                    let law = ImpactLaw { kappa: &factors, stick_angle: 1e-9, is_recorded: true };
                     let after = impact(&column, &pattern, &theta, &omega, &closing, ground, law).expect("solvable");
                     let energy = kinetic_energy(&column, &after.pattern, &theta, &after.omega);
                     // 1e-12 is what restitution is allowed for η = 1 (MODEL.md section 5).

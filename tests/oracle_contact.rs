@@ -132,7 +132,7 @@ fn impacts_are_what_trying_all_patterns_finds() {
             return Ok(());
         }
         let kappa = vec![1.0; column.len()];
-        let law = ImpactLaw { kappa: &kappa, stick_angle: 1e-300 };
+        let law = ImpactLaw { kappa: &kappa, stick_angle: 1e-300, is_recorded: true };
         let ground = Ground { x: 0.0, gravity: 9.81 };
         let found = impact(column, pattern, theta, omega, closing, ground, law).map_err(|e| format!("{e:?}"))?;
         let free = gapless(theta);

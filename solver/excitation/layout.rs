@@ -1,27 +1,120 @@
 //! Ground motion laid out in time, kept from one run to the next.
 
-use super::{Excitation, Segment};
+use super::{Excitation, Piece, Segment};
+use std::ops::Deref;
 use std::rc::Rc;
 
-/// The segments of the last ground motion.
+/// The timeline of the last ground motion.
 #[derive(Default)]
 pub(crate) struct Layout {
-    /// What they are of, and until when `[s]`, where there are many of them.
+    /// What it is of, and until when `[s]`, where it has many segments.
     of: Option<(Excitation, f64)>,
-    segments: Rc<Vec<Segment>>,
+    timeline: Rc<Timeline>,
 }
 
-/// Segments from which on it is seen whether they are the same: fewer are laid out anew in less time.
+/// Segments from which on it is seen whether they are the same, and what samples they are: fewer are laid out anew in less time.
 const MANY_SEGMENTS: usize = 16;
 
 impl Layout {
-    /// The segments that cover `0 .. t_end` `[s]`.
-    pub fn segments(&mut self, excitation: &Excitation, t_end: f64) -> Rc<Vec<Segment>> {
+    /// The timeline of `0 .. t_end` `[s]`.
+    pub fn timeline(&mut self, excitation: &Excitation, t_end: f64) -> Rc<Timeline> {
         if !self.of.as_ref().is_some_and(|(own, until)| *until == t_end && own == excitation) {
-            let segments = Rc::make_mut(&mut self.segments);
-            excitation.lay_out(t_end, segments);
-            self.of = (segments.len() >= MANY_SEGMENTS).then(|| (excitation.clone(), t_end));
+            let timeline = Rc::make_mut(&mut self.timeline);
+            excitation.lay_out(t_end, &mut timeline.segments);
+            let are_many = timeline.segments.len() >= MANY_SEGMENTS;
+            timeline.note_samples(are_many);
+            self.of = are_many.then(|| (excitation.clone(), t_end));
         }
-        Rc::clone(&self.segments)
+        Rc::clone(&self.timeline)
+    }
+}
+
+/// Segments in order of time, without gaps.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Timeline {
+    segments: Vec<Segment>,
+    /// Horizontal accelerations where segments begin, and where the last one ends `[m/s²]`; beside each other, not strewn over the
+    /// segments.
+    accelerations: Vec<f64>,
+    /// For each segment the first one from it on, maybe itself, that does not go on as a record of equal intervals.
+    goes_on_until: Vec<usize>,
+}
+
+impl Deref for Timeline {
+    type Target = [Segment];
+
+    fn deref(&self) -> &[Segment] {
+        &self.segments
+    }
+}
+
+/// Intervals may differ by this share: times are rounded. A step over several of them takes them for equal.
+const UNEVEN: f64 = 1e-9;
+
+impl Timeline {
+    /// Horizontal accelerations from the start of a segment on, at the bounds of up to so many, as long as they are a record of equal
+    /// intervals with nothing vertical beside it; one, if it is none.
+    pub fn samples(&self, first: usize, most: usize) -> &[f64] {
+        let until = self.goes_on_until.get(first).map_or(first, |until| (*until).min(first + most));
+        self.accelerations.get(first..=until).unwrap_or_default()
+    }
+
+    fn note_samples(&mut self, are_wanted: bool) {
+        self.accelerations.clear();
+        self.goes_on_until.clear();
+        let Some(last) = self.segments.last().filter(|_| are_wanted) else { return };
+        let at_end = last.horizontal.value(last.end);
+        self.accelerations.extend(self.segments.iter().map(|own| own.horizontal.value(own.start)).chain([at_end]));
+        let is_sampled =
+            |own: &Segment| matches!((&own.horizontal, &own.vertical), (Piece::Linear { .. }, Piece::Zero));
+        let mut index = 0;
+        while index < self.segments.len() {
+            let (first, dt) = (index, self.segments[index].end - self.segments[index].start);
+            let goes_on = |own: &Segment| is_sampled(own) && ((own.end - own.start) - dt).abs() <= UNEVEN * dt;
+            index += usize::from(is_sampled(&self.segments[first]));
+            while index > first && self.segments.get(index).is_some_and(|own| !own.jumps && goes_on(own)) {
+                index += 1;
+            }
+            // What is no sample, or jumps, need not begin as the last one ends.
+            let breaks_off = self.segments.get(index).is_some_and(|own| own.jumps || !is_sampled(own));
+            let until = index - usize::from(index > first && breaks_off);
+            index = index.max(first + 1);
+            self.goes_on_until.extend((first..index).map(|own| until.max(own)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::excitation::{Motion, Record};
+
+    #[test]
+    fn samples_are_those_of_a_record_up_to_where_it_jumps_or_ends() {
+        let values: Vec<f64> = (1..=30).map(f64::from).collect();
+        let record = Motion::Record(Record::new(values.clone(), 0.1, 0.05).expect("valid"));
+        let push = Motion::Rectangular { amplitude: 2.0, start: 1.05, duration: 0.9 };
+        let mut layout = Layout::default();
+        let alone = Excitation { horizontal: Some(record.clone()), vertical: None };
+        let timeline = layout.timeline(&alone, 5.0);
+        assert_eq!(timeline.samples(0, 4), [0.0], "before it begins");
+        let first: Vec<f64> = timeline.samples(1, 4).to_vec();
+        assert!(first.iter().zip(&values).all(|(a, b)| (a - b).abs() < 1e-12) && first.len() == 5, "{first:?}");
+        // It ends with a jump: the last interval is left out.
+        assert_eq!(timeline.samples(1, 100).len(), 29);
+        assert_eq!(
+            (timeline.samples(29, 4).len(), timeline.samples(30, 4).len(), timeline.samples(99, 4).len()),
+            (1, 1, 0)
+        );
+        let both = Excitation { horizontal: Some(Motion::Sum { terms: vec![record.clone(), push] }), vertical: None };
+        let timeline = layout.timeline(&both, 5.0);
+        // It jumps at the eleventh sample, and at the twentieth.
+        assert_eq!([1, 5, 10, 11, 19, 20].map(|first: usize| timeline.samples(first, 100).len()), [10, 6, 1, 9, 1, 10]);
+        let lifted = Excitation {
+            horizontal: Some(record),
+            vertical: Some(Motion::Rectangular { amplitude: 1.0, start: 0.0, duration: 9.0 }),
+        };
+        let timeline = layout.timeline(&lifted, 5.0);
+        assert!((0..timeline.len()).all(|first| timeline.samples(first, 100).len() == 1));
     }
 }

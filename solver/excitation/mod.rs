@@ -15,7 +15,7 @@ mod travel;
 mod unit;
 
 pub use formats::{Format, RecordFile};
-pub(crate) use layout::Layout;
+pub(crate) use layout::{Layout, Timeline};
 pub use measures::Measures;
 pub use motion::Motion;
 pub use piece::Piece;

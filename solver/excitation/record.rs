@@ -6,14 +6,15 @@ use super::piece::Piece;
 use super::unit::AccelerationUnit;
 use serde::Serialize;
 use serde::ser::SerializeStruct;
+use std::ops::Deref;
+use std::sync::Arc;
 
 /// Ground acceleration sampled at equal intervals, linear between samples, zero outside.
 ///
 /// Serialised it tells what describes it, not its samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Accelerations `[m/s²]`.
-    accel: Vec<f64>,
+    accel: Samples,
     /// Sampling interval `[s]`.
     dt: f64,
     /// Time of the first sample `[s]`.
@@ -22,6 +23,36 @@ pub struct Record {
     scale: f64,
     source: Source,
     warnings: Vec<String>,
+}
+
+/// Accelerations `[m/s²]`, shared by all copies of a record.
+#[derive(Clone, Debug)]
+struct Samples {
+    values: Arc<[f64]>,
+    /// Largest size.
+    peak: f64,
+}
+
+impl From<Vec<f64>> for Samples {
+    fn from(values: Vec<f64>) -> Samples {
+        let peak = values.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+        Samples { values: values.into(), peak }
+    }
+}
+
+impl Deref for Samples {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+/// Copies are not looked through.
+impl PartialEq for Samples {
+    fn eq(&self, other: &Samples) -> bool {
+        Arc::ptr_eq(&self.values, &other.values) || self.values == other.values
+    }
 }
 
 /// Where a record comes from; what is not known is empty.
@@ -283,7 +314,7 @@ impl Record {
         if let Some(index) = accel.iter().position(|a| !a.is_finite()) {
             return Err(RecordError::NotFinite { sample: index + 1, value: accel[index] });
         }
-        Ok(Record { accel, dt, start, scale: 1.0, source: Source::default(), warnings: Vec::new() })
+        Ok(Record { accel: accel.into(), dt, start, scale: 1.0, source: Source::default(), warnings: Vec::new() })
     }
 
     /// Reads the text of a record file of any format that [`RecordFile`] knows.
@@ -352,7 +383,7 @@ impl Record {
 
     /// Largest size of the samples `[m/s²]`.
     pub fn peak(&self) -> f64 {
-        self.accel.iter().fold(0.0, |peak, a| peak.max(a.abs()))
+        self.accel.peak
     }
 
     /// The record with every sample multiplied.
@@ -394,7 +425,7 @@ impl Record {
         if accel.len() < 2 {
             return Err(RecordError::TooShort { count: accel.len() });
         }
-        Ok(Record { accel, ..self })
+        Ok(Record { accel: accel.into(), ..self })
     }
 
     /// The record as a table that reads back to the same samples and the same interval: time from the first sample `[s]`,

@@ -23,7 +23,7 @@ use crate::lanes::{Lanes, widest};
 use crate::program::Scalar;
 use crate::sine;
 use rule::{RULE, integrals, recurrence};
-pub use sampled::{GAPS, INTERVALS, LinearlyForced, SampledStep, sampled_step};
+pub use sampled::{GAPS, INTERVALS, LinearlyForced, SampledStep, mean as sampled_mean, sampled_step};
 
 /// Nodes of a step.
 pub const NODES: usize = 8;

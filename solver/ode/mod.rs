@@ -18,7 +18,7 @@ pub use control::{StepControl, Tolerance};
 pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince54;
 pub use gauss::{Accurate, AtNodes, Gauss, NODES, SecondOrder, States, solve_second_order};
-pub(crate) use gauss::{GAPS, INTERVALS, LinearlyForced, SampledStep, sampled_step};
+pub(crate) use gauss::{GAPS, INTERVALS, LinearlyForced, SampledStep, sampled_mean, sampled_step};
 pub use interpolant::{Bernstein, Interpolant};
 pub use kutta_merson::KuttaMerson;
 pub use powers::{Difference, Powers};

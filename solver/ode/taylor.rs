@@ -64,6 +64,9 @@ const BEFORE_LAST: f64 = 0.1;
 /// motion lingers at an unstable balance; it costs an eighth of the step.
 const MARGIN: f64 = 8.0;
 
+/// Error of a step of the largest order below which a lower one is looked for: above, it would save less than looking costs.
+const SHORT: f64 = 1e-3;
+
 /// Equations of the form above.
 pub trait SeriesSystem {
     /// `[θ, θ̇]`
@@ -140,6 +143,11 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
     }
 
+    /// Forgets how long the steps were: what came before has no bearing on what comes.
+    pub fn begin(&mut self) {
+        self.order = 0;
+    }
+
     /// Forgets the expansion: the equations have changed.
     pub fn forget(&mut self) {
         self.is_begun = false;
@@ -159,21 +167,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.expand(system, t, x);
         self.h = h;
         let scale = self.scale(h, tolerance);
-        let (mut error, mut last, mut power, mut order) = (f64::INFINITY, 0.0, MARGIN, 0);
-        while order < self.largest_order {
-            if order == self.known {
-                self.extend(system);
-            }
-            order += 1;
-            power *= h;
-            let size = self.term(order, power, &scale);
-            if order >= MIN_ORDER {
-                error = larger(size, BEFORE_LAST * last);
-                if error <= 1.0 {
-                    break;
-                }
-            }
-            last = size;
+        let (mut order, mut error) = (self.largest_order, f64::INFINITY);
+        if self.known == order {
+            error = self.error_at(order, h, &scale);
+        }
+        if self.known < order || error < SHORT {
+            (order, error) = self.least_order(system, h, &scale);
         }
         self.factor_wanted = self.wanted(error, order, tolerance.rtol);
         // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
@@ -183,6 +182,45 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
         self.evaluate(order, h);
         if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }
+    }
+
+    /// The least order with which a step is good, and its error; the largest one if none is.
+    #[inline(always)]
+    fn least_order<S: SeriesSystem<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        h: f64,
+        scale: &L::Of<f64>,
+    ) -> (usize, f64) {
+        let (mut error, mut last, mut power, mut order) = (f64::INFINITY, 0.0, MARGIN, 0);
+        while order < self.largest_order {
+            if order == self.known {
+                self.extend(system, self.largest_order);
+            }
+            order += 1;
+            power *= h;
+            let size = self.term(order, power, scale);
+            if order >= MIN_ORDER {
+                error = larger(size, BEFORE_LAST * last);
+                if error <= 1.0 {
+                    break;
+                }
+            }
+            last = size;
+        }
+        (order, error)
+    }
+
+    /// Error of a step of an order.
+    #[inline(always)]
+    fn error_at(&self, order: usize, h: f64, scale: &L::Of<f64>) -> f64 {
+        let (mut power, mut square, mut left) = (MARGIN, h, order - 1);
+        while left > 0 {
+            power *= if left % 2 == 1 { square } else { 1.0 };
+            square *= square;
+            left /= 2;
+        }
+        larger(self.term(order, power * h, scale), BEFORE_LAST * self.term(order - 1, power, scale))
     }
 
     /// Ends the last attempt earlier, after `h`, on the same polynomial.
@@ -345,28 +383,36 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         system.expand_at(t, self.largest_order);
         system.matrix(&self.x, &self.cos_ddot, &self.sin_ddot, &mut self.factor);
         factorise(&mut self.factor, dof);
-        if dof == 1 {
-            self.expand_alone(system);
+        // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
+        let is_short = self.order > 0 && 2 * self.order <= self.largest_order;
+        self.extend(system, if is_short { self.order.max(MIN_ORDER) } else { self.largest_order });
+    }
+
+    /// One more order, or of one angle all up to this one.
+    #[inline(always)]
+    fn extend<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
+        if self.cos_ddot.as_slice().len() == 1 {
+            self.extend_alone(system, order);
         } else {
-            self.extend(system);
+            self.extend_coupled(system);
         }
     }
 
-    /// All orders of one angle.
+    /// Of one angle all orders up to this one.
     #[inline(always)]
-    fn expand_alone<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
+    fn extend_alone<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
         let share = f64x2::splat(-self.factor[0]);
-        for (order, driver) in self.driver[1..=self.largest_order].iter_mut().enumerate() {
-            let [cos_weight, sin_weight] = system.weights(order, &self.cos_ddot, &self.sin_ddot);
+        for (k, driver) in self.driver[1..=order].iter_mut().enumerate().skip(self.known) {
+            let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
             driver.as_mut()[0][1] = f64x2::new([cos_weight.as_slice()[0], sin_weight.as_slice()[0]]) * share;
         }
-        alone::expand::<L>(&mut self.circle, &mut self.driver, self.largest_order);
-        self.known = self.largest_order;
+        alone::extend::<L>(&mut self.circle, &mut self.driver, self.known..order);
+        self.known = order;
     }
 
     /// One more order of several angles.
     #[inline(always)]
-    fn extend<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
+    fn extend_coupled<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
         // The bound spares checks of indices.
         let (k, dof) = (self.known.min(MAX_ORDER), self.cos_ddot.as_slice().len());
         let next = NUMBER[k + 1];

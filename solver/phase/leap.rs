@@ -6,11 +6,11 @@
 
 use super::{Phase, interfaces, records_forces, segment};
 use crate::dynamics::{Dynamics, Ground, Interfaces, StateVector};
-use crate::excitation::{Piece, Segment};
-use crate::ode::{AtNodes, GAPS, INTERVALS, LinearlyForced, NODES, SampledStep, Tolerance, sampled_step};
+use crate::ode::{AtNodes, GAPS, INTERVALS, LinearlyForced, NODES, SampledStep, Tolerance, sampled_mean, sampled_step};
 use crate::program::Scalar;
 use crate::scene::Wanted;
 use crate::simulate::Run;
+use std::rc::Rc;
 
 /// One free angle on a ground that moves to the side by `a`: `θ¨ = cos θ (C + C' a) + sin θ (S + S' a)`.
 #[derive(Clone, Copy, Debug)]
@@ -98,21 +98,13 @@ struct Bounds {
 
 impl Bounds {
     /// Of a step of length `h` from an angle, on this side.
-    fn new(
-        rocker: Rocker,
-        [start, sign]: [f64; 2],
-        samples: &[f64],
-        h: f64,
-        step: &SampledStep,
-        marks: Marks,
-    ) -> Bounds {
+    fn new(rocker: Rocker, [start, sign]: [f64; 2], h: f64, step: &SampledStep, marks: Marks) -> Bounds {
         let mut angles = [sign * start; NODES + 2];
         let later = step.theta.0.iter().chain(&step.end[..1]);
         angles[1..].iter_mut().zip(later).for_each(|(angle, theta)| *angle = sign * theta);
         let widest = angles.windows(2).fold(0.0f64, |widest, pair| widest.max((pair[1] - pair[0]).abs()));
         // Between nodes angles, and accelerations with them, are others.
-        let strongest = samples.iter().fold(0.0f64, |strongest, sample| strongest.max(sample.abs()));
-        let (bound, square) = (rocker.bound(strongest), (h * WIDEST_GAP) * (h * WIDEST_GAP));
+        let (bound, square) = (rocker.bound(step.strongest), (h * WIDEST_GAP) * (h * WIDEST_GAP));
         let acceleration = step.acceleration + bound * (widest + 0.125 * square * bound);
         let (mut bounds, mut passed) = (Bounds { crest: None, doubtful_from: None }, 0.0);
         for (index, (pair, gap)) in angles.windows(2).zip(&GAPS).enumerate() {
@@ -153,35 +145,8 @@ const SAG: f64 = 0.25;
 /// looser than 1e-4 about as much, which is less than those.
 const SLACK: f64 = 1.0 / 16.0;
 
-/// Accelerations of the ground at equidistant times.
-struct Samples {
-    values: [f64; MOST + 1],
-    intervals: usize,
-}
-
 /// Intervals of the longest step.
 const MOST: usize = INTERVALS[INTERVALS.len() - 1];
-
-impl Samples {
-    /// Those of the next segments, the run being at the start of the first: up to so many, as long as they are stretches of a record.
-    fn next(run: &Run, most: usize) -> Samples {
-        let mut samples = Samples { values: [0.0; MOST + 1], intervals: 0 };
-        let mut dt = 0.0;
-        for (index, own) in run.segments[run.segment..].iter().take(most).enumerate() {
-            let &Segment { start, end, ref horizontal, vertical: Piece::Zero, jumps } = own else { break };
-            let Piece::Linear { .. } = horizontal else { break };
-            let length = end - start;
-            dt = if index == 0 { length } else { dt };
-            if (jumps && index > 0) || (length - dt).abs() > UNEVEN * dt {
-                break;
-            }
-            samples.values[index] = horizontal.value(start);
-            samples.values[index + 1] = horizontal.value(end);
-            samples.intervals = index + 1;
-        }
-        samples
-    }
-}
 
 /// When a height with this rate and acceleration falls to zero; infinite where it does not `[s]`.
 fn fall_time(height: f64, rate: f64, acceleration: f64) -> f64 {
@@ -246,18 +211,20 @@ impl<V: StateVector> Phase<V> {
             overturned: run.scene.options.overturn_angle,
             peak: if is_peak_wanted { run.history.peak_theta[0] } else { f64::INFINITY },
         };
-        let known = Samples::next(run, INTERVALS[run.leap]);
-        let mut place = place_of(known.intervals as f64).ok_or(INTERVALS[0])?;
-        let length = |intervals: usize| run.segments[run.segment + intervals - 1].end - run.t;
+        let timeline = Rc::clone(&run.segments);
+        let known = timeline.samples(run.segment, INTERVALS[run.leap]);
+        let mut place = place_of(known.len() as f64 - 1.0).ok_or(INTERVALS[0])?;
+        let (first, t) = (run.segment, run.t);
+        let length = |intervals: usize| timeline[first + intervals - 1].end - t;
         // Where it lands with its mean acceleration is worth no try.
-        let (all, dt) = (&known.values[..=INTERVALS[place]], length(1));
-        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let (all, dt) = (&known[..=INTERVALS[place]], length(1));
+        let mean = sampled_mean(all);
         let landing = fall_time(sign * x[0], sign * x[1], sign * rocker.acceleration(x[0], mean)) / dt;
         place = place.min(place_of(BEFORE_LANDING * landing).ok_or(landing.max(1.0) as usize)?);
         loop {
             let intervals = INTERVALS[place];
-            let (samples, h) = (&known.values[..=intervals], length(intervals));
-            let step = sampled_step(&rocker, x, samples, h / intervals as f64, tolerance);
+            let h = length(intervals);
+            let step = sampled_step(&rocker, x, &known[..=intervals], h / intervals as f64, tolerance);
             run.work.rhs_calls += NODES * step.rounds;
             let allowed = place_of(intervals as f64 * step.factor_wanted()).unwrap_or(0);
             if step.error > 1.0 {
@@ -265,7 +232,7 @@ impl<V: StateVector> Phase<V> {
                 run.leap = place;
                 continue;
             }
-            let bounds = Bounds::new(rocker, [x[0], sign], samples, h, &step, marks);
+            let bounds = Bounds::new(rocker, [x[0], sign], h, &step, marks);
             let Some(share) = bounds.doubtful_from else {
                 // A step cut short says nothing against a longer one.
                 run.leap = if place < run.leap { run.leap.max(allowed) } else { allowed };
@@ -278,9 +245,9 @@ impl<V: StateVector> Phase<V> {
     /// Goes over most of these samples, to look at what comes after them.
     fn leap_before(&mut self, run: &mut Run, rocker: Rocker, intervals: f64, tolerance: Tolerance) {
         let Some(place) = place_of(intervals) else { return };
-        let (x, known) = ([self.x.as_slice()[0], self.x.as_slice()[1]], Samples::next(run, INTERVALS[place]));
-        let next = run.segment + known.intervals;
-        let (samples, dt) = (&known.values[..=known.intervals], (segment(run).end - run.t));
+        let (x, dt) = ([self.x.as_slice()[0], self.x.as_slice()[1]], segment(run).end - run.t);
+        let next = run.segment + INTERVALS[place];
+        let samples = run.segments.samples(run.segment, INTERVALS[place]);
         let step = sampled_step(&rocker, x, samples, dt, tolerance);
         run.work.rhs_calls += NODES * step.rounds;
         if step.error <= 1.0 {
@@ -329,9 +296,6 @@ impl<V: StateVector> Phase<V> {
 
 /// The longest time between nodes, as a share of a step.
 const WIDEST_GAP: f64 = GAPS[GAPS.len() / 2];
-
-/// Intervals may differ by this share: times are rounded. A step takes them for equal.
-const UNEVEN: f64 = 1e-9;
 
 /// Share of the time to a landing at constant acceleration that a step may take.
 const BEFORE_LANDING: f64 = 0.95;

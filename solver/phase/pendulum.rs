@@ -184,9 +184,10 @@ const SPREAD: f64 = 0.008;
 fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     loop {
         let mean = (x + y + z) / 3.0;
-        let [a, b, c] = [x, y, z].map(|value| 1.0 - value / mean);
-        let spread = a.abs().max(b.abs()).max(c.abs());
-        if spread <= SPREAD || spread.is_nan() {
+        let [a, b, c] = [x, y, z].map(|value| (mean - value).abs());
+        let is_spread = a.max(b).max(c) > SPREAD * mean;
+        if !is_spread {
+            let [a, b, c] = [x, y, z].map(|value| 1.0 - value / mean);
             let (second, third) = (a * b - c * c, a * b * c);
             let series = 1.0 - second / 10.0 + third / 14.0 + second * second / 24.0
                 - 3.0 * second * third / 44.0

@@ -42,10 +42,10 @@ impl Course {
 impl<V: StateVector> Phase<V> {
     /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
     pub(super) fn swing(&mut self, run: &mut Run) -> Option<Option<Ended>> {
-        let pendulum = self.pendulum?;
         if !segment(run).is_quiet() || run.hold.until > run.t {
             return None;
         }
+        let pendulum = self.pendulum?;
         let (course, mut end) = self.course(run, pendulum)?;
         let left = segment(run).end - run.t;
         if !self.closed.is_empty() {

@@ -38,6 +38,8 @@ pub struct SampledStep {
     pub end: [f64; 2],
     /// Largest acceleration that angles at the nodes may meet in the step `[rad/s²]`.
     pub acceleration: f64,
+    /// Largest size of the forcing.
+    pub strongest: f64,
     /// Rounds of iteration: each evaluates the equations at all nodes.
     pub rounds: usize,
     /// Relative to the tolerance, at most one if the step is good; infinite where it does not converge.
@@ -160,11 +162,9 @@ impl Forcing {
             }
         }
         of_nodes.iter_mut().chain(&mut at_end).for_each(|sum| *sum = stored(*sum));
-        let (mut strongest, mut sum) = (0.0, 0.0);
-        for sample in samples {
-            strongest = larger(sample.abs(), strongest);
-            sum += sample;
-        }
+        let strongest = size(in_places(samples, |strongest, sample| larger(sample.abs(), strongest)));
+        let mean = mean(samples);
+        let spread = size(in_places(samples, |spread, sample| larger((sample - mean).abs(), spread)));
         let (mut rough, mut squares) = ([0.0; 2], [0.0; 2]);
         for (sample, weight) in samples.windows(3).zip(&weights.kinks) {
             let kink = (sample[2] - sample[1]) - (sample[1] - sample[0]);
@@ -174,10 +174,30 @@ impl Forcing {
                 squares[index] += own * own;
             }
         }
-        let mean = sum / samples.len() as f64;
-        let spread = samples.iter().fold(0.0, |spread, sample| larger((sample - mean).abs(), spread));
         Forcing { of_nodes, at_end, rough, roughness: [squares[0].sqrt(), squares[1].sqrt()], mean, strongest, spread }
     }
+}
+
+/// Samples folded from zero in eight places in turn, so that they do not wait for each other.
+#[inline(always)]
+fn in_places(samples: &[f64], fold: impl Fn(f64, f64) -> f64) -> AtNodes {
+    let mut folded = splat(0.0);
+    let (whole, rest) = samples.as_chunks::<NODES>();
+    for samples in whole {
+        for (folded, sample) in folded.0.iter_mut().zip(samples) {
+            *folded = fold(*folded, *sample);
+        }
+    }
+    for (folded, sample) in folded.0.iter_mut().zip(rest) {
+        *folded = fold(*folded, *sample);
+    }
+    folded
+}
+
+/// Mean of samples.
+#[inline(always)]
+pub fn mean(samples: &[f64]) -> f64 {
+    sum(in_places(samples, |sum, sample| sum + sample)) / samples.len() as f64
 }
 
 /// A step from `x = [θ, θ̇]` under a forcing with these samples, `dt` apart `[s]`: one more than some of [`INTERVALS`]. Any other number is an error that
@@ -190,7 +210,8 @@ pub fn sampled_step<F: LinearlyForced>(
     tolerance: Tolerance,
 ) -> SampledStep {
     let Some(place) = INTERVALS.iter().position(|intervals| intervals + 1 == samples.len()) else {
-        return SampledStep { theta: splat(x[0]), end: x, acceleration: 0.0, rounds: 0, error: f64::INFINITY };
+        let (theta, error) = (splat(x[0]), f64::INFINITY);
+        return SampledStep { theta, end: x, acceleration: 0.0, strongest: 0.0, rounds: 0, error };
     };
     let intervals = INTERVALS[place];
     let weights = WEIGHTS[place].get_or_init(|| Weights::new(intervals));
@@ -251,6 +272,7 @@ fn collocate<F: LinearlyForced>(
         theta,
         end,
         acceleration,
+        strongest: forcing.strongest,
         rounds,
         error: if is_good { larger(of_angle, of_rate) } else { f64::INFINITY },
     }
