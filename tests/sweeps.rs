@@ -23,6 +23,9 @@ fn rows_are_those_of_points_run_alone() {
         (Combine::Paired, &[(uplift, &[1.5, 2.0, 3.0][..]), (in_g, &[0.9, 0.9, 0.9][..])][..]),
         (Combine::Cartesian, &[(in_g, &[0.5, 0.9]), (uplift, &[3.0])]),
         (Combine::Cartesian, &[(omega, &[3.0, 9.0]), (omega_p, &[5.0]), (uplift, &[2.0, 4.0])]),
+        // An amplitude alone, one that no scene may have among them, and before another key changes.
+        (Combine::Cartesian, &[(omega, &[3.0, 9.0]), (in_g, &[0.5, 1e9, 0.9])]),
+        (Combine::Cartesian, &[(in_g, &[0.5, 0.9]), (omega, &[3.0, 9.0])]),
         // Points without a scene, and a column that changes, in between.
         (Combine::Cartesian, &[(omega_p, &[4.0, -1.0, 6.0]), (uplift, &[2.0, 4.0])]),
         (Combine::Cartesian, &[("column.blocks", &[1.0, 0.0, 2.0]), (uplift, &[2.0, 4.0]), (omega_p, &[5.0, -1.0])]),
