@@ -2,7 +2,8 @@
 //!
 //! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (MODEL.md section 4, the paper's Eq. 1). On a piece of ground motion with
 //! a bounded second derivative, a step as long as the parabola through value and slope with that bound stays above zero cannot
-//! jump over a root: the search is conservative and converges quadratically.
+//! jump over a root: the search is conservative and converges quadratically. Under a single sine it begins just before the instant
+//! that its inverse names.
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Energy, Ground};
@@ -284,6 +285,26 @@ mod tests {
         assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
         let later = first_zero(&segment(amplitude), arm, Interface::Right).expect("it starts");
         assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_search_under_a_sine_begins_shortly_before_the_limit() {
+        let limit = 1.3;
+        for (amplitude, phase, since) in [(2.0, 0.4, 0.0), (-1.31, 2.9, 0.3), (5.0, -7.0, 1.7), (1.4, 1.5, 0.55)] {
+            let sine = Piece::Sine { amplitude, omega: 3.0, start: 0.2, phase };
+            let segment = Segment { start: 0.0, end: 9.0, horizontal: sine, vertical: Piece::Zero, jumps: false };
+            let wait = until_sine_is(limit, &segment, since);
+            let size = |t: f64| segment.horizontal.value(t).abs();
+            // A microsecond later the limit is passed: by 1e-6 s times a slope of 0.4 m/s³ at least, far above rounding.
+            assert!(
+                (0..1000).all(|i| size(since + wait * f64::from(i) / 1000.0) < limit || wait == 0.0),
+                "{amplitude}"
+            );
+            assert!(size(since + wait + 1e-6) > limit, "{amplitude} {wait}");
+        }
+        let quiet = Piece::Sine { amplitude: 1.29, omega: 3.0, start: 0.0, phase: 0.0 };
+        let segment = Segment { start: 0.0, end: 9.0, horizontal: quiet, vertical: Piece::Zero, jumps: false };
+        assert_eq!(until_sine_is(limit, &segment, 0.0), f64::INFINITY);
     }
 
     #[test]

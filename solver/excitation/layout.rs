@@ -12,7 +12,7 @@ pub(crate) struct Layout {
     timeline: Rc<Timeline>,
 }
 
-/// Segments from which on it is seen whether they are the same, and what samples they are: fewer are laid out anew in less time.
+/// Segments from which on it is seen whether they are the same: fewer are laid out anew in less time.
 const MANY_SEGMENTS: usize = 16;
 
 impl Layout {
@@ -21,9 +21,8 @@ impl Layout {
         if !self.of.as_ref().is_some_and(|(own, until)| *until == t_end && own == excitation) {
             let timeline = Rc::make_mut(&mut self.timeline);
             excitation.lay_out(t_end, &mut timeline.segments);
-            let are_many = timeline.segments.len() >= MANY_SEGMENTS;
-            timeline.note_samples(are_many);
-            self.of = are_many.then(|| (excitation.clone(), t_end));
+            timeline.note_samples();
+            self.of = (timeline.segments.len() >= MANY_SEGMENTS).then(|| (excitation.clone(), t_end));
         }
         Rc::clone(&self.timeline)
     }
@@ -53,33 +52,34 @@ const UNEVEN: f64 = 1e-9;
 
 impl Timeline {
     /// Horizontal accelerations from the start of a segment on, at the bounds of up to so many, as long as they are a record of equal
-    /// intervals with nothing vertical beside it; one, if it is none.
+    /// intervals with nothing vertical beside it; one at most, if it is none.
     pub fn samples(&self, first: usize, most: usize) -> &[f64] {
         let until = self.goes_on_until.get(first).map_or(first, |until| (*until).min(first + most));
         self.accelerations.get(first..=until).unwrap_or_default()
     }
 
-    fn note_samples(&mut self, are_wanted: bool) {
+    /// Notes samples, where there are any.
+    fn note_samples(&mut self) {
         self.accelerations.clear();
         self.goes_on_until.clear();
-        let Some(last) = self.segments.last().filter(|_| are_wanted) else { return };
-        let at_end = last.horizontal.value(last.end);
-        self.accelerations.extend(self.segments.iter().map(|own| own.horizontal.value(own.start)).chain([at_end]));
+        let segments = &self.segments;
         let is_sampled =
             |own: &Segment| matches!((&own.horizontal, &own.vertical), (Piece::Linear { .. }, Piece::Zero));
-        let mut index = 0;
-        while index < self.segments.len() {
-            let (first, dt) = (index, self.segments[index].end - self.segments[index].start);
-            let goes_on = |own: &Segment| is_sampled(own) && ((own.end - own.start) - dt).abs() <= UNEVEN * dt;
-            index += usize::from(is_sampled(&self.segments[first]));
-            while index > first && self.segments.get(index).is_some_and(|own| !own.jumps && goes_on(own)) {
-                index += 1;
-            }
+        let Some(last) = segments.last().filter(|_| segments.iter().any(is_sampled)) else { return };
+        let at_end = last.horizontal.value(last.end);
+        self.accelerations.extend(segments.iter().map(|own| own.horizontal.value(own.start)).chain([at_end]));
+        let mut first = 0;
+        while let [own, later @ ..] = &segments[first..] {
+            let dt = own.end - own.start;
+            let is_even = |next: &Segment| ((next.end - next.start) - dt).abs() <= UNEVEN * dt;
+            let goes_on = |next: &&Segment| is_sampled(own) && is_sampled(next) && !next.jumps && is_even(next);
+            let end = first + 1 + later.iter().take_while(goes_on).count();
             // What is no sample, or jumps, need not begin as the last one ends.
-            let breaks_off = self.segments.get(index).is_some_and(|own| own.jumps || !is_sampled(own));
-            let until = index - usize::from(index > first && breaks_off);
-            index = index.max(first + 1);
-            self.goes_on_until.extend((first..index).map(|own| until.max(own)));
+            let next = segments.get(end);
+            let breaks_off = !is_sampled(own) || next.is_some_and(|next| next.jumps || !is_sampled(next));
+            let until = end - usize::from(breaks_off);
+            self.goes_on_until.extend((first..end).map(|own| until.max(own)));
+            first = end;
         }
     }
 }
@@ -115,6 +115,6 @@ mod tests {
             vertical: Some(Motion::Rectangular { amplitude: 1.0, start: 0.0, duration: 9.0 }),
         };
         let timeline = layout.timeline(&lifted, 5.0);
-        assert!((0..timeline.len()).all(|first| timeline.samples(first, 100).len() == 1));
+        assert!((0..timeline.len()).all(|first| timeline.samples(first, 100).is_empty()), "none is a record alone");
     }
 }

@@ -255,8 +255,8 @@ impl Motion {
         }
     }
 
-    /// The amplitude `[m/s²]` of a formula of which nothing else depends on it.
-    pub(crate) fn amplitude_mut(&mut self) -> Option<&mut f64> {
+    /// The amplitude `[m/s²]` of a formula of which nothing else depends on it; the motion is proportional to it.
+    pub fn amplitude_mut(&mut self) -> Option<&mut f64> {
         match self {
             Motion::SinePulse { amplitude, .. }
             | Motion::CosinePulse { amplitude, .. }

@@ -94,8 +94,9 @@ pub struct Taylor<V, L: StateVector> {
     x: V,
     h: f64,
     end: V,
-    /// Highest order of the rates' coefficients that the last attempt uses, and that are known.
+    /// Highest order of the rates' coefficients that the last attempt uses.
     order: usize,
+    /// Highest one that has been computed.
     known: usize,
     largest_order: usize,
     is_begun: bool,

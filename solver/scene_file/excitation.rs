@@ -44,6 +44,14 @@ impl Scales {
     }
 }
 
+/// Keys of amplitudes.
+const AMPLITUDES: [&str; 3] = ["amplitude", "amplitude_g", "amplitude_uplift"];
+
+/// Their units `[m/s²]`, of gravity and of the acceleration that opens the base.
+fn amplitude_units(gravity: f64, uplift: f64) -> [f64; 3] {
+    [1.0, gravity, uplift]
+}
+
 /// Sets an amplitude, under its dotted name, in a ground motion that has one and of which nothing else changes with it; `false` where it
 /// takes more to tell what comes of it.
 pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, column: &Column) -> bool {
@@ -55,12 +63,8 @@ pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, 
         "vertical" => &mut excitation.vertical,
         _ => return false,
     };
-    let unit = match name {
-        "amplitude" => 1.0,
-        "amplitude_g" => column.gravity(),
-        "amplitude_uplift" => column.stack(0).uplift_acceleration(),
-        _ => return false,
-    };
+    let Some(place) = AMPLITUDES.iter().position(|key| *key == name) else { return false };
+    let unit = amplitude_units(column.gravity(), column.uplift_acceleration(0))[place];
     let Some(own) = motion.as_mut().and_then(Motion::amplitude_mut) else { return false };
     *own = value * unit;
     own.abs() <= LARGEST
@@ -211,11 +215,9 @@ fn phase(table: &mut Table) -> Result<f64, Wrong> {
 }
 
 fn amplitude(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {
-    table.one_of(&[
-        ("amplitude", &|a| a),
-        ("amplitude_g", &|a| a * scales.gravity),
-        ("amplitude_uplift", &|a| a * scales.uplift),
-    ])
+    let [si, g, uplift] = amplitude_units(scales.gravity, scales.uplift);
+    let [in_si, in_g, in_uplifts] = AMPLITUDES;
+    table.one_of(&[(in_si, &|a| a * si), (in_g, &|a| a * g), (in_uplifts, &|a| a * uplift)])
 }
 
 fn omega(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {

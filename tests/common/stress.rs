@@ -219,19 +219,10 @@ pub fn mirrored(scene: &Scene) -> Scene {
 /// The motion to the other side.
 fn reversed(mut motion: Motion) -> Motion {
     match &mut motion {
-        Motion::SinePulse { amplitude, .. }
-        | Motion::CosinePulse { amplitude, .. }
-        | Motion::HalfSine { amplitude, .. }
-        | Motion::TypeC { amplitude, .. }
-        | Motion::Harmonic { amplitude, .. }
-        | Motion::SineBurst { amplitude, .. }
-        | Motion::Ricker { amplitude, .. }
-        | Motion::AntisymmetricRicker { amplitude, .. }
-        | Motion::Rectangular { amplitude, .. }
-        | Motion::DoubleRectangular { amplitude, .. } => *amplitude = -*amplitude,
         Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => *velocity = -*velocity,
         Motion::Sum { terms } => terms.iter_mut().for_each(|term| *term = reversed(term.clone())),
         Motion::Record(record) => *record = record.clone().scaled(-1.0).expect("finite"),
+        formula => formula.amplitude_mut().into_iter().for_each(|amplitude| *amplitude = -*amplitude),
     }
     motion
 }

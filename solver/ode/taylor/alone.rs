@@ -27,6 +27,7 @@ pub fn extend<L: StateVector>(
     widest(
         #[inline(always)]
         || {
+            // A few that a longer step needs after all.
             if orders.start > 0 {
                 return orders.for_each(|order| one_more::<L>(circle, driver, order));
             }
