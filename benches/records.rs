@@ -685,8 +685,7 @@ where
             let stop = plan.time(sample);
             while t < stop {
                 let left = stop - t;
-                let h = if next_step >= left { left } else { next_step.min(0.6 * left) };
-                let error = series.attempt(system, t, &x, h, stepping.tolerance);
+                let [h, error] = series.attempt(system, t, &x, [next_step, left], stepping.tolerance);
                 steps += 1;
                 let factor = series.factor_wanted();
                 if error.is_nan() || error > 1.0 {
@@ -700,7 +699,7 @@ where
                     system.mode.derivative(series.end(), ground, &mut slope);
                     black_box((&tracks, &slope));
                 }
-                next_step = if h < next_step { next_step.max(h * factor) } else { h * factor };
+                next_step = if h == left { next_step.max(h * factor) } else { h * factor };
                 x = *series.end();
                 t = if h == left { stop } else { t + h };
             }

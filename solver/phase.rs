@@ -122,6 +122,8 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
             Some(step) => step,
             None => self.stepper.first_step(&self.x, tolerance),
         };
+        // After an attempt that failed the next one is no longer than wanted, whatever the method thinks.
+        let mut longest = f64::INFINITY;
         let ended = loop {
             let t = run.t;
             let left = segment(run).end - t;
@@ -139,22 +141,22 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
             if self.leap(run, tolerance) {
                 continue;
             }
-            // A step that would leave a crumb leaves a part.
-            let h = if wanted >= left { left } else { wanted.min(0.6 * left) };
             let held = run.hold.until - t;
-            let h = if held > 0.0 { h.min(held) } else { h };
-            let error = self.stepper.attempt(t, &self.x, h, tolerance);
+            let most = if held > 0.0 { left.min(held) } else { left }.min(longest);
+            let [h, error] = self.stepper.attempt(t, &self.x, wanted, most, tolerance);
             if error.is_nan() || error > 1.0 {
                 run.work.rejected += 1;
                 wanted = h * if error.is_nan() { 0.1 } else { self.stepper.factor(error).min(1.0) };
                 self.check_step(run, wanted, error)?;
+                longest = wanted;
                 continue;
             }
+            longest = f64::INFINITY;
             self.stepper.accept();
             run.count_step();
             let factor = self.stepper.factor(error);
             // A step cut short by a segment's end says nothing against the step wanted.
-            wanted = if h < wanted { wanted.max(h * factor) } else { h * factor };
+            wanted = if h == most { wanted.max(h * factor) } else { h * factor };
             let end = if h == left { segment(run).end } else { t + h };
             if let Some((found, s)) = self.search(run, h, end) {
                 match self.stop_at(run, found, h, s, tolerance) {

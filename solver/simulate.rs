@@ -285,7 +285,7 @@ impl<'a> Run<'a> {
         let mut decision = self.decide_forces(&[])?;
         self.adopt(&mut decision, EventKind::Start);
         if at_rest && self.pattern != decision.pattern {
-            self.record(EventKind::Start, &[], decision);
+            self.record(EventKind::Start, &[], &decision);
         }
         Ok(())
     }
@@ -327,15 +327,16 @@ impl<'a> Run<'a> {
         let (stick_angle, is_recorded) = (self.scene.options.stick_angle, self.records_events());
         let law = ImpactLaw { kappa: &self.kappa, stick_angle, is_recorded };
         let column = &self.scene.column;
-        let decision = contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
-        self.strike(decision, closing)?;
+        let mut decision =
+            contact::impact(column, &self.pattern, &self.theta, &self.omega, closing, self.ground(), law);
+        self.strike(&mut decision, closing)?;
         self.guard_against_stall()
     }
 
     /// Adopts and records what an impact has decided.
-    fn strike(&mut self, decision: Result<Decision, SingularMass>, closing: &[usize]) -> Result<(), SolveError> {
-        let Ok(mut decision) = decision else { return Err(self.singular()) };
-        self.adopt(&mut decision, EventKind::Impact);
+    fn strike(&mut self, decision: &mut Result<Decision, SingularMass>, closing: &[usize]) -> Result<(), SolveError> {
+        let Ok(decision) = decision else { return Err(self.singular()) };
+        self.adopt(decision, EventKind::Impact);
         self.record(EventKind::Impact, closing, decision);
         Ok(())
     }
@@ -350,7 +351,7 @@ impl<'a> Run<'a> {
         let mut decision = Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: Few::new() };
         self.adopt(&mut decision, EventKind::Impact);
         self.released = released;
-        self.record(EventKind::Impact, closing, decision);
+        self.record(EventKind::Impact, closing, &decision);
         self.guard_against_stall()
     }
 
@@ -366,7 +367,7 @@ impl<'a> Run<'a> {
         self.adopt(&mut decision, kind);
         self.released = released;
         let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
-        self.record(kind, opened, decision);
+        self.record(kind, opened, &decision);
         self.guard_against_stall()
     }
 
@@ -376,7 +377,7 @@ impl<'a> Run<'a> {
         let mut decision = self.decide_forces(&[])?;
         self.adopt(&mut decision, kind);
         if self.pattern != decision.pattern {
-            self.record(kind, &[], decision);
+            self.record(kind, &[], &decision);
         }
         Ok(())
     }
@@ -449,7 +450,7 @@ impl<'a> Run<'a> {
     }
 
     /// Records what a decision, now adopted, has brought about.
-    fn record(&mut self, kind: EventKind, interfaces: &[usize], before: Decision) {
+    fn record(&mut self, kind: EventKind, interfaces: &[usize], before: &Decision) {
         let is_impact = kind == EventKind::Impact;
         self.history.last_events = [self.history.last_events[1], self.t];
         self.history.impacts += usize::from(is_impact);
@@ -461,8 +462,7 @@ impl<'a> Run<'a> {
         }
         let numbers = interfaces.iter().map(|interface| interface + 1);
         // Where nothing strikes, rates do not change but for what is snapped.
-        let omega_after = Few::from_slice(&self.omega);
-        let omega_before = if before.impulses.is_empty() { omega_after.clone() } else { before.omega };
+        let omega_before = if before.impulses.is_empty() { &self.omega } else { &before.omega };
         self.history.events.push(Event {
             t: self.t,
             kind,
@@ -471,11 +471,11 @@ impl<'a> Run<'a> {
             mode_before: ModeName::of(&before.pattern),
             mode: ModeName::of(&self.pattern),
             mirrored: self.pattern.is_mirrored(),
-            before: before.pattern,
+            before: before.pattern.clone(),
             after: self.pattern.clone(),
             theta: Few::from_slice(&self.theta),
-            omega_before,
-            omega_after,
+            omega_before: Few::from_slice(omega_before),
+            omega_after: Few::from_slice(&self.omega),
             energy_lost: is_impact.then_some(before.energy_lost),
             impulses: before.impulses.iter().map(Impulse::from).collect(),
         });
@@ -485,8 +485,8 @@ impl<'a> Run<'a> {
     fn close_all(&mut self, is_still: impl Fn(&Run, usize) -> bool) -> Result<(), SolveError> {
         let all = 0..self.theta.len();
         let closing: Vec<usize> = all.filter(|i| self.pattern.0[*i].is_open() && is_still(self, *i)).collect();
-        let decision = contact::stick(&self.scene.column, &self.pattern, &self.theta, &self.omega, &closing);
-        self.strike(decision, &closing)
+        let mut decision = contact::stick(&self.scene.column, &self.pattern, &self.theta, &self.omega, &closing);
+        self.strike(&mut decision, &closing)
     }
 
     /// Breaks circles of events in one instant.

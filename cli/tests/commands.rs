@@ -70,9 +70,11 @@ fn a_run_writes_its_three_files() {
     ] {
         assert!(summary.get(key).is_some(), "{key}");
     }
-    for key in ["steps", "rejected", "rhs_calls", "modes_entered"] {
+    for key in ["steps", "rhs_calls", "modes_entered"] {
         assert!(summary["work"][key].as_u64().is_some_and(|count| count > 0), "{key}");
     }
+    // Taylor steps are as long as their terms allow.
+    assert_eq!(summary["work"]["rejected"], 0);
     let time: f64 = summary["time_in_mode"].as_object().expect("modes").values().filter_map(Value::as_f64).sum();
     assert!((time - 10.0).abs() < 1e-12, "all time is in some mode: {time}");
     let events: Value = serde_json::from_str(&read("events.json")).expect("JSON");
@@ -81,6 +83,18 @@ fn a_run_writes_its_three_files() {
     assert_eq!(events[0]["mode"], "1.5");
     let impacts = events.iter().filter(|event| event["kind"] == "impact").count();
     assert_eq!(Some(impacts as u64), summary["impacts"].as_u64());
+}
+
+#[test]
+fn a_method_that_tries_its_steps_counts_those_rejected() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = std::fs::read_to_string(common::root().join("scenes/three-drums-pulse.toml")).expect("a scene");
+    let tried = scene.replace("[solver]", "[solver]\nmethod = \"dop853\"");
+    std::fs::write(folder.path().join("tried.toml"), tried).expect("written");
+    common::succeeds(folder.path(), &["run", "tried.toml", "--out", "out"]);
+    let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).expect("written");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    assert!(summary["work"]["rejected"].as_u64().is_some_and(|count| count > 0), "{}", summary["work"]);
 }
 
 #[test]

@@ -65,6 +65,7 @@ pub struct Pattern(pub SmallVec<[Interface; 16]>);
 
 // As one piece: the list's own goes entry by entry.
 impl Clone for Pattern {
+    #[inline]
     fn clone(&self) -> Pattern {
         Pattern::from_states(&self.0)
     }
@@ -87,6 +88,7 @@ impl Pattern {
     }
 
     /// The pattern with these states, base first.
+    #[inline]
     pub fn from_states(states: &[Interface]) -> Pattern {
         Pattern(SmallVec::from_slice(states))
     }
@@ -114,16 +116,19 @@ impl Pattern {
     }
 
     /// Index of the lowest open interface, `None` at rest.
+    #[inline]
     pub fn lowest_open(&self) -> Option<usize> {
         self.0.iter().position(|interface| interface.is_open())
     }
 
     /// Whether it is the mirror image of the pattern that its mode is labelled by: the lowest open interface is open on its left.
+    #[inline]
     pub fn is_mirrored(&self) -> bool {
         self.lowest_open().is_some_and(|lowest| self.0[lowest] == Interface::Left)
     }
 
     /// Number of open interfaces: the degrees of freedom of the mode.
+    #[inline]
     pub fn dof(&self) -> usize {
         self.0.iter().filter(|interface| interface.is_open()).count()
     }
@@ -140,6 +145,7 @@ impl Pattern {
     /// let (label, mirrored) = Pattern::from_signs(&[-1, 0, 0]).mode().unwrap();
     /// assert_eq!((label.to_string().as_str(), mirrored), ("1.5", true));
     /// ```
+    #[inline]
     pub fn mode(&self) -> Option<(ModeLabel, bool)> {
         let lowest = self.lowest_open()?;
         let mirrored = self.is_mirrored();

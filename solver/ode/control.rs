@@ -62,6 +62,12 @@ impl StepControl {
     }
 }
 
+/// The wanted step, up to `most`; a part of that where it would leave a crumb.
+#[inline(always)]
+pub fn without_crumb(wanted: f64, most: f64) -> f64 {
+    if wanted >= most { most } else { wanted.min(0.6 * most) }
+}
+
 /// `x^(1/n)` to half a per cent, of normal numbers, the same on every machine: steps need no more.
 #[inline(always)]
 pub(super) fn rough_root(x: f64, n: usize) -> f64 {

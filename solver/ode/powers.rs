@@ -53,6 +53,27 @@ fn bent_step(value: f64, slope: f64, half_bend: f64) -> f64 {
     if share > 0.5 { straight / share } else { straight }
 }
 
+/// The first coefficients of a polynomial about `s`: value, slope, half the bend, and so on.
+#[inline(always)]
+fn around<const N: usize>(terms: &[f64], s: f64) -> [f64; N] {
+    let mut around = [0.0; N];
+    for c in terms.iter().rev() {
+        for k in (1..N).rev() {
+            around[k] = around[k] * s + around[k - 1];
+        }
+        around[0] = around[0] * s + c;
+    }
+    around
+}
+
+/// Where the parabola with this value and slope at 0 and this value at 1, the first above zero and the last not, comes down to zero.
+#[inline(always)]
+fn root_guess([start, slope, end]: [f64; 3]) -> f64 {
+    let bend = end - start - slope;
+    let guess = 2.0 * start / ((slope * slope - 4.0 * start * bend).sqrt() - slope);
+    if guess > 0.0 && guess < 1.0 { guess } else { 1.0 }
+}
+
 /// Where a slope with these values and bends at 0 and 1 is about zero: by the cubic that has place over slope as it has there.
 #[inline(always)]
 fn crest_guess([start, end]: [f64; 2], [start_bend, end_bend]: [f64; 2]) -> f64 {
@@ -103,17 +124,10 @@ impl Powers {
         self.around(s)
     }
 
-    /// The first coefficients about `s`: value, slope, half the bend, and so on.
+    /// [`around`] a place.
     #[inline(always)]
     fn around<const N: usize>(&self, s: f64) -> [f64; N] {
-        let mut around = [0.0; N];
-        for c in self.terms().iter().rev() {
-            for k in (1..N).rev() {
-                around[k] = around[k] * s + around[k - 1];
-            }
-            around[0] = around[0] * s + c;
-        }
-        around
+        around(self.terms(), s)
     }
 
     /// A bound of the polynomial's size.
@@ -141,18 +155,20 @@ impl Powers {
         if self.lower_bound(roots) > 0.0 {
             return Some(None);
         }
-        let rises = self.coefficients[0] > 0.0 || (roots == 1 && self.coefficients[1] > 0.0);
-        if !rises || !self.is_bent_down() {
+        // Divided by the root it still starts above zero, and falls all the way.
+        let terms = &self.terms()[roots..];
+        if !(roots <= 1 && terms[0] > 0.0 && self.is_bent_down()) {
             return None;
         }
-        // Above zero at first, and bent downwards throughout: one root, if the end is below.
-        let (mut above, mut below, mut s) = (0.0, 1.0, 1.0);
+        let end = terms.iter().sum::<f64>();
+        if end > 0.0 {
+            return Some(None);
+        }
+        // Above zero at first, bent downwards throughout, or falling, and below at the end: one root.
+        let (mut above, mut below, mut s) = (0.0, 1.0, root_guess([terms[0], self.coefficients[roots + 1], end]));
         for _ in 0..ROUNDS {
-            let [value, slope, half_bend] = self.around(s);
+            let [value, slope, half_bend] = around(terms, s);
             if value > 0.0 {
-                if s == 1.0 {
-                    return Some(None);
-                }
                 above = s;
             } else {
                 below = s;

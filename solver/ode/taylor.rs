@@ -21,7 +21,7 @@
 
 mod alone;
 
-use super::control::rough_root;
+use super::control::{rough_root, without_crumb};
 use super::{Difference, Powers, Tolerance};
 use crate::dynamics::StateVector;
 use wide::f64x2;
@@ -66,6 +66,15 @@ const MARGIN: f64 = 8.0;
 
 /// Error of a step of the largest order below which a lower one is looked for: above, it would save less than looking costs.
 const SHORT: f64 = 1e-3;
+
+/// Steps aim this far below what just meets the tolerance.
+const SAFETY: f64 = 0.9;
+
+/// Error of a step above which a longer one is not looked for: it would save less than looking costs.
+const LONG_ENOUGH: f64 = 0.1;
+
+/// Rounds in which a step as long as the terms allow is looked for.
+const GUESSES: usize = 3;
 
 /// Equations of the form above.
 pub trait SeriesSystem {
@@ -154,35 +163,60 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.is_begun = false;
     }
 
-    /// Attempts a step of length `h` from `(t, x)`: its error relative to `tolerance`, at most one if the step is good. From the
-    /// same place again nothing is computed but what is missing.
+    /// Attempts a step from `(t, x)`, as long as the terms allow and no longer than `most`; `wanted` is a guess of that. Its length, and its
+    /// error relative to `tolerance`, at most one if the step is good. From the same place again nothing is computed but what is
+    /// missing.
     #[inline(always)]
     pub fn attempt<S: SeriesSystem<State = V, Links = L>>(
         &mut self,
         system: &mut S,
         t: f64,
         x: &V,
-        h: f64,
+        [wanted, most]: [f64; 2],
         tolerance: Tolerance,
-    ) -> f64 {
-        self.expand(system, t, x);
-        self.h = h;
-        let scale = self.scale(h, tolerance);
-        let (mut order, mut error) = (self.largest_order, f64::INFINITY);
-        if self.known == order {
-            error = self.error_at(order, h, &scale);
-        }
-        if self.known < order || error < SHORT {
-            (order, error) = self.least_order(system, h, &scale);
-        }
-        self.factor_wanted = self.wanted(error, order, tolerance.rtol);
+    ) -> [f64; 2] {
+        // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
+        let is_short = wanted >= most && self.order > 0 && 2 * self.order <= self.largest_order;
+        self.expand(system, t, x, if is_short { self.order.max(MIN_ORDER) } else { self.largest_order });
+        let (mut target, mut guesses) = (wanted, 0);
+        let (h, order, error) = loop {
+            let h = without_crumb(target, most);
+            let is_cut = h == most || h < target;
+            let (order, error) = self.measure(system, h, is_cut, tolerance);
+            guesses += 1;
+            if error <= 1.0 && (is_cut || error > LONG_ENOUGH) || guesses == GUESSES {
+                self.factor_wanted = self.wanted(error, order, tolerance.rtol);
+                break (h, order, error);
+            }
+            let (factor, is_sure) = fitting(error, order);
+            target = h * factor;
+            if is_sure {
+                let h = without_crumb(target, most);
+                self.factor_wanted = target / h;
+                break (h, order, 1.0);
+            }
+        };
         // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
-        self.order = order;
+        (self.h, self.order) = (h, order);
         if error > 1.0 {
-            return if error.is_finite() { error } else { f64::NAN };
+            return [h, if error.is_finite() { error } else { f64::NAN }];
         }
         self.evaluate(order, h);
-        if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }
+        [h, if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }]
+    }
+
+    /// Order and error of a step: of one that something else cuts short the least order with which it is good.
+    #[inline(always)]
+    fn measure<S: SeriesSystem<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        h: f64,
+        is_cut: bool,
+        tolerance: Tolerance,
+    ) -> (usize, f64) {
+        let (scale, order) = (self.scale(h, tolerance), self.largest_order);
+        let error = if self.known == order { self.error_at(order, h, &scale) } else { 0.0 };
+        if is_cut && error < SHORT { self.least_order(system, h, &scale) } else { (order, error) }
     }
 
     /// The least order with which a step is good, and its error; the largest one if none is.
@@ -193,7 +227,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         h: f64,
         scale: &L::Of<f64>,
     ) -> (usize, f64) {
-        let (mut error, mut last, mut power, mut order) = (f64::INFINITY, 0.0, MARGIN, 0);
+        let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, MARGIN * h * h * h);
+        let mut last = self.term(order, power, scale);
         while order < self.largest_order {
             if order == self.known {
                 self.extend(system, self.largest_order);
@@ -201,11 +236,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             order += 1;
             power *= h;
             let size = self.term(order, power, scale);
-            if order >= MIN_ORDER {
-                error = larger(size, BEFORE_LAST * last);
-                if error <= 1.0 {
-                    break;
-                }
+            error = larger(size, BEFORE_LAST * last);
+            if error <= 1.0 {
+                break;
             }
             last = size;
         }
@@ -232,7 +265,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Writes `[θ̇, θ̈]` at a place into `slope`: the first terms of the series there.
     pub fn slope<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, slope: &mut V) {
-        self.expand(system, t, x);
+        self.expand(system, t, x, self.largest_order);
         let dof = self.cos_ddot.as_slice().len();
         for (link, driver) in self.driver[1].as_ref().iter().enumerate() {
             slope.as_mut_slice()[link] = x.as_slice()[dof + link];
@@ -240,17 +273,19 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
     }
 
-    /// What a term of the rates weighs in a step, relative to what rates and angles may err by. An angle's term is the rate's times
-    /// the step over its order, which is `MIN_ORDER` at least.
+    /// What a term of the rates weighs in a step, relative to what rates and angles may err by, which are as large in it as their
+    /// first terms let them be. An angle's term is the rate's times the step over its order, which is `MIN_ORDER` at least.
     #[inline(always)]
     fn scale(&self, h: f64, tolerance: Tolerance) -> L::Of<f64> {
         let dof = self.cos_ddot.as_slice().len();
         let mut scale = self.cos_ddot.each(0.0);
         for (link, scale) in scale.as_mut().iter_mut().enumerate() {
-            let (theta, rate) = (self.x.as_slice()[link], self.x.as_slice()[dof + link]);
-            let end_rate = rate + h * rate_of(&self.driver[1].as_ref()[link]);
-            let of_angle = h * RECIPROCAL[MIN_ORDER + 1] / tolerance.scale(theta, theta + h * rate);
-            *scale = larger(of_angle, 1.0 / tolerance.scale(rate, end_rate));
+            let (theta, rate) = (self.x.as_slice()[link].abs(), self.x.as_slice()[dof + link].abs());
+            let [first, second] = [1, 2].map(|order: usize| rate_of(&self.driver[order].as_ref()[link]).abs());
+            let most_rate = rate + h * (first + h * second);
+            let most = theta + h * (rate + h * (0.5 * first + h * RECIPROCAL[3] * second));
+            let of_angle = h * RECIPROCAL[MIN_ORDER + 1] / tolerance.scale(theta, most);
+            *scale = larger(of_angle, 1.0 / tolerance.scale(rate, most_rate));
         }
         scale
     }
@@ -268,7 +303,6 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// Relative to the last step: where the term of the largest order would just meet the tolerance, the terms falling as they
     /// do up to this one.
     fn wanted(&self, error: f64, order: usize, rtol: f64) -> f64 {
-        const SAFETY: f64 = 0.9;
         let error = error.max(1e-30);
         if order == self.largest_order {
             return SAFETY / rough_root(error, order);
@@ -363,11 +397,19 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         start + first + 0.5 * (sum - size) > 0.0
     }
 
+    /// The series about a place, up to an order.
     #[inline(always)]
-    fn expand<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V) {
-        if self.is_at(t, x) {
-            return;
+    fn expand<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, order: usize) {
+        if !self.is_at(t, x) {
+            self.begin_at(system, t, x);
         }
+        while self.known < order {
+            self.extend(system, order);
+        }
+    }
+
+    #[inline(always)]
+    fn begin_at<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V) {
         (self.t, self.known, self.is_begun) = (t, 0, true);
         self.x.clone_from(x);
         let dof = self.cos_ddot.as_slice().len();
@@ -384,9 +426,6 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         system.expand_at(t, self.largest_order);
         system.matrix(&self.x, &self.cos_ddot, &self.sin_ddot, &mut self.factor);
         factorise(&mut self.factor, dof);
-        // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
-        let is_short = self.order > 0 && 2 * self.order <= self.largest_order;
-        self.extend(system, if is_short { self.order.max(MIN_ORDER) } else { self.largest_order });
     }
 
     /// One more order, or of one angle all up to this one.
@@ -403,7 +442,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     #[inline(always)]
     fn extend_alone<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
         let share = f64x2::splat(-self.factor[0]);
-        for (k, driver) in self.driver[1..=order].iter_mut().enumerate().skip(self.known) {
+        for (k, driver) in (self.known..).zip(&mut self.driver[self.known + 1..=order]) {
             let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
             driver.as_mut()[0][1] = f64x2::new([cos_weight.as_slice()[0], sin_weight.as_slice()[0]]) * share;
         }
@@ -490,6 +529,16 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
         sizes
     }
+}
+
+/// By what a step with this error may be longer, or has to be shorter, and whether it is good then without another look: weights of
+/// terms grow with the step no faster than itself, and fall with it no faster than its square.
+#[inline(always)]
+fn fitting(error: f64, order: usize) -> (f64, bool) {
+    let is_too_long = error > 1.0;
+    let careful = SAFETY / rough_root(larger(error, 1e-30), if is_too_long { order - 3 } else { order });
+    let is_near = careful > 0.7 && careful < 1.4;
+    if is_near || !is_too_long { (careful, is_near) } else { (SAFETY / rough_root(error, order), false) }
 }
 
 /// `[-s, c]` of `[c, s]`.
@@ -622,7 +671,7 @@ mod tests {
         let (mut x, h) = ([1.0, 0.0], 12.0 / steps as f64);
         for step in 0..steps {
             // A tolerance that nothing meets: all orders are used.
-            taylor.attempt(&mut Pendulum, step as f64 * h, &x, h, Tolerance { rtol: 1e-300, atol: 1e-300 });
+            taylor.attempt(&mut Pendulum, step as f64 * h, &x, [h, h], Tolerance { rtol: 1e-300, atol: 1e-300 });
             taylor.cut(h);
             x = *taylor.end();
         }
@@ -652,13 +701,13 @@ mod tests {
         let (mut t, mut x, mut h, mut steps) = (0.0, [2.0, 0.0], 0.5, 0);
         let start = energy(&x);
         while t < 800.0 {
-            let error = taylor.attempt(&mut Pendulum, t, &x, h, tolerance);
+            let [taken, error] = taylor.attempt(&mut Pendulum, t, &x, [h, h], tolerance);
             if error <= 1.0 {
-                t += h;
+                t += taken;
                 x = *taylor.end();
                 steps += 1;
             }
-            h *= taylor.factor_wanted();
+            h = taken * taylor.factor_wanted();
         }
         // Three thousand steps of some roundings each, at random: 1e-16 · 55, three times over.
         assert!((energy(&x) - start).abs() < 2e-14, "{:e}", energy(&x) - start);
@@ -672,7 +721,7 @@ mod tests {
         let mut one_way = [0, 0];
         for (x, h) in [([1.2, -0.4], 0.2), ([1.2, 0.4], 0.2), ([0.3, 0.02], 0.2), ([0.0, 0.5], 0.1)] {
             let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
-            assert!(taylor.attempt(&mut Pendulum, 0.0, &x, h, tolerance) <= 1.0);
+            assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance)[1] <= 1.0);
             for part in [1.0, 0.3] {
                 taylor.cut(part * h);
                 let places = (0..=50).map(|i| f64::from(i) / 50.0);
@@ -698,13 +747,13 @@ mod tests {
         let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
         let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
         let (x, h) = ([1.2, -0.4], 0.2);
-        assert!(taylor.attempt(&mut Pendulum, 0.0, &x, h, tolerance) <= 1.0);
+        assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance)[1] <= 1.0);
         let track = taylor.track(Difference { sign: 1.0, upper: 0, lower: None });
         for s in [0.0, 0.3, 1.0] {
             let mut inside = [0.0; 2];
             taylor.state_inside(s, &mut inside);
             let mut other = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
-            other.attempt(&mut Pendulum, 0.0, &x, s * h, tolerance);
+            other.attempt(&mut Pendulum, 0.0, &x, [s * h, s * h], tolerance);
             for (inside, end) in inside.iter().zip(other.end()) {
                 // Both are truncated below 1e-13, and rounded.
                 assert!((inside - end).abs() < 4e-13);

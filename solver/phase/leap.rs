@@ -262,8 +262,7 @@ impl<V: StateVector> Phase<V> {
         let mut wanted = f64::INFINITY;
         loop {
             let (t, end) = (run.t, segment(run).end);
-            let h = wanted.min(end - t);
-            let error = self.stepper.attempt(t, &self.x, h, tolerance);
+            let [h, error] = self.stepper.attempt(t, &self.x, wanted, end - t, tolerance);
             if error.is_nan() || error > 1.0 {
                 run.work.rejected += 1;
                 wanted = 0.5 * h;

@@ -9,7 +9,9 @@ use super::pendulum::Pendulum;
 use crate::dynamics::{ContactForce, Dynamics, Ground, Interfaces, StateVector};
 use crate::event::Track;
 use crate::excitation::Segment;
-use crate::ode::{Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance};
+use crate::ode::{
+    Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance, without_crumb,
+};
 use crate::program::Scalar;
 use std::rc::Rc;
 
@@ -29,8 +31,9 @@ pub(crate) trait Stepper<V> {
     fn begin(&mut self, t: f64, x: &V);
     /// `[θ̇, θ̈]` where the next step begins.
     fn start_slope(&mut self, t: f64, x: &V, slope: &mut V);
-    /// Attempts a step; see [`Pair::attempt`].
-    fn attempt(&mut self, t: f64, x: &V, h: f64, tolerance: Tolerance) -> f64;
+    /// Attempts a step of the wanted length, or of what the method finds better, and of no more than `most`: its length `[s]` and its
+    /// error; see [`Pair::attempt`].
+    fn attempt(&mut self, t: f64, x: &V, wanted: f64, most: f64, tolerance: Tolerance) -> [f64; 2];
     /// Makes the last attempt, which was good and from the same place, end earlier.
     fn cut(&mut self, t: f64, x: &V, h: f64, tolerance: Tolerance);
     /// Looks inside the last attempt from now on; see [`Pair::accept`].
@@ -172,13 +175,14 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
         slope.clone_from(&self.slope);
     }
 
-    fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
+    fn attempt(&mut self, t: f64, x: &D::State, wanted: f64, most: f64, tolerance: Tolerance) -> [f64; 2] {
+        let h = without_crumb(wanted, most);
         self.is_interpolated = false;
-        self.pair.attempt(&mut self.system, t, x, &self.slope, h, tolerance)
+        [h, self.pair.attempt(&mut self.system, t, x, &self.slope, h, tolerance)]
     }
 
     fn cut(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) {
-        self.attempt(t, x, h, tolerance);
+        self.attempt(t, x, h, h, tolerance);
     }
 
     fn accept(&mut self) {
@@ -326,11 +330,11 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         self.system.driven.calls += self.series.known_at(t, x) - known;
     }
 
-    fn attempt(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) -> f64 {
+    fn attempt(&mut self, t: f64, x: &D::State, wanted: f64, most: f64, tolerance: Tolerance) -> [f64; 2] {
         let known = self.series.known_at(t, x);
-        let error = self.series.attempt(&mut self.system, t, x, h, tolerance);
+        let attempted = self.series.attempt(&mut self.system, t, x, [wanted, most], tolerance);
         self.system.driven.calls += self.series.known_at(t, x) - known;
-        error
+        attempted
     }
 
     fn cut(&mut self, _: f64, _: &D::State, h: f64, _: Tolerance) {

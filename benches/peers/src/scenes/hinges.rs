@@ -171,8 +171,7 @@ fn taylor(mode: &Generated, t_end: f64, rtol: f64) -> Option<Answer> {
     let mut series = Taylor::new(&[0.0; 6], &[0.0; 3], rtol);
     let (mut t, mut x, mut wanted) = (0.0, start(), t_end);
     while t < t_end {
-        let h = wanted.min(t_end - t);
-        let error = series.attempt(&mut system, t, &x, h, tolerance);
+        let [h, error] = series.attempt(&mut system, t, &x, [wanted, t_end - t], tolerance);
         if error <= 1.0 {
             x = *series.end();
             t = if h == t_end - t { t_end } else { t + h };
