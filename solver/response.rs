@@ -75,7 +75,7 @@ pub struct Event {
 }
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Impulse {
     /// Normal part `[N s]`, compression positive.
     pub normal: f64,

@@ -3,7 +3,7 @@
 use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::dynamics::Ground;
 use crate::excitation::{Layout, Segment, Timeline};
-use crate::few::{Few, for_size};
+use crate::few::{Few, Size, for_size};
 use crate::history::History;
 use crate::kinematics::{Posture, Turn};
 use crate::modes::Modes;
@@ -410,16 +410,18 @@ impl<'a> Run<'a> {
         let is_gapless = |interface: usize| is_closed(interface) || contact::is_gapless(&self.theta, interface);
         let is_motionless =
             |interface: usize| is_closed(interface) || contact::is_motionless(&self.theta, &self.omega, interface);
-        let joined: Few<[bool; 2]> = (0..self.theta.len()).map(|i| [is_gapless(i), is_motionless(i)]).collect();
-        for (interface, [is_gapless, is_motionless]) in joined.into_iter().enumerate() {
-            let below = interface.checked_sub(1);
-            if is_gapless {
-                self.theta[interface] = below.map_or(0.0, |below| self.theta[below]);
+        for_size!(self.theta.len(), size => {
+            let joined = size.list_of(|i| [is_gapless(i), is_motionless(i)]);
+            for (interface, &[is_gapless, is_motionless]) in joined.iter().enumerate() {
+                let below = interface.checked_sub(1);
+                if is_gapless {
+                    self.theta[interface] = below.map_or(0.0, |below| self.theta[below]);
+                }
+                if is_motionless {
+                    self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
+                }
             }
-            if is_motionless {
-                self.omega[interface] = below.map_or(0.0, |below| self.omega[below]);
-            }
-        }
+        });
     }
 
     /// Whether the ground has come to rest for good, and the outcome alone is wanted.
@@ -460,10 +462,22 @@ impl<'a> Run<'a> {
         if self.history.events.is_empty() {
             self.history.events.reserve(USUAL_EVENTS);
         }
+        for_size!(self.theta.len(), size => {
+            let event = self.event(size, kind, interfaces, before);
+            self.history.events.push(event);
+        });
+    }
+
+    /// What has happened to a column of this size.
+    #[inline(always)]
+    fn event(&self, size: impl Size, kind: EventKind, interfaces: &[usize], before: &Decision) -> Event {
+        let all = |rates: &[f64]| Few::from_slice(&rates[..size.blocks()]);
+        let states = |pattern: &Pattern| Pattern::from_states(&pattern.0[..size.blocks()]);
         let numbers = interfaces.iter().map(|interface| interface + 1);
         // Where nothing strikes, rates do not change but for what is snapped.
-        let omega_before = if before.impulses.is_empty() { &self.omega } else { &before.omega };
-        self.history.events.push(Event {
+        let (strikes, is_impact) = (!before.impulses.is_empty(), kind == EventKind::Impact);
+        let impulses = || Few::from_slice(&size.list_of(|interface| Impulse::from(&before.impulses[interface])));
+        Event {
             t: self.t,
             kind,
             interface: numbers.clone().next(),
@@ -471,14 +485,14 @@ impl<'a> Run<'a> {
             mode_before: ModeName::of(&before.pattern),
             mode: ModeName::of(&self.pattern),
             mirrored: self.pattern.is_mirrored(),
-            before: before.pattern.clone(),
-            after: self.pattern.clone(),
-            theta: Few::from_slice(&self.theta),
-            omega_before: Few::from_slice(omega_before),
-            omega_after: Few::from_slice(&self.omega),
+            before: states(&before.pattern),
+            after: states(&self.pattern),
+            theta: all(&self.theta),
+            omega_before: all(if strikes { &before.omega } else { &self.omega }),
+            omega_after: all(&self.omega),
             energy_lost: is_impact.then_some(before.energy_lost),
-            impulses: before.impulses.iter().map(Impulse::from).collect(),
-        });
+            impulses: if strikes { impulses() } else { Few::new() },
+        }
     }
 
     /// Closes the open interfaces that `is_still` names, momentum conserved, as a separation.

@@ -135,37 +135,34 @@ impl Powers {
         self.terms().iter().map(|c| c.abs()).sum()
     }
 
-    /// A lower bound of the polynomial over `s^roots`, of one that has so many roots at zero.
-    fn lower_bound(&self, roots: usize) -> f64 {
-        let Some((first, rest)) = self.terms()[roots..].split_first() else { return 0.0 };
-        first + rest.iter().map(|c| c.min(0.0)).sum::<f64>()
-    }
-
-    /// Whether the second derivative is below zero throughout, by the sizes of its terms.
-    fn is_bent_down(&self) -> bool {
-        let bend = |(k, c): (usize, &f64)| (k * (k - 1)) as f64 * c;
-        let mut terms = self.terms().iter().enumerate().skip(2).map(bend);
-        let first = terms.next().unwrap_or(0.0);
-        first + terms.map(|term| term.max(0.0)).sum::<f64>() < 0.0
-    }
-
     /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `roots` known roots at zero left out; `None` where
     /// bounds do not tell.
     pub fn first_root(&self, roots: usize) -> Option<Option<f64>> {
-        if self.lower_bound(roots) > 0.0 {
+        // Divided by the roots that are known. Sums of what its terms, and those of slope and bend, take away or add.
+        let terms = &self.coefficients[roots..=self.degree.max(roots + 2)];
+        let (first, slope, half_bend) = (terms[0], terms[1], terms[2]);
+        let (mut fall, mut end) = (slope.min(0.0) + half_bend.min(0.0), first + slope + half_bend);
+        let (mut slope_rise, mut bend_rise, mut k) = (2.0 * half_bend.max(0.0), 0.0f64, 2.0);
+        for c in &terms[3..] {
+            let before = k;
+            k += 1.0;
+            end += c;
+            fall += c.min(0.0);
+            slope_rise += k * c.max(0.0);
+            bend_rise += before * k * c.max(0.0);
+        }
+        if first + fall > 0.0 {
             return Some(None);
         }
-        // Divided by the root it still starts above zero, and falls all the way.
-        let terms = &self.terms()[roots..];
-        if !(roots <= 1 && terms[0] > 0.0 && self.is_bent_down()) {
+        let (falls, is_bent_down) = (slope + slope_rise < 0.0, 2.0 * half_bend + bend_rise < 0.0);
+        if !(first > 0.0 && (falls || is_bent_down)) {
             return None;
         }
-        let end = terms.iter().sum::<f64>();
         if end > 0.0 {
             return Some(None);
         }
-        // Above zero at first, bent downwards throughout, or falling, and below at the end: one root.
-        let (mut above, mut below, mut s) = (0.0, 1.0, root_guess([terms[0], self.coefficients[roots + 1], end]));
+        // Above zero at first, falling or bent downwards throughout, and below at the end: one root.
+        let (mut above, mut below, mut s) = (0.0, 1.0, root_guess([first, slope, end]));
         for _ in 0..ROUNDS {
             let [value, slope, half_bend] = around(terms, s);
             if value > 0.0 {
@@ -286,6 +283,12 @@ mod tests {
         // A short hop.
         let hop = powers(&[0.0, 1e-7, -1.0]).first_root(1).expect("bent").expect("a root");
         assert!((hop / 1e-7 - 1.0).abs() < 1e-15, "{hop:e}");
+        // 1 - 2 s + s²/2 falls, though it is bent upwards; and so does what is left of a product with s² or s³.
+        for roots in [0, 2, 3] {
+            let terms = [vec![0.0; roots], vec![1.0, -2.0, 0.5]].concat();
+            let root = powers(&terms).first_root(roots).expect("falls").expect("a root");
+            assert!((root - (2.0 - 2.0f64.sqrt())).abs() < 2e-16, "{root}");
+        }
         // A double root inside: bent the other way.
         assert_eq!(powers(&[0.25, -1.0, 1.0]).first_root(0), None);
         // One that ends on zero.

@@ -177,6 +177,15 @@ impl<V: StateVector> Phase<V> {
         }
     }
 
+    /// The largest angle so far of a link, or the least of those of its blocks; infinite where it is of no interest `[rad]`.
+    pub(super) fn known_peak(&self, run: &Run, link: usize) -> f64 {
+        if run.scene.options.wanted == Wanted::Outcome {
+            return f64::INFINITY;
+        }
+        let peaks = self.links.iter().zip(&run.history.peak_theta).filter(|(own, _)| **own == link + 1);
+        peaks.fold(f64::INFINITY, |known, (_, peak)| known.min(*peak))
+    }
+
     /// Notes the largest angles of the step just taken, those inside it among them.
     pub(super) fn note_peaks(&mut self, run: &mut Run, h: f64) {
         if run.scene.options.wanted == Wanted::Outcome {
@@ -185,10 +194,7 @@ impl<V: StateVector> Phase<V> {
         for link in 0..self.dof {
             let angle = Difference { sign: 1.0, upper: link, lower: None };
             let most = self.x.as_slice()[link].abs() + self.stepper.reach(angle);
-            let mut known = f64::INFINITY;
-            for (own, peak) in self.links.iter().zip(&run.history.peak_theta) {
-                known = if *own == link + 1 { known.min(*peak) } else { known };
-            }
+            let known = self.known_peak(run, link);
             if most <= known {
                 continue;
             }

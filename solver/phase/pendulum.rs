@@ -30,8 +30,6 @@ pub(crate) struct Swing {
     v: f64,
     q: f64,
     kappa: f64,
-    /// `ψ` where it turns, at rate zero, if it is going to.
-    turn: Option<f64>,
 }
 
 impl Pendulum {
@@ -46,6 +44,11 @@ impl Pendulum {
     /// The angle `ψ` beyond the balance of an angle, with `sign` the side to which it leans, and the other way round.
     pub fn beyond(&self, theta: f64, sign: f64) -> f64 {
         sign * (theta - self.balance)
+    }
+
+    /// What is left of the balance's angle, up to this distance from it.
+    pub fn short_of_balance(&self, distance: f64) -> f64 {
+        self.balance.abs() - distance
     }
 
     /// `θ` of an angle `ψ`.
@@ -75,9 +78,7 @@ impl Pendulum {
     pub fn swing(&self, psi: f64, v: f64) -> Swing {
         let p = self.rate;
         let q = if psi.abs() == self.balance.abs() { self.upright } else { square_of_half_sine(psi) };
-        let kappa = q - v * v / (4.0 * p * p);
-        let turns = kappa > 0.0 && v * psi < 0.0;
-        Swing { p, psi, v, q, kappa, turn: turns.then(|| 2.0 * libm::asin(kappa.sqrt()).copysign(psi)) }
+        Swing { p, psi, v, q, kappa: q - v * v / (4.0 * p * p) }
     }
 }
 
@@ -119,9 +120,19 @@ impl Swing {
         self.kappa == 0.0
     }
 
+    /// Whether it is going to turn.
+    pub fn turns(&self) -> bool {
+        self.kappa > 0.0 && self.v * self.psi < 0.0
+    }
+
     /// Where it turns, if it is going to: `ψ`, at rate zero.
     pub fn turning_point(&self) -> Option<f64> {
-        self.turn
+        self.turns().then(|| 2.0 * libm::asin(self.kappa.sqrt()).copysign(self.psi))
+    }
+
+    /// How far from the balance it turns at least, where it does: a sine is no larger than its arc.
+    pub fn turning_distance(&self) -> f64 {
+        2.0 * self.kappa.sqrt()
     }
 
     /// `sin²(ψ/2)`; that of the start is known, and most swings end where they began.

@@ -18,10 +18,8 @@ struct Course {
     pendulum: Pendulum,
     swing: Swing,
     sign: f64,
-    /// Angles at start, at its turning point or end outwards, and at its end inwards, beyond the balance `[rad]`.
+    /// Angle beyond the balance at its start `[rad]`.
     start: f64,
-    outmost: f64,
-    inmost: f64,
 }
 
 /// How a swing ends, at which angle and rate beyond the balance, and when from its start `[s]`.
@@ -37,6 +35,19 @@ impl Course {
     fn state(&self, [psi, v]: [f64; 2]) -> [f64; 2] {
         [self.pendulum.theta(psi, self.sign), self.sign * v]
     }
+
+    /// A bound of the angle at its crest; zero of one that has none, or turns beyond the balance, inwards.
+    fn height(&self) -> f64 {
+        let has_crest = self.swing.turns() && self.start < 0.0;
+        if has_crest { self.pendulum.short_of_balance(self.swing.turning_distance()) } else { 0.0 }
+    }
+
+    /// Angles between the start and which it is: its turning point, if it comes to that, and its end.
+    fn legs(&self, end: &End) -> [f64; 2] {
+        let is_cut_short = self.start < 0.0 && matches!(end.ended, Ended::Overturned(_));
+        let turn = self.swing.turning_point().filter(|_| !is_cut_short);
+        [turn.unwrap_or(self.start), end.psi]
+    }
 }
 
 impl<V: StateVector> Phase<V> {
@@ -49,14 +60,16 @@ impl<V: StateVector> Phase<V> {
         let (course, mut end) = self.course(run, pendulum)?;
         let left = segment(run).end - run.t;
         if !self.closed.is_empty() {
+            let legs = course.legs(&end);
             let (waves, gravity) = (pendulum.waves(&course.swing, course.sign), run.scene.column.gravity());
             let closed = 0..self.closed.len();
             self.over_swing.clear();
             self.over_swing.extend(closed.map(|index| self.of_closed.over_swing(index, gravity, &waves)));
-        }
-        for leg in [course.outmost, course.inmost] {
-            if let Some(opening) = self.opening(run, &course, leg).filter(|opening| opening.time < end.time.min(left)) {
-                end = opening;
+            for leg in legs {
+                let opening = self.opening(run, &course, leg);
+                if let Some(opening) = opening.filter(|opening| opening.time < end.time.min(left)) {
+                    end = opening;
+                }
             }
         }
         run.work.swings += 1;
@@ -97,11 +110,12 @@ impl<V: StateVector> Phase<V> {
         if swing.is_endless() {
             return None;
         }
-        let turn = swing.turning_point();
         // It goes out as long as it moves out, and falls out from beyond the balance.
-        let goes_out = rate > 0.0 || (turn.is_some() || rate == 0.0) && start > 0.0;
-        let crest = turn.filter(|_| start < 0.0);
-        let is_overturned = goes_out && crest.is_none_or(|crest| overturned <= crest);
+        let goes_out = rate > 0.0 || (swing.turns() || rate == 0.0) && start > 0.0;
+        let has_crest = swing.turns() && start < 0.0;
+        // Most often overturned means beyond the balance, where nothing with a crest comes.
+        let is_below_crest = || overturned < 0.0 && swing.turning_point().is_some_and(|crest| overturned <= crest);
+        let is_overturned = goes_out && (!has_crest || is_below_crest());
         let (ended, psi) = match is_overturned {
             true => (Ended::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0)), overturned),
             false => (Ended::Closing([gap.interface].into_iter().collect()), landing),
@@ -109,12 +123,10 @@ impl<V: StateVector> Phase<V> {
         let size = swing.rate_at(psi)?;
         let v = if is_overturned { size } else { -size };
         let time = swing.time_to(psi, v);
-        let outmost = if is_overturned { overturned } else { crest.unwrap_or(start) };
-        let inmost = if is_overturned { turn.filter(|_| rate < 0.0).unwrap_or(start) } else { landing };
         if time.is_nan() || time < 0.0 {
             return None;
         }
-        Some((Course { pendulum, swing, sign, start, outmost, inmost }, End { ended, psi, v, time }))
+        Some((Course { pendulum, swing, sign, start }, End { ended, psi, v, time }))
     }
 
     /// The first opening of a closed interface on a leg of the swing, from its start to an angle.
@@ -176,9 +188,11 @@ impl<V: StateVector> Phase<V> {
 
     /// Notes the largest angle of a swing that ends like this, and its contact forces.
     fn note_swing(&mut self, run: &mut Run, course: &Course, [psi, v]: [f64; 2]) {
-        let has_turned = course.swing.turning_point().is_some_and(|_| v * course.swing.start_rate() < 0.0);
-        let turn = course.swing.turning_point().filter(|_| has_turned);
-        if let Some(turn) = turn {
+        let has_turned = course.swing.turns() && v * course.swing.start_rate() < 0.0;
+        let is_highest = has_turned && course.height() > self.known_peak(run, 0);
+        let is_asked = is_highest || has_turned && records_forces(run);
+        let turn = if is_asked { course.swing.turning_point() } else { None };
+        if let Some(turn) = turn.filter(|_| is_highest) {
             let theta = course.pendulum.theta(turn, course.sign);
             run.history.note_peaks(self.links.iter().map(|link| if *link > 0 { theta } else { 0.0 }));
         }
