@@ -685,21 +685,20 @@ where
             let stop = plan.time(sample);
             while t < stop {
                 let left = stop - t;
-                let [h, error] = series.attempt(system, t, &x, [next_step, left], stepping.tolerance);
+                let attempt = series.attempt(system, t, &x, [next_step, left], stepping.tolerance);
                 steps += 1;
-                let factor = series.factor_wanted();
-                if error.is_nan() || error > 1.0 {
-                    next_step = h * factor.min(1.0);
+                next_step = attempt.wanted;
+                if !attempt.is_good() {
                     continue;
                 }
+                let h = attempt.h;
                 if stepping.dense {
                     let tracks: [Powers; D] =
-                        std::array::from_fn(|upper| series.track(Difference { sign: 1.0, upper, lower: None }));
+                        std::array::from_fn(|upper| series.track(Difference { sign: 1.0, upper, lower: None }, false));
                     let ground = Ground { x: system.segment.horizontal.value(t + h), gravity: GRAVITY };
                     system.mode.derivative(series.end(), ground, &mut slope);
                     black_box((&tracks, &slope));
                 }
-                next_step = if h == left { next_step.max(h * factor) } else { h * factor };
                 x = *series.end();
                 t = if h == left { stop } else { t + h };
             }

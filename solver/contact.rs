@@ -371,14 +371,14 @@ fn impact_at<S: Size>(
     let rebound = restitute(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
     let mut rates = rebound.unwrap_or(plastic.motion);
     let mut forced = settle(instant, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
-    let (mut energy_lost, mut impulses) = (0.0, Few::new());
+    let (mut energy_lost, mut impulses) = (0.0, None);
     if law.is_recorded {
         let posture = &mechanism.posture;
         let after = instant.motion(posture, &rates);
         let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
         energy_lost = share_lost(energy_before, energy_after);
         let change = after.less(&before);
-        impulses.extend_from_slice(&posture.resultants(&change.linear, &change.angular));
+        impulses = Some(posture.resultants(&change.linear, &change.angular));
     }
 
     let free = instant.size.list_of(may_open(instant, &mechanism.states, &rates));
@@ -390,7 +390,7 @@ fn impact_at<S: Size>(
         omega: Few::from_slice(&rates),
         separation,
         energy_lost,
-        impulses,
+        impulses: impulses.map_or_else(Few::new, |list| Few::from_slice(&list)),
     })
 }
 

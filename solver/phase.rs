@@ -24,7 +24,7 @@ use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, Interfaces, StateVector};
 use crate::excitation::Segment;
 use crate::few::Few;
-use crate::ode::{Difference, Tolerance};
+use crate::ode::{Attempt, Difference, Tolerance};
 use crate::response::ModeName;
 use crate::scene::Scene;
 use crate::simulate::{Run, SolveError};
@@ -143,20 +143,18 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
             }
             let held = run.hold.until - t;
             let most = if held > 0.0 { left.min(held) } else { left }.min(longest);
-            let [h, error] = self.stepper.attempt(t, &self.x, wanted, most, tolerance);
-            if error.is_nan() || error > 1.0 {
+            let attempt = self.stepper.attempt(t, &self.x, wanted, most, tolerance);
+            wanted = attempt.wanted;
+            if !attempt.is_good() {
                 run.work.rejected += 1;
-                wanted = h * if error.is_nan() { 0.1 } else { self.stepper.factor(error).min(1.0) };
-                self.check_step(run, wanted, error)?;
+                self.check_step(run, attempt)?;
                 longest = wanted;
                 continue;
             }
             longest = f64::INFINITY;
+            let h = attempt.h;
             self.stepper.accept();
             run.count_step();
-            let factor = self.stepper.factor(error);
-            // A step cut short by a segment's end says nothing against the step wanted.
-            wanted = if h == most { wanted.max(h * factor) } else { h * factor };
             let end = if h == left { segment(run).end } else { t + h };
             if let Some((found, s)) = self.search(run, h, end) {
                 match self.stop_at(run, found, h, s, tolerance) {
@@ -327,15 +325,15 @@ impl<V: StateVector> Phase<V> {
     }
 
     #[cold]
-    fn check_step(&self, run: &Run, step: f64, error: f64) -> Result<(), SolveError> {
-        let time = run.t;
+    fn check_step(&self, run: &Run, rejected: Attempt) -> Result<(), SolveError> {
+        let (time, step) = (run.t, rejected.wanted);
         // A segment or an event may leave less than the resolution of the time: only an error may not.
         if step > 2.0 * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
             return Ok(());
         }
         let mode = ModeName::of(&run.pattern).to_string();
         let ends = self.x.as_slice().iter().chain(self.stepper.end().as_slice());
-        if error.is_nan() || !ends.into_iter().all(|value| value.is_finite()) {
+        if rejected.error.is_nan() || !ends.into_iter().all(|value| value.is_finite()) {
             Err(SolveError::NotFinite { time, mode })
         } else {
             Err(SolveError::StepTooSmall { time, step, mode })

@@ -612,3 +612,19 @@ fn regression_forces_inside_long_steps_are_seen() {
         assert!((found - expected).abs() < 1e-3 * weight && demand.is_infinite(), "{method:?}: {found} for {expected}");
     }
 }
+
+/// Samples and impacts leave odd remainders of a step; a fixed one is what it was after them.
+#[test]
+fn regression_a_fixed_step_is_not_cut_for_good() {
+    let (dt, samples) = (0.02, 250);
+    let mut scene = Scene::new(drums(2));
+    let shaking = (0..samples).map(|i| 4.0 * libm::sin(0.11 * f64::from(i)) + 2.0 * libm::cos(0.37 * f64::from(i)));
+    scene.excitation.horizontal = Some(Motion::Record(Record::new(shaking.collect(), dt, 0.0).expect("finite")));
+    (scene.options.method, scene.options.step) = (Method::RungeKutta4, 2e-3);
+    scene.options.t_end = dt * f64::from(samples - 1);
+    let response = run(&scene);
+    assert!(response.impacts > 5, "{}", response.impacts);
+    // Each remainder is a step of its own, or two.
+    let most = scene.options.t_end / scene.options.step + 2.0 * (f64::from(samples) + response.events.len() as f64);
+    assert!((response.work.steps as f64) < most, "{} steps for {most}", response.work.steps);
+}

@@ -14,7 +14,7 @@ mod powers;
 mod runge_kutta4;
 mod taylor;
 
-pub use control::{StepControl, Tolerance, without_crumb};
+pub use control::{Attempt, StepControl, Tolerance, without_crumb};
 pub use dop853::Dop853;
 pub use dormand_prince::DormandPrince54;
 pub use gauss::{Accurate, AtNodes, Gauss, NODES, SecondOrder, States, solve_second_order};

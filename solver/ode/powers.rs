@@ -40,8 +40,8 @@ pub struct Powers {
 /// Rounds of Halley's rule, which makes three digits of one: five are enough for doubles, the rest is for guesses far off.
 const ROUNDS: usize = 40;
 
-/// Where Newton's step to a root is shorter than this share of the way there, Halley's leaves less than rounding; to a crest, which is flat, less
-/// than rounding of its height.
+/// Where Newton's step to a root is shorter than this share of the way there, Halley's leaves less than rounding, or, where the slope is nearly
+/// zero as well, some millionths of the distance to the crest; to a crest, which is flat, less than rounding of its height.
 const NEAR_ROOT: f64 = 1e-6;
 const NEAR_CREST: f64 = 1e-4;
 
@@ -98,12 +98,6 @@ impl Powers {
 
     fn terms(&self) -> &[f64] {
         &self.coefficients[..=self.degree]
-    }
-
-    /// The same, zero at the start.
-    pub fn from_zero(mut self) -> Powers {
-        self.coefficients[0] = 0.0;
-        self
     }
 
     /// Adds to the constant term, and takes the opposite of all others where `sign` is minus one.

@@ -22,7 +22,7 @@
 mod alone;
 
 use super::control::{rough_root, without_crumb};
-use super::{Difference, Powers, Tolerance};
+use super::{Attempt, Difference, Powers, Tolerance};
 use crate::dynamics::StateVector;
 use wide::f64x2;
 
@@ -73,6 +73,10 @@ const SAFETY: f64 = 0.9;
 /// Error of a step above which a longer one is not looked for: it would save less than looking costs.
 const LONG_ENOUGH: f64 = 0.1;
 
+/// A step is no longer than so many times what was wanted: the last terms of a series say little of a step far beyond those that
+/// they were looked at for, where the motion lingers at an unstable balance most of all.
+const LARGEST_GROWTH: f64 = 8.0;
+
 /// Rounds in which a step as long as the terms allow is looked for.
 const GUESSES: usize = 3;
 
@@ -119,8 +123,6 @@ pub struct Taylor<V, L: StateVector> {
     sin_ddot: L,
     /// How far each angle, and its rate, move in the last attempt, at most.
     reach: L::Of<[f64; 2]>,
-    /// Step that the terms of the last attempt call for, relative to it.
-    factor_wanted: f64,
     /// `rtol^(1 / largest_order)`
     root_of_rtol: f64,
 }
@@ -148,7 +150,6 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             cos_ddot: zero_links.clone(),
             sin_ddot: zero_links.clone(),
             reach: zero_links.each([0.0; 2]),
-            factor_wanted: 1.0,
             root_of_rtol: rough_root(rtol, largest_order),
         }
     }
@@ -163,9 +164,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.is_begun = false;
     }
 
-    /// Attempts a step from `(t, x)`, as long as the terms allow and no longer than `most`; `wanted` is a guess of that. Its length, and its
-    /// error relative to `tolerance`, at most one if the step is good. From the same place again nothing is computed but what is
-    /// missing.
+    /// Attempts a step from `(t, x)`, as long as the terms allow and no longer than `most`; `wanted` is a guess of that. From the same
+    /// place again nothing is computed but what is missing.
     #[inline(always)]
     pub fn attempt<S: SeriesSystem<State = V, Links = L>>(
         &mut self,
@@ -174,35 +174,35 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         x: &V,
         [wanted, most]: [f64; 2],
         tolerance: Tolerance,
-    ) -> [f64; 2] {
+    ) -> Attempt {
         // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
         let is_short = wanted >= most && self.order > 0 && 2 * self.order <= self.largest_order;
         self.expand(system, t, x, if is_short { self.order.max(MIN_ORDER) } else { self.largest_order });
         let (mut target, mut guesses) = (wanted, 0);
-        let (h, order, error) = loop {
+        let (h, order, error, next) = loop {
             let h = without_crumb(target, most);
             let is_cut = h == most || h < target;
             let (order, error) = self.measure(system, h, is_cut, tolerance);
             guesses += 1;
             if error <= 1.0 && (is_cut || error > LONG_ENOUGH) || guesses == GUESSES {
-                self.factor_wanted = self.wanted(error, order, tolerance.rtol);
-                break (h, order, error);
+                let fits = h * self.factor_wanted(error, order, tolerance.rtol);
+                // A step cut short says nothing against a longer one.
+                break (h, order, error, if is_cut && error <= 1.0 { fits.max(target) } else { fits });
             }
             let (factor, is_sure) = fitting(error, order);
-            target = h * factor;
+            target = (h * factor).min(LARGEST_GROWTH * wanted);
             if is_sure {
-                let h = without_crumb(target, most);
-                self.factor_wanted = target / h;
-                break (h, order, 1.0);
+                break (without_crumb(target, most), order, 1.0, target);
             }
         };
         // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
         (self.h, self.order) = (h, order);
-        if error > 1.0 {
-            return [h, if error.is_finite() { error } else { f64::NAN }];
+        let mut is_finite = error.is_finite();
+        if error <= 1.0 {
+            self.evaluate(order, h);
+            is_finite = self.end.as_slice().iter().all(|value| value.is_finite());
         }
-        self.evaluate(order, h);
-        [h, if self.end.as_slice().iter().all(|value| value.is_finite()) { error } else { f64::NAN }]
+        if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
     }
 
     /// Order and error of a step: of one that something else cuts short the least order with which it is good.
@@ -302,17 +302,14 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Relative to the last step: where the term of the largest order would just meet the tolerance, the terms falling as they
     /// do up to this one.
-    fn wanted(&self, error: f64, order: usize, rtol: f64) -> f64 {
+    fn factor_wanted(&self, error: f64, order: usize, rtol: f64) -> f64 {
         let error = error.max(1e-30);
-        if order == self.largest_order {
-            return SAFETY / rough_root(error, order);
-        }
-        SAFETY * self.root_of_rtol / rough_root(error * rtol, order)
-    }
-
-    /// The step that the last attempt calls for, relative to it.
-    pub fn factor_wanted(&self) -> f64 {
-        self.factor_wanted.clamp(1e-3, 8.0)
+        let factor = if order == self.largest_order {
+            SAFETY / rough_root(error, order)
+        } else {
+            SAFETY * self.root_of_rtol / rough_root(error * rtol, order)
+        };
+        factor.clamp(1e-3, LARGEST_GROWTH)
     }
 
     /// State at the end of the last attempt.
@@ -362,15 +359,16 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.horner(self.order, s * self.h, state);
     }
 
-    /// A difference of two angles over the last attempt, as a polynomial.
-    pub fn track(&self, angles: Difference) -> Powers {
+    /// A difference of two angles over the last attempt, as a polynomial; exactly zero at the start where that is known.
+    #[inline(always)]
+    pub fn track(&self, angles: Difference, starts_at_zero: bool) -> Powers {
         let mut power = 1.0;
         let terms = self.driver[..=self.order].iter().zip(&RECIPROCAL[1..]).map(|(driver, reciprocal)| {
             let rates = driver.as_ref();
             power *= self.h;
             angles.by(|link| rate_of(&rates[link])) * power * reciprocal
         });
-        Powers::with_terms(angles.of(self.x.as_slice()), terms)
+        Powers::with_terms(if starts_at_zero { 0.0 } else { angles.of(self.x.as_slice()) }, terms)
     }
 
     /// How far a difference of two angles moves from its start in the last attempt, at most.
@@ -701,13 +699,13 @@ mod tests {
         let (mut t, mut x, mut h, mut steps) = (0.0, [2.0, 0.0], 0.5, 0);
         let start = energy(&x);
         while t < 800.0 {
-            let [taken, error] = taylor.attempt(&mut Pendulum, t, &x, [h, h], tolerance);
-            if error <= 1.0 {
-                t += taken;
+            let attempt = taylor.attempt(&mut Pendulum, t, &x, [h, f64::INFINITY], tolerance);
+            if attempt.is_good() {
+                t += attempt.h;
                 x = *taylor.end();
                 steps += 1;
             }
-            h = taken * taylor.factor_wanted();
+            h = attempt.wanted;
         }
         // Three thousand steps of some roundings each, at random: 1e-16 · 55, three times over.
         assert!((energy(&x) - start).abs() < 2e-14, "{:e}", energy(&x) - start);
@@ -721,7 +719,7 @@ mod tests {
         let mut one_way = [0, 0];
         for (x, h) in [([1.2, -0.4], 0.2), ([1.2, 0.4], 0.2), ([0.3, 0.02], 0.2), ([0.0, 0.5], 0.1)] {
             let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
-            assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance)[1] <= 1.0);
+            assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance).is_good());
             for part in [1.0, 0.3] {
                 taylor.cut(part * h);
                 let places = (0..=50).map(|i| f64::from(i) / 50.0);
@@ -747,8 +745,8 @@ mod tests {
         let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
         let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
         let (x, h) = ([1.2, -0.4], 0.2);
-        assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance)[1] <= 1.0);
-        let track = taylor.track(Difference { sign: 1.0, upper: 0, lower: None });
+        assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance).is_good());
+        let track = taylor.track(Difference { sign: 1.0, upper: 0, lower: None }, false);
         for s in [0.0, 0.3, 1.0] {
             let mut inside = [0.0; 2];
             taylor.state_inside(s, &mut inside);

@@ -259,18 +259,21 @@ impl<V: StateVector> Phase<V> {
 
     /// Goes from sample to sample up to the end of a segment, for rows, forces and peaks on the way: the state that the run goes on from is another.
     fn look_inside(&mut self, run: &mut Run, last: usize, tolerance: Tolerance) {
-        let mut wanted = f64::INFINITY;
+        let (mut wanted, mut longest) = (f64::INFINITY, f64::INFINITY);
         loop {
             let (t, end) = (run.t, segment(run).end);
-            let [h, error] = self.stepper.attempt(t, &self.x, wanted, end - t, tolerance);
-            if error.is_nan() || error > 1.0 {
+            let attempt = self.stepper.attempt(t, &self.x, wanted, longest.min(end - t), tolerance);
+            wanted = attempt.wanted;
+            if !attempt.is_good() {
                 run.work.rejected += 1;
-                wanted = 0.5 * h;
+                longest = wanted;
                 if t + wanted <= t {
                     return;
                 }
                 continue;
             }
+            longest = f64::INFINITY;
+            let h = attempt.h;
             self.stepper.accept();
             run.count_step();
             let until = if h == end - t { end } else { t + h };

@@ -10,7 +10,8 @@ use crate::dynamics::{ContactForce, Dynamics, Ground, Interfaces, StateVector};
 use crate::event::Track;
 use crate::excitation::Segment;
 use crate::ode::{
-    Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance, without_crumb,
+    Attempt, Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance,
+    without_crumb,
 };
 use crate::program::Scalar;
 use std::rc::Rc;
@@ -31,9 +32,8 @@ pub(crate) trait Stepper<V> {
     fn begin(&mut self, t: f64, x: &V);
     /// `[θ̇, θ̈]` where the next step begins.
     fn start_slope(&mut self, t: f64, x: &V, slope: &mut V);
-    /// Attempts a step of the wanted length, or of what the method finds better, and of no more than `most`: its length `[s]` and its
-    /// error; see [`Pair::attempt`].
-    fn attempt(&mut self, t: f64, x: &V, wanted: f64, most: f64, tolerance: Tolerance) -> [f64; 2];
+    /// Attempts a step of the wanted length, or of what the method finds better, and of no more than `most` `[s]`.
+    fn attempt(&mut self, t: f64, x: &V, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt;
     /// Makes the last attempt, which was good and from the same place, end earlier.
     fn cut(&mut self, t: f64, x: &V, h: f64, tolerance: Tolerance);
     /// Looks inside the last attempt from now on; see [`Pair::accept`].
@@ -63,8 +63,6 @@ pub(crate) trait Stepper<V> {
     fn weigh_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]);
     /// A first step for a state.
     fn first_step(&self, x: &V, tolerance: Tolerance) -> f64;
-    /// The factor for the next step after an attempt with this error.
-    fn factor(&self, error: f64) -> f64;
     /// Right-hand sides evaluated so far.
     fn calls(&self) -> usize;
 }
@@ -175,10 +173,22 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
         slope.clone_from(&self.slope);
     }
 
-    fn attempt(&mut self, t: f64, x: &D::State, wanted: f64, most: f64, tolerance: Tolerance) -> [f64; 2] {
+    fn attempt(&mut self, t: f64, x: &D::State, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {
         let h = without_crumb(wanted, most);
         self.is_interpolated = false;
-        [h, self.pair.attempt(&mut self.system, t, x, &self.slope, h, tolerance)]
+        let error = self.pair.attempt(&mut self.system, t, x, &self.slope, h, tolerance);
+        let fits = h * if self.fixed.is_some() { 1.0 } else { self.control.factor(error) };
+        let wanted = if error.is_nan() {
+            0.1 * h
+        } else if error > 1.0 {
+            fits.min(h)
+        } else if h < wanted {
+            // A step cut short by a segment's end says nothing against the step wanted.
+            wanted.max(fits)
+        } else {
+            fits
+        };
+        Attempt { h, error, wanted }
     }
 
     fn cut(&mut self, t: f64, x: &D::State, h: f64, tolerance: Tolerance) {
@@ -227,10 +237,6 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
 
     fn first_step(&self, x: &D::State, tolerance: Tolerance) -> f64 {
         self.fixed.unwrap_or_else(|| self.control.first_step(x, &self.slope, tolerance))
-    }
-
-    fn factor(&self, error: f64) -> f64 {
-        if self.fixed.is_some() { 1.0 } else { self.control.factor(error) }
     }
 
     fn calls(&self) -> usize {
@@ -330,7 +336,7 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         self.system.driven.calls += self.series.known_at(t, x) - known;
     }
 
-    fn attempt(&mut self, t: f64, x: &D::State, wanted: f64, most: f64, tolerance: Tolerance) -> [f64; 2] {
+    fn attempt(&mut self, t: f64, x: &D::State, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {
         let known = self.series.known_at(t, x);
         let attempted = self.series.attempt(&mut self.system, t, x, [wanted, most], tolerance);
         self.system.driven.calls += self.series.known_at(t, x) - known;
@@ -362,8 +368,7 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
     }
 
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
-        let track = self.series.track(angles);
-        Track::Powers(if starts_at_zero { track.from_zero() } else { track })
+        Track::Powers(self.series.track(angles, starts_at_zero))
     }
 
     fn outlook(&self, index: usize, reach: f64) -> Outlook {
@@ -383,14 +388,10 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
         LONGEST_STEP
     }
 
-    fn factor(&self, _: f64) -> f64 {
-        self.series.factor_wanted()
-    }
-
     fn calls(&self) -> usize {
         self.system.driven.calls
     }
 }
 
-/// No series of a rocking column converges for longer `[s]`; powers of it stay far from overflow.
+/// No series of a rocking column converges for much longer `[s]`.
 const LONGEST_STEP: f64 = 1.0;

@@ -171,12 +171,12 @@ fn taylor(mode: &Generated, t_end: f64, rtol: f64) -> Option<Answer> {
     let mut series = Taylor::new(&[0.0; 6], &[0.0; 3], rtol);
     let (mut t, mut x, mut wanted) = (0.0, start(), t_end);
     while t < t_end {
-        let [h, error] = series.attempt(&mut system, t, &x, [wanted, t_end - t], tolerance);
-        if error <= 1.0 {
+        let attempt = series.attempt(&mut system, t, &x, [wanted, t_end - t], tolerance);
+        if attempt.is_good() {
             x = *series.end();
-            t = if h == t_end - t { t_end } else { t + h };
+            t = if attempt.h == t_end - t { t_end } else { t + attempt.h };
         }
-        wanted = h * if error.is_nan() { 0.1 } else { series.factor_wanted() };
+        wanted = attempt.wanted;
     }
     Some(x[..3].to_vec())
 }
