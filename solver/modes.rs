@@ -65,9 +65,14 @@ impl Modes {
         self.basis.as_ref().is_some_and(|basis| basis.ground == GroundMotion::WithVertical)
     }
 
-    /// The barrier against overturning, computed once.
-    pub fn barrier(&mut self, scene: &Scene) -> Barrier {
-        *self.barrier.get_or_insert_with(|| scene.column.barrier(scene.options.overturn_angle))
+    /// Makes ready to tell whether the column may still overturn.
+    pub fn prepare_barrier(&mut self, scene: &Scene) {
+        self.barrier.get_or_insert_with(|| scene.column.barrier(scene.options.overturn_angle));
+    }
+
+    /// The barrier against overturning, once it has been asked for.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        self.barrier.as_ref()
     }
 
     /// Where a pattern is among those entered; its scene constants are computed when it is entered first. The second value is

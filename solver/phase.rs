@@ -12,6 +12,7 @@
 //! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
 //! | `c_i N_i - abs(M_i)` | closed interface `i` opens | its Taylor series or its formula, or samples |
 
+mod fall;
 mod harmonics;
 mod inside;
 mod leap;
@@ -28,6 +29,7 @@ use crate::ode::{Attempt, Difference, Tolerance};
 use crate::response::ModeName;
 use crate::scene::Scene;
 use crate::simulate::{Run, SolveError};
+use fall::Fall;
 use harmonics::Harmonics;
 use leap::Leaps;
 pub(crate) use margins::Margins;
@@ -45,8 +47,10 @@ pub(crate) enum Ended {
     Opening(usize, Interface),
     /// The ground acceleration jumped.
     Jump,
-    /// The ground has come to rest for good, and the column cannot overturn any more.
-    Certain,
+    /// It is certain that the column does not overturn any more.
+    Stands,
+    /// It is certain that this block (from zero) overturns.
+    Falls(usize),
     /// The angle of this block (from zero) reached the overturning angle.
     Overturned(usize),
     /// Nothing can start the column any more.
@@ -90,6 +94,8 @@ pub(crate) struct Phase<V> {
     pendulum: Option<Pendulum>,
     /// Steps over several samples of a record, where the column is one block and they are wanted.
     leaps: Option<Leaps>,
+    /// When overturning is certain, where the column is one block and nothing else is wanted.
+    fall: Option<Fall>,
     dof: usize,
     /// Link of each block, base first, zero where it stands on the ground.
     links: Few<usize>,
@@ -132,6 +138,9 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
                     Some(ended) => break ended,
                     None => continue,
                 }
+            }
+            if self.is_certain_to_fall(run) {
+                break Ended::Falls(0);
             }
             match self.swing(run) {
                 Some(Some(ended)) => break ended,
@@ -212,10 +221,12 @@ impl<V: StateVector> Phase<V> {
         let pendulum = if dof == 1 && scene.swings_in_closed_form() { stepper.pendulum() } else { None };
         let may_leap = dof == 1 && closed.is_empty() && scene.leaps_over_samples();
         let leaps = if may_leap { stepper.rocker().map(Leaps::new) } else { None };
+        let fall = if scene.may_fall_early() { stepper.pendulum().map(Fall::new) } else { None };
         Phase {
             stepper,
             pendulum,
             leaps,
+            fall,
             dof,
             links,
             gaps,
@@ -281,7 +292,7 @@ impl<V: StateVector> Phase<V> {
         }
         // The phase goes on as it would have: an answer that is not certain yet is that of a full run.
         let (theta, omega) = self.per_block(&self.x);
-        run.is_certain_to_stand(&theta, &omega).then_some(Ended::Certain)
+        run.is_certain_to_stand(&theta, &omega).then_some(Ended::Stands)
     }
 
     /// Decides how many roots of each gap lie at the start, by how it came to be open.

@@ -19,6 +19,15 @@ pub enum StopReason {
     EndOfTime,
     /// It cannot overturn any more, by energy, though it may still rock; only where nothing but the outcome is wanted.
     Stands,
+    /// It overturns before `t_end`, though it has not yet; only where nothing but that is wanted.
+    Falls,
+}
+
+impl StopReason {
+    /// Whether the column overturned, or is certain to.
+    pub fn overturns(self) -> bool {
+        matches!(self, StopReason::Overturned | StopReason::Falls)
+    }
 }
 
 /// What happened at an event.
@@ -153,9 +162,9 @@ pub struct Separation {
 pub struct Response {
     /// Why the run ended.
     pub status: StopReason,
-    /// When: at overturning, at coming to rest for good, or `t_end` `[s]`.
+    /// When: at overturning, at coming to rest for good, when what is wanted is certain, or `t_end` `[s]`.
     pub t_final: f64,
-    /// The block whose angle reached the overturning angle first, from 1.
+    /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
     /// The column at the output times.
     pub samples: Vec<Sample>,

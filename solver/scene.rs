@@ -127,6 +127,9 @@ pub enum Wanted {
     /// Whether and how the column overturns: no rows, events, times in modes, peaks or forces, and the run ends as soon as the answer is certain
     /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
+    /// Whether the column overturns, and nothing else: as [`Wanted::Outcome`], and the run ends as soon as it is certain to overturn as well
+    /// ([`crate::StopReason::Falls`]); when it will is not known then.
+    Overturns,
 }
 
 /// How a scene is solved.
@@ -280,6 +283,16 @@ impl Scene {
     /// Whether phases of one free angle may take several samples of a record in one step.
     pub(crate) fn leaps_over_samples(&self) -> bool {
         self.options.skips.samples && self.options.method == Method::Auto
+    }
+
+    /// Whether the run ends as soon as what is wanted is certain.
+    pub(crate) fn ends_when_certain(&self) -> bool {
+        self.options.wanted != Wanted::Everything && self.options.skips.certainty
+    }
+
+    /// Whether the run may end as soon as it is certain that the column overturns: that of one block can be.
+    pub(crate) fn may_fall_early(&self) -> bool {
+        self.options.wanted == Wanted::Overturns && self.ends_when_certain() && self.column.len() == 1
     }
 
     /// Whether friction demand and normal forces are recorded.

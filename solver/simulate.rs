@@ -165,7 +165,7 @@ impl Simulator {
 
     /// The same with a scene that has been checked.
     pub(crate) fn run_valid(&mut self, scene: &Scene, progress: &mut dyn FnMut(f64)) -> Result<Response, SolveError> {
-        let segments = self.ground.timeline(&scene.excitation, scene.options.t_end);
+        let segments = self.ground.timeline(&scene.excitation, scene.options.t_end, scene.may_fall_early());
         run(Run::new(scene, &mut self.modes, segments, progress))
     }
 }
@@ -181,7 +181,8 @@ fn run(mut run: Run) -> Result<Response, SolveError> {
             Ended::Closing(interfaces) => run.impact(&interfaces)?,
             Ended::Opening(interface, side) => run.release(interface, side, EventKind::Opening)?,
             Ended::Jump => run.jump()?,
-            Ended::Certain => return Ok(run.finish(StopReason::Stands, None)),
+            Ended::Stands => return Ok(run.finish(StopReason::Stands, None)),
+            Ended::Falls(block) => return Ok(run.finish(StopReason::Falls, Some(block))),
             Ended::Overturned(block) => return Ok(run.finish(StopReason::Overturned, Some(block))),
             Ended::AtRest => return Ok(run.finish(StopReason::AtRest, None)),
             Ended::EndOfTime => return Ok(run.finish(StopReason::EndOfTime, None)),
@@ -214,8 +215,8 @@ pub(crate) struct Run<'a> {
     pub history: History,
     pub progress: &'a mut dyn FnMut(f64),
     kappa: Few<f64>,
-    /// Where nothing but the outcome is wanted and the ground comes to rest before the end: what it takes to overturn from then on.
-    barrier: Option<Barrier>,
+    /// Nothing but the outcome is wanted, and the ground comes to rest before the end.
+    may_stand: bool,
     events_at_once: usize,
 }
 
@@ -239,9 +240,10 @@ impl<'a> Run<'a> {
         let blocks = scene.column.len();
         let or_zero =
             |given: &[f64]| if given.is_empty() { Few::from_elem(0.0, blocks) } else { Few::from_slice(given) };
-        let may_end = scene.options.wanted == Wanted::Outcome && scene.options.skips.certainty;
-        let comes_to_rest = may_end && segments.last().is_some_and(Segment::is_quiet);
-        let barrier = comes_to_rest.then(|| modes.barrier(scene));
+        let may_stand = scene.ends_when_certain() && segments.last().is_some_and(Segment::is_quiet);
+        if may_stand {
+            modes.prepare_barrier(scene);
+        }
         Run {
             scene,
             modes,
@@ -259,7 +261,7 @@ impl<'a> Run<'a> {
             history: History::new(blocks),
             progress,
             kappa: scene.restitution.per_interface(&scene.column),
-            barrier,
+            may_stand,
             events_at_once: 0,
         }
     }
@@ -424,16 +426,21 @@ impl<'a> Run<'a> {
         });
     }
 
+    /// Share of an energy by which a proof must hold.
+    pub fn slack(&self) -> f64 {
+        CERTAINTY.max(DRIFT * self.scene.options.rtol)
+    }
+
     /// Whether the ground has come to rest for good, and the outcome alone is wanted.
     pub fn may_be_certain(&self) -> bool {
-        self.barrier.is_some() && self.segment + 1 == self.segments.len()
+        self.may_stand && self.segment + 1 == self.segments.len()
     }
 
     /// Whether the ground has come to rest for good and the column, with these angles and rates, is in the box of its barrier with
     /// too little energy to leave it.
     pub fn is_certain_to_stand(&self, theta: &[f64], omega: &[f64]) -> bool {
-        let Some(Barrier { energy, angle }) = self.barrier else { return false };
-        if !self.may_be_certain() || theta.iter().any(|theta| theta.abs() > angle) {
+        let Some(Barrier { energy, angles }) = self.modes.barrier() else { return false };
+        if !self.may_be_certain() || theta.iter().zip(angles).any(|(theta, most)| theta.abs() > *most) {
             return false;
         }
         let column = &self.scene.column;
@@ -442,13 +449,12 @@ impl<'a> Run<'a> {
             let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
             kinetic + (posture.potential_energy(column.gravity()) - rest::energy(column).potential)
         });
-        let slack = energy * CERTAINTY.max(DRIFT * self.scene.options.rtol);
-        above_rest < energy - slack
+        above_rest < energy * (1.0 - self.slack())
     }
 
     /// Whether events are recorded, not only counted.
     fn records_events(&self) -> bool {
-        self.scene.options.wanted != Wanted::Outcome
+        self.scene.options.wanted == Wanted::Everything
     }
 
     /// Records what a decision, now adopted, has brought about.
@@ -556,12 +562,12 @@ impl<'a> Run<'a> {
 
     fn finish(mut self, status: StopReason, overturned_block: Option<usize>) -> Response {
         let t_final = self.t;
-        self.work.ended_early = matches!(status, StopReason::AtRest | StopReason::Stands);
+        self.work.ended_early = !matches!(status, StopReason::Overturned | StopReason::EndOfTime);
         if status == StopReason::AtRest {
             self.t = self.scene.options.t_end;
             self.history.time_at_rest += self.t - t_final;
         }
-        if status != StopReason::Overturned {
+        if !status.overturns() {
             let zero = vec![0.0; self.theta.len()];
             while let Some(t) = self.next_output() {
                 let (theta, omega) = match status {
@@ -571,7 +577,7 @@ impl<'a> Run<'a> {
                 self.sample(t, theta, omega);
             }
         }
-        if self.scene.options.wanted == Wanted::Outcome {
+        if self.scene.options.wanted != Wanted::Everything {
             self.history.peak_theta.clear();
         }
         if !self.scene.records_forces() {

@@ -6,7 +6,7 @@
 //! Within a thread they run one after another: sixteen side by side, with Taylor coefficients in lanes of eight, took longer, as events,
 //! contact and set-up stay scalar and lose their place in the cache.
 
-use crate::response::{ModeName, Response, StopReason};
+use crate::response::{ModeName, Response};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
 use crate::simulate::{Simulator, SolveError};
@@ -49,6 +49,8 @@ pub enum Ask {
     /// Whether and how it overturns; a run ends when that is certain.
     #[default]
     Outcome,
+    /// Whether it overturns, not when; a run ends when that is certain, most often long before.
+    Overturns,
     /// Largest angles and the mode at the end as well; a run goes on to its end.
     Peaks,
 }
@@ -58,6 +60,7 @@ impl Ask {
     pub fn parse(name: &str) -> Option<Ask> {
         match name {
             "outcome" => Some(Ask::Outcome),
+            "overturns" => Some(Ask::Overturns),
             "peaks" => Some(Ask::Peaks),
             _ => None,
         }
@@ -109,7 +112,7 @@ pub struct Outcome {
     pub impacts: usize,
     /// The block that overturned first, from 1.
     pub block: Option<usize>,
-    /// When the column overturned `[s]`.
+    /// When the column overturned, if that is asked for `[s]`.
     pub overturned_at: Option<f64>,
     /// Largest angle of each block over the slenderness of the stack that begins with it, base first; only if peaks are asked for.
     pub peaks: Vec<f64>,
@@ -178,26 +181,24 @@ impl<'s> Worker<'s> {
         let of_ground = |axis: &&Axis| axis.key.starts_with("excitation.");
         let axes = || self.sweep.axes.iter().zip(&self.settings);
         let mut others = axes().zip(&last).filter(|((axis, _), _)| !of_ground(axis));
-        let scene = match self.scene.take() {
+        let scene = match &mut self.scene {
             // Most often nothing but the ground motion changes from one point to the next.
-            Some(mut scene) if others.all(|((_, setting), last)| setting == last) => {
+            Some(scene) if others.all(|((_, setting), last)| setting == last) => {
                 // From the first that differs on, all: a key may take the place of an earlier one.
                 let ground = axes().zip(&last).filter(|((axis, _), _)| of_ground(axis));
                 let changes = ground.skip_while(|((_, setting), last)| setting == last);
-                self.shaken.set(&mut scene, changes.map(|((axis, setting), _)| (axis.key.as_str(), *setting)))?;
+                self.shaken.set(scene, changes.map(|((axis, setting), _)| (axis.key.as_str(), *setting)))?;
                 scene
             }
-            _ => {
+            scene => {
                 let ground = axes().filter(|(axis, _)| of_ground(axis));
                 self.shaken.go_to(ground.map(|(axis, setting)| (axis.key.as_str(), *setting)))?;
-                self.sweep.scene(index)?
+                scene.insert(self.sweep.scene(index)?)
             }
         };
         // Read from a file, it is valid.
-        let response = self.simulator.run_valid(&scene, &mut |_| {})?;
-        let outcome = self.sweep.outcome(&scene, &response);
-        self.scene = Some(scene);
-        Ok(outcome)
+        let response = self.simulator.run_valid(scene, &mut |_| {})?;
+        Ok(self.sweep.outcome(scene, &response))
     }
 }
 
@@ -245,7 +246,11 @@ impl Sweep {
         let mut scene = self.template.with(keys.zip(self.settings(index)))?;
         scene.output_dt = None;
         scene.options.record_forces = false;
-        scene.options.wanted = if self.ask == Ask::Outcome { Wanted::Outcome } else { Wanted::Everything };
+        scene.options.wanted = match self.ask {
+            Ask::Outcome => Wanted::Outcome,
+            Ask::Overturns => Wanted::Overturns,
+            Ask::Peaks => Wanted::Everything,
+        };
         Ok(scene)
     }
 
@@ -266,7 +271,7 @@ impl Sweep {
     }
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
-        let has_overturned = response.status == StopReason::Overturned;
+        let has_overturned = response.status.overturns();
         let with_peaks = self.ask == Ask::Peaks;
         let share = |(block, peak): (usize, &f64)| peak / scene.column.stack(block).slenderness();
         let last_mode = || response.events.last().map_or(ModeName::REST, |event| event.mode).to_string();
@@ -278,7 +283,7 @@ impl Sweep {
             },
             impacts: response.impacts,
             block: response.overturned_block,
-            overturned_at: response.overturned_at(),
+            overturned_at: response.overturned_at().filter(|_| self.ask != Ask::Overturns),
             peaks: if with_peaks { response.peak_theta.iter().enumerate().map(share).collect() } else { Vec::new() },
             last_mode: with_peaks.then(last_mode),
         }

@@ -69,6 +69,7 @@ fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>)
     let status = match response.status {
         StopReason::Overturned => "overturned",
         StopReason::Stands => "stands",
+        StopReason::Falls => "falls",
         StopReason::AtRest => "at rest",
         StopReason::EndOfTime => "end of time",
     };

@@ -14,6 +14,29 @@ fn sweep(combine: Combine, axes: &[(&str, &[f64])]) -> Sweep {
     Sweep { template, axes: axes.iter().map(axis).collect(), combine, ask: Ask::Peaks }
 }
 
+/// Rows that say whether a column overturns say nothing else than those that say when as well.
+#[test]
+fn whether_is_answered_as_when() {
+    let axes: [(&str, &[f64]); 3] = [
+        ("column.blocks", &[1.0, 2.0]),
+        ("excitation.horizontal.omega_p", &[2.0, 5.0]),
+        ("excitation.horizontal.amplitude_uplift", &[0.9, 2.0, 4.0, 8.0]),
+    ];
+    let mut sweep = sweep(Combine::Cartesian, &axes);
+    let mut rows = |ask: Ask| {
+        sweep.ask = ask;
+        sweep.rows(0..sweep.len())
+    };
+    let (when, whether) = (rows(Ask::Outcome), rows(Ask::Overturns));
+    assert!(when.iter().any(|row| row.result.as_ref().is_ok_and(|outcome| outcome.overturned_at.is_some())));
+    for (mut when, whether) in when.into_iter().zip(whether) {
+        if let Ok(outcome) = &mut when.result {
+            outcome.overturned_at = None;
+        }
+        assert_eq!(when, whether);
+    }
+}
+
 #[test]
 fn rows_are_those_of_points_run_alone() {
     let (uplift, in_g) = ("excitation.horizontal.amplitude_uplift", "excitation.horizontal.amplitude_g");

@@ -16,13 +16,17 @@ pub(crate) struct Layout {
 const MANY_SEGMENTS: usize = 16;
 
 impl Layout {
-    /// The timeline of `0 .. t_end` `[s]`.
-    pub fn timeline(&mut self, excitation: &Excitation, t_end: f64) -> Rc<Timeline> {
+    /// The timeline of `0 .. t_end` `[s]`, with bounds of what is to come where they are wanted.
+    pub fn timeline(&mut self, excitation: &Excitation, t_end: f64, with_bounds: bool) -> Rc<Timeline> {
         if !self.of.as_ref().is_some_and(|(own, until)| *until == t_end && own == excitation) {
             let timeline = Rc::make_mut(&mut self.timeline);
             excitation.lay_out(t_end, &mut timeline.segments);
+            timeline.to_come.clear();
             timeline.note_samples();
             self.of = (timeline.segments.len() >= MANY_SEGMENTS).then(|| (excitation.clone(), t_end));
+        }
+        if with_bounds {
+            Rc::make_mut(&mut self.timeline).note_to_come();
         }
         Rc::clone(&self.timeline)
     }
@@ -37,6 +41,9 @@ pub(crate) struct Timeline {
     accelerations: Vec<f64>,
     /// For each segment the first one from it on, maybe itself, that does not go on as a record of equal intervals.
     goes_on_until: Vec<usize>,
+    /// Bounds of the horizontal acceleration from each segment on, and after the last one, to the left and to the right, zero at
+    /// least; infinite where there is a vertical one beside it `[m/s²]`. Empty until somebody asks.
+    to_come: Vec<[f64; 2]>,
 }
 
 impl Deref for Timeline {
@@ -56,6 +63,30 @@ impl Timeline {
     pub fn samples(&self, first: usize, most: usize) -> &[f64] {
         let until = self.goes_on_until.get(first).map_or(first, |until| (*until).min(first + most));
         self.accelerations.get(first..=until).unwrap_or_default()
+    }
+
+    /// A bound of the acceleration towards a side, one or minus one, between a time in a segment and another one, zero at least;
+    /// infinite where the ground moves upwards or downwards as well `[m/s²]`. Bounds to come must have been noted.
+    pub fn most_until(&self, side: f64, segment: usize, [from, to]: [f64; 2]) -> f64 {
+        let Segment { end, horizontal, vertical, .. } = &self.segments[segment];
+        let [left, right] = if to <= *end { [0.0; 2] } else { self.to_come[segment + 1] };
+        let later = if side < 0.0 { left } else { right };
+        if *vertical == Piece::Zero { later.max(horizontal.most(side, [from, to.min(*end)])) } else { f64::INFINITY }
+    }
+
+    /// Notes bounds of what is to come, once.
+    fn note_to_come(&mut self) {
+        if self.to_come.is_empty() {
+            self.to_come.resize(self.segments.len() + 1, [0.0; 2]);
+            for (index, segment) in self.segments.iter().enumerate().rev() {
+                let Segment { start, end, horizontal, vertical, .. } = segment;
+                let own = |side: f64| {
+                    if *vertical == Piece::Zero { horizontal.most(side, [*start, *end]) } else { f64::INFINITY }
+                };
+                let [left, right] = self.to_come[index + 1];
+                self.to_come[index] = [left.max(own(-1.0)), right.max(own(1.0))];
+            }
+        }
     }
 
     /// Notes samples, where there are any.
@@ -96,7 +127,7 @@ mod tests {
         let push = Motion::Rectangular { amplitude: 2.0, start: 1.05, duration: 0.9 };
         let mut layout = Layout::default();
         let alone = Excitation { horizontal: Some(record.clone()), vertical: None };
-        let timeline = layout.timeline(&alone, 5.0);
+        let timeline = layout.timeline(&alone, 5.0, false);
         assert_eq!(timeline.samples(0, 4), [0.0], "before it begins");
         let first: Vec<f64> = timeline.samples(1, 4).to_vec();
         assert!(first.iter().zip(&values).all(|(a, b)| (a - b).abs() < 1e-12) && first.len() == 5, "{first:?}");
@@ -107,14 +138,14 @@ mod tests {
             (1, 1, 0)
         );
         let both = Excitation { horizontal: Some(Motion::Sum { terms: vec![record.clone(), push] }), vertical: None };
-        let timeline = layout.timeline(&both, 5.0);
+        let timeline = layout.timeline(&both, 5.0, false);
         // It jumps at the eleventh sample, and at the twentieth.
         assert_eq!([1, 5, 10, 11, 19, 20].map(|first: usize| timeline.samples(first, 100).len()), [10, 6, 1, 9, 1, 10]);
         let lifted = Excitation {
             horizontal: Some(record),
             vertical: Some(Motion::Rectangular { amplitude: 1.0, start: 0.0, duration: 9.0 }),
         };
-        let timeline = layout.timeline(&lifted, 5.0);
+        let timeline = layout.timeline(&lifted, 5.0, false);
         assert!((0..timeline.len()).all(|first| timeline.samples(first, 100).is_empty()), "none is a record alone");
     }
 }

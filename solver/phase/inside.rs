@@ -179,7 +179,7 @@ impl<V: StateVector> Phase<V> {
 
     /// The largest angle so far of a link, or the least of those of its blocks; infinite where it is of no interest `[rad]`.
     pub(super) fn known_peak(&self, run: &Run, link: usize) -> f64 {
-        if run.scene.options.wanted == Wanted::Outcome {
+        if run.scene.options.wanted != Wanted::Everything {
             return f64::INFINITY;
         }
         let peaks = self.links.iter().zip(&run.history.peak_theta).filter(|(own, _)| **own == link + 1);
@@ -188,7 +188,7 @@ impl<V: StateVector> Phase<V> {
 
     /// Notes the largest angles of the step just taken, those inside it among them.
     pub(super) fn note_peaks(&mut self, run: &mut Run, h: f64) {
-        if run.scene.options.wanted == Wanted::Outcome {
+        if run.scene.options.wanted != Wanted::Everything {
             return;
         }
         for link in 0..self.dof {

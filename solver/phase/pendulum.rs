@@ -46,6 +46,11 @@ impl Pendulum {
         sign * (theta - self.balance)
     }
 
+    /// `p² [rad²/s²]`
+    pub fn square(&self) -> f64 {
+        self.rate * self.rate
+    }
+
     /// What is left of the balance's angle, up to this distance from it.
     pub fn short_of_balance(&self, distance: f64) -> f64 {
         self.balance.abs() - distance

@@ -33,9 +33,8 @@ impl Sweep {
         };
         let ask = match root.text("ask").map_err(own)? {
             None => Ask::default(),
-            Some((name, _)) => {
-                Ask::parse(&name).ok_or_else(|| own(root.no_such("ask", "question", &name, &["outcome", "peaks"])))?
-            }
+            Some((name, _)) => Ask::parse(&name)
+                .ok_or_else(|| own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks"])))?,
         };
         let template = Template::from_file(&base)?;
         let Some(mut table) = root.table("axes").map_err(own)? else {

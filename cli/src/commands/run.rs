@@ -65,6 +65,7 @@ const MODES_TOLD: usize = 8;
 fn account(scene: &Scene, response: &Response) -> String {
     let outcome = match (response.status, response.overturned_block) {
         (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
+        (StopReason::Falls, _) => format!("overturns, certain from t = {:.4} s on", response.t_final),
         (StopReason::AtRest, _) => format!("stands, at rest from t = {:.4} s on", response.t_final),
         _ => format!("stands at t = {:.4} s, still rocking", response.t_final),
     };

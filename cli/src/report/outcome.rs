@@ -30,6 +30,9 @@ pub fn sentence(results: &Results) -> String {
         StopReason::Stands => {
             ("stands", "The column <strong>stands</strong>: it has too little energy left to overturn.".to_string())
         }
+        StopReason::Falls => {
+            ("overturned", "The column <strong>overturns</strong>: nothing can stop it any more.".to_string())
+        }
         StopReason::EndOfTime if results.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
