@@ -123,8 +123,6 @@ pub struct Taylor<V, L: StateVector> {
     sin_ddot: L,
     /// How far each angle, and its rate, move in the last attempt, at most.
     reach: L::Of<[f64; 2]>,
-    /// `rtol^(1 / largest_order)`
-    root_of_rtol: f64,
 }
 
 impl<V: StateVector, L: StateVector> Taylor<V, L> {
@@ -150,7 +148,6 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             cos_ddot: zero_links.clone(),
             sin_ddot: zero_links.clone(),
             reach: zero_links.each([0.0; 2]),
-            root_of_rtol: rough_root(rtol, largest_order),
         }
     }
 
@@ -184,10 +181,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             let is_cut = h == most || h < target;
             let (order, error) = self.measure(system, h, is_cut, tolerance);
             guesses += 1;
-            if error <= 1.0 && (is_cut || error > LONG_ENOUGH) || guesses == GUESSES {
-                let fits = h * self.factor_wanted(error, order, tolerance.rtol);
-                // A step cut short says nothing against a longer one.
-                break (h, order, error, if is_cut && error <= 1.0 { fits.max(target) } else { fits });
+            if is_cut && error <= 1.0 {
+                // That says nothing of a longer one.
+                break (h, order, error, target);
+            }
+            if error <= 1.0 && error > LONG_ENOUGH || guesses == GUESSES {
+                break (h, order, error, h * self.factor_wanted(error, order));
             }
             let (factor, is_sure) = fitting(error, order);
             target = (h * factor).min(LARGEST_GROWTH * wanted);
@@ -300,16 +299,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         size
     }
 
-    /// Relative to the last step: where the term of the largest order would just meet the tolerance, the terms falling as they
-    /// do up to this one.
-    fn factor_wanted(&self, error: f64, order: usize, rtol: f64) -> f64 {
-        let error = error.max(1e-30);
-        let factor = if order == self.largest_order {
-            SAFETY / rough_root(error, order)
-        } else {
-            SAFETY * self.root_of_rtol / rough_root(error * rtol, order)
-        };
-        factor.clamp(1e-3, LARGEST_GROWTH)
+    /// Relative to the last step: where its last term would just meet the tolerance.
+    fn factor_wanted(&self, error: f64, order: usize) -> f64 {
+        (SAFETY / rough_root(error.max(1e-30), order)).clamp(1e-3, LARGEST_GROWTH)
     }
 
     /// State at the end of the last attempt.
