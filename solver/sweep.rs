@@ -152,8 +152,11 @@ struct Worker<'s> {
     shaken: Shaken<'s>,
     /// The scene of the last point.
     scene: Option<Scene>,
-    /// Values of the last point, in the order of the axes.
+    /// Values of the last point, and of the one before, in the order of the axes.
     settings: Vec<&'s Setting>,
+    last_settings: Vec<&'s Setting>,
+    /// Which axes are of the ground motion.
+    is_of_ground: Vec<bool>,
 }
 
 impl<'s> Worker<'s> {
@@ -164,6 +167,8 @@ impl<'s> Worker<'s> {
             shaken: sweep.template.shaken(),
             scene: None,
             settings: Vec::new(),
+            last_settings: Vec::new(),
+            is_of_ground: sweep.axes.iter().map(|axis| axis.key.starts_with("excitation.")).collect(),
         }
     }
 
@@ -177,22 +182,24 @@ impl<'s> Worker<'s> {
     }
 
     fn run(&mut self, index: usize) -> Result<Outcome, PointError> {
-        let last = std::mem::replace(&mut self.settings, self.sweep.settings(index));
-        let of_ground = |axis: &&Axis| axis.key.starts_with("excitation.");
-        let axes = || self.sweep.axes.iter().zip(&self.settings);
-        let mut others = axes().zip(&last).filter(|((axis, _), _)| !of_ground(axis));
+        std::mem::swap(&mut self.settings, &mut self.last_settings);
+        self.sweep.put_settings(index, &mut self.settings);
+        let axes = |of_ground: bool| {
+            let axes = self.sweep.axes.iter().zip(&self.is_of_ground).zip(&self.settings);
+            let own = axes.enumerate().filter(move |(_, ((_, is_of_ground), _))| **is_of_ground == of_ground);
+            own.map(|(place, ((axis, _), setting))| (place, axis.key.as_str(), *setting))
+        };
+        let is_as_before = |place: usize, setting: &Setting| self.last_settings.get(place) == Some(&setting);
         let scene = match &mut self.scene {
             // Most often nothing but the ground motion changes from one point to the next.
-            Some(scene) if others.all(|((_, setting), last)| setting == last) => {
+            Some(scene) if axes(false).all(|(place, _, setting)| is_as_before(place, setting)) => {
                 // From the first that differs on, all: a key may take the place of an earlier one.
-                let ground = axes().zip(&last).filter(|((axis, _), _)| of_ground(axis));
-                let changes = ground.skip_while(|((_, setting), last)| setting == last);
-                self.shaken.set(scene, changes.map(|((axis, setting), _)| (axis.key.as_str(), *setting)))?;
+                let changes = axes(true).skip_while(|(place, _, setting)| is_as_before(*place, setting));
+                self.shaken.set(scene, changes.map(|(_, key, setting)| (key, setting)))?;
                 scene
             }
             scene => {
-                let ground = axes().filter(|(axis, _)| of_ground(axis));
-                self.shaken.go_to(ground.map(|(axis, setting)| (axis.key.as_str(), *setting)))?;
+                self.shaken.go_to(axes(true).map(|(_, key, setting)| (key, setting)))?;
                 scene.insert(self.sweep.scene(index)?)
             }
         };
@@ -219,22 +226,24 @@ impl Sweep {
 
     /// Values of the axes at a point, in their order.
     pub fn settings(&self, index: usize) -> Vec<&Setting> {
-        let mut rest = index;
-        let mut settings: Vec<&Setting> = self
-            .axes
-            .iter()
-            .rev()
-            .map(|axis| match self.combine {
-                Combine::Paired => &axis.values[index],
-                Combine::Cartesian => {
-                    let value = &axis.values[rest % axis.values.len()];
-                    rest /= axis.values.len();
-                    value
-                }
-            })
-            .collect();
-        settings.reverse();
+        let mut settings = Vec::new();
+        self.put_settings(index, &mut settings);
         settings
+    }
+
+    /// The same, in place of what was there.
+    fn put_settings<'s>(&'s self, index: usize, settings: &mut Vec<&'s Setting>) {
+        let mut rest = index;
+        settings.clear();
+        settings.extend(self.axes.iter().rev().map(|axis| match self.combine {
+            Combine::Paired => &axis.values[index],
+            Combine::Cartesian => {
+                let value = &axis.values[rest % axis.values.len()];
+                rest /= axis.values.len();
+                value
+            }
+        }));
+        settings.reverse();
     }
 
     /// The scene of a point.
