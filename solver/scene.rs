@@ -127,8 +127,8 @@ pub enum Wanted {
     /// Whether and how the column overturns: no rows, events, times in modes, peaks or forces, and the run ends as soon as the answer is certain
     /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
-    /// Whether the column overturns, and nothing else: as [`Wanted::Outcome`], and the run ends as soon as it is certain to overturn as well
-    /// ([`crate::StopReason::Falls`]); when it will is not known then.
+    /// Whether the column overturns, and nothing else: as [`Wanted::Outcome`], and the run of one block, on a ground that will not move upwards
+    /// or downwards, ends as soon as it is certain to overturn as well ([`crate::StopReason::Falls`]); when it will is not known then.
     Overturns,
 }
 

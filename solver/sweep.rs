@@ -49,7 +49,7 @@ pub enum Ask {
     /// Whether and how it overturns; a run ends when that is certain.
     #[default]
     Outcome,
-    /// Whether it overturns, not when; a run ends when that is certain, most often long before.
+    /// Whether it overturns, not when: as [`Ask::Outcome`], and the run of one block ends as soon as it is certain to.
     Overturns,
     /// Largest angles and the mode at the end as well; a run goes on to its end.
     Peaks,

@@ -121,6 +121,41 @@ mod tests {
     use crate::excitation::{Motion, Record};
 
     #[test]
+    fn what_is_to_come_is_bounded_and_the_bound_is_met() {
+        let values: Vec<f64> = (0..40).map(|i| libm::sin(f64::from(i * i)) * f64::from(40 - i)).collect();
+        let record = Motion::Record(Record::new(values, 0.1, 0.0).expect("valid"));
+        let pulse = Motion::SinePulse { amplitude: 7.0, omega: 3.0, start: 3.95 };
+        let both = Motion::Sum { terms: vec![record, pulse] };
+        let mut layout = Layout::default();
+        let bounded = |layout: &mut Layout, vertical: Option<Motion>| {
+            layout.timeline(&Excitation { horizontal: Some(both.clone()), vertical }, 8.0, true)
+        };
+        let timeline = bounded(&mut layout, None);
+        assert!(timeline.len() > 40);
+        for (first, segment) in timeline.iter().enumerate() {
+            let t = 0.7 * segment.start + 0.3 * segment.end;
+            // Within the segment, and up to the end whatever the window beyond it.
+            for (until, last) in [(0.2 * t + 0.8 * segment.end, first), (segment.end + 0.1, timeline.len() - 1)] {
+                for side in [-1.0, 1.0] {
+                    let most = timeline.most_until(side, first, [t, until]);
+                    let values = timeline[first..=last].iter().flat_map(|own| {
+                        let (from, to) = (own.start.max(t), if last == first { until } else { own.end });
+                        (0..=200).map(move |i| side * own.horizontal.value(from + (to - from) * f64::from(i) / 200.0))
+                    });
+                    let largest = values.fold(0.0, f64::max);
+                    assert!(largest <= most + 1e-12 && most < largest + 1e-2, "{first} {side}: {largest} {most}");
+                }
+            }
+        }
+        let vertical = Motion::Rectangular { amplitude: 1.0, start: 5.0, duration: 1.0 };
+        let timeline = bounded(&mut layout, Some(vertical));
+        let at = |t: f64| timeline.iter().position(|segment| segment.end > t).expect("a segment");
+        let finite = |t: f64, until: f64| timeline.most_until(1.0, at(t), [t, until]).is_finite();
+        let whole = timeline[at(4.9)].end;
+        assert!(finite(4.9, whole) && !finite(4.9, 8.0) && !finite(5.5, 5.6) && finite(6.5, 8.0));
+    }
+
+    #[test]
     fn samples_are_those_of_a_record_up_to_where_it_jumps_or_ends() {
         let values: Vec<f64> = (1..=30).map(f64::from).collect();
         let record = Motion::Record(Record::new(values.clone(), 0.1, 0.05).expect("valid"));
