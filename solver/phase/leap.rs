@@ -106,20 +106,22 @@ impl Bounds {
         // Between nodes angles, and accelerations with them, are others.
         let (bound, square) = (rocker.bound(step.strongest), (h * WIDEST_GAP) * (h * WIDEST_GAP));
         let acceleration = step.acceleration + bound * (widest + 0.125 * square * bound);
-        let (mut bounds, mut passed) = (Bounds { crest: None, doubtful_from: None }, 0.0);
+        let (mut bounds, mut passed, mut rose) = (Bounds { crest: None, doubtful_from: None }, 0.0, false);
         for (index, (pair, gap)) in angles.windows(2).zip(&GAPS).enumerate() {
             let &[from, to] = pair else { continue };
             // A rate is off its mean between two nodes by half of what it may change: most often the angle goes one way.
             let bend = 0.5 * (h * gap) * (h * gap) * acceleration;
-            let rises = to - from > bend;
-            let slack = bend * if rises || from - to > bend { SLACK } else { SAG };
+            let (rises, falls) = (to - from > bend, from - to > bend);
+            let slack = bend * if rises || falls { SLACK } else { SAG };
             let least = if index == 0 && rises { from } else { from.min(to) - slack };
             let most = from.max(to) + slack;
-            // Where it rises it is largest at the end, which is the start of what follows.
-            if !rises && most > marks.peak {
+            // Where it goes one way it is largest at an end. A crest is where it may turn, or between a rise and a fall.
+            let may_turn = !(rises || falls && !rose);
+            if may_turn && most > marks.peak {
                 let from = bounds.crest.map_or(passed, |[from, _]| from);
                 bounds.crest = Some([from, passed + gap]);
             }
+            rose = rises;
             if !(least > 0.0 && most < marks.overturned) {
                 bounds.doubtful_from = bounds.doubtful_from.or(Some(passed));
             }

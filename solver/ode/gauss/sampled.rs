@@ -21,7 +21,7 @@ use crate::ode::control::rough_root;
 use std::sync::OnceLock;
 
 /// Intervals between samples that a step may take: weights are kept for each.
-pub const INTERVALS: [usize; 12] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32];
+pub const INTERVALS: [usize; 17] = [2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 24, 28, 32];
 
 /// Equations of one angle, linear in a forcing.
 pub trait LinearlyForced {
