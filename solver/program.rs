@@ -15,6 +15,14 @@ pub trait Scalar:
     fn recip(self) -> Self;
     /// Sine and cosine of an angle `[rad]`; odd and even to the last bit.
     fn sin_cos(self) -> (Self, Self);
+
+    /// The same of each angle of a list, into lists as long.
+    #[inline(always)]
+    fn sin_cos_each(angles: &[Self], sin: &mut [Self], cos: &mut [Self]) {
+        for (angle, (sin, cos)) in angles.iter().zip(sin.iter_mut().zip(cos)) {
+            (*sin, *cos) = angle.sin_cos();
+        }
+    }
 }
 
 /// What a column is to the generated equations: sizes with the sides of the open interfaces in the signs of the pivots.
@@ -101,11 +109,8 @@ pub fn split<S: Scalar, P: StepProgram<S>>(state: &[S]) -> (P::Vector, P::Vector
     let zero = S::from_f64(0.0);
     let (mut cos, mut sin, mut omega) = (P::vector(zero), P::vector(zero), P::vector(zero));
     let (angles, rates) = state.split_at(P::DOF);
-    let of_links = cos.as_mut().iter_mut().zip(sin.as_mut()).zip(omega.as_mut());
-    for (((cos, sin), omega), (angle, rate)) in of_links.zip(angles.iter().zip(rates)) {
-        (*sin, *cos) = angle.sin_cos();
-        *omega = *rate;
-    }
+    S::sin_cos_each(angles, sin.as_mut(), cos.as_mut());
+    omega.as_mut().iter_mut().zip(rates).for_each(|(omega, rate)| *omega = *rate);
     (cos, sin, omega)
 }
 

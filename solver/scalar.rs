@@ -13,7 +13,7 @@
 use crate::program::Scalar;
 use crate::sine;
 use std::ops::{Add, Mul, Neg, Sub};
-use wide::{f64x4, f64x8};
+use wide::{f64x2, f64x4, f64x8};
 
 impl Scalar for f64 {
     #[inline(always)]
@@ -29,6 +29,27 @@ impl Scalar for f64 {
     #[inline(always)]
     fn sin_cos(self) -> (f64, f64) {
         sine::sin_cos(self)
+    }
+
+    /// Two at a time, which any machine does as fast as one.
+    #[inline(always)]
+    fn sin_cos_each(angles: &[f64], sin: &mut [f64], cos: &mut [f64]) {
+        let are_within = sine::are_within_reach(angles);
+        let pairs = angles.chunks(2).zip(sin.chunks_mut(2).zip(cos.chunks_mut(2)));
+        for (angles, (sin, cos)) in pairs {
+            match (angles, &mut *sin, &mut *cos) {
+                (&[first, second], [sin, other_sin], [cos, other_cos]) if are_within => {
+                    let (sines, cosines) = sine::kernels(f64x2::new([first, second]));
+                    [*sin, *other_sin] = sines.to_array();
+                    [*cos, *other_cos] = cosines.to_array();
+                }
+                _ => {
+                    for (angle, (sin, cos)) in angles.iter().zip(sin.iter_mut().zip(cos)) {
+                        (*sin, *cos) = sine::sin_cos(*angle);
+                    }
+                }
+            }
+        }
     }
 }
 
@@ -61,6 +82,7 @@ macro_rules! lanes {
     };
 }
 
+lanes!(f64x2);
 lanes!(f64x4);
 lanes!(f64x8);
 
