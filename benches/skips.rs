@@ -41,6 +41,12 @@ fn strong_pulse() -> Motion {
     Motion::SinePulse { amplitude: 12.0, omega: 5.0, start: 0.0 }
 }
 
+/// A pulse in weak shaking that outlasts it.
+fn with_coda() -> Motion {
+    let coda = Motion::SineBurst { amplitude: 0.03, omega: 9.0, start: 0.0, phase: 0.0, duration: 9.0 };
+    Motion::Sum { terms: vec![pulse(0.0), coda] }
+}
+
 /// Shaking without end: rocks on and never comes to rest.
 fn harmonic() -> Motion {
     Motion::Harmonic { amplitude: 4.0, omega: 7.0, phase: 0.3, start: 0.0 }
@@ -137,6 +143,12 @@ fn cases() -> Vec<Case> {
             off: |scene| scene.options.skips.certainty = false,
             has: ("three blocks after a pulse, outcome", outcome(shaken(3, pulse(0.0)))),
             lacks: ("three blocks after a pulse, history", shaken(3, pulse(0.0))),
+        },
+        Case {
+            name: "shaking after the outcome is certain",
+            off: |scene| scene.options.skips.certainty = false,
+            has: ("three blocks, pulse and weak shaking, outcome", outcome(shaken(3, with_coda()))),
+            lacks: ("three blocks, pulse and weak shaking, history", shaken(3, with_coda())),
         },
         Case {
             name: "time after overturning is certain",

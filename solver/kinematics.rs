@@ -38,15 +38,15 @@ pub struct Posture<'a, S: Size = Any> {
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
-    sin: f64,
-    cos: f64,
+    pub sin: f64,
+    pub cos: f64,
 }
 
 impl Turn {
     /// The ground's.
     const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
 
-    fn new(angle: f64) -> Turn {
+    pub fn new(angle: f64) -> Turn {
         let (sin, cos) = sine::sin_cos(angle);
         Turn { sin, cos }
     }

@@ -3,7 +3,7 @@
 use crate::column::Column;
 use crate::generated;
 use crate::mode::Mode;
-use crate::outcome::Barrier;
+use crate::outcome::Prospects;
 use crate::phase::SmoothPhase;
 use crate::response::ModeName;
 use crate::scene::{DynamicsSource, Scene, SolveOptions};
@@ -16,7 +16,7 @@ pub(crate) struct Modes {
     /// What they hold for.
     basis: Option<Basis>,
     entered: Vec<Entered>,
-    barrier: Option<Barrier>,
+    prospects: Option<Prospects>,
 }
 
 /// All that a mode depends on.
@@ -49,7 +49,7 @@ impl Modes {
             |basis: &Basis| (basis.ground, &basis.column, &basis.options) == (ground, &scene.column, &scene.options);
         if !self.basis.as_ref().is_some_and(holds) {
             let basis = Basis { column: scene.column.clone(), options: scene.options.clone(), ground };
-            *self = Modes { basis: Some(basis), ..Modes::default() };
+            *self = Modes { basis: Some(basis), entered: Vec::new(), prospects: Prospects::of(scene) };
             if !scene.options.skips.modes {
                 let both = |(_, pattern): (_, Pattern)| [pattern.mirror(), pattern];
                 self.entered = modes(scene.column.len()).flat_map(both).map(|p| self.built(&p, scene)).collect();
@@ -65,14 +65,9 @@ impl Modes {
         self.basis.as_ref().is_some_and(|basis| basis.ground == GroundMotion::WithVertical)
     }
 
-    /// Makes ready to tell whether the column may still overturn.
-    pub fn prepare_barrier(&mut self, scene: &Scene) {
-        self.barrier.get_or_insert_with(|| scene.column.barrier(scene.options.overturn_angle));
-    }
-
-    /// The barrier against overturning, once it has been asked for.
-    pub fn barrier(&self) -> Option<&Barrier> {
-        self.barrier.as_ref()
+    /// What tells whether the outcome is certain, where runs may end with that.
+    pub fn prospects(&self) -> Option<&Prospects> {
+        self.prospects.as_ref()
     }
 
     /// Where a pattern is among those entered; its scene constants are computed when it is entered first. The second value is

@@ -2,9 +2,8 @@
 //!
 //! # It stands
 //!
-//! On a ground that has come to rest for good the mechanical energy never rises: smooth phases conserve it, impacts do not add to
-//! it (MODEL.md section 5). With `q_i = sin θ_i`, `q_0 = 0`, and for sizes of angles up to a right one, the potential energy above
-//! rest is
+//! On a ground at rest the mechanical energy never rises: smooth phases conserve it, impacts do not add to it (MODEL.md section 5). With
+//! `q_i = sin θ_i`, `q_0 = 0`, and for sizes of angles up to a right one, the potential energy above rest is
 //!
 //! ```text
 //!     V(q) = g Σ_i [ M_i c_i |q_i - q_{i-1}| - B_i (1 - √(1 - q_i²)) ],     B_i = m_i h_i + 2 h_i M_{i+1}
@@ -42,40 +41,110 @@
 //! A column that counts as overturned at an angle `β` before it is past its balance has a smaller box, `a_i = sin min(α_i, β)`, and `E_i` is the
 //! energy there. The proof holds: where `a_l = sin β` is cut off, `a_i` is no smaller, hence as large, and `V >= E_i` at once.
 //!
+//! A ground that moves with the acceleration `a`, in both directions, adds power `-Σ m a·v` to the energy `W = T + V` relative to it. The
+//! block at the base turns about a corner, so that `m_1 v_1² = 2 κ T_1` with `κ = m_1 R_1² / I_O1`; with Cauchy's inequality, and as
+//! `V >= 0` in the box (it is concave on the way from rest, zero there, to the surface),
+//!
+//! ```text
+//!     Σ m |v| <= √(2 μ T) <= √(2 μ W),     μ = κ m_1 + M_2,     d√W/dt <= √(μ/2) |a|
+//! ```
+//!
+//! A column in the box stands if `√W + √(μ/2) ∫ |a| dt`, over all that is to come, is below `√E`: before the ground has come to rest. Runs that
+//! end while it moves are not judged so: what stands until then may not much later.
+//!
 //! # It overturns
 //!
-//! One block, leaning and moving out, is past the point of no return when the worst that the ground may still do cannot bring it to rest.
-//! With `ψ` its angle beyond the balance, out being positive, `p² = m g R / I_O`, and `a` the ground's acceleration towards the side to
-//! which it leans,
+//! With `ψ` the angle of one block beyond the balance, out being positive, `p² = m g R / I_O`, and `a` the acceleration, towards the side to
+//! which it leans, of a ground without vertical motion,
 //!
 //! ```text
-//!     ψ¨ = p² (sin ψ - a/g cos ψ) >= p² (sin ψ - A/g cos ψ) = p² √(1 + A²/g²) sin(ψ - atan A/g)     if a <= A, A >= 0, |ψ| <= π/2
+//!     ψ¨ = p² (sin ψ - a/g cos ψ),     z = ψ̇ + 2 p sin ψ/2,     ż = p cos(ψ/2) z - p² a/g cos ψ
 //! ```
 //!
-//! on a ground without vertical motion. As long as it moves out, `½ ψ̇²` gains at least the integral of that over the angle, which is least
-//! where `ψ = atan A/g`, if that lies ahead. So its rate does not fall below
+//! On a ground at rest the sign of `z` tells whether the block comes to pass the balance, or does not come back over it: it is zero on the
+//! two ways that end in it. On one that moves, as long as `z >= 0`, the block does not land, since `ψ̇ > 0` where `ψ < 0`; and until it
+//! has overturned, at `ψ_o`, both cosines are bounded from below, by `cos(ψ/2) >= c > 0` and `cos ψ >= 0` if `ψ_o <= π/2`. Hence, with `q = p c`,
 //!
 //! ```text
-//!     v² = ψ̇² - 2 p² [ √(1 + A²/g²) - cos ψ - A/g sin ψ ]     (ψ < atan A/g),     v = ψ̇     (beyond)
+//!     z(s) >= e^{q (s - t)} (z(t) - J),     J = p²/g ∫ max(a, 0) e^{-q (s - t)} ds     over all that is to come
 //! ```
 //!
-//! and if that is above zero it goes on to move out, and has overturned, at an angle `ψ_o <= π/2` beyond the balance, after `(ψ_o - ψ) / v`
-//! at most. `A` need bound the ground's acceleration no longer than that, and the run must not end before. On a ground at rest, `A = 0`, the
-//! rate needed is that of one block's barrier.
+//! If `z > J` now, `z` is above zero for ever: the block is past the point of no return. With `w` the widest way that may be left, to `ψ_o` from
+//! `ψ` or, if that is behind, from the balance, it overturns within `arsinh(½ (p + q) w / (z - J)) / q`: its rate is no less than
+//! `(z - J) e^{q (s - t)} - p x` where it has made the way `x`, no shorter than `ψ`, from there; so `x` is no less than
+//! `(z - J) (e^{q (s - t)} - e^{-p (s - t)}) / (p + q)`, with `p >= q`.
+//! Beyond the balance it only gets faster where nothing pushes it back. Nor does it matter what the ground does after that time, so that
+//! `J` need not go on for longer.
 //!
 //! Several blocks have no such proof: their impacts may take any part of the energy that they have.
 
 use crate::column::Column;
 use crate::few::Few;
+use crate::kinematics::Turn;
+use crate::scene::Scene;
 use std::f64::consts::FRAC_PI_2;
 
-/// What keeps a column on a ground at rest from overturning.
+/// What keeps a column from overturning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Barrier {
     /// Energy above that of the column at rest that is needed to leave the box `[J]`.
     pub energy: f64,
     /// The box: no block's angle is larger than this, base first `[rad]`.
     pub angles: Few<f64>,
+    /// The mass that a ground in motion takes hold of, `μ [kg]`: momenta are no larger than those of this mass with all of the energy.
+    pub mass: f64,
+}
+
+/// What tells whether the outcome of a run is certain.
+#[derive(Clone, Debug)]
+pub(crate) struct Prospects {
+    pub barrier: Barrier,
+    /// `g M_i c_i` and `g B_i` of each block `[J]`: what `V` is made of.
+    weights: Few<[f64; 2]>,
+    /// What a ground's acceleration must come to, to take the column from rest over the barrier `[m/s]`.
+    pub impulse: f64,
+    /// How fast one block that may fall early runs away from its balance `[1/s]`.
+    pub growth: Option<f64>,
+}
+
+impl Prospects {
+    /// Of runs of this scene, if they may end when what is wanted is certain.
+    pub fn of(scene: &Scene) -> Option<Prospects> {
+        let barrier = scene.ends_when_certain().then(|| scene.column.barrier(scene.options.overturn_angle))?;
+        let (column, impulse) = (&scene.column, (2.0 * barrier.energy / barrier.mass).sqrt());
+        let weights = column.blocks().iter().enumerate().map(|(i, block)| {
+            let above = column.mass_above(i) - block.mass;
+            let lifted = column.mass_above(i) * column.contact_half_width(i);
+            [lifted, block.half_height * (block.mass + 2.0 * above)].map(|moment| column.gravity() * moment)
+        });
+        Some(Prospects { weights: weights.collect(), barrier, impulse, growth: scene.growth_rate() })
+    }
+
+    /// Potential energy above rest `[J]` of blocks turned like this, base first: `V`, term by term, as a difference of the energies
+    /// themselves would be rounding where a light block stands on heavy ones.
+    pub fn potential(&self, turns: &[Turn]) -> f64 {
+        let mut below = 0.0;
+        let terms = turns.iter().zip(&self.weights).map(|(Turn { sin, cos }, [lifted, lowered])| {
+            lifted * (sin - std::mem::replace(&mut below, *sin)).abs() - lowered * (sin * sin / (1.0 + cos))
+        });
+        terms.sum()
+    }
+
+    /// Whether a column in the box, with this energy above rest `[J]`, stays in it while the ground's acceleration comes to no more than this
+    /// `[m/s]`; `slack` is a share of the barrier's energy.
+    pub fn stays(&self, energy: f64, impulse: f64, slack: f64) -> bool {
+        let root = energy.max(0.0).sqrt() + (0.5 * self.barrier.mass).sqrt() * impulse;
+        root * root < self.barrier.energy * (1.0 - slack)
+    }
+}
+
+impl Scene {
+    /// How fast one block that may fall early runs away from its balance at least, until it has overturned: `q` `[1/s]`.
+    pub(crate) fn growth_rate(&self) -> Option<f64> {
+        let (stack, limit) = (self.column.stack(0), self.options.overturn_angle);
+        let widest = stack.slenderness().max((limit - stack.slenderness()).abs());
+        self.may_fall_early().then(|| stack.frequency_parameter() * libm::cos(0.5 * widest))
+    }
 }
 
 impl Column {
@@ -100,7 +169,10 @@ impl Column {
             let lift = stack.half_width * sin - stack.centroid_height * sin * sin / (1.0 + cos);
             stack.mass * self.gravity() * lift
         });
-        Barrier { energy: energies.fold(f64::INFINITY, f64::min), angles }
+        let base = &self.blocks()[0];
+        let steiner = base.mass * (self.contact_half_width(0).powi(2) + base.half_height * base.half_height);
+        let mass = base.mass * steiner / (base.inertia + steiner) + (self.mass_above(0) - base.mass);
+        Barrier { energy: energies.fold(f64::INFINITY, f64::min), angles, mass }
     }
 }
 
@@ -122,6 +194,26 @@ mod tests {
         energy(&Pattern::from_signs(&signs), theta) - energy(&Pattern::rest(theta.len()), &vec![0.0; theta.len()])
     }
 
+    #[test]
+    fn the_potential_is_that_of_the_posture_and_keeps_its_digits_where_that_does_not() {
+        let of = |masses: [f64; 3], theta: &[f64]| {
+            let blocks = masses.iter().enumerate().map(|(i, mass)| Block::with_mass(0.5 - 0.1 * i as f64, 0.8, *mass));
+            let mut scene = Scene::new(Column::new(blocks.collect(), 9.81).expect("positive sizes"));
+            scene.options.wanted = crate::Wanted::Outcome;
+            let turns: Vec<Turn> = theta.iter().map(|angle| Turn::new(*angle)).collect();
+            let prospects = Prospects::of(&scene).expect("nothing but the outcome is wanted");
+            (prospects.potential(&turns), potential(&scene.column, theta))
+        };
+        for theta in [[0.1, 0.2, -0.3], [-0.2, 0.1, 0.4], [0.3, 0.25, 0.1], [-0.1, -0.7, -0.2]] {
+            let (own, posture) = of([3.0, 2.0, 1.0], &theta);
+            assert!((own / posture - 1.0).abs() < 1e-12, "{theta:?}: {own} {posture}");
+        }
+        // A hair on a rock: g m (c q - h q²/2).
+        let (own, posture) = of([1e9, 1e-3, 1e-6], &[0.0, 0.0, 1e-6]);
+        let exact = 9.81e-6 * (0.3e-6 - 0.8 * 0.5e-12);
+        assert!((own / exact - 1.0).abs() < 1e-9 && (posture / exact - 1.0).abs() > 1e-3, "{own} {posture} {exact}");
+    }
+
     proptest! {
         /// No posture on the surface of the box has less energy than the barrier, and one sub-stack tilted as one body has no more.
         #[test]
@@ -134,7 +226,7 @@ mod tests {
             let blocks = sizes.iter().map(|&(b, h, density)| Block::rectangle(b, h, density)).collect();
             let column = Column::new(blocks, 9.81).expect("positive sizes");
             for limit in [FRAC_PI_2, limit] {
-                let Barrier { energy, angles } = column.barrier(limit);
+                let Barrier { energy, angles, .. } = column.barrier(limit);
                 let n = column.len();
                 // Random places on the surface.
                 for (index, place) in places.iter().enumerate() {

@@ -130,17 +130,28 @@ impl<V: StateVector> SmoothPhase for Phase<V> {
         };
         // After an attempt that failed the next one is no longer than wanted, whatever the method thinks.
         let mut longest = f64::INFINITY;
+        // Whether the outcome is to be looked at: at the start, in each stretch of ground motion, and after each step while the ground moves.
+        let mut is_news = true;
         let ended = loop {
             let t = run.t;
             let left = segment(run).end - t;
             if t + left <= t {
                 match self.next_segment(run) {
                     Some(ended) => break ended,
-                    None => continue,
+                    None => {
+                        is_news = true;
+                        continue;
+                    }
                 }
             }
-            if self.is_certain_to_fall(run) {
-                break Ended::Falls(0);
+            if is_news {
+                if self.is_certain_to_fall(run) {
+                    break Ended::Falls(0);
+                }
+                if self.is_certain_to_stand(run) {
+                    break Ended::Stands;
+                }
+                is_news = !segment(run).is_quiet();
             }
             match self.swing(run) {
                 Some(Some(ended)) => break ended,
@@ -221,7 +232,7 @@ impl<V: StateVector> Phase<V> {
         let pendulum = if dof == 1 && scene.swings_in_closed_form() { stepper.pendulum() } else { None };
         let may_leap = dof == 1 && closed.is_empty() && scene.leaps_over_samples();
         let leaps = if may_leap { stepper.rocker().map(Leaps::new) } else { None };
-        let fall = if scene.may_fall_early() { stepper.pendulum().map(Fall::new) } else { None };
+        let fall = Fall::of(scene, || stepper.pendulum());
         Phase {
             stepper,
             pendulum,
@@ -287,12 +298,12 @@ impl<V: StateVector> Phase<V> {
             return Some(Ended::Jump);
         }
         self.stepper.enter(segment(run).clone());
-        if !run.may_be_certain() {
-            return None;
-        }
-        // The phase goes on as it would have: an answer that is not certain yet is that of a full run.
-        let (theta, omega) = self.per_block(&self.x);
-        run.is_certain_to_stand(&theta, &omega).then_some(Ended::Stands)
+        None
+    }
+
+    /// Whether it is certain that the column does not overturn. If not, the phase goes on as it would have: the answer is that of a full run.
+    fn is_certain_to_stand(&self, run: &Run) -> bool {
+        run.is_certain_to_stand(|| self.per_block(&self.x))
     }
 
     /// Decides how many roots of each gap lie at the start, by how it came to be open.

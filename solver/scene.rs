@@ -124,8 +124,8 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns: no rows, events, times in modes, peaks or forces, and the run ends as soon as the answer is certain
-    /// ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
+    /// Whether and how the column overturns: no rows, events, times in modes, peaks or forces, and the run ends as soon as it is certain that it
+    /// does not ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
     /// Whether the column overturns, and nothing else: as [`Wanted::Outcome`], and the run of one block, on a ground that will not move upwards
     /// or downwards, ends as soon as it is certain to overturn as well ([`crate::StopReason::Falls`]); when it will is not known then.

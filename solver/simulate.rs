@@ -2,12 +2,11 @@
 
 use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::dynamics::Ground;
-use crate::excitation::{Layout, Segment, Timeline};
+use crate::excitation::{Foresight, Layout, Segment, Timeline};
 use crate::few::{Few, Size, for_size};
 use crate::history::History;
 use crate::kinematics::{Posture, Turn};
 use crate::modes::Modes;
-use crate::outcome::Barrier;
 use crate::phase::Ended;
 use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason, Work};
 use crate::rest;
@@ -36,8 +35,8 @@ const LONGEST_HOLD: f64 = 1e-2;
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
 const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
 
-/// Share of the barrier that must be missing from the energy: its roundings are a millionth of that, and runs that pass so close to
-/// the top take many seconds over it.
+/// Share of the barrier that must be missing from the energy: roundings are far less, and runs that pass so close to the top take many
+/// seconds over it.
 const CERTAINTY: f64 = 1e-6;
 
 /// Relative tolerances of a step by which a run may have gained energy, over some hundred steps.
@@ -165,7 +164,9 @@ impl Simulator {
 
     /// The same with a scene that has been checked.
     pub(crate) fn run_valid(&mut self, scene: &Scene, progress: &mut dyn FnMut(f64)) -> Result<Response, SolveError> {
-        let segments = self.ground.timeline(&scene.excitation, scene.options.t_end, scene.may_fall_early());
+        self.modes.prepare(scene);
+        let foresight = Foresight::of(self.modes.prospects());
+        let segments = self.ground.timeline(&scene.excitation, scene.options.t_end, foresight);
         run(Run::new(scene, &mut self.modes, segments, progress))
     }
 }
@@ -173,9 +174,6 @@ impl Simulator {
 fn run(mut run: Run) -> Result<Response, SolveError> {
     run.begin()?;
     loop {
-        if run.is_certain_to_stand(&run.theta, &run.omega) {
-            return Ok(run.finish(StopReason::Stands, None));
-        }
         let ended = if run.pattern.dof() == 0 { run.rest()? } else { run.move_on()? };
         match ended {
             Ended::Closing(interfaces) => run.impact(&interfaces)?,
@@ -235,15 +233,11 @@ impl<'a> Run<'a> {
         segments: Rc<Timeline>,
         progress: &'a mut dyn FnMut(f64),
     ) -> Run<'a> {
-        modes.prepare(scene);
         let with_vertical = modes.have_vertical();
         let blocks = scene.column.len();
         let or_zero =
             |given: &[f64]| if given.is_empty() { Few::from_elem(0.0, blocks) } else { Few::from_slice(given) };
-        let may_stand = scene.ends_when_certain() && segments.last().is_some_and(Segment::is_quiet);
-        if may_stand {
-            modes.prepare_barrier(scene);
-        }
+        let may_stand = modes.prospects().is_some() && segments.last().is_some_and(Segment::is_quiet);
         Run {
             scene,
             modes,
@@ -431,25 +425,23 @@ impl<'a> Run<'a> {
         CERTAINTY.max(DRIFT * self.scene.options.rtol)
     }
 
-    /// Whether the ground has come to rest for good, and the outcome alone is wanted.
-    pub fn may_be_certain(&self) -> bool {
-        self.may_stand && self.segment + 1 == self.segments.len()
-    }
-
-    /// Whether the ground has come to rest for good and the column, with these angles and rates, is in the box of its barrier with
-    /// too little energy to leave it.
-    pub fn is_certain_to_stand(&self, theta: &[f64], omega: &[f64]) -> bool {
-        let Some(Barrier { energy, angles }) = self.modes.barrier() else { return false };
-        if !self.may_be_certain() || theta.iter().zip(angles).any(|(theta, most)| theta.abs() > *most) {
+    /// Whether the column, with the angles and rates that are asked for, is in the box of its barrier, and what the ground may still do does
+    /// not bring it the energy to leave it.
+    pub fn is_certain_to_stand(&self, state: impl FnOnce() -> (Few<f64>, Few<f64>)) -> bool {
+        let Some(prospects) = self.modes.prospects().filter(|_| self.may_stand) else { return false };
+        let Some(impulse) = self.segments.impulse_from(self.segment, self.t, prospects.impulse) else { return false };
+        let (theta, omega) = state();
+        if theta.iter().zip(&prospects.barrier.angles).any(|(theta, most)| theta.abs() > *most) {
             return false;
         }
         let column = &self.scene.column;
-        let above_rest = for_size!(column.len(), size => {
-            let posture = Posture::of(size, column, &self.pattern.0, &Turn::all(size, theta));
-            let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
-            kinetic + (posture.potential_energy(column.gravity()) - rest::energy(column).potential)
+        let energy = for_size!(column.len(), size => {
+            let turns = Turn::all(size, &theta);
+            let posture = Posture::of(size, column, &self.pattern.0, &turns);
+            let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(&omega)), &omega);
+            kinetic + prospects.potential(&turns)
         });
-        above_rest < energy * (1.0 - self.slack())
+        prospects.stays(energy, impulse, self.slack())
     }
 
     /// Whether events are recorded, not only counted.
@@ -568,10 +560,9 @@ impl<'a> Run<'a> {
             self.history.time_at_rest += self.t - t_final;
         }
         if !status.overturns() {
-            let zero = vec![0.0; self.theta.len()];
             while let Some(t) = self.next_output() {
                 let (theta, omega) = match status {
-                    StopReason::AtRest => (zero.clone(), zero.clone()),
+                    StopReason::AtRest => (vec![0.0; self.theta.len()], vec![0.0; self.theta.len()]),
                     _ => (self.theta.to_vec(), self.omega.to_vec()),
                 };
                 self.sample(t, theta, omega);

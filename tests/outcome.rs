@@ -112,6 +112,47 @@ fn one_block_is_certain_to_overturn_when_nothing_can_stop_it() {
     assert_eq!(run(&scene, Wanted::Overturns).status, StopReason::Overturned);
 }
 
+/// What the ground may still do counts: as soon as that is too little, on whichever component, the column stands.
+#[test]
+fn a_column_is_certain_to_stand_while_the_ground_still_moves() {
+    for blocks in [1, 3] {
+        let column = rocking::Column::equal_blocks(blocks, 0.4, 1.6, 1.0, 9.81).expect("sizes above zero");
+        let barrier = column.barrier(1.5);
+        // What it takes from rest: half of that is at once in the first pulse's way, a share of it comes later.
+        let impulse = (2.0 * barrier.energy / barrier.mass).sqrt();
+        let later = |share: f64| {
+            let amplitude = share * impulse / (2.0 * 3.0);
+            rocking::Motion::Rectangular { amplitude, start: 1.0, duration: 6.0 }
+        };
+        let mut scene = Scene::new(column);
+        scene.options.t_end = 20.0;
+        let mut theta = vec![0.0; blocks];
+        theta[blocks - 1] = 0.05;
+        scene.initial.theta = theta;
+        let ended = |scene: &Scene| {
+            let run = wanting(scene, Wanted::Outcome).expect("it runs");
+            let full = wanting(scene, Wanted::Everything).expect("it runs");
+            assert_ne!(full.status, StopReason::Overturned);
+            assert_eq!(run.status, StopReason::Stands);
+            assert!(run.work.phases > 0);
+            run.t_final
+        };
+        for vertical in [false, true] {
+            let mut at = |share: f64| {
+                let excitation = &mut scene.excitation;
+                let component = if vertical { &mut excitation.vertical } else { &mut excitation.horizontal };
+                *component = Some(later(share));
+                let ended = ended(&scene);
+                scene.excitation = rocking::Excitation::default();
+                ended
+            };
+            assert_eq!(at(0.1), 0.0, "from the start on: {blocks} blocks");
+            let late = at(1.2);
+            assert!(late > 1.0 && late < 7.0, "while it goes on: {late}, {blocks} blocks");
+        }
+    }
+}
+
 /// A column that is pushed just too little to overturn and just enough: the barrier of one block gives nothing away.
 #[test]
 fn one_block_is_certain_as_soon_as_the_ground_rests() {

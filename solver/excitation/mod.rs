@@ -9,13 +9,14 @@ mod measures;
 mod motion;
 mod overlay;
 mod piece;
+mod push;
 mod record;
 mod synthetic;
 mod travel;
 mod unit;
 
 pub use formats::{Format, RecordFile};
-pub(crate) use layout::{Layout, Timeline};
+pub(crate) use layout::{Foresight, Layout, Timeline};
 pub use measures::Measures;
 pub use motion::Motion;
 pub use piece::Piece;

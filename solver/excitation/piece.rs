@@ -2,7 +2,7 @@
 
 use crate::lanes::Lanes;
 use crate::program::Scalar;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// A formula that holds between two break points.
@@ -221,40 +221,6 @@ impl Piece {
         }
     }
 
-    /// A bound of the acceleration towards a side, one or minus one, over `from .. to` `[s]`, in order; of wavelets a close one only after their
-    /// last crest `[m/s²]`.
-    pub(crate) fn most(&self, side: f64, [from, to]: [f64; 2]) -> f64 {
-        let at_ends = || (side * self.value(from)).max(side * self.value(to));
-        let wave = |amplitude: f64, omega: f64, start: f64, phase: f64| {
-            let turned = if side * amplitude < 0.0 { phase + PI } else { phase };
-            let [first, last] = [from, to].map(|t| omega * (t - start) + turned);
-            let crest = FRAC_PI_2 + TAU * ((first - FRAC_PI_2) / TAU).ceil();
-            let share = if crest <= last { 1.0 } else { libm::sin(first).max(libm::sin(last)) };
-            amplitude.abs() * share
-        };
-        let wavelet = |amplitude: f64, omega: f64, centre: f64, last_crest: f64| {
-            if omega * (from - centre) < last_crest { amplitude.abs() } else { at_ends() }
-        };
-        match *self {
-            Piece::Zero => 0.0,
-            Piece::Linear { .. } => at_ends(),
-            Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
-            Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
-            // Crests where d/du (1-u²) exp(-u²/2) = (u³ - 3u) exp(-u²/2) is zero, and where that has its own.
-            Piece::Ricker { amplitude, omega, centre } => wavelet(amplitude, omega, centre, 3f64.sqrt()),
-            Piece::AntisymmetricRicker { amplitude, omega, centre } => {
-                wavelet(amplitude, omega, centre, (3.0 + 6f64.sqrt()).sqrt())
-            }
-            // Under exp(-(u/γ)²) (1 + 2u/γ²), which falls from u = γ on.
-            Piece::Gabor { velocity, omega, centre, gamma, .. } => {
-                let u = omega * (from - centre) / gamma;
-                let envelope = if u < 1.0 { 1.0 + 0.86 / gamma } else { libm::exp(-u * u) * (1.0 + 2.0 * u / gamma) };
-                velocity.abs() * omega * envelope
-            }
-            Piece::Sum(ref terms) => terms.iter().map(|term| term.most(side, [from, to])).sum(),
-        }
-    }
-
     /// Rate of the acceleration at `t` `[m/s³]`.
     pub fn rate(&self, t: f64) -> f64 {
         match *self {
@@ -467,45 +433,6 @@ const SAME_ACCELERATION: f64 = 1e-12;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        /// No acceleration is beyond its bound, and that of a wave is one of them.
-        #[test]
-        fn no_acceleration_is_beyond_its_bound(
-            omega in 0.3f64..9.0,
-            start in -1.0f64..1.0,
-            phase in 0.0f64..6.3,
-            amplitude in -2.0f64..2.0,
-            from in -3.0f64..3.0,
-            length in 0.0f64..3.0,
-        ) {
-            let sine = Piece::Sine { amplitude, omega, start, phase };
-            let linear = Piece::Linear { value: amplitude, slope: phase - 3.0, start };
-            let waves = [sine.clone(), linear.clone(), Piece::Cosine { amplitude, omega, start }];
-            let others = [
-                Piece::Zero,
-                Piece::Ricker { amplitude, omega, centre: start },
-                Piece::AntisymmetricRicker { amplitude, omega, centre: start },
-                Piece::Gabor { velocity: amplitude, omega, centre: start, phase, gamma: 0.5 + phase },
-                Piece::sum(&[sine, linear]),
-            ];
-            for (index, piece) in waves.iter().chain(&others).enumerate() {
-                for side in [-1.0, 1.0] {
-                    let most = piece.most(side, [from, from + length]);
-                    let values = (0..=1000).map(|i| side * piece.value(from + length * f64::from(i) / 1000.0));
-                    let largest = values.fold(f64::NEG_INFINITY, f64::max);
-                    prop_assert!(largest <= most + 1e-12, "{piece:?}: {largest} {most}");
-                    // Between places that are 0.003 apart.
-                    let is_close = most - largest <= 1e-3 * amplitude.abs();
-                    prop_assert!(index >= waves.len() || is_close, "{piece:?}: {largest} {most}");
-                    let [_, tail @ ..] = [0.0, 9.0, 10.0].map(|u| start + 2.0 * u * (0.5 + phase) / omega);
-                    let late = piece.most(side, tail);
-                    prop_assert!(index <= waves.len() || index == 7 || late < 1e-12, "{piece:?}: {late}");
-                }
-            }
-        }
-    }
 
     #[test]
     fn the_peak_of_an_antisymmetric_wavelet_is_its_amplitude() {

@@ -3,6 +3,7 @@
 use super::pendulum::Pendulum;
 use super::{Phase, segment};
 use crate::dynamics::StateVector;
+use crate::scene::Scene;
 use crate::simulate::Run;
 use crate::sine;
 use std::f64::consts::FRAC_PI_2;
@@ -11,55 +12,78 @@ use std::f64::consts::FRAC_PI_2;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fall {
     pendulum: Pendulum,
+    gravity: f64,
+    /// `p`, and how fast it runs away at least, `q` `[1/s]`.
+    rate: f64,
+    growth: f64,
+    /// Where it has overturned.
+    overturn_angle: f64,
 }
-
-/// A fall is soon if it takes no more than so many times as long as at the present rate.
-const PATIENCE: f64 = 4.0;
 
 impl Fall {
-    pub fn new(pendulum: Pendulum) -> Fall {
-        Fall { pendulum }
+    /// Of a mode that is this on a ground at rest, where the scene's runs may end with it.
+    pub fn of(scene: &Scene, pendulum: impl FnOnce() -> Option<Pendulum>) -> Option<Fall> {
+        let growth = scene.growth_rate()?;
+        let pendulum = pendulum()?;
+        let (gravity, overturn_angle) = (scene.column.gravity(), scene.options.overturn_angle);
+        let is_within = overturn_angle - scene.column.slenderness() <= FRAC_PI_2;
+        is_within.then(|| Fall { pendulum, gravity, rate: pendulum.square().sqrt(), growth, overturn_angle })
     }
 
-    /// A rate that the block does not fall short of, from an angle beyond its balance and a rate, `[ψ, ψ̇]`, until it lies on its side
-    /// `[rad/s]`; `None` if `slack`, a share of the energy that it has, is not left. `push` bounds the acceleration of the ground that
-    /// is to come, over gravity, towards the side to which the block leans.
-    fn slowest(&self, [psi, rate]: [f64; 2], slack: f64, push: impl FnOnce() -> f64) -> Option<f64> {
-        let (square, psi_square) = (self.pendulum.square(), psi * psi);
-        // What it takes on a ground at rest, 2 (1 - cos ψ) and no more: most often it is not there.
-        let is_too_slow = rate * rate < square * psi_square * (1.0 - psi_square / 12.0);
-        if rate <= 0.0 || psi < 0.0 && is_too_slow {
+    /// How far the block, leaning to a side, at an angle and a rate `[θ, θ̇]`, is beyond the point of no return on a ground at rest; `None` if
+    /// it is not, or by no more than `slack` of what they are.
+    fn excess(&self, [theta, omega]: [f64; 2], sign: f64, slack: f64) -> Option<Excess> {
+        let (psi, rate) = (self.pendulum.beyond(theta, sign), sign * omega);
+        let z = rate + self.rate * 2.0 * sine::sin_cos(0.5 * psi).0;
+        let unsure = slack * (rate.abs() + self.rate * theta.abs());
+        if z <= unsure {
             return None;
         }
-        // The worst that the ground can do turns gravity, and enlarges it.
-        let push = push();
-        let enlarged = (1.0 + push * push).sqrt();
-        if psi < 0.0 && rate * rate < 2.0 * square * (enlarged - 1.0) {
-            return None;
-        }
-        let (sin, cos) = sine::sin_cos(psi);
-        let uphill = if sin < push * cos { enlarged - (cos + push * sin) } else { 0.0 };
-        let left = rate * rate - 2.0 * square * uphill;
-        // Roundings of `uphill` are no rate either.
-        (left > slack * (rate * rate).max(slack * square)).then(|| left.sqrt())
+        let end = self.pendulum.beyond(sign * self.overturn_angle, sign);
+        let way = (end - psi.min(0.0)).max(0.0);
+        let unhindered = if psi >= 0.0 && rate > 0.0 { (end - psi).max(0.0) / rate } else { f64::INFINITY };
+        Some(Excess { z, unsure, way, unhindered })
+    }
+
+    /// In which time it has overturned at the latest, if the ground pushes it back by no more than this, weighed by the growth `[m/s]`; `None`
+    /// if it need not.
+    fn latest(&self, Excess { z, unsure, way, unhindered }: Excess, push: f64) -> Option<f64> {
+        let (p, q) = (self.rate, self.growth);
+        let left = z - p * p / self.gravity * push;
+        let most = if push > 0.0 { f64::INFINITY } else { unhindered };
+        (left > unsure).then(|| most.min(libm::asinh(0.5 * (p + q) * way / left) / q))
     }
 }
+
+/// What is in favour of a fall.
+#[derive(Clone, Copy, Debug)]
+struct Excess {
+    /// `z`, and what of it may be an error `[rad/s]`.
+    z: f64,
+    unsure: f64,
+    /// The widest way that may be left `[rad]`.
+    way: f64,
+    /// In which time it has overturned if nothing pushes it back: beyond the balance it only gets faster `[s]`.
+    unhindered: f64,
+}
+
+/// What the ground does until the block lies on its side is looked at for so many times as long as it takes on a ground at rest.
+const PATIENCE: f64 = 1.5;
 
 impl<V: StateVector> Phase<V> {
     /// Whether it is certain that the block overturns before the run ends.
     #[inline]
     pub(super) fn is_certain_to_fall(&self, run: &Run) -> bool {
-        let Some(fall) = self.fall else { return false };
-        let (sign, limit) = (self.gaps[0].across.sign, run.scene.options.overturn_angle);
-        let &[theta, omega, ..] = self.x.as_slice() else { return false };
-        let beyond = |theta: f64| fall.pendulum.beyond(theta, sign);
-        let (psi, rate, end) = (beyond(theta), sign * omega, beyond(sign * limit));
-        // Only what pushes until it lies on its side counts; where that is not soon, all that is to come.
-        let (soon, all) = (PATIENCE * (end - psi) / rate, run.scene.options.t_end - run.t);
-        let left = if run.t + soon <= segment(run).end { soon } else { all };
-        let push = || run.segments.most_until(sign, run.segment, [run.t, run.t + left]) / run.scene.column.gravity();
-        let slowest = fall.slowest([psi, rate], run.slack(), push);
-        end <= FRAC_PI_2 && slowest.is_some_and(|slowest| end - psi <= (1.0 - run.slack()) * slowest * left)
+        let (Some(fall), &[theta, omega, ..]) = (self.fall, self.x.as_slice()) else { return false };
+        let sign = self.gaps[0].across.sign;
+        let Some(excess) = fall.excess([theta, omega], sign, run.slack()) else { return false };
+        let has_fallen_by = |end: f64, push: f64| fall.latest(excess, push).is_some_and(|latest| run.t + latest < end);
+        if has_fallen_by(run.scene.options.t_end, run.segments.push_from(sign, run.segment, run.t)) {
+            return true;
+        }
+        // What comes once it lies on its side does not matter.
+        let soon = fall.latest(excess, 0.0).map_or(f64::INFINITY, |latest| run.t + PATIENCE * latest);
+        soon < segment(run).end && has_fallen_by(soon, run.segments.push_in(sign, run.segment, [run.t, soon]))
     }
 }
 
@@ -68,33 +92,52 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    const P: f64 = 2.1;
+    const GRAVITY: f64 = 9.81;
+
+    /// One that leans to a side, and has overturned when it lies on that.
+    fn fall(balance: f64, sign: f64) -> Fall {
+        let pendulum = Pendulum::new(1.0, [sign * P * P * balance.sin(), -P * P * balance.cos()]).expect("driven");
+        let widest = balance.max(FRAC_PI_2 - balance);
+        Fall { pendulum, gravity: GRAVITY, rate: P, growth: P * (0.5 * widest).cos(), overturn_angle: FRAC_PI_2 }
+    }
+
     proptest! {
-        /// Under the worst that the ground may do, all the time or now and then, the rate stays above the bound.
+        /// Whatever the ground does, if its pushes come to what was said, it has overturned in time and has not landed before.
         #[test]
-        fn a_block_that_falls_is_nowhere_slower(
+        fn a_block_that_falls_overturns_in_time(
             balance in 0.05f64..0.8,
-            place in 0.0f64..1.0,
-            rate in 0.0f64..3.0,
-            most in 0.0f64..0.5,
-            shares in prop::collection::vec(-1.0f64..1.0, 16),
+            place in 0.0f64..1.5,
+            rate in -1.0f64..3.0,
+            pushes in prop::collection::vec((0.0f64..2.0, -1.0f64..1.0), 0..8),
+            pulls in prop::bool::ANY,
         ) {
-            let p = 2.1;
-            let pendulum = Pendulum::new(1.0, [p * p * balance.sin(), -p * p * balance.cos()]).expect("driven");
-            let psi = balance * (place - 1.0);
-            let Some(slowest) = Fall::new(pendulum).slowest([psi, rate], 1e-6, || most) else { return Ok(()) };
-            for ground in [|_: f64| 1.0, |share: f64| share] {
-                let mut x = [psi, rate];
-                let mut step = 0;
-                while x[0] < FRAC_PI_2 - balance && step < 100_000 {
-                    let push = most * ground(shares[step / 100 % shares.len()]);
-                    let slope = |x: [f64; 2]| [x[1], p * p * (x[0].sin() - push * x[0].cos())];
-                    let h = 1e-3;
-                    let first = slope(x);
-                    let middle = slope([x[0] + 0.5 * h * first[0], x[1] + 0.5 * h * first[1]]);
+            let (one, start) = (fall(balance, 1.0), balance * place);
+            // Stretches of constant acceleration, or of none instead of one outwards.
+            let accelerations = pushes.iter().map(|(_, share)| if pulls { 5.0 * share } else { (5.0 * share).max(0.0) });
+            let ground: Vec<(f64, f64)> = pushes.iter().map(|(length, _)| *length).zip(accelerations).collect();
+            let lost = |s: f64| -(-one.growth * s).exp_m1() / one.growth;
+            let push = ground.iter().rev().fold(0.0, |later, (length, a)| {
+                a.max(0.0) * lost(*length) + later * (-one.growth * length).exp()
+            });
+            for sign in [1.0, -1.0] {
+                let fall = fall(balance, sign);
+                let excess = fall.excess([sign * start, sign * rate], sign, 0.01);
+                let Some(latest) = excess.and_then(|excess| fall.latest(excess, push)) else { return Ok(()) };
+                let acceleration = |t: f64| {
+                    let mut left = t;
+                    ground.iter().find(|(length, _)| { left -= length; left < 0.0 }).map_or(0.0, |(_, a)| *a)
+                };
+                let slope = |t: f64, x: [f64; 2]| [x[1], P * P * (x[0].sin() - acceleration(t) / GRAVITY * x[0].cos())];
+                let (mut t, mut x, h) = (0.0, [start - balance, rate], 1e-3);
+                while x[0] < FRAC_PI_2 - balance {
+                    let first = slope(t, x);
+                    let middle = slope(t + 0.5 * h, [x[0] + 0.5 * h * first[0], x[1] + 0.5 * h * first[1]]);
                     x = [x[0] + h * middle[0], x[1] + h * middle[1]];
-                    step += 1;
-                    // Steps of the midpoint rule err by less than a millionth here.
-                    prop_assert!(x[1] * x[1] > slowest * slowest - 1e-5, "{x:?} {slowest}");
+                    t += h;
+                    // The rule errs by far less than what was in its favour.
+                    prop_assert!(x[0] > (start - balance).min(0.0) - 1e-3, "lands at {t}: {x:?}");
+                    prop_assert!(t < latest + 1e-2, "late: {t} {latest} {x:?}");
                 }
             }
         }
@@ -102,21 +145,28 @@ mod tests {
 
     #[test]
     fn what_is_too_slow_is_not_certain_and_what_is_fast_enough_is() {
-        let (p, balance) = (2.1, 0.25f64);
-        let pendulum = Pendulum::new(1.0, [p * p * balance.sin(), -p * p * balance.cos()]).expect("driven");
-        let fall = Fall::new(pendulum);
-        // From upright: ½ ω² = p² (1 - cos α) on a ground at rest, and as if it were tilted by atan a / g under a push.
+        let balance: f64 = 0.25;
+        let latest = |theta: f64, omega: f64, slack: f64, push: f64| {
+            let latest = [1.0, -1.0].map(|sign| {
+                let fall = fall(balance, sign);
+                let excess = fall.excess([sign * theta, sign * omega], sign, slack);
+                excess.and_then(|excess| fall.latest(excess, push))
+            });
+            assert_eq!(latest[0], latest[1], "to the left as to the right");
+            latest[0]
+        };
+        // From upright: ½ ω² = p² (1 - cos α) on a ground at rest; a push takes off as much as it comes to.
+        let verge = P * (2.0 * (1.0 - balance.cos())).sqrt();
         for push in [0.0, 0.1] {
-            let up: f64 = balance + libm::atan(push);
-            let verge = p * (2.0 * libm::hypot(1.0, push) * (1.0 - up.cos())).sqrt();
-            let slowest = |rate: f64| fall.slowest([-balance, rate], 0.0, || push);
-            assert_eq!(slowest(verge * (1.0 - 1e-9)), None);
-            let rate = verge * (1.0 + 1e-9);
-            let expected = (rate * rate - verge * verge).sqrt();
-            assert!((slowest(rate).expect("over it") / expected - 1.0).abs() < 1e-5);
+            let needed = verge + P * P / GRAVITY * push;
+            assert_eq!(latest(0.0, needed * (1.0 - 1e-9), 0.0, push), None);
+            let [slow, fast] = [1.0 + 1e-9, 1.1].map(|share| latest(0.0, needed * share, 0.0, push).expect("over it"));
+            assert!(slow > 3.0 * fast);
         }
-        assert_eq!(fall.slowest([-balance, 0.5 * p * balance], 0.0, || unreachable!("far too slow")), None);
-        assert_eq!(fall.slowest([0.1, -0.1], 0.0, || unreachable!("it comes back")), None);
-        assert_eq!(fall.slowest([0.1, 0.1], 0.0, || f64::INFINITY), None, "who knows what the ground does");
+        // Beyond the balance it may come back, if not over it.
+        assert!(latest(0.5, -0.5, 0.0, 0.0).is_some());
+        assert_eq!(latest(0.5, -0.6, 0.0, 0.0), None);
+        assert_eq!(latest(0.5, 0.1, 0.0, f64::INFINITY), None, "who knows what the ground does");
+        assert_eq!(latest(balance, 1e-9, 1e-6, 0.0), None, "that may be rounding");
     }
 }

@@ -1,0 +1,209 @@
+//! How hard the ground pushes: what its acceleration comes to over a time, where the motion itself does not matter.
+
+use super::piece::Piece;
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
+
+/// An upper bound of `exp(-x)`, `x >= 0`, that is close: a quotient where that is short.
+pub(super) fn decayed(x: f64) -> f64 {
+    if x < 0.1 { 1.0 / (1.0 + x * (1.0 + 0.5 * x)) } else { libm::exp(-x) }
+}
+
+impl Piece {
+    /// A bound of what the acceleration towards a side, one or minus one, comes to over `from .. to` `[s]`, in order, what comes later
+    /// counting for less `[m/s]`:
+    ///
+    /// ```text
+    ///     ∫ max(side · a(t), 0) exp(-decay (t - from)) dt
+    /// ```
+    ///
+    /// Of a wave it is that itself, of a straight line where there is no decay; of wavelets it is close then.
+    pub fn push(&self, side: f64, [from, to]: [f64; 2], decay: f64) -> f64 {
+        if self.is_short(to - from) {
+            let weighed = if decay > 0.0 { -libm::expm1(-decay * (to - from)) / decay } else { to - from };
+            return weighed * self.most_of_short(|a| side * a, [from, to]);
+        }
+        let wave = |amplitude: f64, omega: f64, start: f64, phase: f64| {
+            let turned = if side * amplitude < 0.0 { phase + PI } else { phase };
+            amplitude.abs() / omega * half_waves(omega * (from - start) + turned, omega * (to - from), decay / omega)
+        };
+        // Between the places, in `u = omega (t - centre)`, where a wavelet changes its sign, the velocity goes one way.
+        let wavelet = |omega: f64, centre: f64, zeros: &[f64]| {
+            let ends = zeros.iter().map(|u| (centre + u / omega).clamp(from, to)).chain([to]);
+            let gain = |last: &mut f64, end: f64| Some(self.integrals(std::mem::replace(last, end), end)[0]);
+            ends.scan(from, gain).map(|gain| (side * gain).max(0.0)).sum()
+        };
+        match *self {
+            Piece::Zero => 0.0,
+            Piece::Linear { .. } => {
+                let [first, last] = [from, to].map(|t| side * self.value(t));
+                let (least, most) = (first.min(last), first.max(last).max(0.0));
+                // Where the sign changes, a triangle.
+                let mean = if least < 0.0 { 0.5 * most * (most / (most - least)) } else { 0.5 * (first + last) };
+                let whole = mean * (to - from);
+                if decay > 0.0 { whole.min(most / decay) } else { whole }
+            }
+            Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
+            Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
+            Piece::Ricker { omega, centre, .. } => wavelet(omega, centre, &[-1.0, 1.0]),
+            Piece::AntisymmetricRicker { omega, centre, .. } => {
+                wavelet(omega, centre, &[-3f64.sqrt(), 0.0, 3f64.sqrt()])
+            }
+            // Below velocity · omega · exp(-w²) (1 + 2 |w| / γ), w = u/γ: of exp(-w²) no more is left than √π/2 of it.
+            Piece::Gabor { velocity, omega, centre, gamma, .. } => {
+                let [first, last] = [from, to].map(|t| omega * (t - centre) / gamma);
+                let beyond = |w: f64| libm::exp(-w * w) * (1.0 + 0.5 * PI.sqrt() * gamma);
+                let left = if last <= 0.0 {
+                    beyond(last)
+                } else if first < 0.0 {
+                    2.0 * beyond(0.0)
+                } else {
+                    beyond(first)
+                };
+                velocity.abs() * left
+            }
+            Piece::Sum(ref terms) => terms.iter().map(|term| term.push(side, [from, to], decay)).sum(),
+        }
+    }
+
+    /// A bound of what the size of the acceleration comes to over `from .. to` `[s]`, in order, if that is less than `limit` `[m/s]`.
+    pub fn impulse(&self, [from, to]: [f64; 2], limit: f64) -> Option<f64> {
+        if self.is_short(to - from) {
+            let impulse = (to - from) * self.most_of_short(f64::abs, [from, to]);
+            return (impulse < limit).then_some(impulse);
+        }
+        let wave = |amplitude: f64, omega: f64, start: f64, phase: f64| {
+            let radians = omega * (to - from);
+            // Each half-wave counts for two.
+            if 2.0 * floor(radians * FRAC_1_PI) * amplitude.abs() >= limit * omega {
+                return f64::INFINITY;
+            }
+            let up_to = |x: f64| {
+                let whole = floor(x * FRAC_1_PI);
+                2.0 * whole - libm::cos(x - whole * PI)
+            };
+            let x = omega * (from - start) + phase;
+            amplitude.abs() / omega * (up_to(x + radians) - up_to(x))
+        };
+        let impulse = match *self {
+            Piece::Zero => 0.0,
+            Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
+            Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
+            // Of its size already.
+            Piece::Gabor { .. } => self.push(1.0, [from, to], 0.0),
+            Piece::Sum(ref terms) => terms.iter().map(|term| term.impulse([from, to], limit)).sum::<Option<f64>>()?,
+            _ => self.push(1.0, [from, to], 0.0) + self.push(-1.0, [from, to], 0.0),
+        };
+        (impulse < limit).then_some(impulse)
+    }
+
+    /// Whether integrals over so short a time `[s]` are told from values: differences of sines and cosines would be rounding.
+    fn is_short(&self, time: f64) -> bool {
+        !matches!(self, Piece::Zero | Piece::Linear { .. } | Piece::Sum(_)) && self.omega() * time < 1e-3
+    }
+
+    /// A bound of what is `measured` over a short time: between its ends the acceleration bends away from their chord by little.
+    fn most_of_short(&self, measured: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
+        let at_ends = measured(self.value(from)).max(measured(self.value(to)));
+        at_ends.max(0.0) + 0.125 * self.curvature_bound() * (to - from) * (to - from)
+    }
+}
+
+/// `∫ max(sin x, 0) exp(-decay (x - from)) dx` over so many radians.
+fn half_waves(from: f64, radians: f64, decay: f64) -> f64 {
+    let from = from - TAU * floor(from * (0.5 * FRAC_1_PI));
+    let to = from + radians;
+    let (left_after, lost) = (|x: f64| libm::exp(-decay * x), |x: f64| -libm::expm1(-decay * x));
+    // `-exp(-decay x) (decay sin x + cos x)` is the integral of `(1 + decay²) exp(-decay x) sin x`.
+    let at = |x: f64| {
+        let (sin, cos) = libm::sincos(x);
+        decay * sin + cos
+    };
+    let mut sum = 0.0;
+    if from < PI {
+        let end = if to < PI { at(to) } else { -1.0 };
+        sum += at(from) - left_after(to.min(PI) - from) * end;
+    }
+    if to > TAU {
+        // Those that begin at τ, 2 τ, ...: whole ones, and what there is of the last.
+        let whole = floor((to - PI) / TAU);
+        if whole > 0.0 {
+            let count = if whole > 1.0 && decay > 0.0 { lost(whole * TAU) / lost(TAU) } else { whole };
+            sum += left_after(TAU - from) * (1.0 + left_after(PI)) * count;
+        }
+        let last = TAU * (whole + 1.0);
+        if to > last {
+            sum += left_after(last - from) * (1.0 - left_after(to - last) * at(to));
+        }
+    }
+    sum / (1.0 + decay * decay)
+}
+
+/// The next whole number below, of numbers that have one in 64 bits: in place of a call.
+fn floor(x: f64) -> f64 {
+    let whole = x as i64 as f64;
+    if whole > x { whole - 1.0 } else { whole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against sums over small steps; of waves the bounds are met.
+        #[test]
+        fn pushes_are_no_more_than_their_bound(
+            omega in prop_oneof![0.3f64..9.0, Just(1e-2), Just(1e-9), Just(1e-17), Just(1e-300)],
+            start in -1.0f64..1.0,
+            phase in 0.0f64..6.3,
+            amplitude in -2.0f64..2.0,
+            from in -3.0f64..3.0,
+            length in 0.0f64..6.0,
+            decay in prop_oneof![Just(0.0), 0.01f64..4.0],
+        ) {
+            let sine = Piece::Sine { amplitude, omega, start, phase };
+            let linear = Piece::Linear { value: amplitude, slope: phase - 3.0, start };
+            let waves = [sine.clone(), Piece::Cosine { amplitude, omega, start }];
+            let others = [
+                Piece::Zero,
+                linear.clone(),
+                Piece::Ricker { amplitude, omega, centre: start },
+                Piece::AntisymmetricRicker { amplitude, omega, centre: start },
+                Piece::Gabor { velocity: amplitude, omega, centre: start, phase, gamma: 0.5 + phase },
+                Piece::sum(&[sine, linear]),
+            ];
+            let (count, span) = (4000, [from, from + length]);
+            let h = length / f64::from(count);
+            // The midpoint rule errs by the kinks where a sign changes, h² times the slope each, and by h² a'' over the length.
+            let slack = 1e-12 + 40.0 * h * h * (1.0 + length) * (1.0 + omega * omega * omega);
+            // Over a short time all counts as much as the most of it.
+            let loose = slack + if omega * length < 1e-3 { 2e-3 * length } else { 0.0 };
+            for (index, piece) in waves.iter().chain(&others).enumerate() {
+                let sum = |of: &dyn Fn(f64) -> f64| -> f64 {
+                    (0..count).map(|i| (f64::from(i) + 0.5) * h).map(|t| h * of(piece.value(from + t)) * libm::exp(-decay * t)).sum()
+                };
+                for side in [-1.0, 1.0] {
+                    let (exact, bound) = (sum(&|a| (side * a).max(0.0)), piece.push(side, span, decay));
+                    prop_assert!(exact <= bound + slack, "{piece:?} {side}: {exact} {bound}");
+                    prop_assert!(index >= waves.len() || bound <= exact + loose, "{piece:?} {side}: {exact} {bound}");
+                    // What waits for a long time counts for nothing, wavelets end.
+                    let late = [1.0, 2.0].map(|u| start + 40.0 * u * (0.5 + phase) / omega);
+                    let is_over = matches!(index, 4..=6) && omega > 1e-3;
+                    prop_assert!(!is_over || piece.push(side, late, decay) < 1e-12, "{piece:?}");
+                }
+                if decay == 0.0 {
+                    let exact = sum(&f64::abs);
+                    let bound = piece.impulse(span, f64::INFINITY).expect("finite");
+                    prop_assert!(exact <= bound + slack, "{piece:?}: {exact} {bound}");
+                    prop_assert!(index == 6 || index == 7 || bound <= exact + loose, "{piece:?}: {exact} {bound}");
+                    prop_assert!(piece.impulse(span, bound).is_none() && (bound == 0.0 || piece.impulse(span, 1.001 * bound) == Some(bound)));
+                }
+            }
+        }
+
+        #[test]
+        fn what_is_left_is_no_more_than_its_bound(x in 0.0f64..1.0) {
+            prop_assert!(decayed(x) >= libm::exp(-x) * (1.0 - 1e-15) && decayed(x) < libm::exp(-x) * (1.0 + 2e-4));
+        }
+    }
+}
