@@ -145,7 +145,7 @@ fn cases() -> Vec<Case> {
             lacks: ("three blocks after a pulse, history", shaken(3, pulse(0.0))),
         },
         Case {
-            name: "shaking after the outcome is certain",
+            name: "shaking after certainty",
             off: |scene| scene.options.skips.certainty = false,
             has: ("three blocks, pulse and weak shaking, outcome", outcome(shaken(3, with_coda()))),
             lacks: ("three blocks, pulse and weak shaking, history", shaken(3, with_coda())),
