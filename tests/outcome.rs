@@ -118,12 +118,10 @@ fn a_column_is_certain_to_stand_while_the_ground_still_moves() {
     for blocks in [1, 3] {
         let column = rocking::Column::equal_blocks(blocks, 0.4, 1.6, 1.0, 9.81).expect("sizes above zero");
         let barrier = column.barrier(1.5);
-        // What it takes from rest: half of that is at once in the first pulse's way, a share of it comes later.
+        // A share of what it takes from rest, all through six seconds.
         let impulse = (2.0 * barrier.energy / barrier.mass).sqrt();
-        let later = |share: f64| {
-            let amplitude = share * impulse / (2.0 * 3.0);
-            rocking::Motion::Rectangular { amplitude, start: 1.0, duration: 6.0 }
-        };
+        let later =
+            |share: f64| rocking::Motion::Rectangular { amplitude: share * impulse / 6.0, start: 1.0, duration: 6.0 };
         let mut scene = Scene::new(column);
         scene.options.t_end = 20.0;
         let mut theta = vec![0.0; blocks];
