@@ -79,6 +79,7 @@
 //! Several blocks have no such proof: their impacts may take any part of the energy that they have.
 
 use crate::column::Column;
+use crate::excitation::Foresight;
 use crate::few::Few;
 use crate::kinematics::Turn;
 use crate::scene::Scene;
@@ -118,6 +119,11 @@ impl Prospects {
             [lifted, block.half_height * (block.mass + 2.0 * above)].map(|moment| column.gravity() * moment)
         });
         Some(Prospects { weights: weights.collect(), barrier, impulse, growth: scene.growth_rate() })
+    }
+
+    /// What must be known of the ground motion to come.
+    pub fn foresight(&self) -> Foresight {
+        Foresight { impulses: true, decay: self.growth }
     }
 
     /// Potential energy above rest `[J]` of blocks turned like this, base first: `V`, term by term, as a difference of the energies

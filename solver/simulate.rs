@@ -2,11 +2,12 @@
 
 use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::dynamics::Ground;
-use crate::excitation::{Foresight, Layout, Segment, Timeline};
+use crate::excitation::{Layout, Segment, Timeline};
 use crate::few::{Few, Size, for_size};
 use crate::history::History;
 use crate::kinematics::{Posture, Turn};
 use crate::modes::Modes;
+use crate::outcome::Prospects;
 use crate::phase::Ended;
 use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason, Work};
 use crate::rest;
@@ -165,7 +166,7 @@ impl Simulator {
     /// The same with a scene that has been checked.
     pub(crate) fn run_valid(&mut self, scene: &Scene, progress: &mut dyn FnMut(f64)) -> Result<Response, SolveError> {
         self.modes.prepare(scene);
-        let foresight = Foresight::of(self.modes.prospects());
+        let foresight = self.modes.prospects().map(Prospects::foresight).unwrap_or_default();
         let segments = self.ground.timeline(&scene.excitation, scene.options.t_end, foresight);
         run(Run::new(scene, &mut self.modes, segments, progress))
     }

@@ -2,7 +2,6 @@
 
 use super::push::decayed;
 use super::{Excitation, Piece, Segment};
-use crate::outcome::Prospects;
 use std::ops::Deref;
 use std::rc::Rc;
 
@@ -21,13 +20,6 @@ pub(crate) struct Foresight {
     pub impulses: bool,
     /// How fast pushes lose weight, if they are wanted `[1/s]`.
     pub decay: Option<f64>,
-}
-
-impl Foresight {
-    /// What it takes to tell whether an outcome is certain.
-    pub fn of(prospects: Option<&Prospects>) -> Foresight {
-        Foresight { impulses: prospects.is_some(), decay: prospects.and_then(|prospects| prospects.growth) }
-    }
 }
 
 /// Segments from which on it is seen whether they are the same: fewer are laid out anew in less time.

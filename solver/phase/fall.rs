@@ -13,8 +13,7 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) struct Fall {
     pendulum: Pendulum,
     gravity: f64,
-    /// `p`, and how fast it runs away at least, `q` `[1/s]`.
-    rate: f64,
+    /// How fast it runs away at least, `q` `[1/s]`.
     growth: f64,
     /// Where it has overturned.
     overturn_angle: f64,
@@ -27,15 +26,15 @@ impl Fall {
         let pendulum = pendulum()?;
         let (gravity, overturn_angle) = (scene.column.gravity(), scene.options.overturn_angle);
         let is_within = overturn_angle - scene.column.slenderness() <= FRAC_PI_2;
-        is_within.then(|| Fall { pendulum, gravity, rate: pendulum.square().sqrt(), growth, overturn_angle })
+        is_within.then_some(Fall { pendulum, gravity, growth, overturn_angle })
     }
 
     /// How far the block, leaning to a side, at an angle and a rate `[θ, θ̇]`, is beyond the point of no return on a ground at rest; `None` if
     /// it is not, or by no more than `slack` of what they are.
     fn excess(&self, [theta, omega]: [f64; 2], sign: f64, slack: f64) -> Option<Excess> {
-        let (psi, rate) = (self.pendulum.beyond(theta, sign), sign * omega);
-        let z = rate + self.rate * 2.0 * sine::sin_cos(0.5 * psi).0;
-        let unsure = slack * (rate.abs() + self.rate * theta.abs());
+        let (p, psi, rate) = (self.pendulum.rate(), self.pendulum.beyond(theta, sign), sign * omega);
+        let z = rate + p * 2.0 * sine::sin_cos(0.5 * psi).0;
+        let unsure = slack * (rate.abs() + p * theta.abs());
         if z <= unsure {
             return None;
         }
@@ -48,7 +47,7 @@ impl Fall {
     /// In which time it has overturned at the latest, if the ground pushes it back by no more than this, weighed by the growth `[m/s]`; `None`
     /// if it need not.
     fn latest(&self, Excess { z, unsure, way, unhindered }: Excess, push: f64) -> Option<f64> {
-        let (p, q) = (self.rate, self.growth);
+        let (p, q) = (self.pendulum.rate(), self.growth);
         let left = z - p * p / self.gravity * push;
         let most = if push > 0.0 { f64::INFINITY } else { unhindered };
         (left > unsure).then(|| most.min(libm::asinh(0.5 * (p + q) * way / left) / q))
@@ -99,7 +98,7 @@ mod tests {
     fn fall(balance: f64, sign: f64) -> Fall {
         let pendulum = Pendulum::new(1.0, [sign * P * P * balance.sin(), -P * P * balance.cos()]).expect("driven");
         let widest = balance.max(FRAC_PI_2 - balance);
-        Fall { pendulum, gravity: GRAVITY, rate: P, growth: P * (0.5 * widest).cos(), overturn_angle: FRAC_PI_2 }
+        Fall { pendulum, gravity: GRAVITY, growth: P * (0.5 * widest).cos(), overturn_angle: FRAC_PI_2 }
     }
 
     proptest! {

@@ -46,9 +46,9 @@ impl Pendulum {
         sign * (theta - self.balance)
     }
 
-    /// `p² [rad²/s²]`
-    pub fn square(&self) -> f64 {
-        self.rate * self.rate
+    /// `p [rad/s]`
+    pub fn rate(&self) -> f64 {
+        self.rate
     }
 
     /// What is left of the balance's angle, up to this distance from it.
