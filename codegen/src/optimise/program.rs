@@ -268,8 +268,11 @@ impl<'a> ProgramBuilder<'a> {
         format!("{UNNAMED}{}", self.program.constants.len() + 1)
     }
 
-    /// Names a value: later uses of it, or of its opposite, read the name.
+    /// Names a value: later uses of it, or of its opposite, read the name. What has one keeps it.
     pub fn define(&mut self, name: String, value: Expr) -> Expr {
+        if is_plain(&self.program.arena, value) {
+            return value;
+        }
         let unit = self.program.arena.unit(value);
         let symbol = self.program.arena.symbol(name.clone(), Level::State, unit);
         self.statements.push(Statement { name, symbol, value });

@@ -1,5 +1,6 @@
-//! The accelerations of a linkage in one form: loads, couplings, and an unrolled `L D Lᵀ` factorisation.
+//! The accelerations of a linkage in one form: couplings, loads, and their elimination.
 
+use super::elimination::{self, System};
 use super::form::{Coupling, Form, Rates, Weight};
 use super::parts::{Difference, Parts, turned_cosine, turned_sine};
 use crate::GroundMotion;
@@ -267,63 +268,10 @@ impl Writer<'_, '_> {
 
     /// `θ̈` from `M θ̈ = load`.
     fn solve(&mut self, couplings: &Couplings, load: &[Expr]) -> Vec<Expr> {
-        let dof = self.dof();
         let builder = &mut self.builder;
-        let inertia: Vec<Expr> = (0..dof).map(|link| builder.translate(self.parts.mass[link][link])).collect();
+        let inertia: Vec<Expr> = (0..load.len()).map(|link| builder.translate(self.parts.mass[link][link])).collect();
         let first = builder.source.reciprocal(self.parts.mass[0][0]);
-        let first = builder.constant(first, "inverse_inertia_1");
-
-        // Row by row: scaled = L D, factor = L, inverse = 1 / D, reduced = L⁻¹ load.
-        let mut factor: Vec<Vec<Expr>> = Vec::new();
-        let (mut inverse, mut reduced): (Vec<Expr>, Vec<Expr>) = (Vec::new(), Vec::new());
-        for row in 0..dof {
-            let mut scaled: Vec<Expr> = Vec::new();
-            let mut own: Vec<Expr> = Vec::new();
-            for column in 0..row {
-                let mut terms = vec![(Rational::ONE, couplings.mass[row][column])];
-                for inner in 0..column {
-                    terms.push((MINUS, builder.arena().mul(scaled[inner], factor[column][inner])));
-                }
-                let value = builder.arena().sum(terms);
-                let value = if column == 0 {
-                    value
-                } else {
-                    builder.define(format!("scaled_{}{}", row + 1, column + 1), value)
-                };
-                let quotient = builder.arena().mul(value, inverse[column]);
-                scaled.push(value);
-                own.push(builder.define(format!("factor_{}{}", row + 1, column + 1), quotient));
-            }
-            if row == 0 {
-                inverse.push(first);
-            } else {
-                let mut terms = vec![(Rational::ONE, inertia[row])];
-                for (a, b) in scaled.iter().zip(&own) {
-                    terms.push((MINUS, builder.arena().mul(*a, *b)));
-                }
-                let diagonal = builder.arena().sum(terms);
-                let diagonal = builder.define(format!("diagonal_{}", row + 1), diagonal);
-                let reciprocal = builder.arena().reciprocal(diagonal);
-                inverse.push(builder.define(format!("inverse_{}", row + 1), reciprocal));
-            }
-            let mut terms = vec![(Rational::ONE, load[row])];
-            for (coefficient, &below) in own.iter().zip(&reduced) {
-                terms.push((MINUS, builder.arena().mul(*coefficient, below)));
-            }
-            let value = builder.arena().sum(terms);
-            reduced.push(if row == 0 { value } else { builder.define(format!("reduced_{}", row + 1), value) });
-            factor.push(own);
-        }
-        let mut solution: Vec<Expr> = Vec::new();
-        for row in (0..dof).rev() {
-            let mut terms = vec![(Rational::ONE, builder.arena().mul(reduced[row], inverse[row]))];
-            for (above, &known) in (row + 1..dof).rev().zip(&solution) {
-                terms.push((MINUS, builder.arena().mul(factor[above][row], known)));
-            }
-            let value = builder.arena().sum(terms);
-            solution.push(builder.define(format!("theta_ddot_{}", row + 1), value));
-        }
-        solution.reverse();
-        solution
+        let inverse_of_first = builder.constant(first, "inverse_inertia_1");
+        elimination::solve(builder, &System { inertia: &inertia, inverse_of_first, coupling: &couplings.mass, load })
     }
 }

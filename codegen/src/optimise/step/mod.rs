@@ -4,6 +4,7 @@
 //! (proved by multiplying out) are not considered.
 
 mod acceleration;
+mod elimination;
 mod form;
 mod parts;
 
