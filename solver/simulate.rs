@@ -174,19 +174,20 @@ impl Simulator {
 
 fn run(mut run: Run) -> Result<Response, SolveError> {
     run.begin()?;
-    loop {
+    let (status, block) = loop {
         let ended = if run.pattern.dof() == 0 { run.rest()? } else { run.move_on()? };
         match ended {
             Ended::Closing(interfaces) => run.impact(&interfaces)?,
             Ended::Opening(interface, side) => run.release(interface, side, EventKind::Opening)?,
             Ended::Jump => run.jump()?,
-            Ended::Stands => return Ok(run.finish(StopReason::Stands, None)),
-            Ended::Falls(block) => return Ok(run.finish(StopReason::Falls, Some(block))),
-            Ended::Overturned(block) => return Ok(run.finish(StopReason::Overturned, Some(block))),
-            Ended::AtRest => return Ok(run.finish(StopReason::AtRest, None)),
-            Ended::EndOfTime => return Ok(run.finish(StopReason::EndOfTime, None)),
+            Ended::Stands => break (StopReason::Stands, None),
+            Ended::Falls(block) => break (StopReason::Falls, Some(block)),
+            Ended::Overturned(block) => break (StopReason::Overturned, Some(block)),
+            Ended::AtRest => break (StopReason::AtRest, None),
+            Ended::EndOfTime => break (StopReason::EndOfTime, None),
         }
-    }
+    };
+    Ok(run.finish(status, block))
 }
 
 /// A run under way.
@@ -203,7 +204,7 @@ pub(crate) struct Run<'a> {
     pub pattern: Pattern,
     /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides:
     /// gap, rate and acceleration are zero there.
-    pub released: Vec<(usize, Interface)>,
+    pub released: Few<(usize, Interface)>,
     /// After a separation: until when closed interfaces that cannot stay closed are left alone.
     pub hold: Hold,
     /// Step size suggested by what came before `[s]`.
@@ -248,7 +249,7 @@ impl<'a> Run<'a> {
             theta: or_zero(&scene.initial.theta),
             omega: or_zero(&scene.initial.omega),
             pattern: Pattern::rest(blocks),
-            released: Vec::new(),
+            released: Few::new(),
             hold: Hold { until: f64::NEG_INFINITY, span: SHORTEST_HOLD },
             suggested_step: None,
             leap: 0,
@@ -333,6 +334,7 @@ impl<'a> Run<'a> {
     /// Adopts and records what an impact has decided.
     fn strike(&mut self, decision: &mut Result<Decision, SingularMass>, closing: &[usize]) -> Result<(), SolveError> {
         let Ok(decision) = decision else { return Err(self.singular()) };
+        self.released.clear();
         self.adopt(decision, EventKind::Impact);
         self.record(EventKind::Impact, closing, decision);
         Ok(())
@@ -343,26 +345,23 @@ impl<'a> Run<'a> {
     fn withdraw(&mut self, closing: &[usize]) -> Result<(), SolveError> {
         let mut pattern = self.pattern.clone();
         closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
-        let released: Vec<_> = self.released.iter().copied().filter(|(i, _)| !closing.contains(i)).collect();
+        self.released.retain(|(interface, _)| !closing.contains(interface));
         let omega = self.omega.clone();
         let mut decision = Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: Few::new() };
         self.adopt(&mut decision, EventKind::Impact);
-        self.released = released;
         self.record(EventKind::Impact, closing, &decision);
         self.guard_against_stall()
     }
 
     /// An interface opens because its resultant has reached a corner, with those that have done so in the same instant.
     fn release(&mut self, interface: usize, side: Interface, kind: EventKind) -> Result<(), SolveError> {
-        let mut released = std::mem::take(&mut self.released);
         if self.history.last_events[1] != self.t {
-            released.clear();
+            self.released.clear();
         }
-        released.retain(|(other, _)| *other != interface);
-        released.push((interface, side));
-        let mut decision = self.decide_forces(&released)?;
+        self.released.retain(|(other, _)| *other != interface);
+        self.released.push((interface, side));
+        let mut decision = self.decide_forces(&self.released)?;
         self.adopt(&mut decision, kind);
-        self.released = released;
         let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
         self.record(kind, opened, &decision);
         self.guard_against_stall()
@@ -372,6 +371,7 @@ impl<'a> Run<'a> {
     fn jump(&mut self) -> Result<(), SolveError> {
         let kind = if self.pattern.dof() == 0 { EventKind::Start } else { EventKind::Jump };
         let mut decision = self.decide_forces(&[])?;
+        self.released.clear();
         self.adopt(&mut decision, kind);
         if self.pattern != decision.pattern {
             self.record(kind, &[], &decision);
@@ -380,9 +380,11 @@ impl<'a> Run<'a> {
     }
 
     fn decide_forces(&self, released: &[(usize, Interface)]) -> Result<Decision, SolveError> {
-        let decision =
-            contact::open(&self.scene.column, &self.pattern, &self.theta, &self.omega, self.ground(), released);
-        decision.map_err(|_| self.singular())
+        let column = &self.scene.column;
+        match contact::open(column, &self.pattern, &self.theta, &self.omega, self.ground(), released) {
+            Ok(decision) => Ok(decision),
+            Err(SingularMass) => Err(self.singular()),
+        }
     }
 
     #[cold]
@@ -400,7 +402,6 @@ impl<'a> Run<'a> {
         }
         std::mem::swap(&mut self.pattern, &mut decision.pattern);
         std::mem::swap(&mut self.omega, &mut decision.omega);
-        self.released.clear();
         // What is closed, or has only just opened, is so to the last bit. Decided before anything is moved: a block that is snapped
         // to the one below must not open a gap to the one above.
         let is_closed = |interface: usize| !self.pattern.0[interface].is_open();
