@@ -392,7 +392,7 @@ impl<'a> Run<'a> {
         SolveError::SingularMass { time: self.t, pattern: self.pattern.to_string() }
     }
 
-    /// Goes on with a decision, which has the pattern and the rates before in exchange.
+    /// Goes on with a decision, which has the pattern and the rates before in exchange. What is released in this instant is the caller's to say.
     fn adopt(&mut self, decision: &mut Decision, during: EventKind) {
         if decision.separation {
             self.history.separations.push(Separation { t: self.t, during });

@@ -162,6 +162,40 @@ fn linkages_with_equal_degrees_of_freedom_share_one_step_program() {
     }
 }
 
+/// Where light blocks stand on heavy ones, or heavy ones on light, the elimination stays backward stable: no equation is violated by more than
+/// roundings of its largest terms (measured: 2e-14; with all angles in pairs 7e-13).
+#[test]
+fn masses_a_million_times_apart_leave_no_larger_residual() {
+    for dof in [3, 5] {
+        let derivation = derive(&Linkage { open: vec![true; dof] });
+        let (arena, e, s) = (&derivation.arena, &derivation.equations, &derivation.symbols);
+        let config = Config { cases: 2000, failure_persistence: None, ..Config::default() };
+        let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+        let powers = prop::collection::vec(-3.0f64..3.0, dof);
+        runner
+            .run(&(prop::collection::vec(0.0f64..1.0, 31..60), powers), |(random, powers)| {
+                let mut at = values(&derivation, &random);
+                for (link, power) in powers.iter().enumerate() {
+                    for symbol in [s.mass[link], s.inertia[link]] {
+                        at.insert(symbol, at[&symbol] * 10f64.powf(*power));
+                    }
+                }
+                let alpha = run(&derivation, derivation.acceleration(GroundMotion::Horizontal), "acceleration", &at);
+                for row in 0..dof {
+                    let mut residual = value(arena, e.bias[row], &at) + value(arena, e.forcing[row], &at);
+                    let mut scale = residual.abs();
+                    for (entry, alpha) in e.mass[row].iter().zip(&alpha) {
+                        let term = value(arena, *entry, &at) * alpha;
+                        residual += term;
+                        scale += term.abs();
+                    }
+                    prop_assert!(residual.abs() < 1e-13 * scale, "{residual} of {scale}");
+                }
+                Ok(())
+            })
+            .unwrap_or_else(|error| panic!("{dof} angles: {error}"));
+    }
+}
 /// Pinned: a change shows. By hand one counts 8, 43 and 95 for one to three free angles without vertical motion.
 #[test]
 fn operation_counts_of_the_acceleration() {
@@ -171,9 +205,9 @@ fn operation_counts_of_the_acceleration() {
         (operations.flops(), operations.divisions)
     };
     let horizontal: Vec<_> = (1..=5).map(|dof| count(dof, GroundMotion::Horizontal)).collect();
-    assert_eq!(horizontal, [(7, 0), (41, 1), (94, 1), (160, 2), (250, 2)]);
+    assert_eq!(horizontal, [(7, 0), (41, 1), (94, 1), (160, 2), (240, 3)]);
     let with_vertical: Vec<_> = (1..=5).map(|dof| count(dof, GroundMotion::WithVertical)).collect();
-    assert_eq!(with_vertical, [(9, 0), (43, 1), (97, 1), (162, 2), (252, 2)]);
+    assert_eq!(with_vertical, [(9, 0), (43, 1), (97, 1), (162, 2), (242, 3)]);
 }
 
 /// Every form that the generator considers gives the same accelerations, not only the one it keeps.

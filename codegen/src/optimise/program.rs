@@ -268,7 +268,7 @@ impl<'a> ProgramBuilder<'a> {
         format!("{UNNAMED}{}", self.program.constants.len() + 1)
     }
 
-    /// Names a value: later uses of it, or of its opposite, read the name. What has one keeps it.
+    /// Names a value: later uses of it, or of its opposite, read the name. A name, the opposite of one, and a number stay what they are.
     pub fn define(&mut self, name: String, value: Expr) -> Expr {
         if is_plain(&self.program.arena, value) {
             return value;
@@ -315,7 +315,7 @@ impl<'a> ProgramBuilder<'a> {
     pub fn finish_routine(&mut self, name: &'static str, outputs: Vec<Expr>) {
         let statements = std::mem::take(&mut self.statements);
         for statement in &statements {
-            self.known.retain(|_, symbol| *symbol != statement.symbol);
+            self.known.retain(|_, value| !occurs(&self.program.arena, *value, statement.symbol));
         }
         let mut routine = Routine { name, statements, outputs };
         routine.drop_unused(&self.program.arena);
