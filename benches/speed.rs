@@ -9,9 +9,9 @@ mod common;
 
 use criterion::{BenchmarkId, Criterion};
 use rocking::dynamics::{Dynamics, Ground};
-use rocking::generated::{GeneratedMode, equations};
+use rocking::generated::{GeneratedMode, Program, equations};
 use rocking::generic::GenericMode;
-use rocking::lanes::Ensemble;
+use rocking::lanes::{Ensemble, EnsembleProgram};
 use rocking::pattern::Pattern;
 use rocking::{Column, DynamicsSource, GroundMotion, Motion, Restitution, Scene, simulate};
 use std::hint::black_box;
@@ -33,7 +33,7 @@ fn state(dof: usize) -> Vec<f64> {
 fn right_hand_side<P>(criterion: &mut Criterion, dof: usize)
 where
     GeneratedMode<P>: Dynamics,
-    P: rocking::generated::Program,
+    P: Program + EnsembleProgram,
 {
     let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
     let generated =

@@ -11,6 +11,11 @@ pub trait Scalar:
 {
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
+    /// The same, where a number is at hand: some know from it how they are computed.
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::from_f64(value)
+    }
     /// `1 / self`
     fn recip(self) -> Self;
     /// Sine and cosine of an angle `[rad]`; odd and even to the last bit.
@@ -106,9 +111,9 @@ pub trait SeriesProgram<S: Scalar> {
 /// Cosines, sines and rates of a state `[θ, θ̇]`.
 #[inline(always)]
 pub fn split<S: Scalar, P: StepProgram<S>>(state: &[S]) -> (P::Vector, P::Vector, P::Vector) {
-    let zero = S::from_f64(0.0);
-    let (mut cos, mut sin, mut omega) = (P::vector(zero), P::vector(zero), P::vector(zero));
     let (angles, rates) = state.split_at(P::DOF);
+    let zero = P::vector(rates[0].like(0.0));
+    let (mut cos, mut sin, mut omega) = (zero, zero, zero);
     S::sin_cos_each(angles, sin.as_mut(), cos.as_mut());
     omega.as_mut().iter_mut().zip(rates).for_each(|(omega, rate)| *omega = *rate);
     (cos, sin, omega)

@@ -3,7 +3,8 @@
 //! | scalar | for |
 //! |---|---|
 //! | `f64` | a run |
-//! | [`Lanes`](crate::lanes::Lanes) | the same mode of several scenes at once, each lane bit for bit what `f64` gives |
+//! | [`Lanes`](crate::lanes::Lanes) | the same mode at several instants or of several scenes at once, each lane bit for bit what `f64` gives |
+//! | `Packed` of [`lanes`](crate::lanes) | the same in registers of a known kind |
 //! | `f64x4`, `f64x8` of `wide` | the same, where the program is compiled for the machine that it runs on |
 //! | [`Dual`] | derivatives by column parameters or by the state, exact to rounding |
 //!

@@ -163,7 +163,7 @@ fn routine_body(program: &Program, routine: Option<&Routine>, literals: &Literal
     let mut writer = Writer::new(&program.arena, values, |symbol| {
         if let Some(value) = literals.0.get(symbol) {
             let value = number(*value);
-            return quote! { S::from_f64(#value) };
+            return quote! { ground_x.like(#value) };
         }
         let name = format_ident!("{symbol}");
         quote! { #name }

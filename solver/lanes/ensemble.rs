@@ -1,0 +1,249 @@
+//! Several scenes side by side, for their right-hand sides all at once.
+
+use super::{Baseline, Instructions, Lanes, WIDTH};
+use crate::column::Column;
+use crate::generated::{Linkages, geometry};
+use crate::program::{StepProgram, slope};
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::{V3, V4};
+use rocking_codegen::GroundMotion;
+use rocking_codegen::pattern::Pattern;
+use std::fmt;
+
+/// Programs that run in whatever instructions a machine may have.
+#[cfg(target_arch = "x86_64")]
+pub trait EnsembleProgram: StepProgram<Eight<Baseline>> + StepProgram<Eight<V3>> + StepProgram<Eight<V4>> {}
+
+#[cfg(target_arch = "x86_64")]
+impl<P: StepProgram<Eight<Baseline>> + StepProgram<Eight<V3>> + StepProgram<Eight<V4>>> EnsembleProgram for P {}
+
+/// Programs that run in whatever instructions a machine may have.
+#[cfg(not(target_arch = "x86_64"))]
+pub trait EnsembleProgram: StepProgram<Eight<Baseline>> {}
+
+#[cfg(not(target_arch = "x86_64"))]
+impl<P: StepProgram<Eight<Baseline>>> EnsembleProgram for P {}
+
+type Eight<I> = <I as Instructions>::Eight;
+type Constants<P, I> = <P as StepProgram<Eight<I>>>::Constants;
+
+/// Scenes whose modes run on one program, for their right-hand sides all at once.
+///
+/// ```
+/// use rocking::dynamics::Ground;
+/// use rocking::generated::equations::{self, HorizontalDof2};
+/// use rocking::lanes::Ensemble;
+/// use rocking::{Column, GroundMotion, Mode, pattern::Pattern};
+///
+/// let columns: Vec<Column> =
+///     (0..11).map(|i| Column::equal_blocks(2, 0.3 + 0.01 * f64::from(i), 1.6, 1.0, 9.81)).collect::<Result<_, _>>()?;
+/// let pattern = Pattern::from_signs(&[1, -1]);
+/// let modes: Vec<_> = columns.iter().map(|column| (column, &pattern)).collect();
+/// let linkages = |blocks, mask| equations::linkage::<f64>(blocks, mask);
+/// let ensemble = Ensemble::<HorizontalDof2>::new(&modes, GroundMotion::Horizontal, linkages);
+/// let ensemble = ensemble.expect("two blocks are in every build but the smallest");
+/// let (x, ground) = ([0.1, 0.02, 0.3, -0.2], Ground { x: 1.0, gravity: 9.81 });
+/// let states = ensemble.pack(&x.repeat(11), 4);
+/// let mut slopes = states.clone();
+/// ensemble.slopes(&states, &ensemble.pack(&[ground.x, ground.gravity].repeat(11), 2), &mut slopes);
+/// let alone = Mode::generated(&columns[10], &pattern).expect("as above").derivative(&x, ground);
+/// let last = &ensemble.unpack(&slopes, 4)[40..];
+/// assert!(last.iter().zip(&alone).all(|(a, b)| (a - b).abs() < 1e-14));
+/// # Ok::<(), rocking::ColumnError>(())
+/// ```
+#[derive(Clone)]
+pub struct Ensemble<P: EnsembleProgram> {
+    scenes: usize,
+    groups: Groups<P>,
+}
+
+/// Scene constants of [`WIDTH`] scenes each, in the widest instructions that the machine has; the last ones are filled up with the last scene.
+#[derive(Clone)]
+enum Groups<P: EnsembleProgram> {
+    #[cfg(target_arch = "x86_64")]
+    Avx512(V4, Vec<Constants<P, V4>>),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(V3, Vec<Constants<P, V3>>),
+    Baseline(Vec<Constants<P, Baseline>>),
+}
+
+impl<P: EnsembleProgram> fmt::Debug for Ensemble<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Ensemble").field("scenes", &self.scenes).finish_non_exhaustive()
+    }
+}
+
+impl<P: EnsembleProgram> Ensemble<P> {
+    /// The modes of these patterns of these columns, all with as many free angles as the program; `None` if one has not, or if there are no
+    /// equations for it.
+    pub fn new(modes: &[(&Column, &Pattern)], ground: GroundMotion, linkages: Linkages) -> Option<Ensemble<P>> {
+        let constants = |(column, pattern): &(&Column, &Pattern)| {
+            let equations = linkages(column.len(), crate::generated::mask(pattern))?;
+            (equations.dof == Self::DOF).then(|| (equations.accelerations[ground as usize])(&geometry(column, pattern)))
+        };
+        let constants: Vec<Vec<f64>> = modes.iter().map(constants).collect::<Option<_>>()?;
+        let together = |group: &[Vec<f64>]| {
+            let last = group.len() - 1;
+            let lanes = |index| Lanes(std::array::from_fn(|lane: usize| group[lane.min(last)][index]));
+            (0..group[0].len()).map(lanes).collect()
+        };
+        let constants: Vec<Vec<Lanes<WIDTH>>> = constants.chunks(WIDTH).map(together).collect();
+        Some(Ensemble { scenes: modes.len(), groups: Groups::new(&constants)? })
+    }
+
+    const DOF: usize = <P as StepProgram<Eight<Baseline>>>::DOF;
+
+    /// Number of scenes.
+    pub fn len(&self) -> usize {
+        self.scenes
+    }
+
+    /// Whether there is no scene.
+    pub fn is_empty(&self) -> bool {
+        self.scenes == 0
+    }
+
+    /// A number per scene, of `count` each, scene by scene: into lanes, number by number within a group of scenes. A panic means that
+    /// there are not `count` for each.
+    pub fn pack(&self, values: &[f64], count: usize) -> Vec<Lanes<WIDTH>> {
+        assert_eq!(values.len(), count * self.scenes, "as many as scenes");
+        let group = |values: &[f64]| {
+            let last = values.len() / count - 1;
+            let lanes = |index| Lanes(std::array::from_fn(|lane: usize| values[lane.min(last) * count + index]));
+            (0..count).map(lanes).collect::<Vec<_>>()
+        };
+        values.chunks(WIDTH * count).flat_map(group).collect()
+    }
+
+    /// The other way round.
+    pub fn unpack(&self, lanes: &[Lanes<WIDTH>], count: usize) -> Vec<f64> {
+        let scene = |scene: usize| {
+            let group = &lanes[scene / WIDTH * count..][..count];
+            group.iter().map(move |lanes| lanes.0[scene % WIDTH])
+        };
+        (0..self.scenes).flat_map(scene).collect()
+    }
+
+    /// `[θ̇, θ̈]` of every scene from its state `[θ, θ̇]` and its ground motion, horizontal acceleration and effective gravity `[m/s²]`: all
+    /// in lanes, `2 · dof` of states and slopes, and two of ground motion, for each group of scenes. A panic means that there are not so
+    /// many.
+    pub fn slopes(&self, states: &[Lanes<WIDTH>], ground: &[Lanes<WIDTH>], slopes: &mut [Lanes<WIDTH>]) {
+        let (size, groups) = (2 * Self::DOF, self.scenes.div_ceil(WIDTH));
+        assert_eq!((states.len(), slopes.len()), (size * groups, size * groups), "as many states and slopes as scenes");
+        assert_eq!(ground.len(), 2 * groups, "as many ground motions as scenes");
+        match &self.groups {
+            #[cfg(target_arch = "x86_64")]
+            Groups::Avx512(token, constants) => evaluate::<V4, P>(*token, constants, states, ground, slopes),
+            #[cfg(target_arch = "x86_64")]
+            Groups::Avx2(token, constants) => evaluate::<V3, P>(*token, constants, states, ground, slopes),
+            Groups::Baseline(constants) => evaluate::<Baseline, P>(Baseline, constants, states, ground, slopes),
+        }
+    }
+}
+
+impl<P: EnsembleProgram> Groups<P> {
+    /// `None` if the program wants another number of constants.
+    fn new(constants: &[Vec<Lanes<WIDTH>>]) -> Option<Groups<P>> {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(token) = V4::of_this_machine() {
+            return Some(Groups::Avx512(token, loaded::<V4, P>(token, constants)?));
+        } else if let Some(token) = V3::of_this_machine() {
+            return Some(Groups::Avx2(token, loaded::<V3, P>(token, constants)?));
+        }
+        Some(Groups::Baseline(loaded::<Baseline, P>(Baseline, constants)?))
+    }
+}
+
+fn loaded<I: Instructions, P: StepProgram<I::Eight>>(
+    token: I,
+    groups: &[Vec<Lanes<WIDTH>>],
+) -> Option<Vec<P::Constants>> {
+    let own = |group: &Vec<Lanes<WIDTH>>| {
+        let constants: Vec<I::Eight> = group.iter().map(|lanes| token.load(lanes)).collect();
+        P::Constants::try_from(&constants).ok()
+    };
+    groups.iter().map(own).collect()
+}
+
+/// Right-hand sides, group by group.
+fn evaluate<I: Instructions, P: StepProgram<I::Eight>>(
+    token: I,
+    constants: &[P::Constants],
+    states: &[Lanes<WIDTH>],
+    ground: &[Lanes<WIDTH>],
+    slopes: &mut [Lanes<WIDTH>],
+) {
+    token.run(
+        #[inline(always)]
+        || {
+            // Captured it would be a variable.
+            let size = 2 * P::DOF;
+            let scenes = states.chunks_exact(size).zip(ground.chunks_exact(2)).zip(slopes.chunks_exact_mut(size));
+            for (constants, ((own, ground), slopes)) in constants.iter().zip(scenes) {
+                let mut state = P::state(token.load(&own[0]));
+                let mut result = state.clone();
+                for (eight, lanes) in state.as_mut().iter_mut().zip(own) {
+                    *eight = token.load(lanes);
+                }
+                slope::<I::Eight, P>(
+                    constants,
+                    &state,
+                    token.load(&ground[0]),
+                    token.load(&ground[1]),
+                    result.as_mut(),
+                );
+                for (lanes, eight) in slopes.iter_mut().zip(result.as_ref()) {
+                    *lanes = I::store(*eight);
+                }
+            }
+        },
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generated::equations::Dof1;
+
+    /// Two groups, angles beyond the polynomials among them; `None` if this machine does not have the instructions.
+    fn are_scenes<I: Instructions>() -> Option<()>
+    where
+        Dof1: StepProgram<I::Eight>,
+    {
+        type Alone = <Dof1 as StepProgram<f64>>::Constants;
+        let token = I::of_this_machine()?;
+        let count = size_of::<Alone>() / size_of::<f64>();
+        let number = |scene: usize, index: usize| 0.3 + 0.1 * ((7 * scene + 3 * index) % 11) as f64;
+        let groups = |of_each: usize, number: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<Lanes<WIDTH>>> {
+            let lanes = |group: usize, index| Lanes(std::array::from_fn(|lane| number(WIDTH * group + lane, index)));
+            (0..2).map(|group| (0..of_each).map(|index| lanes(group, index)).collect()).collect()
+        };
+        let state =
+            |scene: usize, index: usize| if scene < 9 { 0.1 * number(scene, index) } else { number(scene, index) };
+        let constants = loaded::<I, Dof1>(token, &groups(count, &number)).expect("as many as it has");
+        let (states, ground) =
+            (groups(2, &state).concat(), groups(2, &|scene, index| number(scene, 5 + index)).concat());
+        let mut slopes = states.clone();
+        evaluate::<I, Dof1>(token, &constants, &states, &ground, &mut slopes);
+        for scene in 0..2 * WIDTH {
+            let own: Vec<f64> = (0..count).map(|index| number(scene, index)).collect();
+            let Ok(own) = Alone::try_from(&own[..]) else { panic!("as many as it has") };
+            let (x, mut slope_alone) = ([state(scene, 0), state(scene, 1)], [0.0; 2]);
+            slope::<f64, Dof1>(&own, &x, number(scene, 5), number(scene, 6), &mut slope_alone);
+            let group = &slopes[scene / WIDTH * 2..][..2];
+            assert_eq!([group[0].0[scene % WIDTH], group[1].0[scene % WIDTH]], slope_alone);
+        }
+        Some(())
+    }
+
+    #[test]
+    fn scenes_side_by_side_are_scenes_in_all_instructions() {
+        are_scenes::<Baseline>().expect("every machine has it");
+        #[cfg(target_arch = "x86_64")]
+        for (name, has_run) in [("AVX2", are_scenes::<V3>()), ("AVX-512", are_scenes::<V4>())] {
+            if has_run.is_none() {
+                println!("skipped: this machine has no {name}");
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Ways to compute with eight doubles, and which of them a machine has.
+
+use super::Lanes;
+use crate::program::Scalar;
+
+/// Ways to compute with eight doubles.
+pub trait Instructions: Copy {
+    /// Eight doubles.
+    type Eight: Scalar;
+
+    /// As this machine does it, if it can.
+    fn of_this_machine() -> Option<Self>;
+
+    /// From memory.
+    fn load(self, lanes: &Lanes<8>) -> Self::Eight;
+
+    /// Into memory.
+    fn store(eight: Self::Eight) -> Lanes<8>;
+
+    /// `work`, with all that is inlined into it compiled for these instructions.
+    fn run<R>(self, work: impl FnOnce() -> R) -> R;
+}
+
+/// What every machine has: two doubles at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct Baseline;
+
+impl Instructions for Baseline {
+    type Eight = wide::f64x8;
+
+    fn of_this_machine() -> Option<Baseline> {
+        Some(Baseline)
+    }
+
+    #[inline(always)]
+    fn load(self, lanes: &Lanes<8>) -> wide::f64x8 {
+        wide::f64x8::new(lanes.0)
+    }
+
+    #[inline(always)]
+    fn store(eight: wide::f64x8) -> Lanes<8> {
+        Lanes(eight.to_array())
+    }
+
+    #[inline(always)]
+    fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+}
