@@ -3,7 +3,8 @@
 use super::{Baseline, Instructions, Lanes, WIDTH};
 use crate::column::Column;
 use crate::generated::{Linkages, geometry};
-use crate::program::{StepProgram, slope};
+use crate::program::{Scalar, StepProgram};
+use crate::sine;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 use rocking_codegen::GroundMotion;
@@ -54,12 +55,12 @@ type Constants<P, I> = <P as StepProgram<Eight<I>>>::Constants;
 #[derive(Clone)]
 pub struct Ensemble<P: EnsembleProgram> {
     scenes: usize,
-    groups: Groups<P>,
+    constants: Widest<P>,
 }
 
 /// Scene constants of [`WIDTH`] scenes each, in the widest instructions that the machine has; the last ones are filled up with the last scene.
 #[derive(Clone)]
-enum Groups<P: EnsembleProgram> {
+enum Widest<P: EnsembleProgram> {
     #[cfg(target_arch = "x86_64")]
     Avx512(V4, Vec<Constants<P, V4>>),
     #[cfg(target_arch = "x86_64")]
@@ -88,7 +89,7 @@ impl<P: EnsembleProgram> Ensemble<P> {
             (0..group[0].len()).map(lanes).collect()
         };
         let constants: Vec<Vec<Lanes<WIDTH>>> = constants.chunks(WIDTH).map(together).collect();
-        Some(Ensemble { scenes: modes.len(), groups: Groups::new(&constants)? })
+        Some(Ensemble { scenes: modes.len(), constants: Widest::new(&constants)? })
     }
 
     const DOF: usize = <P as StepProgram<Eight<Baseline>>>::DOF;
@@ -131,26 +132,30 @@ impl<P: EnsembleProgram> Ensemble<P> {
         let (size, groups) = (2 * Self::DOF, self.scenes.div_ceil(WIDTH));
         assert_eq!((states.len(), slopes.len()), (size * groups, size * groups), "as many states and slopes as scenes");
         assert_eq!(ground.len(), 2 * groups, "as many ground motions as scenes");
-        match &self.groups {
+        match &self.constants {
             #[cfg(target_arch = "x86_64")]
-            Groups::Avx512(token, constants) => evaluate::<V4, P>(*token, constants, states, ground, slopes),
+            Widest::Avx512(token, constants) => {
+                evaluate::<V4, P>(*token, Groups { constants, states, ground, slopes });
+            }
             #[cfg(target_arch = "x86_64")]
-            Groups::Avx2(token, constants) => evaluate::<V3, P>(*token, constants, states, ground, slopes),
-            Groups::Baseline(constants) => evaluate::<Baseline, P>(Baseline, constants, states, ground, slopes),
+            Widest::Avx2(token, constants) => evaluate::<V3, P>(*token, Groups { constants, states, ground, slopes }),
+            Widest::Baseline(constants) => {
+                evaluate::<Baseline, P>(Baseline, Groups { constants, states, ground, slopes });
+            }
         }
     }
 }
 
-impl<P: EnsembleProgram> Groups<P> {
+impl<P: EnsembleProgram> Widest<P> {
     /// `None` if the program wants another number of constants.
-    fn new(constants: &[Vec<Lanes<WIDTH>>]) -> Option<Groups<P>> {
+    fn new(constants: &[Vec<Lanes<WIDTH>>]) -> Option<Widest<P>> {
         #[cfg(target_arch = "x86_64")]
         if let Some(token) = V4::of_this_machine() {
-            return Some(Groups::Avx512(token, loaded::<V4, P>(token, constants)?));
+            return Some(Widest::Avx512(token, loaded::<V4, P>(token, constants)?));
         } else if let Some(token) = V3::of_this_machine() {
-            return Some(Groups::Avx2(token, loaded::<V3, P>(token, constants)?));
+            return Some(Widest::Avx2(token, loaded::<V3, P>(token, constants)?));
         }
-        Some(Groups::Baseline(loaded::<Baseline, P>(Baseline, constants)?))
+        Some(Widest::Baseline(loaded::<Baseline, P>(Baseline, constants)?))
     }
 }
 
@@ -165,47 +170,147 @@ fn loaded<I: Instructions, P: StepProgram<I::Eight>>(
     groups.iter().map(own).collect()
 }
 
-/// Right-hand sides, group by group.
-fn evaluate<I: Instructions, P: StepProgram<I::Eight>>(
-    token: I,
-    constants: &[P::Constants],
-    states: &[Lanes<WIDTH>],
-    ground: &[Lanes<WIDTH>],
-    slopes: &mut [Lanes<WIDTH>],
-) {
+/// What is told of some groups of scenes, and what is asked for.
+struct Groups<'a, C> {
+    constants: &'a [C],
+    states: &'a [Lanes<WIDTH>],
+    ground: &'a [Lanes<WIDTH>],
+    slopes: &'a mut [Lanes<WIDTH>],
+}
+
+/// The same of one.
+struct Group<'a, C> {
+    constants: &'a C,
+    state: &'a [Lanes<WIDTH>],
+    ground: &'a [Lanes<WIDTH>],
+    slope: &'a mut [Lanes<WIDTH>],
+}
+
+impl<'a, C> Groups<'a, C> {
+    /// Of so many together, the last ones fewer; `size` is the length of a state.
+    fn blocks(self, size: usize, count: usize) -> impl Iterator<Item = Groups<'a, C>> {
+        let (states, slopes) = (self.states.chunks(count * size), self.slopes.chunks_mut(count * size));
+        let motions = states.zip(self.ground.chunks(count * 2)).zip(slopes);
+        self.constants.chunks(count).zip(motions).map(|(constants, ((states, ground), slopes))| Groups {
+            constants,
+            states,
+            ground,
+            slopes,
+        })
+    }
+
+    /// One by one.
+    #[inline(always)]
+    fn each(&mut self, size: usize) -> impl Iterator<Item = Group<'_, C>> {
+        let (states, slopes) = (self.states.chunks_exact(size), self.slopes.chunks_exact_mut(size));
+        let motions = states.zip(self.ground.chunks_exact(2)).zip(slopes);
+        self.constants.iter().zip(motions).map(
+            #[inline(always)]
+            |(constants, ((state, ground), slope))| Group { constants, state, ground, slope },
+        )
+    }
+}
+
+/// Groups that are looked after together: few enough for the nearest caches.
+const BLOCK: usize = 64;
+
+/// Right-hand sides, block by block: of all groups as if the polynomials held, in a loop that has no other way and keeps their coefficients in
+/// registers; then again of those where they may not.
+fn evaluate<I: Instructions, P: StepProgram<I::Eight>>(token: I, groups: Groups<'_, P::Constants>) {
+    for mut block in groups.blocks(2 * P::DOF, BLOCK) {
+        if !by_polynomials::<I, P>(token, &mut block) {
+            again_beyond::<I, P>(token, &mut block);
+        }
+    }
+}
+
+/// Right-hand sides of one block by the polynomials, and whether those are sure to have held.
+fn by_polynomials<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &mut Groups<'_, P::Constants>) -> bool {
     token.run(
         #[inline(always)]
         || {
-            // Captured it would be a variable.
-            let size = 2 * P::DOF;
-            let scenes = states.chunks_exact(size).zip(ground.chunks_exact(2)).zip(slopes.chunks_exact_mut(size));
-            for (constants, ((own, ground), slopes)) in constants.iter().zip(scenes) {
-                let mut state = P::state(token.load(&own[0]));
-                let mut result = state.clone();
-                for (eight, lanes) in state.as_mut().iter_mut().zip(own) {
-                    *eight = token.load(lanes);
-                }
-                slope::<I::Eight, P>(
-                    constants,
-                    &state,
-                    token.load(&ground[0]),
-                    token.load(&ground[1]),
-                    result.as_mut(),
+            let mut worst = token.load(&Lanes([0.0; WIDTH]));
+            // The length said here and not before: captured it would be a variable.
+            for group in block.each(2 * P::DOF) {
+                right_hand_side::<I, P>(
+                    token,
+                    group,
+                    #[inline(always)]
+                    |angles, sin, cos| {
+                        worst = I::max(sum_of_squares(angles), worst);
+                        for (angle, (sin, cos)) in angles.iter().zip(sin.iter_mut().zip(cos)) {
+                            (*sin, *cos) = sine::kernels(*angle);
+                        }
+                    },
                 );
-                for (lanes, eight) in slopes.iter_mut().zip(result.as_ref()) {
-                    *lanes = I::store(*eight);
+            }
+            are_within_reach::<I>(worst)
+        },
+    )
+}
+
+/// Right-hand sides of those groups of a block where an angle may be beyond the polynomials.
+#[cold]
+fn again_beyond<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &mut Groups<'_, P::Constants>) {
+    token.run(
+        #[inline(always)]
+        || {
+            for group in block.each(2 * P::DOF) {
+                let mut angles = P::vector(token.load(&group.state[0]));
+                for (angle, lanes) in angles.as_mut().iter_mut().zip(group.state) {
+                    *angle = token.load(lanes);
+                }
+                if !are_within_reach::<I>(sum_of_squares(angles.as_ref())) {
+                    right_hand_side::<I, P>(token, group, I::Eight::sin_cos_each);
                 }
             }
         },
     );
 }
 
+/// Of one scene: where it is within the square of the reach, every angle is within the reach.
+#[inline(always)]
+fn sum_of_squares<S: Scalar>(angles: &[S]) -> S {
+    let mut sum = angles[0] * angles[0];
+    for angle in &angles[1..] {
+        sum = sum + *angle * *angle;
+    }
+    sum
+}
+
+/// By the sums of squares of eight scenes. Of a scene with an angle that is not a number there is nothing to lose.
+#[inline(always)]
+fn are_within_reach<I: Instructions>(sums_of_squares: I::Eight) -> bool {
+    I::is_at_most(sums_of_squares, sine::REACH * sine::REACH)
+}
+
+/// Right-hand sides of one group, sines and cosines as given.
+#[inline(always)]
+fn right_hand_side<I: Instructions, P: StepProgram<I::Eight>>(
+    token: I,
+    group: Group<'_, P::Constants>,
+    sin_cos_each: impl FnOnce(&[I::Eight], &mut [I::Eight], &mut [I::Eight]),
+) {
+    let mut angles = P::vector(token.load(&group.state[0]));
+    let (mut sin, mut cos, mut omega) = (angles, angles, angles);
+    for (index, (angle, omega)) in angles.as_mut().iter_mut().zip(omega.as_mut()).enumerate() {
+        (*angle, *omega) = (token.load(&group.state[index]), token.load(&group.state[P::DOF + index]));
+    }
+    sin_cos_each(angles.as_ref(), sin.as_mut(), cos.as_mut());
+    let (ground_x, gravity) = (token.load(&group.ground[0]), token.load(&group.ground[1]));
+    let acceleration = P::acceleration(group.constants, &cos, &sin, &omega, ground_x, gravity);
+    for (lanes, eight) in group.slope.iter_mut().zip(omega.as_ref().iter().chain(acceleration.as_ref())) {
+        *lanes = I::store(*eight);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::generated::equations::Dof1;
+    use crate::program::slope;
 
-    /// Two groups, angles beyond the polynomials among them; `None` if this machine does not have the instructions.
+    /// Two blocks, the second not full, with angles beyond the polynomials in both, and one that is not a number before them; `None` if this machine does not have the instructions.
     fn are_scenes<I: Instructions>() -> Option<()>
     where
         Dof1: StepProgram<I::Eight>,
@@ -216,22 +321,28 @@ mod tests {
         let number = |scene: usize, index: usize| 0.3 + 0.1 * ((7 * scene + 3 * index) % 11) as f64;
         let groups = |of_each: usize, number: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<Lanes<WIDTH>>> {
             let lanes = |group: usize, index| Lanes(std::array::from_fn(|lane| number(WIDTH * group + lane, index)));
-            (0..2).map(|group| (0..of_each).map(|index| lanes(group, index)).collect()).collect()
+            (0..BLOCK + 2).map(|group| (0..of_each).map(|index| lanes(group, index)).collect()).collect()
         };
-        let state =
-            |scene: usize, index: usize| if scene < 9 { 0.1 * number(scene, index) } else { number(scene, index) };
+        let state = |scene: usize, index: usize| match scene {
+            3 => f64::NAN,
+            9..30 | 515.. => number(scene, index),
+            _ => 0.1 * number(scene, index),
+        };
+        assert!((9..30).chain(515..520).any(|scene| scene % WIDTH == 3 && state(scene, 0) > sine::REACH));
         let constants = loaded::<I, Dof1>(token, &groups(count, &number)).expect("as many as it has");
         let (states, ground) =
             (groups(2, &state).concat(), groups(2, &|scene, index| number(scene, 5 + index)).concat());
         let mut slopes = states.clone();
-        evaluate::<I, Dof1>(token, &constants, &states, &ground, &mut slopes);
-        for scene in 0..2 * WIDTH {
+        let groups = Groups { constants: &constants, states: &states, ground: &ground, slopes: &mut slopes };
+        evaluate::<I, Dof1>(token, groups);
+        for scene in 0..(BLOCK + 2) * WIDTH {
             let own: Vec<f64> = (0..count).map(|index| number(scene, index)).collect();
             let Ok(own) = Alone::try_from(&own[..]) else { panic!("as many as it has") };
             let (x, mut slope_alone) = ([state(scene, 0), state(scene, 1)], [0.0; 2]);
             slope::<f64, Dof1>(&own, &x, number(scene, 5), number(scene, 6), &mut slope_alone);
             let group = &slopes[scene / WIDTH * 2..][..2];
-            assert_eq!([group[0].0[scene % WIDTH], group[1].0[scene % WIDTH]], slope_alone);
+            let found = [group[0].0[scene % WIDTH], group[1].0[scene % WIDTH]];
+            assert!(found == slope_alone || scene == 3 && found[1].is_nan(), "{scene}: {found:?} {slope_alone:?}");
         }
         Some(())
     }

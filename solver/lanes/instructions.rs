@@ -17,6 +17,12 @@ pub trait Instructions: Copy {
     /// Into memory.
     fn store(eight: Self::Eight) -> Lanes<8>;
 
+    /// The larger of each two, the second if one is not a number.
+    fn max(a: Self::Eight, b: Self::Eight) -> Self::Eight;
+
+    /// Whether all eight are at most this; not if one is not a number.
+    fn is_at_most(eight: Self::Eight, limit: f64) -> bool;
+
     /// `work`, with all that is inlined into it compiled for these instructions.
     fn run<R>(self, work: impl FnOnce() -> R) -> R;
 }
@@ -40,6 +46,17 @@ impl Instructions for Baseline {
     #[inline(always)]
     fn store(eight: wide::f64x8) -> Lanes<8> {
         Lanes(eight.to_array())
+    }
+
+    #[inline(always)]
+    fn max(a: wide::f64x8, b: wide::f64x8) -> wide::f64x8 {
+        let (a, b) = (a.to_array(), b.to_array());
+        wide::f64x8::new(std::array::from_fn(|lane| if a[lane] > b[lane] { a[lane] } else { b[lane] }))
+    }
+
+    #[inline(always)]
+    fn is_at_most(eight: wide::f64x8, limit: f64) -> bool {
+        eight.to_array().into_iter().all(|value| value <= limit)
     }
 
     #[inline(always)]
