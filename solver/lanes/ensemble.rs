@@ -251,6 +251,7 @@ fn by_polynomials<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &m
 
 /// Right-hand sides of those groups of a block where an angle may be beyond the polynomials.
 #[cold]
+#[inline(never)]
 fn again_beyond<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &mut Groups<'_, P::Constants>) {
     token.run(
         #[inline(always)]
