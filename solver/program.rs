@@ -18,7 +18,7 @@ pub trait Scalar:
     }
     /// `1 / self`
     fn recip(self) -> Self;
-    /// Sine and cosine of an angle `[rad]`; odd and even to the last bit.
+    /// Sine and cosine of an angle `[rad]`; odd and even to the last bit, but for the sign of zero.
     fn sin_cos(self) -> (Self, Self);
 
     /// The same of each angle of a list, into lists as long.

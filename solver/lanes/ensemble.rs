@@ -211,7 +211,7 @@ impl<'a, C> Groups<'a, C> {
     }
 }
 
-/// Groups that are looked after together: few enough for the nearest caches.
+/// Groups that are looked after together: few enough to stay in a cache.
 const BLOCK: usize = 64;
 
 /// Right-hand sides, block by block: of all groups as if the polynomials held, in a loop that has no other way and keeps their coefficients in
@@ -279,7 +279,7 @@ fn sum_of_squares<S: Scalar>(angles: &[S]) -> S {
     sum
 }
 
-/// By the sums of squares of eight scenes. Of a scene with an angle that is not a number there is nothing to lose.
+/// By the sums of squares of eight scenes. Of a scene with an angle that is not a number there is nothing to lose, as angles are coupled.
 #[inline(always)]
 fn are_within_reach<I: Instructions>(sums_of_squares: I::Eight) -> bool {
     I::is_at_most(sums_of_squares, sine::REACH * sine::REACH)
