@@ -322,13 +322,15 @@ fn restitute<S: Size>(
     }
     // Row by row: the links' rates that a unit impulse at each rebounding interface causes.
     let (mut spread, mut gain) = (size.table(width, 0.0), size.list(0.0));
-    let apart = |rates: &[f64], interface: usize| {
+    let above = |interface: usize| posture.link[interface] - 1;
+    let rate_below = |rates: &[f64], interface: usize| {
         let below = if interface > 0 { posture.link[interface - 1] } else { 0 };
-        rates[posture.link[interface] - 1] - if below > 0 { rates[below - 1] } else { 0.0 }
+        if below > 0 { rates[below - 1] } else { 0.0 }
     };
+    let apart = |rates: &[f64], interface: usize| rates[above(interface)] - rate_below(rates, interface);
     for (index, &interface) in rebounding.iter().enumerate() {
         let row = &mut spread[index * width..][..width];
-        row[posture.link[interface] - 1] = 1.0;
+        row[above(interface)] = 1.0;
         if interface > 0 && posture.link[interface - 1] > 0 {
             row[posture.link[interface - 1] - 1] = -1.0;
         }
@@ -355,6 +357,11 @@ fn restitute<S: Size>(
     let mut rates = posture.link_rates(&plastic.motion);
     for (index, impulse) in gain[..count].iter().enumerate() {
         rates.iter_mut().zip(row_of(index)).for_each(|(rate, share)| *rate += share * impulse);
+    }
+    // Base first, exactly: what rounding left of a factor of zero would be a hop.
+    for interface in (0..free.len()).filter(|interface| rebounding.contains(interface)) {
+        let rebound_rate = kappa[interface] * relative(&plastic.motion, interface);
+        rates[above(interface)] = rate_below(&rates, interface) + rebound_rate;
     }
     let rebound = posture.angular(&rates);
 
@@ -508,5 +515,23 @@ mod tests {
         assert_eq!(at(0.999), Pattern::rest(3));
         assert_eq!(at(1.001), Pattern::from_signs(&[-1, 0, 0]));
         assert_eq!(at(-1.001), Pattern::from_signs(&[1, 0, 0]));
+    }
+
+    /// A hop that rounding leaves of no rebound would decide the pattern, or go on for ever.
+    #[test]
+    fn a_factor_of_zero_leaves_no_rebound() {
+        let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
+        let law = ImpactLaw { kappa: &[0.0; 3], stick_angle: 0.0, is_recorded: false };
+        for step in 1..200 {
+            let (omega, angle) = (-0.005 * f64::from(step), 0.001 * f64::from(step % 7));
+            let (theta, rates) = ([0.0, 0.0, angle], [omega, omega * 0.7, omega * 0.7 + 0.3]);
+            let side = if angle > 0.0 { 1 } else { 0 };
+            let pattern = Pattern::from_signs(&[1, -1, side]);
+            let after = impact(&column, &pattern, &theta, &rates, &[0, 1], GROUND, law).expect("solvable");
+            for interface in [0, 1] {
+                let left = relative(&after.omega, interface);
+                assert_eq!(left, 0.0, "interface {interface} after {omega} rad/s");
+            }
+        }
     }
 }
