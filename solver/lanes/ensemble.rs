@@ -113,7 +113,8 @@ impl<P: EnsembleProgram> Ensemble<P> {
             let lanes = |index| Lanes(std::array::from_fn(|lane: usize| values[lane.min(last) * count + index]));
             (0..count).map(lanes).collect::<Vec<_>>()
         };
-        values.chunks(WIDTH * count).flat_map(group).collect()
+        // Chunks may not be empty, even of no numbers.
+        values.chunks((WIDTH * count).max(1)).flat_map(group).collect()
     }
 
     /// The other way round.
@@ -237,7 +238,7 @@ fn by_polynomials<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &m
                     group,
                     #[inline(always)]
                     |angles, sin, cos| {
-                        worst = I::max(sum_of_squares(angles), worst);
+                        worst = largest_square::<I>(angles, worst);
                         for (angle, (sin, cos)) in angles.iter().zip(sin.iter_mut().zip(cos)) {
                             (*sin, *cos) = sine::kernels(*angle);
                         }
@@ -261,7 +262,8 @@ fn again_beyond<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &mut
                 for (angle, lanes) in angles.as_mut().iter_mut().zip(group.state) {
                     *angle = token.load(lanes);
                 }
-                if !are_within_reach::<I>(sum_of_squares(angles.as_ref())) {
+                let none = token.load(&Lanes([0.0; WIDTH]));
+                if !are_within_reach::<I>(largest_square::<I>(angles.as_ref(), none)) {
                     right_hand_side::<I, P>(token, group, I::Eight::sin_cos_each);
                 }
             }
@@ -269,20 +271,20 @@ fn again_beyond<I: Instructions, P: StepProgram<I::Eight>>(token: I, block: &mut
     );
 }
 
-/// Of one scene: where it is within the square of the reach, every angle is within the reach.
+/// The largest of the squares of eight scenes' angles and of those so far, angles that are no numbers left out: sines need the squares anyway.
 #[inline(always)]
-fn sum_of_squares<S: Scalar>(angles: &[S]) -> S {
-    let mut sum = angles[0] * angles[0];
-    for angle in &angles[1..] {
-        sum = sum + *angle * *angle;
+fn largest_square<I: Instructions>(angles: &[I::Eight], mut so_far: I::Eight) -> I::Eight {
+    for angle in angles {
+        so_far = I::max(*angle * *angle, so_far);
     }
-    sum
+    so_far
 }
 
-/// By the sums of squares of eight scenes. Of a scene with an angle that is not a number there is nothing to lose, as angles are coupled.
+/// Whether the polynomials hold for these largest squares. Of an angle that is no number they give none, as `libm` does.
 #[inline(always)]
-fn are_within_reach<I: Instructions>(sums_of_squares: I::Eight) -> bool {
-    I::is_at_most(sums_of_squares, sine::REACH * sine::REACH)
+fn are_within_reach<I: Instructions>(largest_squares: I::Eight) -> bool {
+    // Exact: the square of the next double beyond the reach rounds to a larger one.
+    I::is_at_most(largest_squares, sine::REACH * sine::REACH)
 }
 
 /// Right-hand sides of one group, sines and cosines as given.
@@ -348,11 +350,34 @@ mod tests {
         Some(())
     }
 
+    /// One angle just beyond the reach is seen in any lane of any place, whatever is beside it; the reach itself is within.
+    fn angles_beyond_are_seen<I: Instructions>() -> Option<()> {
+        let token = I::of_this_machine()?;
+        let is_within = |angles: &[[f64; WIDTH]; 3]| {
+            let eights = angles.map(|lanes| token.load(&Lanes(lanes)));
+            are_within_reach::<I>(largest_square::<I>(&eights, token.load(&Lanes([0.0; WIDTH]))))
+        };
+        for (place, lane) in (0..3).flat_map(|place| (0..WIDTH).map(move |lane| (place, lane))) {
+            for others in [0.0, -sine::REACH, f64::NAN] {
+                for (angle, expected) in [(sine::REACH, true), (sine::REACH.next_up(), false), (-3.0, false)] {
+                    let mut angles = [[others; WIDTH]; 3];
+                    angles[place][lane] = angle;
+                    assert_eq!(is_within(&angles), expected, "{angle} in lane {lane} of {place} beside {others}");
+                }
+            }
+        }
+        Some(())
+    }
+
     #[test]
     fn scenes_side_by_side_are_scenes_in_all_instructions() {
         are_scenes::<Baseline>().expect("every machine has it");
+        angles_beyond_are_seen::<Baseline>().expect("every machine has it");
         #[cfg(target_arch = "x86_64")]
-        for (name, has_run) in [("AVX2", are_scenes::<V3>()), ("AVX-512", are_scenes::<V4>())] {
+        for (name, has_run) in [
+            ("AVX2", are_scenes::<V3>().and_then(|()| angles_beyond_are_seen::<V3>())),
+            ("AVX-512", are_scenes::<V4>().and_then(|()| angles_beyond_are_seen::<V4>())),
+        ] {
             if has_run.is_none() {
                 println!("skipped: this machine has no {name}");
             }
