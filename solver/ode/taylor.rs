@@ -1,61 +1,25 @@
 //! A Taylor method for angles whose equations are linear in second derivatives of their sines and cosines.
 //!
-//! ```text
-//! J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0,     C, S linear in (cos θ)¨, (sin θ)¨ of the other angles and in a forcing
-//! ```
-//!
-//! Coefficients of any order come one after another. With `c, s` those of cosine and sine, `ω` of the rate,
-//!
-//! ```text
-//! (k+2) s[k+2] = Σ c[j] ω[k+1-j],     (k+2) c[k+2] = -Σ s[j] ω[k+1-j]
-//! M(θ) θ̈[k]    = -(c[0] C°[k] + s[0] S°[k] + Σ_{j>0} c[j] C[k-j] + s[j] S[k-j])
-//! ```
-//!
-//! where `°` leaves out what `θ̈[k]` itself contributes; that share is the coupling, so one factorisation of `M` serves all
-//! orders. Four convolutions per angle, in two pairs, are all the work that grows with the order. The series is
-//! its own dense output, and a step that has to be shortened is the same series at another place.
+//! The series about a state (`taylor/series.rs`) is computed to an order that the tolerance asks for, then a step is taken that is as long
+//! as its last terms allow. It is its own dense output, and a step that has to be shortened is the same series at another place.
 //!
 //! Choose it wherever events are located: finding one costs no right-hand side. Order: about `2 - ln(rtol) / 2`, more with one angle,
 //! after which a higher one costs more than the longer step saves (Jorba & Zou, 2005, and what a step costs beside
 //! its coefficients); fewer where the step is short.
 
 mod alone;
+mod series;
+
+pub use series::{MAX_ORDER, SeriesSystem};
 
 use super::control::{rough_root, without_crumb};
 use super::{Attempt, Difference, Powers, Tolerance};
 use crate::dynamics::StateVector;
+use series::{NUMBER, RECIPROCAL, Series, rate_of};
 use wide::f64x2;
-
-/// Largest order: beyond, what the last term does not tell of those left out outgrows rounding at the tightest tolerances.
-pub const MAX_ORDER: usize = 19;
 
 /// Lowest order.
 const MIN_ORDER: usize = 4;
-
-/// Coefficients kept of each series: those of cosine and sine run two orders ahead.
-const TERMS: usize = MAX_ORDER + 3;
-
-/// Reciprocals of whole numbers.
-const RECIPROCAL: [f64; TERMS] = {
-    let mut table = [0.0; TERMS];
-    let mut n = 1;
-    while n < table.len() {
-        table[n] = 1.0 / n as f64;
-        n += 1;
-    }
-    table
-};
-
-/// Whole numbers.
-const NUMBER: [f64; TERMS] = {
-    let mut table = [0.0; TERMS];
-    let mut n = 0;
-    while n < table.len() {
-        table[n] = n as f64;
-        n += 1;
-    }
-    table
-};
 
 /// What a term before the last one still counts for: of an odd or even function every second coefficient is zero.
 const BEFORE_LAST: f64 = 0.1;
@@ -80,47 +44,14 @@ const LARGEST_GROWTH: f64 = 8.0;
 /// Rounds in which a step as long as the terms allow is looked for.
 const GUESSES: usize = 3;
 
-/// Equations of the form above.
-pub trait SeriesSystem {
-    /// `[θ, θ̇]`
-    type State: StateVector;
-    /// One value per angle.
-    type Links: StateVector;
-
-    /// Goes to another expansion point: the forcing's coefficients are those at `t`.
-    fn expand_at(&mut self, t: f64, orders: usize);
-
-    /// The matrix `M`, row by row, at a state whose cosines and sines are given too.
-    fn matrix(&self, x: &Self::State, cos: &Self::Links, sin: &Self::Links, matrix: &mut [f64]);
-
-    /// The weights `[C, S]` of one order.
-    fn weights(&mut self, order: usize, cos_ddot: &Self::Links, sin_ddot: &Self::Links) -> [Self::Links; 2];
-
-    /// Sine and cosine.
-    fn sin_cos(angle: f64) -> (f64, f64);
-}
-
-/// The series at a state.
+/// Steps on the series at a state.
 #[derive(Clone, Debug)]
 pub struct Taylor<V, L: StateVector> {
-    t: f64,
-    x: V,
+    series: Series<V, L>,
     h: f64,
     end: V,
     /// Highest order of the rates' coefficients that the last attempt uses.
     order: usize,
-    /// Highest one that has been computed.
-    known: usize,
-    largest_order: usize,
-    is_begun: bool,
-    /// `[c, s]` per angle, order by order.
-    circle: [L::Of<f64x2>; TERMS],
-    /// `[ω, ω]` and `[C, S]` per angle, order by order, the weights one place later.
-    driver: [L::Of<[f64x2; 2]>; TERMS],
-    /// `L` below the diagonal, `1 / D` on it.
-    factor: Vec<f64>,
-    cos_ddot: L,
-    sin_ddot: L,
     /// How far each angle, and its rate, move in the last attempt, at most.
     reach: L::Of<[f64; 2]>,
 }
@@ -128,25 +59,14 @@ pub struct Taylor<V, L: StateVector> {
 impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// Storage for states like `zero` and angles like `zero_links`; orders for steps of this tolerance.
     pub fn new(zero: &V, zero_links: &L, rtol: f64) -> Taylor<V, L> {
-        let dof = zero_links.as_slice().len();
         // With one angle an order costs little beside what a step costs.
-        let extra = if dof == 1 { 6.0 } else { 0.5 };
+        let extra = if zero_links.as_slice().len() == 1 { 6.0 } else { 0.5 };
         let order = (1.0 + extra - 0.5 * libm::log(rtol)).ceil() as usize;
-        let largest_order = order.clamp(MIN_ORDER, MAX_ORDER);
         Taylor {
-            t: 0.0,
-            x: zero.clone(),
+            series: Series::new(zero, zero_links, order.clamp(MIN_ORDER, MAX_ORDER)),
             h: 0.0,
             end: zero.clone(),
             order: 0,
-            known: 0,
-            largest_order,
-            is_begun: false,
-            circle: std::array::from_fn(|_| zero_links.each(f64x2::ZERO)),
-            driver: std::array::from_fn(|_| zero_links.each([f64x2::ZERO; 2])),
-            factor: vec![0.0; dof * dof],
-            cos_ddot: zero_links.clone(),
-            sin_ddot: zero_links.clone(),
             reach: zero_links.each([0.0; 2]),
         }
     }
@@ -158,7 +78,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Forgets the expansion: the equations have changed.
     pub fn forget(&mut self) {
-        self.is_begun = false;
+        self.series.forget();
     }
 
     /// Attempts a step from `(t, x)`, as long as the terms allow and no longer than `most`; `wanted` is a guess of that. From the same
@@ -173,8 +93,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         tolerance: Tolerance,
     ) -> Attempt {
         // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
-        let is_short = wanted >= most && self.order > 0 && 2 * self.order <= self.largest_order;
-        self.expand(system, t, x, if is_short { self.order.max(MIN_ORDER) } else { self.largest_order });
+        let is_short = wanted >= most && self.order > 0 && 2 * self.order <= self.series.largest_order;
+        self.series.expand(system, t, x, if is_short { self.order.max(MIN_ORDER) } else { self.series.largest_order });
         let (mut target, mut guesses) = (wanted, 0);
         let (h, order, error, next) = loop {
             let h = without_crumb(target, most);
@@ -213,8 +133,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         is_cut: bool,
         tolerance: Tolerance,
     ) -> (usize, f64) {
-        let (scale, order) = (self.scale(h, tolerance), self.largest_order);
-        let error = if self.known == order { self.error_at(order, h, &scale) } else { 0.0 };
+        let (scale, order) = (self.scale(h, tolerance), self.series.largest_order);
+        let error = if self.series.known == order { self.error_at(order, h, &scale) } else { 0.0 };
         if is_cut && error < SHORT { self.least_order(system, h, &scale) } else { (order, error) }
     }
 
@@ -228,9 +148,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     ) -> (usize, f64) {
         let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, MARGIN * h * h * h);
         let mut last = self.term(order, power, scale);
-        while order < self.largest_order {
-            if order == self.known {
-                self.extend(system, self.largest_order);
+        while order < self.series.largest_order {
+            if order == self.series.known {
+                self.series.extend(system, self.series.largest_order);
             }
             order += 1;
             power *= h;
@@ -264,9 +184,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Writes `[θ̇, θ̈]` at a place into `slope`: the first terms of the series there.
     pub fn slope<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, slope: &mut V) {
-        self.expand(system, t, x, self.largest_order);
-        let dof = self.cos_ddot.as_slice().len();
-        for (link, driver) in self.driver[1].as_ref().iter().enumerate() {
+        self.series.expand(system, t, x, self.series.largest_order);
+        let dof = self.series.dof();
+        for (link, driver) in self.series.driver[1].as_ref().iter().enumerate() {
             slope.as_mut_slice()[link] = x.as_slice()[dof + link];
             slope.as_mut_slice()[dof + link] = rate_of(driver);
         }
@@ -276,11 +196,11 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// first terms let them be. An angle's term is the rate's times the step over its order, which is `MIN_ORDER` at least.
     #[inline(always)]
     fn scale(&self, h: f64, tolerance: Tolerance) -> L::Of<f64> {
-        let dof = self.cos_ddot.as_slice().len();
-        let mut scale = self.cos_ddot.each(0.0);
+        let dof = self.series.dof();
+        let mut scale = self.series.of_each(0.0);
         for (link, scale) in scale.as_mut().iter_mut().enumerate() {
-            let (theta, rate) = (self.x.as_slice()[link].abs(), self.x.as_slice()[dof + link].abs());
-            let [first, second] = [1, 2].map(|order: usize| rate_of(&self.driver[order].as_ref()[link]).abs());
+            let (theta, rate) = (self.series.x.as_slice()[link].abs(), self.series.x.as_slice()[dof + link].abs());
+            let [first, second] = [1, 2].map(|order: usize| rate_of(&self.series.driver[order].as_ref()[link]).abs());
             let most_rate = rate + h * (first + h * second);
             let most = theta + h * (rate + h * (0.5 * first + h * RECIPROCAL[3] * second));
             let of_angle = h * RECIPROCAL[MIN_ORDER + 1] / tolerance.scale(theta, most);
@@ -293,7 +213,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     #[inline(always)]
     fn term(&self, order: usize, power: f64, scale: &L::Of<f64>) -> f64 {
         let mut size = 0.0f64;
-        for (driver, scale) in self.driver[order].as_ref().iter().zip(scale.as_ref()) {
+        for (driver, scale) in self.series.driver[order].as_ref().iter().zip(scale.as_ref()) {
             size = larger((rate_of(driver) * power).abs() * scale, size);
         }
         size
@@ -311,17 +231,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Orders known of the series at a place: none if it is another one than the last attempt's.
     pub fn known_at(&self, t: f64, x: &V) -> usize {
-        if self.is_at(t, x) { self.known } else { 0 }
-    }
-
-    /// Whether the present series is about this place.
-    fn is_at(&self, t: f64, x: &V) -> bool {
-        self.is_begun && self.t == t && self.x.as_slice() == x.as_slice()
+        if self.series.is_at(t, x) { self.series.known } else { 0 }
     }
 
     /// Time at the end of the last attempt `[s]`.
     pub fn end_time(&self) -> f64 {
-        self.t + self.h
+        self.series.t + self.h
     }
 
     /// Order of the last attempt's polynomial.
@@ -331,36 +246,36 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// `[c, s]` of order after order, per angle.
     pub fn circles(&self) -> impl Iterator<Item = &[f64x2]> {
-        self.circle.iter().map(AsRef::as_ref)
+        self.series.circle.iter().map(AsRef::as_ref)
     }
 
     /// `[c̈, s̈]` of an order below [`Taylor::order`], by angle.
     pub fn second_derivatives(&self, order: usize) -> impl Fn(usize) -> [f64; 2] {
-        let circle = self.circle[order + 2].as_ref();
+        let circle = self.series.circle[order + 2].as_ref();
         let factor = NUMBER[order + 1] * NUMBER[order + 2];
         move |angle| circle[angle].to_array().map(|coefficient| factor * coefficient)
     }
 
     /// `θ̈` of an order below [`Taylor::order`].
     pub fn acceleration(&self, order: usize, angle: usize) -> f64 {
-        NUMBER[order + 1] * rate_of(&self.driver[order + 1].as_ref()[angle])
+        NUMBER[order + 1] * rate_of(&self.series.driver[order + 1].as_ref()[angle])
     }
 
     /// State inside the last attempt, `s` from 0 to 1 of it.
     pub fn state_inside(&self, s: f64, state: &mut V) {
-        self.horner(self.order, s * self.h, state);
+        self.series.state_at(self.order, s * self.h, state);
     }
 
     /// A difference of two angles over the last attempt, as a polynomial; exactly zero at the start where that is known.
     #[inline(always)]
     pub fn track(&self, angles: Difference, starts_at_zero: bool) -> Powers {
         let mut power = 1.0;
-        let terms = self.driver[..=self.order].iter().zip(&RECIPROCAL[1..]).map(|(driver, reciprocal)| {
+        let terms = self.series.driver[..=self.order].iter().zip(&RECIPROCAL[1..]).map(|(driver, reciprocal)| {
             let rates = driver.as_ref();
             power *= self.h;
             angles.by(|link| rate_of(&rates[link])) * power * reciprocal
         });
-        Powers::with_terms(if starts_at_zero { 0.0 } else { angles.of(self.x.as_slice()) }, terms)
+        Powers::with_terms(if starts_at_zero { 0.0 } else { angles.of(self.series.x.as_slice()) }, terms)
     }
 
     /// How far a difference of two angles moves from its start in the last attempt, at most.
@@ -374,12 +289,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// above zero in between.
     pub fn is_one_way(&self, angles: Difference) -> bool {
         let [start, first] = [0, 1].map(|order: usize| {
-            let driver = self.driver[order].as_ref();
+            let driver = self.series.driver[order].as_ref();
             angles.by(|link| rate_of(&driver[link]))
         });
         let (first, reach) = (self.h * first, self.reach.as_ref());
         let way = if start == 0.0 { first } else { start };
-        let end = angles.of(&self.end.as_slice()[self.cos_ddot.as_slice().len()..]);
+        let end = angles.of(&self.end.as_slice()[self.series.dof()..]);
         // No smaller than the sum over the sizes of the differences.
         let size = reach[angles.upper][1] + angles.lower.map_or(0.0, |lower| reach[lower][1]);
         let [start, first, end] = [start, first, end].map(|rate| if way < 0.0 { -rate } else { rate });
@@ -387,137 +302,17 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         start + first + 0.5 * (sum - size) > 0.0
     }
 
-    /// The series about a place, up to an order.
-    #[inline(always)]
-    fn expand<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, order: usize) {
-        if !self.is_at(t, x) {
-            self.begin_at(system, t, x);
-        }
-        while self.known < order {
-            self.extend(system, order);
-        }
-    }
-
-    #[inline(always)]
-    fn begin_at<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V) {
-        (self.t, self.known, self.is_begun) = (t, 0, true);
-        self.x.clone_from(x);
-        let dof = self.cos_ddot.as_slice().len();
-        let (x, circle) = (self.x.as_slice(), &mut self.circle[..2]);
-        for link in 0..dof {
-            let (sin, cos) = S::sin_cos(x[link]);
-            let rate = x[dof + link];
-            circle[0].as_mut()[link] = f64x2::new([cos, sin]);
-            self.driver[0].as_mut()[link] = [f64x2::splat(rate), f64x2::ZERO];
-            circle[1].as_mut()[link] = f64x2::new([-sin * rate, cos * rate]);
-            self.cos_ddot.as_mut_slice()[link] = cos;
-            self.sin_ddot.as_mut_slice()[link] = sin;
-        }
-        system.expand_at(t, self.largest_order);
-        system.matrix(&self.x, &self.cos_ddot, &self.sin_ddot, &mut self.factor);
-        factorise(&mut self.factor, dof);
-    }
-
-    /// One more order, or of one angle all up to this one.
-    #[inline(always)]
-    fn extend<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
-        if self.cos_ddot.as_slice().len() == 1 {
-            self.extend_alone(system, order);
-        } else {
-            self.extend_coupled(system);
-        }
-    }
-
-    /// Of one angle all orders up to this one.
-    #[inline(always)]
-    fn extend_alone<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
-        let share = f64x2::splat(-self.factor[0]);
-        for (k, driver) in (self.known..).zip(&mut self.driver[self.known + 1..=order]) {
-            let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
-            driver.as_mut()[0][1] = f64x2::new([cos_weight.as_slice()[0], sin_weight.as_slice()[0]]) * share;
-        }
-        alone::extend::<L>(&mut self.circle, &mut self.driver, self.known..order);
-        self.known = order;
-    }
-
-    /// One more order of several angles.
-    #[inline(always)]
-    fn extend_coupled<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
-        // The bound spares checks of indices.
-        let (k, dof) = (self.known.min(MAX_ORDER), self.cos_ddot.as_slice().len());
-        let next = NUMBER[k + 1];
-        let mut sums = convolve(&self.cos_ddot, &self.circle[1..=k + 1], &self.driver[..=k]);
-        let sums = sums.as_mut();
-        for (link, sums) in sums.iter().enumerate() {
-            let [cos_omega, sin_omega] = sums[0].to_array();
-            self.cos_ddot.as_mut_slice()[link] = -next * sin_omega;
-            self.sin_ddot.as_mut_slice()[link] = next * cos_omega;
-        }
-        let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
-        // Zero-initialised by way of clone: lengths are those of the angles.
-        let mut load = self.cos_ddot.clone();
-        let start = self.circle[0].as_ref();
-        for link in 0..dof {
-            let ([cos, sin], [of_cos, of_sin]) = (start[link].to_array(), sums[link][1].to_array());
-            let own = cos * cos_weight.as_slice()[link] + sin * sin_weight.as_slice()[link];
-            load.as_mut_slice()[link] = -((of_cos + of_sin) + own);
-        }
-        solve(&self.factor, load.as_mut_slice());
-        let acceleration = load.as_slice();
-        for link in 0..dof {
-            let [cos, sin] = start[link].to_array();
-            self.cos_ddot.as_mut_slice()[link] -= sin * acceleration[link];
-            self.sin_ddot.as_mut_slice()[link] += cos * acceleration[link];
-        }
-        let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
-        let (known, later) = self.circle.split_at_mut(1);
-        let (start, later) = (known[0].as_ref(), later[k + 1].as_mut());
-        let driver = self.driver[k + 1].as_mut();
-        for link in 0..dof {
-            // Products of pairs, so that they are stored as the next order reads them: in one piece.
-            let rate = f64x2::splat(acceleration[link]) * reciprocal(k + 1);
-            // The convolutions' own share of the next coefficients, and that of θ̈.
-            later[link] = (turned(sums[link][0]) + turned(start[link]) * rate) * reciprocal(k + 2);
-            driver[link] = [rate, f64x2::new([cos_weight.as_slice()[link], sin_weight.as_slice()[link]])];
-        }
-        self.known = k + 1;
-    }
-
     /// The end of a step, by Horner's rule up to an order, and how far the angles move until then.
     #[inline(always)]
     fn evaluate(&mut self, order: usize, h: f64) {
         let mut end = self.end.clone();
-        let sizes = self.horner(order, h, &mut end);
+        let sizes = self.series.state_at(order, h, &mut end);
         self.end = end;
-        let rates = &self.x.as_slice()[self.cos_ddot.as_slice().len()..];
+        let rates = &self.series.x.as_slice()[self.series.dof()..];
         for (reach, (sizes, rate)) in self.reach.as_mut().iter_mut().zip(sizes.as_ref().iter().zip(rates)) {
             let [of_rate, of_mean] = sizes.to_array();
             *reach = [h * (rate.abs() + of_mean), of_rate];
         }
-    }
-
-    /// A state of the series, and the sums over the sizes of the terms of `[rate, mean rate]`, the first left out.
-    #[inline(always)]
-    fn horner(&self, order: usize, h: f64, state: &mut V) -> L::Of<f64x2> {
-        let dof = self.cos_ddot.as_slice().len();
-        let zero = || self.cos_ddot.each(f64x2::ZERO);
-        let (mut sums, mut sizes, step) = (zero(), zero(), f64x2::splat(h));
-        for j in (1..=order.min(MAX_ORDER)).rev() {
-            let shares = f64x2::new([1.0, RECIPROCAL[j + 1]]);
-            let links = sums.as_mut().iter_mut().zip(sizes.as_mut()).zip(self.driver[j].as_ref());
-            for ((sum, size), driver) in links {
-                let own = driver[0] * shares;
-                *sum = (*sum + own) * step;
-                *size = (*size + own.abs()) * step;
-            }
-        }
-        let x = self.x.as_slice();
-        for (link, sum) in sums.as_ref().iter().enumerate() {
-            let ([rate, mean], start) = (sum.to_array(), x[dof + link]);
-            state.as_mut_slice()[dof + link] = start + rate;
-            state.as_mut_slice()[link] = x[link] + h * (start + mean);
-        }
-        sizes
     }
 }
 
@@ -531,101 +326,10 @@ fn fitting(error: f64, order: usize) -> (f64, bool) {
     if is_near || !is_too_long { (careful, is_near) } else { (SAFETY / rough_root(error, order), false) }
 }
 
-/// `[-s, c]` of `[c, s]`.
-#[inline(always)]
-fn turned(circle: f64x2) -> f64x2 {
-    let [cos, sin] = circle.to_array();
-    f64x2::new([-sin, cos])
-}
-
-/// `1 / n`, twice.
-#[inline(always)]
-fn reciprocal(n: usize) -> f64x2 {
-    const PAIRS: [[f64; 2]; TERMS] = {
-        let mut table = [[0.0; 2]; TERMS];
-        let mut n = 0;
-        while n < TERMS {
-            table[n] = [RECIPROCAL[n]; 2];
-            n += 1;
-        }
-        table
-    };
-    f64x2::new(PAIRS[n])
-}
-
 /// The larger of two; the second where one is not a number.
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
-}
-
-/// The rate's coefficient.
-#[inline(always)]
-fn rate_of(driver: &[f64x2; 2]) -> f64 {
-    driver[0].as_array()[0]
-}
-
-/// `[Σ c ω, Σ s ω]` and `[Σ c C, Σ s S]` of each angle, with indices that sum to that of the last ones. Those, which have only just
-/// been computed, come last: all else is summed meanwhile.
-#[inline(always)]
-fn convolve<L: StateVector>(like: &L, circle: &[L::Of<f64x2>], driver: &[L::Of<[f64x2; 2]>]) -> L::Of<[f64x2; 2]> {
-    let (dof, last) = (like.as_slice().len(), circle.len().min(driver.len()) - 1);
-    let (circle, driver) = (&circle[..=last], &driver[..=last]);
-    let mut sums = like.each([f64x2::ZERO; 2]);
-    let mut add = |circle: &L::Of<f64x2>, driver: &L::Of<[f64x2; 2]>| {
-        let (circle, driver) = (&circle.as_ref()[..dof], &driver.as_ref()[..dof]);
-        for (sum, (circle, driver)) in sums.as_mut().iter_mut().zip(circle.iter().zip(driver)) {
-            sum[0] += *circle * driver[0];
-            sum[1] += *circle * driver[1];
-        }
-    };
-    if let ([first, known @ .., newest], [start, before @ .., latest]) = (circle, driver) {
-        known.iter().zip(before.iter().rev()).for_each(|(circle, driver)| add(circle, driver));
-        add(first, latest);
-        add(newest, start);
-    } else {
-        add(&circle[0], &driver[0]);
-    }
-    sums
-}
-
-/// `L D Lᵀ` in place: `L` below the diagonal, `1 / D` on it; the upper triangle is left alone.
-#[inline(always)]
-fn factorise(matrix: &mut [f64], dof: usize) {
-    let matrix = &mut matrix[..dof * dof];
-    for row in 0..dof {
-        for column in 0..row {
-            let mut value = matrix[row * dof + column];
-            for inner in 0..column {
-                // Above the diagonal stand L D of the rows done.
-                value -= matrix[inner * dof + row] * matrix[column * dof + inner];
-            }
-            matrix[column * dof + row] = value;
-            matrix[row * dof + column] = value * matrix[column * dof + column];
-        }
-        let mut diagonal = matrix[row * dof + row];
-        for inner in 0..row {
-            diagonal -= matrix[inner * dof + row] * matrix[row * dof + inner];
-        }
-        matrix[row * dof + row] = 1.0 / diagonal;
-    }
-}
-
-#[inline(always)]
-fn solve(factor: &[f64], x: &mut [f64]) {
-    let dof = x.len();
-    let factor = &factor[..dof * dof];
-    for row in 1..dof {
-        for column in 0..row {
-            x[row] -= factor[row * dof + column] * x[column];
-        }
-    }
-    for row in (0..dof).rev() {
-        x[row] *= factor[row * dof + row];
-        for above in row + 1..dof {
-            x[row] -= factor[above * dof + row] * x[above];
-        }
-    }
 }
 
 #[cfg(test)]
@@ -656,8 +360,8 @@ mod tests {
 
     fn advance(steps: usize, order: usize) -> [f64; 2] {
         let mut taylor = Taylor::new(&[0.0; 2], &[0.0], 1e-14);
-        assert!(order <= taylor.largest_order, "as much room");
-        taylor.largest_order = order;
+        assert!(order <= taylor.series.largest_order, "as much room");
+        taylor.series.largest_order = order;
         let (mut x, h) = ([1.0, 0.0], 12.0 / steps as f64);
         for step in 0..steps {
             // A tolerance that nothing meets: all orders are used.

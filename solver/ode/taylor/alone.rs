@@ -2,7 +2,7 @@
 //! from order to order but the coefficients themselves. Code without loops, a piece for each order: sums as short as these
 //! cost less than ending a loop does.
 
-use super::{TERMS, reciprocal, turned};
+use super::series::{TERMS, reciprocal, turned};
 use crate::dynamics::StateVector;
 use crate::lanes::widest;
 use std::ops::Range;
