@@ -237,7 +237,7 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
                 Some(found) => found,
                 None => return Err(column.missing("blocks", "say of how many blocks the column is made")),
             };
-            if !(count.fract() == 0.0 && (1.0..=MOST_BLOCKS).contains(&count)) {
+            if !(count.fract() == 0.0 && (1.0..=MOST_BLOCKS as f64).contains(&count)) {
                 let remedy = format!("give a whole number from 1 to {MOST_BLOCKS}");
                 let problem = format!("{count} is no number of blocks");
                 return Err(Wrong { place, key: "column.blocks".into(), problem, remedy });
@@ -248,8 +248,8 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
     }
 }
 
-/// Blocks beyond which a scene is taken for a mistake.
-const MOST_BLOCKS: f64 = 100.0;
+/// Blocks of `[column]` beyond which a scene is taken for a mistake.
+pub const MOST_BLOCKS: usize = 100;
 
 /// A block, or one of `count` equal parts of a column whose half-height is given as a whole.
 fn block(table: &mut Table, count: f64, derived: &mut Vec<Derived>) -> Result<Block, Wrong> {

@@ -235,8 +235,8 @@ pub struct Sweep {
     #[arg(long, value_name = "K/M", value_parser = Shard::parse)]
     pub shard: Option<Shard>,
     /// Threads; as many as the machine has unless given.
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    pub threads: Option<u16>,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,
@@ -244,6 +244,9 @@ pub struct Sweep {
     #[arg(long, conflicts_with = "quiet")]
     pub json: bool,
 }
+
+/// Threads beyond which a number is taken for a mistake: each has a stack.
+const MOST_THREADS: i64 = 1024;
 
 /// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.
 const LARGEST_LISTED: i64 = 12;

@@ -36,6 +36,12 @@ pub enum Failure {
         /// What the system says.
         problem: String,
     },
+    /// A command would write over what it reads, or write two things into one file.
+    #[error("{}: the command reads this file, or writes something else into it; choose another name", path.display())]
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file would be written over.
     #[error("{}: there is such a file already; choose another name, or write over it with --force", path.display())]
     Taken {
@@ -224,6 +230,7 @@ impl Failure {
                 | Failure::Output { .. }
                 | Failure::Results { .. }
                 | Failure::File { .. }
+                | Failure::InUse { .. }
                 | Failure::Taken { .. }
                 | Failure::Shards { .. }
                 | Failure::Part { .. }

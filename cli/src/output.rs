@@ -4,7 +4,7 @@ use crate::error::Failure;
 use rocking::{Response, Scene};
 use serde::Serialize;
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// What `summary.json` holds. Lengths N per block or interface, base first.
@@ -149,11 +149,36 @@ impl<'a> Folder<'a> {
 /// [`Failure::File`]
 pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let failed = |error: std::io::Error| Failure::File { path: path.into(), problem: error.to_string() };
-    // A bare file name has the empty path above it.
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = fill(folder, |file| file.write_all(content.as_ref())).map_err(failed)?;
+    let file = fill(folder_of(path), |file| file.write_all(content.as_ref())).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
+}
+
+/// Refuses outputs that are among the inputs, or twice there: the first would be lost.
+///
+/// # Errors
+/// [`Failure::InUse`]
+pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
+    for (place, output) in outputs.iter().enumerate() {
+        if inputs.iter().chain(&outputs[..place]).any(|other| are_same(other, output)) {
+            return Err(Failure::InUse { path: output.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// Whether two paths are of one file, be it there or not yet.
+fn are_same(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| {
+        let in_folder = || Some(folder_of(path).canonicalize().ok()?.join(path.file_name()?));
+        path.canonicalize().ok().or_else(in_folder)
+    };
+    a == b || whole(a).is_some_and(|a| whole(b) == Some(a))
+}
+
+/// The folder of a file: a bare name has the empty path above it.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// A temporary file in `folder`, with all that `write` writes.

@@ -49,9 +49,14 @@ pub fn header(columns: &[Column]) -> String {
     columns.iter().map(|column| quoted(&column.name)).collect::<Vec<_>>().join(",")
 }
 
+/// Text as a cell has it.
+pub fn on_one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
 /// A cell of CSV on one line.
 pub fn quoted(text: &str) -> String {
-    let text = text.replace(['\n', '\r'], " ");
+    let text = on_one_line(text);
     if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 

@@ -3,7 +3,8 @@
 mod common;
 
 use common::sweeps::{BASE, SWEEP, folder, kill_and_go_on, long};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 fn table(folder: &Path, arguments: &[&str]) -> String {
     let all = [&["sweep", "sweep.toml", "--out", "t.csv", "--quiet"], arguments].concat();
@@ -167,12 +168,19 @@ fn a_part_of_another_sweep_is_left_alone() {
 
 #[test]
 fn a_scene_that_fails_is_a_row_with_its_error() {
-    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5, 0.8]\n\"block[2].mass\" = [1.0]\n");
+    // A key that some scenes know is no slip: others say so in their rows.
+    let folder = folder("scene = \"base.toml\"\n[axes]\nkind = [\"sine-pulse\", \"harmonic\"]\nphase = [0.1, 0.2]\n");
     let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv", "--json"]);
     assert!(output.status.success());
     let text = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
-    assert_eq!(rows(&text).len(), 4);
-    assert!(rows(&text)[1..].iter().all(|row| row[3] == "error" && row[7].contains("no such table")), "{text}");
+    let outcomes: Vec<String> = rows(&text)[1..].iter().map(|row| row[3].clone()).collect();
+    assert_eq!(outcomes, ["error", "error", "rocks", "rocks"], "{text}");
+    assert!(rows(&text)[1..3].iter().all(|row| row[7].contains("unknown")), "{text}");
+    // As many columns of peaks as a column may have blocks.
+    let many = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nblocks = [2, 1000000000]\n";
+    std::fs::write(folder.path().join("sweep.toml"), many).expect("written");
+    let text = table(folder.path(), &[]);
+    assert!(rows(&text)[0].len() < 120 && rows(&text)[2].last().is_some_and(|error| error.contains("1 to 100")));
     std::fs::write(folder.path().join("sweep.toml"), "scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5, 0.8]\n")
         .expect("written");
     let text = table(folder.path(), &[]);
@@ -244,6 +252,30 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
             vec!["nowhere", "relative to the base scene"],
         ),
         ("scene = \"base.toml\"\n[axes]\neta = [0.5]\n[axis]\n", vec!["`axis`", "did you mean `axes`?"]),
+        // Every row would say so.
+        (
+            "scene = \"base.toml\"\n[axes]\neta = [0.5]\namplitud_g = [0.5, 0.7]\n",
+            vec![
+                "sweep.toml",
+                "line 4",
+                "horizontal.amplitud_g",
+                "base.toml",
+                "unknown",
+                "did you mean `amplitude_g`?",
+            ],
+        ),
+        ("scene = \"base.toml\"\n[axes]\n\"solvr.rtol\" = [1e-5, 1e-6]\n", vec!["line 3", "did you mean `solver`?"]),
+        (
+            "scene = \"base.toml\"\n[axes]\n\"block[2].mass\" = [1.0]\n",
+            vec!["line 3", "no such table", "initial.theta[1]"],
+        ),
+        ("scene = \"base.toml\"\n[axes]\n\"initial.theta[1]\" = [0.1]\n", vec!["line 3", "no such table or list"]),
+        // One would take the place of the other.
+        (
+            "scene = \"base.toml\"\n[axes]\namplitude_g = [0.5]\namplitude_uplift = [2, 3]\n",
+            vec!["line 4", "`excitation.horizontal.amplitude_g` is an axis as well", "remove one"],
+        ),
+        ("scene = \"base.toml\"\n[axes]\neta = [0.5]\n\"restitution.eta\" = [0.7]\n", vec!["line 4", "axis as well"]),
     ] {
         let folder = folder(sweep);
         let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
@@ -253,6 +285,173 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
             assert!(message.contains(part), "`{part}` is missing in\n{message}\nof\n{sweep}");
         }
         assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2, "something was written for {sweep}");
+    }
+}
+
+/// An item of a list is a key: each row is the run of its scene.
+#[test]
+fn items_of_lists_are_axes() {
+    let folder = folder(
+        "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\n\"theta[2]\" = [0.05, 0.1]\n\"omega[1]\" = [0.0, 0.2]\n",
+    );
+    let base = |theta: &str, omega: &str| {
+        format!("[initial]\ntheta = [0.01, {theta}]\nomega = [{omega}, 0.0]\n")
+            + &BASE.replace("omega = 10.0", "period = 0.6")
+    };
+    std::fs::write(folder.path().join("base.toml"), base("0.0", "0.0")).expect("written");
+    let rows = rows(&table(folder.path(), &[]));
+    assert_eq!(rows[0][1..3], ["initial.theta[2]", "initial.omega[1]"]);
+    assert_eq!(rows.len(), 5);
+    for row in &rows[1..] {
+        std::fs::write(folder.path().join("one.toml"), base(&row[1], &row[2])).expect("written");
+        let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
+        let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+        let peak = summary["peak_theta"][1].as_f64().expect("a number") / 0.4f64.atan2(0.78);
+        assert!((row[8].parse::<f64>().expect("a number") / peak - 1.0).abs() < 1e-12, "{row:?}");
+    }
+}
+
+/// What a sweep reads, or writes as something else, it does not write over.
+#[test]
+fn a_table_over_an_input_is_refused() {
+    let folder = folder(SWEEP);
+    let record = BASE.replace(
+        "kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0",
+        "kind = \"record\"\nfile = \"a.AT2\"\npga_g = 0.2",
+    );
+    std::fs::copy(common::root().join("scenes/records/synthetic.AT2"), folder.path().join("a.AT2")).expect("copied");
+    std::fs::write(folder.path().join("base.toml"), record).expect("written");
+    let sweep = "scene = \"base.toml\"\n[axes]\neta = [0.5, 0.9]\npga_g = [0.2, 0.3]\n";
+    std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
+    let contents = || {
+        let entries = std::fs::read_dir(folder.path()).expect("a folder").map(|entry| entry.expect("there").path());
+        let mut all: Vec<_> = entries.map(|path| (path.clone(), std::fs::read(path).expect("a file"))).collect();
+        all.sort();
+        all
+    };
+    common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "1.csv", "--shard", "1/2", "--quiet"]);
+    common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "2.csv", "--shard", "2/2", "--quiet"]);
+    let before = contents();
+    for arguments in [
+        &["sweep", "sweep.toml", "--out", "base.toml"][..],
+        &["sweep", "sweep.toml", "--out", "./sweep.toml"],
+        &["sweep", "sweep.toml", "--out", "a.AT2"],
+        &["sweep", "sweep.toml", "--out", "t.svg", "--plot", "t.svg"],
+        &["sweep", "sweep.toml", "--out", "t-minimum.svg", "--plot", "t.svg"],
+        &["merge", "2.csv", "1.csv", "2.csv"],
+        &["merge", "sweep.toml", "1.csv", "2.csv", "--sweep", "sweep.toml"],
+    ] {
+        let output = common::rocking(folder.path(), arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}\n{message}");
+        assert!(message.contains("choose another name"), "{arguments:?}\n{message}");
+    }
+    assert!(contents() == before, "something was written");
+    common::succeeds(folder.path(), &["merge", "t.csv", "2.csv", "1.csv", "--sweep", "sweep.toml"]);
+}
+
+/// A part is gone on with only if the records of the base scene are what they were.
+#[test]
+fn another_record_of_the_same_name_makes_another_table() {
+    let folder = folder(
+        &long()
+            .replace("omega_p = { from = 1, to = 8", "scale = { from = 0.4, to = 0.8")
+            .replace("amplitude_g", "start"),
+    );
+    let record =
+        BASE.replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"record\"\nfile = \"a.AT2\"");
+    std::fs::write(folder.path().join("base.toml"), record).expect("written");
+    std::fs::copy(common::root().join("scenes/records/synthetic.AT2"), folder.path().join("a.AT2")).expect("copied");
+    let mut parts = Vec::new();
+    for _ in 0..2 {
+        let mut child = start(folder.path());
+        parts.push(part(folder.path(), &parts));
+        child.kill().expect("SIGKILL");
+        child.wait().expect("it ends");
+        let record = std::fs::read_to_string(folder.path().join("a.AT2")).expect("text");
+        std::fs::write(folder.path().join("a.AT2"), record.replacen("e-6", "e-5", 1)).expect("written");
+    }
+    assert!(parts.iter().all(|part| part.exists()), "{parts:?}");
+}
+
+/// Starts the sweep of the folder on one thread.
+fn start(folder: &Path) -> std::process::Child {
+    std::process::Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .args(["sweep", "sweep.toml", "--out", "t.csv", "--threads", "1", "--quiet"])
+        .current_dir(folder)
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("started")
+}
+
+/// The part of a sweep that has just been started, once it has a header.
+fn part(folder: &Path, known: &[PathBuf]) -> PathBuf {
+    let begun = Instant::now();
+    while begun.elapsed() < Duration::from_secs(60) {
+        let files = std::fs::read_dir(folder).expect("a folder").filter_map(Result::ok).map(|file| file.path());
+        let is_part = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "part");
+        let found = files
+            .filter(|path| is_part(path) && !known.contains(path))
+            .find(|path| std::fs::metadata(path).is_ok_and(|metadata| metadata.len() > 0));
+        if let Some(found) = found {
+            return found;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("no part within a minute");
+}
+
+/// Two processes at one table would write between each other's rows: the second is told.
+#[cfg(unix)]
+#[test]
+fn a_sweep_runs_once_at_a_time() {
+    let folder = folder(&long().replace("steps = 40", "steps = 4000"));
+    let mut child = start(folder.path());
+    part(folder.path(), &[]);
+    let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    let still_runs = child.try_wait().expect("it can be asked").is_none();
+    child.kill().expect("SIGKILL");
+    child.wait().expect("it ends");
+    assert!(still_runs, "the sweep is too short for this test");
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("t.csv") && message.contains("another process"), "{message}");
+}
+
+#[test]
+fn rows_that_are_cut_or_of_another_sweep_are_not_merged() {
+    let folder = folder(SWEEP);
+    for number in 1..=2 {
+        let (name, shard) = (format!("{number}.csv"), format!("{number}/2"));
+        common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", &name, "--shard", &shard, "--quiet"]);
+    }
+    let second = std::fs::read_to_string(folder.path().join("2.csv")).expect("written");
+    let last = second.trim_end().rsplit('\n').next().expect("a line");
+    let overturned = second.lines().find(|line| line.contains("overturns")).expect("one overturns");
+    let cut_within = second.replace(last, last.rsplit_once(',').expect("cells").0);
+    let without_outcome = second.replace(overturned, &overturned.replace("overturns", "overt"));
+    std::fs::write(folder.path().join("sweep.toml"), SWEEP.replace("to = 8", "to = 9")).expect("written");
+    for (text, arguments, named) in [
+        (&cut_within, &[][..], &["2.csv", "record 30", "fields"][..]),
+        (&without_outcome, &[], &["2.csv", "not whole", overturned.split(',').next().expect("an index")]),
+        (&second, &["--sweep", "sweep.toml"], &["1.csv", "point 6", "sweep.toml", "other values"]),
+    ] {
+        std::fs::write(folder.path().join("2.csv"), text).expect("written");
+        let output = common::rocking(folder.path(), &[&["merge", "t.csv", "1.csv", "2.csv"], arguments].concat());
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(named.iter().all(|part| message.contains(part)), "{named:?} in\n{message}");
+        assert!(!folder.path().join("t.csv").exists());
+    }
+}
+
+#[test]
+fn threads_are_some_and_not_too_many() {
+    let folder = folder(SWEEP);
+    for threads in ["0", "5000", "two"] {
+        let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--threads", threads]);
+        assert_eq!(output.status.code(), Some(2), "{threads}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("--threads"), "{threads}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
-use super::table::{Table, Wrong};
+use super::table::{NOWHERE, Place, Table, UNKNOWN, Wrong, exclude_each_other};
 use super::template::{Setting, Template};
 use super::{Reader, SceneFileError};
 use crate::sweep::{Ask, Axis, Combine, Sweep};
@@ -40,12 +40,14 @@ impl Sweep {
         let Some(mut table) = root.table("axes").map_err(own)? else {
             return Err(own(root.missing("axes", "add [axes] with a line for each key that varies")));
         };
-        let mut axes = Vec::new();
-        read_axes(&mut table, "", &template, &mut axes).map_err(own)?;
+        let mut placed = Vec::new();
+        read_axes(&mut table, "", &template, &mut placed).map_err(own)?;
         root.close().map_err(own)?;
-        if axes.is_empty() {
+        if placed.is_empty() {
             return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
         }
+        distinct(&placed).map_err(own)?;
+        let (axes, places): (_, Vec<Place>) = placed.into_iter().unzip();
         let sweep = Sweep { template, axes, combine, ask };
         let lengths: Vec<usize> = sweep.axes.iter().map(|axis| axis.values.len()).collect();
         let problem = match combine {
@@ -57,29 +59,61 @@ impl Sweep {
             }
             _ => None,
         };
-        match problem {
-            Some((problem, remedy)) => Err(own(root.wrong("axes", problem, remedy))),
-            None => Ok(sweep),
+        if let Some((problem, remedy)) = problem {
+            return Err(own(root.wrong("axes", problem, remedy)));
         }
+        if let Some((axis, problem, remedy)) = sweep.unknown_axis() {
+            let key = format!("axes.{}", sweep.axes[axis].key);
+            let problem = format!("in {}, {problem}", sweep.template.file().display());
+            return Err(own(Wrong { place: places[axis].clone(), key, problem, remedy }));
+        }
+        Ok(sweep)
     }
+
+    /// The axis whose key neither the first scene knows nor the last one, with problem and remedy: a slip, and every row would say so.
+    fn unknown_axis(&self) -> Option<(usize, String, String)> {
+        let mut at_ends = [0, self.len() - 1].into_iter().map(|index| {
+            let SceneFileError::Scene { key, problem, remedy, .. } = self.scene(index).err()? else { return None };
+            let is_of_axis = |axis: &Axis| axis.key == key || axis.key.starts_with(&format!("{key}."));
+            let axis = self.axes.iter().position(is_of_axis).filter(|_| [UNKNOWN, NOWHERE].contains(&&*problem))?;
+            Some((axis, problem, remedy))
+        });
+        let (first, last) = (at_ends.next()?, at_ends.next()?);
+        first.filter(|first| last.is_some_and(|last| first.0 == last.0))
+    }
+}
+
+/// Whether no axis takes the place of another one.
+fn distinct(axes: &[(Axis, Place)]) -> Result<(), Wrong> {
+    for (index, (axis, place)) in axes.iter().enumerate() {
+        let is_other = |(other, _): &&(Axis, Place)| other.key == axis.key || exclude_each_other(&other.key, &axis.key);
+        let Some((other, _)) = axes[..index].iter().find(is_other) else { continue };
+        return Err(Wrong {
+            place: place.clone(),
+            key: format!("axes.{}", axis.key),
+            problem: format!("`{}` is an axis as well, and a scene has one of the two", other.key),
+            remedy: "remove one of them".into(),
+        });
+    }
+    Ok(())
 }
 
 fn product(lengths: &[usize]) -> Option<usize> {
     lengths.iter().try_fold(1usize, |product, length| product.checked_mul(*length))
 }
 
-/// The axes of a table, those of tables within under their dotted names.
-fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<Axis>) -> Result<(), Wrong> {
+/// The axes of a table with their places, those of tables within under their dotted names.
+fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<(Axis, Place)>) -> Result<(), Wrong> {
     for key in table.keys() {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         if let Some(values) = table.settings(&key)? {
-            axes.push(axis(table, &key, &path, values, template)?);
+            axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
         if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
             let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
-            axes.push(axis(table, &key, &path, values, template)?);
+            axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
         } else {
             read_axes(&mut inner, &path, template, axes)?;
         }
@@ -138,7 +172,7 @@ fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
 /// The files of a folder beside the base scene, in the order of their names.
 fn folder(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
     let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
-    let path = template.file().parent().unwrap_or(Path::new("")).join(&name);
+    let path = template.beside(&name);
     let failed = |error: std::io::Error| {
         table.wrong("folder", format!("{}: {error}", path.display()), "give the folder relative to the base scene")
     };

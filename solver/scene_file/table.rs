@@ -21,6 +21,12 @@ pub struct Wrong {
     pub remedy: String,
 }
 
+/// What is wrong with a key that nobody asks for.
+pub const UNKNOWN: &str = "this key is unknown here";
+
+/// What is wrong with a dotted key on whose way something is missing.
+pub const NOWHERE: &str = "the scene has no such table or list";
+
 /// A value and its places.
 #[derive(Clone, Debug)]
 struct Entry {
@@ -49,6 +55,13 @@ impl Value {
             Value::Array(_) => "a list",
             Value::Table(_) => "a table",
             Value::Other(what) => what,
+        }
+    }
+
+    fn of(setting: &Setting) -> Value {
+        match setting {
+            Setting::Number(number) => Value::Number(*number),
+            Setting::Text(text) => Value::Text(text.as_str().into()),
         }
     }
 
@@ -136,30 +149,18 @@ impl Table {
         self.entries.iter().any(|entry| *entry.key == *key)
     }
 
-    /// Gives a key, under its dotted name, another value or its first; tables on the way are made. `block[2].mass` is of the second
-    /// block. `None` if something else stands where a table should.
+    /// Gives a key, under its dotted name, another value or its first; tables on the way are made, lists are not. `block[2].mass` is of
+    /// the second block, `initial.theta[2]` the second of a list. `None` if something else stands where a table or a list should.
     pub fn set(&mut self, key: &str, value: &Setting) -> Option<()> {
         let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
         let (name, index) = match first.split_once('[') {
             Some((name, index)) => (name, Some(index.strip_suffix(']')?.parse::<usize>().ok()?.checked_sub(1)?)),
             None => (first, None),
         };
-        let Some(rest) = rest else {
-            let value = match value {
-                Setting::Number(number) => Value::Number(*number),
-                Setting::Text(text) => Value::Text(text.as_str().into()),
-            };
-            // As most often in a sweep: it is there, and no other of its kind beside it.
-            if let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) {
-                entry.value = value;
-                return Some(());
-            }
-            let place = self.find(name);
-            let entries = Arc::make_mut(&mut self.entries);
-            entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
-            entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+        if rest.is_none() && index.is_none() {
+            self.set_own(name, Value::of(value));
             return Some(());
-        };
+        }
         if !self.has(name) && index.is_none() {
             let (place, dotted) = (self.place(), self.dotted(name));
             let table = Table { name: dotted.into(), place: place.clone(), entries: Arc::default(), asked: Vec::new() };
@@ -172,14 +173,32 @@ impl Table {
             });
         }
         let entries = Arc::make_mut(&mut self.entries);
-        match (&mut entries.iter_mut().find(|entry| *entry.key == *name)?.value, index) {
-            (Value::Table(table), None) => table.set(rest, value),
-            (Value::Array(items), Some(index)) => match Arc::make_mut(items).get_mut(index)? {
-                (Value::Table(table), _) => table.set(rest, value),
-                _ => None,
-            },
-            _ => None,
+        let found = match (&mut entries.iter_mut().find(|entry| *entry.key == *name)?.value, index) {
+            (Value::Array(items), Some(index)) => &mut Arc::make_mut(items).get_mut(index)?.0,
+            (found, None) => found,
+            _ => return None,
+        };
+        match (found, rest) {
+            (Value::Table(table), Some(rest)) => table.set(rest, value),
+            (Value::Table(_), None) | (_, Some(_)) => None,
+            (item, None) => {
+                *item = Value::of(value);
+                Some(())
+            }
         }
+    }
+
+    /// The same of a key of this very table.
+    fn set_own(&mut self, name: &str, value: Value) {
+        // As most often in a sweep: it is there, and no other of its kind beside it.
+        if let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) {
+            entry.value = value;
+            return;
+        }
+        let place = self.find(name);
+        let entries = Arc::make_mut(&mut self.entries);
+        entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
+        entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
     }
 
     /// Full names of the keys of this table and those within that are called `name`.
@@ -218,8 +237,12 @@ impl Table {
 
     /// Where a dotted key stands; the nearest table where it is not given.
     pub fn find(&self, key: &str) -> Place {
-        let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
-        match (self.entries.iter().find(|entry| *entry.key == *first), rest) {
+        // In quotes, a key may have points of its own.
+        let (first, rest) = match key.split_once('.') {
+            Some((first, rest)) if !self.has(key) => (first, Some(rest)),
+            _ => (key, None),
+        };
+        match (self.entry(first).or_else(|| self.entry(without_index(first))), rest) {
             (Some(Entry { value: Value::Table(table), .. }), Some(rest)) => table.find(rest),
             (Some(entry), _) => entry.key_place.start..entry.value_place.end.max(entry.key_place.end),
             (None, _) => self.place(),
@@ -419,7 +442,7 @@ impl Table {
 
     fn unknown(&self, entry: &Entry, remedy: String) -> Wrong {
         let (place, key) = (entry.key_place.clone(), self.dotted(&entry.key));
-        Wrong { place, key, problem: "this key is unknown here".into(), remedy }
+        Wrong { place, key, problem: UNKNOWN.into(), remedy }
     }
 }
 
@@ -458,6 +481,21 @@ const ALTERNATIVES: [&[&str]; 6] = [
     &["density", "mass"],
     &["eta", "factors", "law"],
 ];
+
+/// Whether a scene has one of two different keys, under their dotted names, and never both.
+pub fn exclude_each_other(a: &str, b: &str) -> bool {
+    let parts = |key: &str| {
+        let (table, name) = key.rsplit_once('.').unwrap_or(("", key));
+        (table.to_string(), without_index(name).to_string())
+    };
+    let ((table, name), (other_table, other_name)) = (parts(a), parts(b));
+    table == other_table && name != other_name && are_alternatives(&name, &other_name)
+}
+
+/// `block` of `block[2]`.
+fn without_index(name: &str) -> &str {
+    name.split('[').next().unwrap_or(name)
+}
 
 fn are_alternatives(a: &str, b: &str) -> bool {
     ALTERNATIVES.iter().any(|group| group.contains(&a) && group.contains(&b))

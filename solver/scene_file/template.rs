@@ -1,7 +1,7 @@
 //! A scene file with some of its keys replaced: what sweeps are made of.
 
 use super::excitation::set_amplitude;
-use super::table::{Table, Wrong};
+use super::table::{NOWHERE, Table, Wrong};
 use super::{Reader, SceneFileError};
 use crate::excitation::Record;
 use crate::scene::Scene;
@@ -62,6 +62,16 @@ impl Template {
         &self.file
     }
 
+    /// A file that is named relative to this one.
+    pub fn beside(&self, name: &str) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(name)
+    }
+
+    /// Files of the records that its scenes have had so far, those of the scene as it stands among them; in the order of their names.
+    pub fn records(&self) -> Vec<PathBuf> {
+        self.records.files()
+    }
+
     /// The scene with these keys, under their dotted names, set to these values. What they replace goes: `amplitude_g` takes the
     /// place of `amplitude`.
     ///
@@ -91,16 +101,19 @@ impl Template {
         if key.contains('.') {
             return Some(key.into());
         }
-        let table = match key {
+        // An item of a list is where the list is.
+        let (name, item) = key.split_at(key.find('[').unwrap_or(key.len()));
+        let table = match name {
             "title" | "gravity" | "friction" => return Some(key.into()),
             "blocks" | "half_width" | "half_height" | "density" | "mass" => "column",
-            "eta" => "restitution",
+            "eta" | "factors" => "restitution",
+            "theta" => "initial",
             "t_end" | "method" | "rtol" | "atol" | "step" | "stick_angle" | "overturn_angle" => "solver",
             _ => "excitation.horizontal",
         };
-        match &self.root.named(key)[..] {
+        match &self.root.named(name)[..] {
             [] => Some(format!("{table}.{key}")),
-            [name] => Some(name.clone()),
+            [name] => Some(format!("{name}{item}")),
             _ => None,
         }
     }
@@ -111,8 +124,8 @@ fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s
     for (key, value) in settings {
         root.set(key, value).ok_or_else(|| {
             let (place, key) = (root.find(key), key.to_string());
-            let problem = "the scene has no such table".into();
-            let remedy = "name a key as in a scene file, e.g. `excitation.horizontal.amplitude_g` or `block[2].mass`";
+            let problem = NOWHERE.into();
+            let remedy = "name a key as in a scene file, e.g. `excitation.horizontal.amplitude_g`, `block[2].mass` or `initial.theta[1]`";
             Wrong { place, key, problem, remedy: remedy.into() }
         })?;
     }
@@ -177,6 +190,14 @@ impl Records {
     /// A record read before.
     pub fn get(&self, key: &(PathBuf, String)) -> Option<Record> {
         self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(key).cloned()
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        let records = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut files: Vec<PathBuf> = records.keys().map(|(file, _)| file.clone()).collect();
+        files.sort();
+        files.dedup();
+        files
     }
 
     /// Keeps a record.

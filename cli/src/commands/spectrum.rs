@@ -8,7 +8,7 @@ use crate::table::Format;
 use crate::{output, plot};
 use rocking::sweep::Sweep;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether a sweep that is to be drawn can be: told before it is run.
 ///
@@ -49,21 +49,25 @@ pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Fai
 /// # Errors
 /// [`Failure::Spectrum`], [`Failure::File`]
 pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
-    let part = |name: Option<&std::ffi::OsStr>| name.map_or_else(String::new, |name| name.to_string_lossy().into());
-    let extension = part(picture.extension());
-    let second = match extension.as_str() {
-        "" => format!("{}-minimum", part(picture.file_stem())),
-        extension => format!("{}-minimum.{extension}", part(picture.file_stem())),
-    };
     let mut told = String::new();
     let drawn = figures(table).map_err(|error| refused(table, error))?;
-    for (figure, path) in drawn.into_iter().zip([picture.into(), picture.with_file_name(second)]) {
-        let is_png = extension.eq_ignore_ascii_case("png");
+    for (figure, path) in drawn.into_iter().zip(files(picture)) {
+        let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
         let bytes = if is_png { plot::png(&figure) } else { figure.svg.into_bytes() };
         output::file(&path, bytes)?;
         let _ = writeln!(told, "wrote {}: {}", path.display(), figure.caption);
     }
     Ok(told)
+}
+
+/// The files of both figures, of which `picture` is the first.
+pub fn files(picture: &Path) -> [PathBuf; 2] {
+    let part = |name: Option<&std::ffi::OsStr>| name.map_or_else(String::new, |name| name.to_string_lossy().into());
+    let second = match picture.extension() {
+        None => format!("{}-minimum", part(picture.file_stem())),
+        extension => format!("{}-minimum.{}", part(picture.file_stem()), part(extension)),
+    };
+    [picture.into(), picture.with_file_name(second)]
 }
 
 fn refused(path: &Path, error: NoSpectrum) -> Failure {

@@ -7,15 +7,16 @@
 use crate::arguments;
 use crate::commands::{json, print, spectrum};
 use crate::error::Failure;
+use crate::output;
 use crate::progress::Points;
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
 use crate::table::{Column, Format, Kind, header, quoted};
-use rocking::scene_file::Setting;
+use rocking::scene_file::{MOST_BLOCKS, Setting};
 use rocking::sweep::{Ask, Fate, Row, Sweep};
 use serde::Serialize;
-use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::fs::{File, TryLockError};
+use std::io::{BufRead, BufReader, BufWriter, Error, ErrorKind, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -36,9 +37,10 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     if asked.plot.is_some() {
         spectrum::check(asked, &sweep)?;
     }
+    check_files(asked, &sweep)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
     let columns = columns(&sweep)?;
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.unwrap_or(0)).build();
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.map_or(0, usize::from)).build();
     let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
     let failed = |error: std::io::Error| Failure::File { path: asked.out.clone(), problem: error.to_string() };
     let fingerprint = fingerprint(&sweep, &range, &asked.file)?;
@@ -72,6 +74,22 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
     let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
     print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), asked.out.display()))
+}
+
+/// Whether nothing that the sweep is made of, or writes elsewhere, would be written over.
+fn check_files(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
+    let mut outputs = vec![asked.out.clone()];
+    outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    let mut inputs = records(sweep);
+    inputs.extend([asked.file.clone(), sweep.template.file().into()]);
+    output::check(&outputs, &inputs)
+}
+
+/// The records of the base scene and of the axes.
+fn records(sweep: &Sweep) -> Vec<PathBuf> {
+    let axes = sweep.axes.iter().filter(|axis| axis.key.ends_with(".file"));
+    let of_axes = axes.flat_map(|axis| &axis.values).map(|value| sweep.template.beside(&value.to_string()));
+    sweep.template.records().into_iter().chain(of_axes).collect()
 }
 
 /// A part of a sweep, for one of several machines.
@@ -119,8 +137,9 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     if sweep.ask == Ask::Peaks {
         let base = sweep.template.with(std::iter::empty()).map_err(Failure::scene)?;
         let counts = sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
-        let largest = counts.filter_map(|count| count.to_string().parse().ok()).max();
-        let blocks = 1..=largest.unwrap_or(base.column.len());
+        // Larger numbers are rows with errors.
+        let counts = counts.filter_map(|count| count.to_string().parse().ok()).filter(|count| *count <= MOST_BLOCKS);
+        let blocks = 1..=counts.max().unwrap_or(base.column.len());
         columns.extend(blocks.map(|block| Column::sparse(format!("peak_{block}"), Kind::Number)));
         columns.push(Column::sparse("last_mode", Kind::Text));
     }
@@ -169,11 +188,15 @@ impl Growing {
     /// Goes on with what is there, or begins.
     fn open(out: &Path, header: &str, fingerprint: u64, range: Range<usize>) -> std::io::Result<Growing> {
         if out.is_dir() {
-            return Err(std::io::Error::new(std::io::ErrorKind::IsADirectory, "a folder has this name"));
+            return Err(Error::new(ErrorKind::IsADirectory, "a folder has this name"));
         }
         let name = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
         let mut file = File::options().read(true).write(true).create(true).truncate(false).open(&part)?;
+        // Two at once would write rows between each other's. Elsewhere a lock would keep this very program from reading.
+        if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            return Err(Error::new(ErrorKind::ResourceBusy, "the same sweep is being run into it, by another process"));
+        }
         let (mut kept, mut rows) = (0u64, 0usize);
         let mut line = Vec::new();
         let mut reader = BufReader::new(&mut file);
@@ -238,14 +261,11 @@ fn fingerprint(sweep: &Sweep, range: &Range<usize>, file: &Path) -> Result<u64, 
     hash.add(format!("{range:?}").as_bytes());
     for axis in &sweep.axes {
         hash.add(axis.key.as_bytes());
-        for value in &axis.values {
-            hash.add(value.to_string().as_bytes());
-            let path = sweep.template.file().parent().unwrap_or(Path::new("")).join(value.to_string());
-            // Another record of the same name gives other rows.
-            if axis.key.ends_with(".file") {
-                hash.add(&std::fs::read(path).unwrap_or_default());
-            }
-        }
+        axis.values.iter().for_each(|value| hash.add(value.to_string().as_bytes()));
+    }
+    // Another record of the same name gives other rows.
+    for record in records(sweep) {
+        hash.add(&std::fs::read(record).unwrap_or_default());
     }
     Ok(hash.0)
 }

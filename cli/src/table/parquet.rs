@@ -119,14 +119,6 @@ impl Piece {
         Ok(())
     }
 
-    /// The numbers of its points.
-    fn indices(&self) -> &[i64] {
-        match self.columns.first() {
-            Some(Cells::Whole(indices)) => &indices.values,
-            _ => &[],
-        }
-    }
-
     fn texts(self) -> Result<Vec<StringRecord>> {
         let columns = self.columns.into_iter().map(|cells| match cells {
             Cells::Whole(values) => values.texts(|value| Ok(value.to_string())),
@@ -176,15 +168,13 @@ impl<W: Write + Send> Writer<W> {
         self.write_full()
     }
 
-    /// Takes rows of a table with the same columns, as many as its group and this one allow; returns the numbers of their points,
-    /// none at the end.
+    /// Takes rows of a table with the same columns, as many as its group and this one allow; returns how many, none at the end.
     ///
     /// # Errors
     /// What the system says, or what is wrong with the table.
-    pub fn take(&mut self, table: &mut Reader) -> Result<&[i64]> {
-        let before = self.piece.rows;
-        table.read(&mut self.piece, GROUP - before)?;
-        Ok(&self.piece.indices()[before..])
+    pub fn take(&mut self, table: &mut Reader) -> Result<usize> {
+        let room = GROUP - self.piece.rows;
+        table.read(&mut self.piece, room)
     }
 
     /// Writes a group if its rows are there.
@@ -307,16 +297,6 @@ impl Reader {
         piece.rows += rows;
         self.left -= rows;
         Ok(rows)
-    }
-
-    /// The number of its first point, of a table that has rows.
-    ///
-    /// # Errors
-    /// What the system says, or what is wrong with the file.
-    pub fn first_index(&mut self) -> Result<Option<u64>> {
-        let mut piece = Piece::new(&self.columns);
-        self.read(&mut piece, 1)?;
-        Ok(piece.indices().first().map(|index| *index as u64))
     }
 
     /// Its rows as text.
