@@ -358,8 +358,8 @@ fn restitute<S: Size>(
     for (index, impulse) in gain[..count].iter().enumerate() {
         rates.iter_mut().zip(row_of(index)).for_each(|(rate, share)| *rate += share * impulse);
     }
-    // Base first, exactly: what rounding left of a factor of zero would be a hop.
-    for interface in (0..free.len()).filter(|interface| rebounding.contains(interface)) {
+    // Set, base first: what rounding left of a factor of zero would be a hop.
+    for interface in (0..states.len()).filter(|interface| rebounding.contains(interface)) {
         let rebound_rate = kappa[interface] * relative(&plastic.motion, interface);
         rates[above(interface)] = rate_below(&rates, interface) + rebound_rate;
     }
@@ -521,17 +521,18 @@ mod tests {
     #[test]
     fn a_factor_of_zero_leaves_no_rebound() {
         let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
-        let law = ImpactLaw { kappa: &[0.0; 3], stick_angle: 0.0, is_recorded: false };
+        let mut rebounds = [0; 2];
         for step in 1..200 {
             let (omega, angle) = (-0.005 * f64::from(step), 0.001 * f64::from(step % 7));
-            let (theta, rates) = ([0.0, 0.0, angle], [omega, omega * 0.7, omega * 0.7 + 0.3]);
-            let side = if angle > 0.0 { 1 } else { 0 };
+            let (side, apart) = if angle > 0.0 { (1, 0.3) } else { (0, 0.0) };
+            let (theta, rates) = ([0.0, 0.0, angle], [omega, 0.7 * omega, 0.7 * omega + apart]);
             let pattern = Pattern::from_signs(&[1, -1, side]);
-            let after = impact(&column, &pattern, &theta, &rates, &[0, 1], GROUND, law).expect("solvable");
-            for interface in [0, 1] {
-                let left = relative(&after.omega, interface);
-                assert_eq!(left, 0.0, "interface {interface} after {omega} rad/s");
+            for (kappa, rebounds) in [0.0, 1.0].into_iter().zip(&mut rebounds) {
+                let law = ImpactLaw { kappa: &[kappa; 3], stick_angle: 0.0, is_recorded: false };
+                let after = impact(&column, &pattern, &theta, &rates, &[0, 1], GROUND, law).expect("solvable");
+                *rebounds += [0, 1].into_iter().filter(|interface| relative(&after.omega, *interface) != 0.0).count();
             }
         }
+        assert!(rebounds[0] == 0 && rebounds[1] > 300, "{rebounds:?}");
     }
 }

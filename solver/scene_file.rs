@@ -12,6 +12,7 @@ use crate::column::{Block, Column};
 use crate::scene::{Method, Restitution, Scene, SceneError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+pub use table::Cause;
 use table::{Place, Table};
 use template::Records;
 pub(crate) use template::Shaken;
@@ -43,6 +44,8 @@ pub enum SceneFileError {
         problem: String,
         /// What to do.
         remedy: String,
+        /// Key or value.
+        cause: Cause,
     },
     /// A record is not as it should be.
     #[error("{}: {problem} (asked for by {}, line {line}, key `{key}`)", record.display(), file.display())]
@@ -169,13 +172,15 @@ impl Reader<'_> {
             key: wrong.key,
             problem: wrong.problem,
             remedy: wrong.remedy,
+            cause: wrong.cause,
         }
     }
 
     /// An error of [`Scene::check`], at the key that it names.
     fn refused(&self, root: &Table, error: SceneError) -> SceneFileError {
         let place = root.find(&error.key);
-        self.error(Wrong { place, key: error.key, problem: error.problem, remedy: error.remedy })
+        let cause = Cause::Value;
+        self.error(Wrong { place, key: error.key, problem: error.problem, remedy: error.remedy, cause })
     }
 
     fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, SceneFileError> {
@@ -228,6 +233,7 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
             key: "column".into(),
             problem: "`[[block]]` is given as well".into(),
             remedy: "describe the column in one way".into(),
+            cause: Cause::Value,
         }),
         (Some(mut tables), None) if !tables.is_empty() => {
             tables.iter_mut().map(|table| block(table, 1.0, derived)).collect()
@@ -240,7 +246,7 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
             if !(count.fract() == 0.0 && (1.0..=MOST_BLOCKS as f64).contains(&count)) {
                 let remedy = format!("give a whole number from 1 to {MOST_BLOCKS}");
                 let problem = format!("{count} is no number of blocks");
-                return Err(Wrong { place, key: "column.blocks".into(), problem, remedy });
+                return Err(Wrong { place, key: "column.blocks".into(), problem, remedy, cause: Cause::Value });
             }
             Ok(vec![block(&mut column, count, derived)?; count as usize])
         }

@@ -125,10 +125,16 @@ pub struct Outcome {
 pub enum PointError {
     /// Its scene is not valid.
     #[error(transparent)]
-    Scene(#[from] SceneFileError),
+    Scene(Box<SceneFileError>),
     /// Its run could not be finished.
     #[error(transparent)]
     Solve(#[from] SolveError),
+}
+
+impl From<SceneFileError> for PointError {
+    fn from(error: SceneFileError) -> PointError {
+        PointError::Scene(Box::new(error))
+    }
 }
 
 /// A point and what came of it.

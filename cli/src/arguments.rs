@@ -4,7 +4,7 @@ use crate::commands::sweep::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::excitation::AccelerationUnit;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
 #[derive(Debug, Parser)]
@@ -196,8 +196,8 @@ pub struct Record {
     /// Write the record, scaled and trimmed, as a table of time and acceleration (CSV).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw accelerogram, velocity, displacement and the growth of the Arias intensity (SVG, or PNG by the file's name).
-    #[arg(long, value_name = "FILE")]
+    /// Draw accelerogram, velocity, displacement and the growth of the Arias intensity (SVG or PNG by the file's name).
+    #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
     /// Print JSON instead of text.
     #[arg(long)]
@@ -213,6 +213,11 @@ fn positive(text: &str) -> Result<f64, String> {
     finite(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("give a number above zero".into()) })
 }
 
+fn figure(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    if Picture::of(&file).is_some() { Ok(file) } else { Err("give a name that ends in .svg or .png".into()) }
+}
+
 fn unit(text: &str) -> Result<AccelerationUnit, String> {
     AccelerationUnit::parse(text).ok_or_else(|| "choose g, m/s2, cm/s2, gal, mg or in/s2".into())
 }
@@ -225,11 +230,11 @@ pub struct Sweep {
     /// Table of the results: CSV, or Parquet if its name ends in .parquet.
     #[arg(long, value_name = "FILE", default_value = "sweep.csv")]
     pub out: PathBuf,
-    /// Draw the overturning spectrum, and beside it FILE-minimum: the least value that overturns (SVG, or PNG by the name).
+    /// Draw the overturning spectrum, and beside it FILE-minimum: the least value that overturns (SVG or PNG by the name).
     ///
     /// Of the last two axes with numbers that vary the last one goes upwards; each combination of the others is a panel.
     /// `rocking plot TABLE.csv` draws a table that is there.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
     /// Run the K-th of M parts only; `rocking merge` joins their tables.
     #[arg(long, value_name = "K/M", value_parser = Shard::parse)]
@@ -267,6 +272,18 @@ pub enum Picture {
     Svg,
     /// In pixels.
     Png,
+}
+
+impl Picture {
+    /// By the name of a file.
+    pub fn of(file: &Path) -> Option<Picture> {
+        let extension = file.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "svg" => Some(Picture::Svg),
+            "png" => Some(Picture::Png),
+            _ => None,
+        }
+    }
 }
 
 /// How a derivation is printed.

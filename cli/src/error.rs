@@ -42,6 +42,12 @@ pub enum Failure {
         /// The file.
         path: PathBuf,
     },
+    /// Another process is at the same work.
+    #[error("{}: another process is running the same sweep into it; wait for that, or give another name with --out", path.display())]
+    Running {
+        /// The table.
+        path: PathBuf,
+    },
     /// A file would be written over.
     #[error("{}: there is such a file already; choose another name, or write over it with --force", path.display())]
     Taken {
@@ -231,6 +237,7 @@ impl Failure {
                 | Failure::Results { .. }
                 | Failure::File { .. }
                 | Failure::InUse { .. }
+                | Failure::Running { .. }
                 | Failure::Taken { .. }
                 | Failure::Shards { .. }
                 | Failure::Part { .. }

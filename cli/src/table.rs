@@ -42,6 +42,16 @@ impl Column {
     pub fn sparse(name: impl Into<String>, kind: Kind) -> Column {
         Column { name: name.into(), kind, may_be_blank: true }
     }
+
+    /// Whether a cell of CSV may be one of this column.
+    pub fn takes(&self, cell: &str) -> bool {
+        match self.kind {
+            _ if cell.is_empty() => self.may_be_blank,
+            Kind::Whole => cell.parse::<u64>().is_ok(),
+            Kind::Number => cell.parse::<f64>().is_ok(),
+            Kind::Text => true,
+        }
+    }
 }
 
 /// The first line of CSV.

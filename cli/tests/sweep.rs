@@ -169,12 +169,14 @@ fn a_part_of_another_sweep_is_left_alone() {
 #[test]
 fn a_scene_that_fails_is_a_row_with_its_error() {
     // A key that some scenes know is no slip: others say so in their rows.
-    let folder = folder("scene = \"base.toml\"\n[axes]\nkind = [\"sine-pulse\", \"harmonic\"]\nphase = [0.1, 0.2]\n");
+    let folder = folder(
+        "scene = \"base.toml\"\n[axes]\nkind = [\"sine-pulse\", \"harmonic\", \"ricker\"]\nphase = [0.1, 0.2]\n",
+    );
     let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv", "--json"]);
     assert!(output.status.success());
     let text = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
     let outcomes: Vec<String> = rows(&text)[1..].iter().map(|row| row[3].clone()).collect();
-    assert_eq!(outcomes, ["error", "error", "rocks", "rocks"], "{text}");
+    assert_eq!(outcomes, ["error", "error", "rocks", "rocks", "error", "error"], "{text}");
     assert!(rows(&text)[1..3].iter().all(|row| row[7].contains("unknown")), "{text}");
     // As many columns of peaks as a column may have blocks.
     let many = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nblocks = [2, 1000000000]\n";
@@ -264,6 +266,15 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
                 "did you mean `amplitude_g`?",
             ],
         ),
+        (
+            "scene = \"base.toml\"\n[axes]\nkind = [\"sine-pulse\", \"ricker\"]\nphase = [0.1]\n",
+            vec!["line 4", "horizontal.phase", "unknown"],
+        ),
+        (
+            "scene = \"base.toml\"\n[axes]\nvelocity = [0.5, 0.7]\n",
+            vec!["line 2", "`axes`", "`excitation.horizontal.amplitude` of base.toml", "missing"],
+        ),
+        ("scene = \"base.toml\"\n[axes]\n\"title.x\" = [1, 2]\n", vec!["line 3", "`title` of base.toml"]),
         ("scene = \"base.toml\"\n[axes]\n\"solvr.rtol\" = [1e-5, 1e-6]\n", vec!["line 3", "did you mean `solver`?"]),
         (
             "scene = \"base.toml\"\n[axes]\n\"block[2].mass\" = [1.0]\n",
@@ -340,6 +351,8 @@ fn a_table_over_an_input_is_refused() {
         &["sweep", "sweep.toml", "--out", "t-minimum.svg", "--plot", "t.svg"],
         &["merge", "2.csv", "1.csv", "2.csv"],
         &["merge", "sweep.toml", "1.csv", "2.csv", "--sweep", "sweep.toml"],
+        &["merge", "base.toml", "1.csv", "2.csv", "--sweep", "sweep.toml"],
+        &["merge", "a.AT2", "1.csv", "2.csv", "--sweep", "sweep.toml"],
     ] {
         let output = common::rocking(folder.path(), arguments);
         let message = String::from_utf8_lossy(&output.stderr);
@@ -356,7 +369,8 @@ fn another_record_of_the_same_name_makes_another_table() {
     let folder = folder(
         &long()
             .replace("omega_p = { from = 1, to = 8", "scale = { from = 0.4, to = 0.8")
-            .replace("amplitude_g", "start"),
+            .replace("amplitude_g", "start")
+            .replace("steps = 40", "steps = 4000"),
     );
     let record =
         BASE.replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"record\"\nfile = \"a.AT2\"");
@@ -415,7 +429,7 @@ fn a_sweep_runs_once_at_a_time() {
     child.wait().expect("it ends");
     assert!(still_runs, "the sweep is too short for this test");
     assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(message.contains("t.csv") && message.contains("another process"), "{message}");
+    assert!(message.contains("t.csv: another process") && message.contains("wait"), "{message}");
 }
 
 #[test]
@@ -430,11 +444,16 @@ fn rows_that_are_cut_or_of_another_sweep_are_not_merged() {
     let overturned = second.lines().find(|line| line.contains("overturns")).expect("one overturns");
     let cut_within = second.replace(last, last.rsplit_once(',').expect("cells").0);
     let without_outcome = second.replace(overturned, &overturned.replace("overturns", "overt"));
+    let cut_at_end = second.trim_end().to_string();
+    let no_number = second.replace(overturned, &overturned.replace("overturns,", "overturns,x"));
+    std::fs::rename(folder.path().join("sweep.toml"), folder.path().join("old.toml")).expect("renamed");
     std::fs::write(folder.path().join("sweep.toml"), SWEEP.replace("to = 8", "to = 9")).expect("written");
     for (text, arguments, named) in [
         (&cut_within, &[][..], &["2.csv", "record 30", "fields"][..]),
+        (&cut_at_end, &[], &["2.csv", "last line is cut"]),
+        (&no_number, &["--sweep", "old.toml"], &["2.csv", "is not one of old.toml"]),
         (&without_outcome, &[], &["2.csv", "not whole", overturned.split(',').next().expect("an index")]),
-        (&second, &["--sweep", "sweep.toml"], &["1.csv", "point 6", "sweep.toml", "other values"]),
+        (&second, &["--sweep", "sweep.toml"], &["1.csv", "point 6", "is not one of sweep.toml"]),
     ] {
         std::fs::write(folder.path().join("2.csv"), text).expect("written");
         let output = common::rocking(folder.path(), &[&["merge", "t.csv", "1.csv", "2.csv"], arguments].concat());

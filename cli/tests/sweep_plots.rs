@@ -198,10 +198,17 @@ fn what_cannot_be_drawn_is_refused_before_it_is_run() {
         assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2, "nothing is written");
     }
     let folder = folder_with("omega_p = [1.0, 2.0]\n");
+    for picture in ["f", "f.pdf"] {
+        let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--plot", picture]);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && message.contains(".svg or .png"), "{message}");
+    }
     common::succeeds(folder.path(), &["sweep", "sweep.toml"]);
-    for (file, said) in
-        [("sweep.csv", "a spectrum needs two"), ("sweep.toml", "give the table that `rocking sweep` wrote")]
-    {
+    for (file, said) in [
+        ("sweep.csv", "a spectrum needs two"),
+        ("sweep.toml", "give the table that `rocking sweep` wrote"),
+        ("missing.csv", "missing.csv: "),
+    ] {
         let output = common::rocking(folder.path(), &["plot", file]);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(2) && message.contains(said), "{message}");

@@ -1,6 +1,6 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
-use super::table::{NOWHERE, Place, Table, UNKNOWN, Wrong, exclude_each_other};
+use super::table::{Cause, Place, Table, Wrong, exclude_each_other};
 use super::template::{Setting, Template};
 use super::{Reader, SceneFileError};
 use crate::sweep::{Ask, Axis, Combine, Sweep};
@@ -62,24 +62,43 @@ impl Sweep {
         if let Some((problem, remedy)) = problem {
             return Err(own(root.wrong("axes", problem, remedy)));
         }
-        if let Some((axis, problem, remedy)) = sweep.unknown_axis() {
-            let key = format!("axes.{}", sweep.axes[axis].key);
-            let problem = format!("in {}, {problem}", sweep.template.file().display());
-            return Err(own(Wrong { place: places[axis].clone(), key, problem, remedy }));
+        if let Some((key, problem, remedy)) = sweep.misfit() {
+            let is_own = |axis: &Axis| axis.key == key || axis.key.starts_with(&format!("{key}."));
+            let axis = sweep.axes.iter().position(is_own);
+            return Err(own(Wrong {
+                place: axis.map_or_else(|| root.find("axes"), |axis| places[axis].clone()),
+                problem: format!("`{key}` of {}: {problem}", sweep.template.file().display()),
+                key: axis.map_or_else(|| "axes".into(), |axis| format!("axes.{}", sweep.axes[axis].key)),
+                remedy,
+                cause: Cause::Key,
+            }));
         }
         Ok(sweep)
     }
 
-    /// The axis whose key neither the first scene knows nor the last one, with problem and remedy: a slip, and every row would say so.
-    fn unknown_axis(&self) -> Option<(usize, String, String)> {
-        let mut at_ends = [0, self.len() - 1].into_iter().map(|index| {
-            let SceneFileError::Scene { key, problem, remedy, .. } = self.scene(index).err()? else { return None };
-            let is_of_axis = |axis: &Axis| axis.key == key || axis.key.starts_with(&format!("{key}."));
-            let axis = self.axes.iter().position(is_of_axis).filter(|_| [UNKNOWN, NOWHERE].contains(&&*problem))?;
-            Some((axis, problem, remedy))
-        });
-        let (first, last) = (at_ends.next()?, at_ends.next()?);
-        first.filter(|first| last.is_some_and(|last| first.0 == last.0))
+    /// A key with which no scene goes, as far as a few of them tell, with problem and remedy: every row would say so.
+    fn misfit(&self) -> Option<(String, String, String)> {
+        let misfit = |index: usize| match self.scene(index).err()? {
+            SceneFileError::Scene { key, problem, remedy, cause: Cause::Key, .. } => Some((key, problem, remedy)),
+            _ => None,
+        };
+        let first = misfit(0)?;
+        let has_same = |index: usize| misfit(index).is_some_and(|(key, ..)| key == first.0);
+        self.samples().into_iter().all(has_same).then_some(first)
+    }
+
+    /// The last point, and one for each kind of ground motion.
+    fn samples(&self) -> Vec<usize> {
+        let (mut samples, mut stride) = (vec![self.len() - 1], 1);
+        for axis in self.axes.iter().rev() {
+            if axis.key.ends_with(".kind") {
+                samples.extend((0..axis.values.len()).map(|place| place * stride));
+            }
+            if self.combine == Combine::Cartesian {
+                stride *= axis.values.len();
+            }
+        }
+        samples
     }
 }
 
@@ -93,6 +112,7 @@ fn distinct(axes: &[(Axis, Place)]) -> Result<(), Wrong> {
             key: format!("axes.{}", axis.key),
             problem: format!("`{}` is an axis as well, and a scene has one of the two", other.key),
             remedy: "remove one of them".into(),
+            cause: Cause::Key,
         });
     }
     Ok(())

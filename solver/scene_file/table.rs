@@ -19,13 +19,18 @@ pub struct Wrong {
     pub problem: String,
     /// What to do.
     pub remedy: String,
+    /// Key or value.
+    pub cause: Cause,
 }
 
-/// What is wrong with a key that nobody asks for.
-pub const UNKNOWN: &str = "this key is unknown here";
-
-/// What is wrong with a dotted key on whose way something is missing.
-pub const NOWHERE: &str = "the scene has no such table or list";
+/// What is at fault in a scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// A key is unknown or missing, or something of another kind stands there.
+    Key,
+    /// A value is out of range, or does not go with others; or the text is not TOML.
+    Value,
+}
 
 /// A value and its places.
 #[derive(Clone, Debug)]
@@ -108,6 +113,7 @@ impl Table {
                 key,
                 problem,
                 remedy: format!("correct the line; {}", hint(error.message(), line)),
+                cause: Cause::Value,
             });
         }
         let place = tree.span();
@@ -251,7 +257,8 @@ impl Table {
 
     /// An error at a key.
     pub fn wrong(&self, key: &str, problem: String, remedy: &str) -> Wrong {
-        Wrong { place: self.find(key), key: self.dotted(key), problem, remedy: remedy.into() }
+        let (place, key) = (self.find(key), self.dotted(key));
+        Wrong { place, key, problem, remedy: remedy.into(), cause: Cause::Value }
     }
 
     /// The error that a key is not given, or that it is misspelt.
@@ -260,7 +267,8 @@ impl Table {
         if let Some(misspelt) = unasked.find(|entry| is_slip(key, &entry.key)) {
             return self.unknown(misspelt, format!("did you mean `{key}`?"));
         }
-        Wrong { place: self.place(), key: self.dotted(key), problem: "it is missing".into(), remedy: remedy.into() }
+        let (place, key) = (self.place(), self.dotted(key));
+        Wrong { place, key, problem: "it is missing".into(), remedy: remedy.into(), cause: Cause::Key }
     }
 
     /// Notes that a key is known here.
@@ -280,7 +288,8 @@ impl Table {
     }
 
     fn expected(&self, key: &str, found: &Value, wanted: &str) -> Wrong {
-        self.wrong(key, format!("{} stands here", found.what()), &format!("give {wanted}"))
+        let wrong = self.wrong(key, format!("{} stands here", found.what()), &format!("give {wanted}"));
+        Wrong { cause: Cause::Key, ..wrong }
     }
 
     /// Text.
@@ -357,7 +366,13 @@ impl Table {
                     let what = if let Value::Number(value) = other { format!("{value}") } else { other.what().into() };
                     let problem = format!("number {} of the list is {what}", index + 1);
                     let (place, key) = (place.clone(), self.dotted(key));
-                    return Err(Wrong { place, key, problem, remedy: "give finite numbers".into() });
+                    return Err(Wrong {
+                        place,
+                        key,
+                        problem,
+                        remedy: "give finite numbers".into(),
+                        cause: Cause::Value,
+                    });
                 }
             }
         }
@@ -442,7 +457,7 @@ impl Table {
 
     fn unknown(&self, entry: &Entry, remedy: String) -> Wrong {
         let (place, key) = (entry.key_place.clone(), self.dotted(&entry.key));
-        Wrong { place, key, problem: UNKNOWN.into(), remedy }
+        Wrong { place, key, problem: "this key is unknown here".into(), remedy, cause: Cause::Key }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A scene file with some of its keys replaced: what sweeps are made of.
 
 use super::excitation::set_amplitude;
-use super::table::{NOWHERE, Table, Wrong};
+use super::table::{Cause, Table, Wrong};
 use super::{Reader, SceneFileError};
 use crate::excitation::Record;
 use crate::scene::Scene;
@@ -124,9 +124,9 @@ fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s
     for (key, value) in settings {
         root.set(key, value).ok_or_else(|| {
             let (place, key) = (root.find(key), key.to_string());
-            let problem = NOWHERE.into();
+            let problem = "the scene has no such table or list".into();
             let remedy = "name a key as in a scene file, e.g. `excitation.horizontal.amplitude_g`, `block[2].mass` or `initial.theta[1]`";
-            Wrong { place, key, problem, remedy: remedy.into() }
+            Wrong { place, key, problem, remedy: remedy.into(), cause: Cause::Key }
         })?;
     }
     Ok(())

@@ -4,7 +4,7 @@
 //! given as well.
 
 use crate::commands::print;
-use crate::commands::sweep::columns;
+use crate::commands::sweep::{columns, inputs_of};
 use crate::error::Failure;
 use crate::output;
 #[cfg(feature = "parquet")]
@@ -14,7 +14,7 @@ use csv::StringRecord;
 use rocking::scene_file::Setting;
 use rocking::sweep::{Fate, Sweep};
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Write};
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Joins tables in the order of their points. With the sweep's file it is certain that all points are there.
@@ -25,7 +25,8 @@ use std::path::{Path, PathBuf};
 pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(), Failure> {
     let format = Format::of(out)?;
     let wanted = sweep.map(Wanted::of).transpose()?;
-    let inputs: Vec<PathBuf> = shards.iter().cloned().chain(sweep.map(Path::to_path_buf)).collect();
+    let mut inputs = shards.to_vec();
+    inputs.extend(wanted.iter().flat_map(|wanted| inputs_of(wanted.file, &wanted.sweep)));
     output::check(&[out.into()], &inputs)?;
     let mut tables = Vec::new();
     for path in shards {
@@ -38,15 +39,14 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     // Of more shards than points some have no row; they come first.
     tables.sort();
     let tables: Vec<&Path> = tables.into_iter().map(|(_, path)| path).collect();
-    let rows = check(&tables, wanted.as_ref())?;
 
     let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
     let merged = tempfile::NamedTempFile::new_in(output::folder_of(out)).map_err(failed)?;
-    match format {
-        Format::Csv => join_csv(&tables, merged.as_file(), failed)?,
+    let rows = match format {
+        Format::Csv => join_csv(&tables, wanted.as_ref(), merged.as_file(), failed)?,
         #[cfg(feature = "parquet")]
         Format::Parquet => join_parquet(&tables, wanted.as_ref(), merged.as_file(), failed)?,
-    }
+    };
     let told = match wanted {
         Some(wanted) => format!("all points of {}", wanted.file.display()),
         None => "--sweep FILE would tell whether points after them are missing".into(),
@@ -69,10 +69,12 @@ impl Wanted<'_> {
         Ok(Wanted { file, columns: columns(&sweep)?, sweep })
     }
 
-    /// Whether a row has the values of a point.
+    /// Whether a row has the values of a point, and in each cell what its column is for.
     fn has(&self, row: &StringRecord, point: usize) -> bool {
-        let is_cell = |(setting, cell): (&Setting, &str)| table::on_one_line(&setting.to_string()) == cell;
-        point < self.sweep.len() && self.sweep.settings(point).into_iter().zip(row.iter().skip(1)).all(is_cell)
+        let is_setting = |(setting, cell): (&Setting, &str)| table::on_one_line(&setting.to_string()) == cell;
+        let of_axes = || self.sweep.settings(point).into_iter().zip(row.iter().skip(1));
+        let mut cells = self.columns.iter().zip(row);
+        point < self.sweep.len() && of_axes().all(is_setting) && cells.all(|(column, cell)| column.takes(cell))
     }
 }
 
@@ -82,8 +84,12 @@ fn first(path: &Path) -> Result<Option<u64>, Failure> {
     row.map(|row| index(&row, path)).transpose()
 }
 
-/// Whether the rows of tables in their order are those of one sweep, whole, each point once; returns how many they are.
-fn check(tables: &[&Path], wanted: Option<&Wanted>) -> Result<usize, Failure> {
+/// Passes on the rows of tables in their order, which must be those of one sweep, whole, each point once; returns how many they are.
+fn join(
+    tables: &[&Path],
+    wanted: Option<&Wanted>,
+    mut write: impl FnMut(&StringRecord) -> Result<(), Failure>,
+) -> Result<usize, Failure> {
     let mut header = wanted.map(|wanted| wanted.columns.iter().map(|column| column.name.as_str()).collect());
     let mut next = 0;
     for path in tables {
@@ -103,11 +109,10 @@ fn check(tables: &[&Path], wanted: Option<&Wanted>) -> Result<usize, Failure> {
                 return Err(broken(path)(format!("the row of point {point} is not whole")));
             }
             if let Some(wanted) = wanted.filter(|wanted| !wanted.has(&row, next)) {
-                let file = wanted.file.display();
-                return Err(broken(path)(format!(
-                    "the row of point {point} is none of {file}: its axes have other values"
-                )));
+                let problem = format!("the row of point {point} is not one of {}", wanted.file.display());
+                return Err(broken(path)(problem));
             }
+            write(&row)?;
             next += 1;
         }
     }
@@ -126,44 +131,59 @@ fn is_whole(row: &StringRecord, outcome: usize) -> bool {
     is_fate != has_error && (is_fate || &row[outcome] == "error")
 }
 
-/// Writes the rows of tables below the header of the first.
-fn join_csv(tables: &[&Path], out: &File, failed: impl Fn(std::io::Error) -> Failure) -> Result<(), Failure> {
-    let mut writer = BufWriter::new(out);
-    for (place, path) in tables.iter().enumerate() {
-        let lines = BufReader::new(File::open(path).map_err(broken(path))?).lines();
-        for line in lines.skip(usize::from(place > 0)) {
-            let line = line.map_err(broken(path))?;
-            if !line.is_empty() {
-                writeln!(writer, "{line}").map_err(&failed)?;
-            }
+/// Writes the rows of tables below their header.
+fn join_csv(
+    tables: &[&Path],
+    wanted: Option<&Wanted>,
+    out: &File,
+    failed: impl Fn(std::io::Error) -> Failure,
+) -> Result<usize, Failure> {
+    for path in tables {
+        if !ends_with_a_line(path).map_err(broken(path))? {
+            return Err(broken(path)("its last line is cut"));
         }
     }
-    writer.flush().map_err(&failed)
+    let mut writer = BufWriter::new(out);
+    let mut write = |row: &StringRecord| {
+        let cells: Vec<String> = row.iter().map(table::quoted).collect();
+        writeln!(writer, "{}", cells.join(",")).map_err(&failed)
+    };
+    write(&Rows::open(tables[0]).map_err(broken(tables[0]))?.header)?;
+    let rows = join(tables, wanted, write)?;
+    writer.flush().map_err(&failed)?;
+    Ok(rows)
 }
 
-/// The same; the rows of all tables are cut into groups anew.
+/// Whether the last line of a file has its end.
+fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
+    let mut file = File::open(path)?;
+    let mut last = [0];
+    if file.metadata()?.len() > 0 {
+        file.seek(SeekFrom::End(-1))?;
+        file.read_exact(&mut last)?;
+    }
+    Ok(last == *b"\n")
+}
+
+/// The same as Parquet; the rows of all tables are cut into groups anew.
 #[cfg(feature = "parquet")]
 fn join_parquet(
     tables: &[&Path],
     wanted: Option<&Wanted>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
-) -> Result<(), Failure> {
-    let open = |path: &Path| parquet::Reader::open(path).map_err(broken(path));
-    let columns =
-        wanted.map_or_else(|| open(tables[0]).map(|table| table.columns), |wanted| Ok(wanted.columns.clone()))?;
-    let mut writer = parquet::Writer::new(BufWriter::new(out), &columns).map_err(&failed)?;
+) -> Result<usize, Failure> {
+    let columns = |path: &Path| parquet::Reader::open(path).map(|table| table.columns).map_err(broken(path));
+    let own = wanted.map_or_else(|| columns(tables[0]), |wanted| Ok(wanted.columns.clone()))?;
     for path in tables {
-        let mut table = open(path)?;
-        // Of the same names, but perhaps of other types.
-        if table.columns != columns {
+        if columns(path)? != own {
             return Err(other_columns(path, wanted));
         }
-        while writer.take(&mut table).map_err(broken(path))? > 0 {
-            writer.write_full().map_err(&failed)?;
-        }
     }
-    writer.finish().and_then(|mut file| file.flush()).map_err(&failed)
+    let mut writer = parquet::Writer::new(BufWriter::new(out), &own).map_err(&failed)?;
+    let rows = join(tables, wanted, |row| writer.push(row).map_err(&failed))?;
+    writer.finish().and_then(|mut file| file.flush()).map_err(&failed)?;
+    Ok(rows)
 }
 
 /// The number of the point of a row.

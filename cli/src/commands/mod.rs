@@ -34,7 +34,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Check { scene, json } => check::check(&scene, json),
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
-        Command::Plot { folder: table, format, out } if table.is_file() => {
+        Command::Plot { folder: table, format, out } if is_table(&table) => {
             spectrum::plot(&table, format, out.as_deref())
         }
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
@@ -73,4 +73,9 @@ fn print(text: &str) -> Result<(), Failure> {
 fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|error| Failure::Print { problem: error.to_string() })?;
     print(&(text + "\n"))
+}
+
+/// Whether a table is meant, though perhaps not there, and not a folder.
+fn is_table(path: &Path) -> bool {
+    path.is_file() || !path.exists() && path.extension().is_some()
 }

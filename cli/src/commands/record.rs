@@ -1,6 +1,6 @@
 //! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
 
-use crate::arguments;
+use crate::arguments::{self, Picture};
 use crate::commands::{json, print, records};
 use crate::error::{Failure, with_dashes};
 use crate::number::significant;
@@ -66,13 +66,15 @@ pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
     print(&text)
 }
 
-/// Draws a record: as pixels into a file whose name says so, else as SVG.
+/// Draws a record as the name of the file says.
 fn draw(picture: &Path, file: &Path, record: &Record) -> Result<(), Failure> {
     let title = file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let [velocity, displacement] = [record.velocity(), record.displacement()];
     let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
-    let is_png = picture.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-    if is_png { output::file(picture, plot::png(&figure)) } else { output::file(picture, figure.svg) }
+    match Picture::of(picture) {
+        Some(Picture::Png) => output::file(picture, plot::png(&figure)),
+        _ => output::file(picture, figure.svg),
+    }
 }
 
 /// Two times `[s]` from the first sample.

@@ -44,7 +44,7 @@ pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Fai
 }
 
 /// Draws a table into `picture` and the curves of the least that overturns into a file beside it, named like it with `-minimum`: as
-/// pixels if the name says so, else as SVG. Returns what was written and what it shows.
+/// the name says. Returns what was written and what it shows.
 ///
 /// # Errors
 /// [`Failure::Spectrum`], [`Failure::File`]
@@ -52,8 +52,10 @@ pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
     let mut told = String::new();
     let drawn = figures(table).map_err(|error| refused(table, error))?;
     for (figure, path) in drawn.into_iter().zip(files(picture)) {
-        let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-        let bytes = if is_png { plot::png(&figure) } else { figure.svg.into_bytes() };
+        let bytes = match Picture::of(&path) {
+            Some(Picture::Png) => plot::png(&figure),
+            _ => figure.svg.into_bytes(),
+        };
         output::file(&path, bytes)?;
         let _ = writeln!(told, "wrote {}: {}", path.display(), figure.caption);
     }
@@ -62,12 +64,9 @@ pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
 
 /// The files of both figures, of which `picture` is the first.
 pub fn files(picture: &Path) -> [PathBuf; 2] {
-    let part = |name: Option<&std::ffi::OsStr>| name.map_or_else(String::new, |name| name.to_string_lossy().into());
-    let second = match picture.extension() {
-        None => format!("{}-minimum", part(picture.file_stem())),
-        extension => format!("{}-minimum.{}", part(picture.file_stem()), part(extension)),
-    };
-    [picture.into(), picture.with_file_name(second)]
+    let [stem, extension] = [picture.file_stem(), picture.extension()]
+        .map(|part| part.map_or_else(String::new, |part| part.to_string_lossy().into_owned()));
+    [picture.into(), picture.with_file_name(format!("{stem}-minimum.{extension}"))]
 }
 
 fn refused(path: &Path, error: NoSpectrum) -> Failure {

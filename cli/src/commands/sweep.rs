@@ -44,7 +44,13 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
     let failed = |error: std::io::Error| Failure::File { path: asked.out.clone(), problem: error.to_string() };
     let fingerprint = fingerprint(&sweep, &range, &asked.file)?;
-    let mut table = Growing::open(&asked.out, &header(&columns), fingerprint, range.clone()).map_err(failed)?;
+    let mut table = Growing::open(&asked.out, &header(&columns), fingerprint, range.clone()).map_err(|error| {
+        if error.kind() == ErrorKind::ResourceBusy {
+            Failure::Running { path: asked.out.clone() }
+        } else {
+            failed(error)
+        }
+    })?;
     let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
     let resumed = table.next - range.start;
     let (mut size, mut next, mut last) = (BATCH, table.next, Vec::new());
@@ -80,9 +86,12 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
 fn check_files(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
     let mut outputs = vec![asked.out.clone()];
     outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
-    let mut inputs = records(sweep);
-    inputs.extend([asked.file.clone(), sweep.template.file().into()]);
-    output::check(&outputs, &inputs)
+    output::check(&outputs, &inputs_of(&asked.file, sweep))
+}
+
+/// The files that a sweep is made of, its own among them.
+pub fn inputs_of(file: &Path, sweep: &Sweep) -> Vec<PathBuf> {
+    records(sweep).into_iter().chain([file.into(), sweep.template.file().into()]).collect()
 }
 
 /// The records of the base scene and of the axes.
@@ -185,7 +194,7 @@ struct Growing {
 }
 
 impl Growing {
-    /// Goes on with what is there, or begins.
+    /// Goes on with what is there, or begins; busy where another process is doing so.
     fn open(out: &Path, header: &str, fingerprint: u64, range: Range<usize>) -> std::io::Result<Growing> {
         if out.is_dir() {
             return Err(Error::new(ErrorKind::IsADirectory, "a folder has this name"));
@@ -195,7 +204,7 @@ impl Growing {
         let mut file = File::options().read(true).write(true).create(true).truncate(false).open(&part)?;
         // Two at once would write rows between each other's. Elsewhere a lock would keep this very program from reading.
         if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-            return Err(Error::new(ErrorKind::ResourceBusy, "the same sweep is being run into it, by another process"));
+            return Err(ErrorKind::ResourceBusy.into());
         }
         let (mut kept, mut rows) = (0u64, 0usize);
         let mut line = Vec::new();

@@ -29,6 +29,9 @@ use std::sync::Arc;
 /// read. Files of another number have other bytes.
 const GROUP: usize = 1 << 16;
 
+/// Rows that are text at a time: as such they take several times the memory.
+const MOST_TEXTS: usize = 1 << 12;
+
 /// Rows held as columns.
 struct Piece {
     columns: Vec<Cells>,
@@ -162,26 +165,12 @@ impl<W: Write + Send> Writer<W> {
         Ok(Writer { file, piece: Piece::new(columns) })
     }
 
-    /// Takes a row of CSV.
-    fn push(&mut self, row: &StringRecord) -> Result<()> {
+    /// Takes a row of CSV, and writes a group when its rows are there.
+    ///
+    /// # Errors
+    /// What the system says, or which cell is no value of its column.
+    pub fn push(&mut self, row: &StringRecord) -> Result<()> {
         self.piece.push(row)?;
-        self.write_full()
-    }
-
-    /// Takes rows of a table with the same columns, as many as its group and this one allow; returns how many, none at the end.
-    ///
-    /// # Errors
-    /// What the system says, or what is wrong with the table.
-    pub fn take(&mut self, table: &mut Reader) -> Result<usize> {
-        let room = GROUP - self.piece.rows;
-        table.read(&mut self.piece, room)
-    }
-
-    /// Writes a group if its rows are there.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn write_full(&mut self) -> Result<()> {
         if self.piece.rows == GROUP { self.write() } else { Ok(()) }
     }
 
@@ -304,7 +293,7 @@ impl Reader {
         let header = self.columns.iter().map(|column| column.name.as_str()).collect();
         let pieces = std::iter::from_fn(move || {
             let mut piece = Piece::new(&self.columns);
-            match self.read(&mut piece, GROUP) {
+            match self.read(&mut piece, MOST_TEXTS) {
                 Ok(0) => None,
                 read => Some(read.and_then(|_| piece.texts())),
             }

@@ -127,11 +127,12 @@ fn label(key: &str) -> String {
     }
 }
 
-/// A key and its value as the title of a panel: `3 blocks`, `η = 0.9`.
+/// A key and its value as the title of a panel: `3 blocks`, `η = 0.9`, the name of a record's file.
 pub fn title(key: &str, value: &str) -> String {
     match (key.rsplit('.').next().unwrap_or(key), value) {
         ("blocks", "1") => "1 block".into(),
         ("blocks", count) => format!("{count} blocks"),
+        ("file", path) => path.rsplit(['/', '\\']).next().unwrap_or(path).into(),
         _ => {
             let label = label(key);
             let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
@@ -144,6 +145,20 @@ pub fn title(key: &str, value: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn panels_have_the_names_of_their_values() {
+        let titles = [
+            ("column.blocks", "1", "1 block"),
+            ("restitution.eta", "0.9", "η = 0.9"),
+            ("column.half_width", "0.4", "Half-width = 0.4 m"),
+            ("excitation.horizontal.file", "records/a.AT2", "a.AT2"),
+            ("excitation.horizontal.kind", "ricker", "kind = ricker"),
+        ];
+        for (key, value, expected) in titles {
+            assert_eq!(title(key, value), expected);
+        }
+    }
 
     #[test]
     fn cells_are_centred_on_their_values_and_geometric_progressions_are_logarithmic() {
