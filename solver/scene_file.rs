@@ -233,7 +233,7 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
             key: "column".into(),
             problem: "`[[block]]` is given as well".into(),
             remedy: "describe the column in one way".into(),
-            cause: Cause::Value,
+            cause: Cause::Key,
         }),
         (Some(mut tables), None) if !tables.is_empty() => {
             tables.iter_mut().map(|table| block(table, 1.0, derived)).collect()
@@ -271,7 +271,7 @@ fn block(table: &mut Table, count: f64, derived: &mut Vec<Derived>) -> Result<Bl
     let (density, mass) = (table.positive("density")?, table.positive("mass")?);
     let mut block = match (density, mass) {
         (Some(_), Some(_)) => {
-            return Err(table.wrong("mass", "`density` is given as well".into(), "remove one of the two"));
+            return Err(table.clash("mass", "density"));
         }
         (_, Some(mass)) => Block::with_mass(half_width, half_height, mass / count),
         (density, None) => Block::rectangle(half_width, half_height, density.unwrap_or(1.0)),
@@ -318,12 +318,9 @@ fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {
     let eta = table.number("eta")?;
     let factors = table.numbers("factors")?;
     let restitution = match (law, eta, factors) {
-        (Some(_), Some(_), _) | (Some(_), _, Some(_)) => {
-            return Err(table.wrong("law", "`eta` or `factors` is given as well".into(), "remove one of the two"));
-        }
-        (None, Some(_), Some(_)) => {
-            return Err(table.wrong("factors", "`eta` is given as well".into(), "remove one of the two"));
-        }
+        (Some(_), Some(_), _) => return Err(table.clash("law", "eta")),
+        (Some(_), _, Some(_)) => return Err(table.clash("law", "factors")),
+        (None, Some(_), Some(_)) => return Err(table.clash("factors", "eta")),
         (None, Some((eta, _)), None) => Restitution::Eta(eta),
         (None, None, Some(factors)) => Restitution::Factors(factors),
         (_, None, None) => Restitution::Plastic,

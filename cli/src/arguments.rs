@@ -227,9 +227,9 @@ fn unit(text: &str) -> Result<AccelerationUnit, String> {
 pub struct Sweep {
     /// Sweep file (TOML).
     pub file: PathBuf,
-    /// Table of the results: CSV, or Parquet if its name ends in .parquet.
-    #[arg(long, value_name = "FILE", default_value = "sweep.csv")]
-    pub out: PathBuf,
+    /// Table of the results: CSV, or Parquet if its name ends in .parquet [default: sweep.csv, or sweep-K-of-M.csv of a shard].
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
     /// Draw the overturning spectrum, and beside it FILE-minimum: the least value that overturns (SVG or PNG by the name).
     ///
     /// Of the last two axes with numbers that vary the last one goes upwards; each combination of the others is a panel.
@@ -248,6 +248,14 @@ pub struct Sweep {
     /// Print the counts of outcomes as JSON instead of text.
     #[arg(long, conflicts_with = "quiet")]
     pub json: bool,
+}
+
+impl Sweep {
+    /// The table of the results.
+    pub fn table(&self) -> PathBuf {
+        let own = || self.shard.map_or_else(|| "sweep.csv".into(), |shard| format!("sweep-{shard}.csv"));
+        self.out.clone().unwrap_or_else(|| own().into())
+    }
 }
 
 /// Threads beyond which a number is taken for a mistake: each has a stack.

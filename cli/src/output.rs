@@ -149,22 +149,41 @@ impl<'a> Folder<'a> {
 /// [`Failure::File`]
 pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let failed = |error: std::io::Error| Failure::File { path: path.into(), problem: error.to_string() };
+    let path = &target(path)?;
     let file = fill(folder_of(path), |file| file.write_all(content.as_ref())).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
 }
 
-/// Refuses outputs that are among the inputs, or twice there: the first would be lost.
+/// Refuses outputs that could not be put in place in the end, that are among the inputs, or twice there: the first would be lost.
 ///
 /// # Errors
-/// [`Failure::InUse`]
+/// [`Failure::File`], [`Failure::InUse`]
 pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     for (place, output) in outputs.iter().enumerate() {
+        target(output)?;
         if inputs.iter().chain(&outputs[..place]).any(|other| are_same(other, output)) {
             return Err(Failure::InUse { path: output.clone() });
         }
     }
     Ok(())
+}
+
+/// Where a file that the user has named is put: where links lead to.
+///
+/// # Errors
+/// [`Failure::File`] where no file can be.
+pub fn target(path: &Path) -> Result<PathBuf, Failure> {
+    let refused = |problem: &str| Failure::File { path: path.into(), problem: problem.into() };
+    let is_folder = || path.to_string_lossy().ends_with(std::path::is_separator);
+    match std::fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(refused("a folder has this name")),
+        Ok(found) if !found.is_file() => Err(refused("it is no file: results are put in place when they are whole")),
+        Ok(_) => path.canonicalize().map_err(|error| refused(&error.to_string())),
+        Err(_) if is_folder() => Err(refused("it is the name of a folder")),
+        Err(_) if !folder_of(path).is_dir() => Err(refused("there is no such folder")),
+        Err(_) => Ok(path.into()),
+    }
 }
 
 /// Whether two paths are of one file, be it there or not yet.

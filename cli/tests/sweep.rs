@@ -281,6 +281,17 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
             vec!["line 3", "no such table", "initial.theta[1]"],
         ),
         ("scene = \"base.toml\"\n[axes]\n\"initial.theta[1]\" = [0.1]\n", vec!["line 3", "no such table or list"]),
+        ("scene = \"base.toml\"\n[axes]\nomega = [1]\neta = {}\n", vec!["line 4", "no values"]),
+        (
+            "scene = \"base.toml\"\n[axes]\neta = { from = 0.1, to = 0.9, steps = 1 }\n",
+            vec!["`axes.eta.steps`", "both ends"],
+        ),
+        ("scene = \"base.toml\"\n[axes]\neta = [0.1, nan]\n", vec!["line 3", "item 2 of the list is NaN"]),
+        (
+            "scene = \"base.toml\"\n[axes]\nblock[2].mass = [0.1]\n",
+            vec!["line 3", "a key with brackets stands in quotes"],
+        ),
+        ("scene = \"base.toml\"\n[axes]\n\"block[1].mass\" = [1.0]\n", vec!["line 3", "no such table"]),
         // One would take the place of the other.
         (
             "scene = \"base.toml\"\n[axes]\namplitude_g = [0.5]\namplitude_uplift = [2, 3]\n",
@@ -320,6 +331,109 @@ fn items_of_lists_are_axes() {
         let peak = summary["peak_theta"][1].as_f64().expect("a number") / 0.4f64.atan2(0.78);
         assert!((row[8].parse::<f64>().expect("a number") / peak - 1.0).abs() < 1e-12, "{row:?}");
     }
+}
+
+/// A key of a scene with both components, or with a list of the same name, says of which it is.
+#[test]
+fn keys_that_may_be_one_of_several_are_refused() {
+    let folder = folder("");
+    let vertical = "[excitation.vertical]\nkind = \"harmonic\"\namplitude_g = 0.2\nfrequency = 2.0\n";
+    let base = BASE.replace("omega = 10.0", "period = 0.6") + "[initial]\nomega = [0.0, 0.1]\n" + vertical;
+    std::fs::write(folder.path().join("base.toml"), base).expect("written");
+    for (axis, is_clear) in [
+        ("amplitude_g = [0.1]", false),
+        ("omega = [1.0]", false),
+        ("amplitude = [1.0]", true),
+        ("period = [1.0]", true),
+        ("\"omega[1]\" = [1.0]", true),
+        ("\"excitation.horizontal.amplitude_g\" = [0.1]", true),
+    ] {
+        std::fs::write(folder.path().join("sweep.toml"), format!("scene = \"base.toml\"\n[axes]\n{axis}\n"))
+            .expect("written");
+        let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.success(), is_clear, "{axis}: {message}");
+        assert_eq!(message.contains("one of several keys"), !is_clear, "{axis}: {message}");
+    }
+}
+
+#[test]
+fn axes_are_in_the_order_of_the_file_and_round_numbers_are_round() {
+    let sweep = "scene = \"base.toml\"\n[axes]\n\
+        excitation.horizontal.omega_p = { from = 0.1, to = 10, steps = 3, scale = \"log\" }\n\
+        blocks = { from = 1, to = 4, steps = 3, scale = \"log\" }\n\
+        excitation.horizontal.amplitude_g = [0.1]\n";
+    let folder = folder(sweep);
+    let rows = rows(&table(folder.path(), &[]));
+    assert_eq!(rows[0][1..4], ["excitation.horizontal.omega_p", "column.blocks", "excitation.horizontal.amplitude_g"]);
+    let values = |axis: usize| rows[1..].iter().map(|row| row[axis].as_str()).collect::<Vec<_>>();
+    assert_eq!(values(1), ["0.1", "0.1", "0.1", "1", "1", "1", "10", "10", "10"]);
+    assert_eq!(values(2)[..3], ["1", "2", "4"]);
+}
+
+/// Shards without a name of their own do not write over each other.
+#[test]
+fn shards_have_names() {
+    let folder = folder(SWEEP);
+    let whole = table(folder.path(), &[]);
+    for shard in ["1/2", "2/2"] {
+        common::succeeds(folder.path(), &["sweep", "sweep.toml", "--shard", shard, "--quiet"]);
+    }
+    common::succeeds(
+        folder.path(),
+        &["merge", "m.csv", "sweep-1-of-2.csv", "sweep-2-of-2.csv", "--sweep", "sweep.toml"],
+    );
+    assert_eq!(std::fs::read_to_string(folder.path().join("m.csv")).expect("written"), whole);
+}
+
+/// Of what is left of a sweep rows are kept up to the first that is not the one due.
+#[test]
+fn a_damaged_part_is_gone_on_with_from_the_damage() {
+    let folder = folder(&long().replace("steps = 40", "steps = 400"));
+    let mut child = start(folder.path());
+    let part = part(folder.path(), &[]);
+    while std::fs::metadata(&part).is_ok_and(|metadata| metadata.len() < 40_000) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().expect("SIGKILL");
+    child.wait().expect("it ends");
+    let rows = std::fs::read_to_string(&part).expect("the sweep is long enough to be killed");
+    let (name, whole) = (part.file_name().expect("a name").to_owned(), table(folder.path(), &[]));
+    let lines: Vec<&str> = rows.lines().collect();
+    let without = [&lines[..100], &lines[101..]].concat().join("\n") + "\n";
+    let zeros = [&rows.as_bytes()[..5000], &[0; 4096], &rows.as_bytes()[9096..]].concat();
+    for damaged in [without.into_bytes(), zeros, b"another header\n0,\n".to_vec()] {
+        std::fs::write(folder.path().join(&name), damaged).expect("written");
+        assert!(table(folder.path(), &[]) == whole);
+    }
+}
+
+/// A link leads to its file; what is no file is left alone.
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_devices_left_alone() {
+    let folder = folder(SWEEP);
+    let path = folder.path();
+    let whole = table(path, &[]);
+    std::fs::write(path.join("real.csv"), "old").expect("written");
+    std::os::unix::fs::symlink("real.csv", path.join("link.csv")).expect("made");
+    common::succeeds(path, &["sweep", "sweep.toml", "--out", "link.csv", "--quiet"]);
+    assert!(path.join("link.csv").is_symlink());
+    assert_eq!(std::fs::read_to_string(path.join("real.csv")).expect("written"), whole);
+    let _socket = std::os::unix::net::UnixListener::bind(path.join("socket")).expect("made");
+    for (arguments, named) in [
+        (&["sweep", "sweep.toml", "--out", "socket"][..], "no file"),
+        (&["merge", "socket", "t.csv"], "no file"),
+        (&["sweep", "sweep.toml", "--out", "folder/"], "a folder"),
+        (&["sweep", "sweep.toml", "--out", "nowhere/t.csv"], "no such folder"),
+        (&["sweep", "sweep.toml", "--out", "t.csv", "--plot", "nowhere/t.svg"], "no such folder"),
+    ] {
+        let output = common::rocking(path, arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}\n{message}");
+        assert!(message.contains(named), "{arguments:?}\n{message}");
+    }
+    assert_eq!(std::fs::read_dir(path).expect("a folder").count(), 6, "two inputs, table, file, link and socket");
 }
 
 /// What a sweep reads, or writes as something else, it does not write over.
@@ -446,12 +560,15 @@ fn rows_that_are_cut_or_of_another_sweep_are_not_merged() {
     let without_outcome = second.replace(overturned, &overturned.replace("overturns", "overt"));
     let cut_at_end = second.trim_end().to_string();
     let no_number = second.replace(overturned, &overturned.replace("overturns,", "overturns,x"));
+    let overturns = format!("ask = \"overturns\"\n{SWEEP}");
+    std::fs::write(folder.path().join("overturns.toml"), overturns).expect("written");
     std::fs::rename(folder.path().join("sweep.toml"), folder.path().join("old.toml")).expect("renamed");
     std::fs::write(folder.path().join("sweep.toml"), SWEEP.replace("to = 8", "to = 9")).expect("written");
     for (text, arguments, named) in [
         (&cut_within, &[][..], &["2.csv", "record 30", "fields"][..]),
         (&cut_at_end, &[], &["2.csv", "last line is cut"]),
         (&no_number, &["--sweep", "old.toml"], &["2.csv", "is not one of old.toml"]),
+        (&second, &["--sweep", "overturns.toml"], &["1.csv", "is not one of overturns.toml"]),
         (&without_outcome, &[], &["2.csv", "not whole", overturned.split(',').next().expect("an index")]),
         (&second, &["--sweep", "sweep.toml"], &["1.csv", "point 6", "is not one of sweep.toml"]),
     ] {

@@ -209,6 +209,13 @@ fn a_sweep_that_is_killed_goes_on_to_the_same_bytes() {
     holed[csv.len() / 2..][..100].fill(0);
     std::fs::write(&part, &holed).expect("written");
     std::fs::remove_file(&path).expect("there");
+    assert!(table(folder.path(), "t.parquet", &[]) == whole);
+    assert!(hidden(folder.path()).is_empty());
+
+    // Rows that are no results, however they came there.
+    let text = String::from_utf8(csv).expect("text");
+    std::fs::write(&part, text.replacen(",rocks,", ",rocks,x", 1)).expect("written");
+    std::fs::remove_file(&path).expect("there");
     let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.parquet", "--quiet"]);
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2));

@@ -188,6 +188,9 @@ fn what_cannot_be_drawn_is_refused_before_it_is_run() {
     let cases = [
         ("omega_p = [1.0, 2.0]\namplitude_uplift = [3.0]\n", "a spectrum needs two"),
         ("combine = \"paired\"\n[axes]\nomega_p = [1.0, 2.0]\namplitude_uplift = [3.0, 4.0]\n", "cartesian"),
+        ("omega_p = [1.0, 2.0]\namplitude_g = [0.0, 1e-320]\n", "cannot be drawn"),
+        ("omega_p = [1.0, 2.0]\namplitude = [-1e308, 1e308]\n", "cannot be drawn"),
+        ("omega_p = [1.0, 2.0]\namplitude = [-0.0, 0.0, 1.0]\n", "have each value once"),
         ("density = { from = 1, to = 17 }\nomega_p = [1.0, 2.0]\namplitude_uplift = [3.0, 4.0]\n", "17 panels"),
     ];
     for (axes, said) in cases {
@@ -197,6 +200,12 @@ fn what_cannot_be_drawn_is_refused_before_it_is_run() {
         assert!(output.status.code() == Some(2) && message.contains(said), "{message}");
         assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2, "nothing is written");
     }
+    let folder = folder_with("omega_p = [1.0, 2.0]\namplitude_uplift = [3.0, 4.0]\n");
+    common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "t.svg"]);
+    let output = common::rocking(folder.path(), &["plot", "t.svg"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(2) && message.contains("reads this file"), "{message}");
+    assert!(read(folder.path(), "t.svg").starts_with("index,"), "the table is as it was");
     let folder = folder_with("omega_p = [1.0, 2.0]\n");
     for picture in ["f", "f.pdf"] {
         let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--plot", picture]);

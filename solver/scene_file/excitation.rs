@@ -158,7 +158,7 @@ impl Reader<'_> {
                 (Record::new(accel, dt, 0.0).map_err(refused)?, "accel")
             }
             (Some(_), Some(_)) => {
-                return Err(own(table.wrong("accel", "`file` is given as well".into(), "remove one of the two")));
+                return Err(own(table.clash("accel", "file")));
             }
             (None, None) => return Err(own(table.missing("file", "name a record file, or give `accel` and `dt`"))),
         };
@@ -166,7 +166,7 @@ impl Reader<'_> {
         let peak = table.number("pga_g").map_err(own)?;
         let record = match (scale, peak) {
             (Some(_), Some(_)) => {
-                return Err(own(table.wrong("pga_g", "`scale` is given as well".into(), "remove one of the two")));
+                return Err(own(table.clash("pga_g", "scale")));
             }
             (Some((factor, _)), None) => record
                 .scaled(factor)

@@ -46,6 +46,8 @@ impl Sweep {
         if placed.is_empty() {
             return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
         }
+        // Dotted keys of one table stand together in TOML, wherever they are in the file.
+        placed.sort_by_key(|(_, place)| place.start);
         distinct(&placed).map_err(own)?;
         let (axes, places): (_, Vec<Place>) = placed.into_iter().unzip();
         let sweep = Sweep { template, axes, combine, ask };
@@ -131,6 +133,9 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
+        if inner.keys().is_empty() {
+            return Err(no_values(table, &key));
+        }
         if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
             let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
@@ -142,13 +147,17 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
     Ok(())
 }
 
+fn no_values(table: &Table, key: &str) -> Wrong {
+    table.wrong(key, "the axis has no values".into(), "give it some, or remove it")
+}
+
 fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &Template) -> Result<Axis, Wrong> {
     if values.is_empty() {
-        return Err(table.wrong(key, "the axis has no values".into(), "give it some, or remove it"));
+        return Err(no_values(table, key));
     }
     let Some(name) = template.full_name(path) else {
         let remedy = "write the full name in quotes, e.g. \"excitation.horizontal.amplitude_g\"";
-        return Err(table.wrong(key, "the base scene has several keys of this name".into(), remedy));
+        return Err(table.wrong(key, "it may be one of several keys of the base scene".into(), remedy));
     };
     Ok(Axis { key: name, values })
 }
@@ -173,6 +182,9 @@ fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     if steps > MOST_VALUES {
         return Err(table.wrong("steps", format!("{steps} values are too many"), "give at most 1e7"));
     }
+    if steps == 1.0 && from != to {
+        return Err(table.wrong("steps", "one value is not at both ends".into(), "give at least 2"));
+    }
     if is_log && !(from > 0.0 && to > 0.0) {
         return Err(table.wrong("scale", "a logarithmic axis has no zero".into(), "let both ends be above zero"));
     }
@@ -183,10 +195,16 @@ fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
             (1.0, _) => to,
             // Whole numbers from end to end stay whole.
             (_, false) => from + step as f64 * (to - from) / (steps - 1.0),
-            (share, true) => libm::exp(libm::log(from) + share * (libm::log(to) - libm::log(from))),
+            (share, true) => rounded(libm::exp(libm::log(from) + share * (libm::log(to) - libm::log(from)))),
         })
     };
     Ok((0..steps as usize).map(value).collect())
+}
+
+/// The number of fifteen digits that a number is but for the last roundings: powers of ten between powers of ten, whole numbers.
+fn rounded(value: f64) -> f64 {
+    let short = format!("{value:.14e}").parse().unwrap_or(value);
+    if (value - short).abs() <= 4.0 * f64::EPSILON * value.abs() { short } else { value }
 }
 
 /// The files of a folder beside the base scene, in the order of their names.

@@ -26,7 +26,7 @@ pub struct Wrong {
 /// What is at fault in a scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// A key is unknown or missing, or something of another kind stands there.
+    /// A key is unknown or missing, or excluded by another one, or something of another kind stands there.
     Key,
     /// A value is out of range, or does not go with others; or the text is not TOML.
     Value,
@@ -61,6 +61,11 @@ impl Value {
             Value::Table(_) => "a table",
             Value::Other(what) => what,
         }
+    }
+
+    /// What it is, or which number.
+    fn shown(&self) -> String {
+        if let Value::Number(number) = self { number.to_string() } else { self.what().into() }
     }
 
     fn of(setting: &Setting) -> Value {
@@ -155,12 +160,26 @@ impl Table {
         self.entries.iter().any(|entry| *entry.key == *key)
     }
 
+    /// Whether the file gives a table of this dotted name.
+    pub fn has_table(&self, name: &str) -> bool {
+        let (first, rest) = name.split_once('.').map_or((name, None), |(first, rest)| (first, Some(rest)));
+        match (self.entry(first).map(|entry| &entry.value), rest) {
+            (Some(Value::Table(table)), Some(rest)) => table.has_table(rest),
+            (Some(Value::Table(_)), None) => true,
+            _ => false,
+        }
+    }
+
     /// Gives a key, under its dotted name, another value or its first; tables on the way are made, lists are not. `block[2].mass` is of
     /// the second block, `initial.theta[2]` the second of a list. `None` if something else stands where a table or a list should.
     pub fn set(&mut self, key: &str, value: &Setting) -> Option<()> {
         let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
         let (name, index) = match first.split_once('[') {
-            Some((name, index)) => (name, Some(index.strip_suffix(']')?.parse::<usize>().ok()?.checked_sub(1)?)),
+            Some((name, index)) => {
+                let index = index.strip_suffix(']')?;
+                let number: usize = index.parse().ok().filter(|number: &usize| number.to_string() == index)?;
+                (name, Some(number.checked_sub(1)?))
+            }
             None => (first, None),
         };
         if rest.is_none() && index.is_none() {
@@ -233,12 +252,20 @@ impl Table {
         };
         self.ask(key.to_string());
         let Some(entry) = self.entry(key) else { return Ok(None) };
-        let values = match &entry.value {
-            Value::Array(items) => items.iter().map(|(item, _)| single(item)).collect(),
-            Value::Table(_) => return Ok(None),
-            value => single(value).map(|value| vec![value]),
-        };
-        values.map(Some).ok_or_else(|| self.expected(key, &entry.value, "finite numbers or texts"))
+        let wanted = "finite numbers or texts";
+        match &entry.value {
+            Value::Array(items) => {
+                let item = |(number, (item, _)): (usize, &(Value, Place))| {
+                    single(item).ok_or_else(|| {
+                        let what = format!("item {} of the list is {}", number + 1, item.shown());
+                        self.wrong(key, what, &format!("give {wanted}"))
+                    })
+                };
+                items.iter().enumerate().map(item).collect::<Result<_, _>>().map(Some)
+            }
+            Value::Table(_) => Ok(None),
+            value => single(value).map(|value| Some(vec![value])).ok_or_else(|| self.expected(key, value, wanted)),
+        }
     }
 
     /// Where a dotted key stands; the nearest table where it is not given.
@@ -259,6 +286,12 @@ impl Table {
     pub fn wrong(&self, key: &str, problem: String, remedy: &str) -> Wrong {
         let (place, key) = (self.find(key), self.dotted(key));
         Wrong { place, key, problem, remedy: remedy.into(), cause: Cause::Value }
+    }
+
+    /// The error that a key is given beside another one that excludes it.
+    pub fn clash(&self, key: &str, other: &str) -> Wrong {
+        let wrong = self.wrong(key, format!("`{other}` is given as well"), "remove one of the two");
+        Wrong { cause: Cause::Key, ..wrong }
     }
 
     /// The error that a key is not given, or that it is misspelt.
@@ -363,8 +396,7 @@ impl Table {
             match item {
                 Value::Number(value) if value.is_finite() => numbers.push(*value),
                 other => {
-                    let what = if let Value::Number(value) = other { format!("{value}") } else { other.what().into() };
-                    let problem = format!("number {} of the list is {what}", index + 1);
+                    let problem = format!("number {} of the list is {}", index + 1, other.shown());
                     let (place, key) = (place.clone(), self.dotted(key));
                     return Err(Wrong {
                         place,
@@ -403,7 +435,7 @@ impl Table {
         for (key, convert) in keys {
             let Some((value, _)) = self.number(key)? else { continue };
             if let Some((first, _)) = found {
-                return Err(self.wrong(key, format!("`{first}` is given as well"), "remove one of the two"));
+                return Err(self.clash(key, first));
             }
             found = Some((key, convert(value)));
         }
@@ -523,6 +555,8 @@ const LARGEST_WHOLE: f64 = 9e15;
 fn hint(message: &str, line: &str) -> &'static str {
     if message.contains("duplicate key") && line.starts_with('[') {
         "a table stands once, but as many [[block]] as there are blocks"
+    } else if line.split('=').next().is_some_and(|key| key.trim_start().find('[').is_some_and(|at| at > 0)) {
+        "a key with brackets stands in quotes"
     } else if line.contains('\\') {
         "a path with backslashes stands in single quotes"
     } else {

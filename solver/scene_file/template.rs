@@ -96,7 +96,7 @@ impl Template {
     }
 
     /// The full name of a key: as it is if it has a point, otherwise that of the only key in the scene called so, or where a scene
-    /// would have it. `None` if there are several.
+    /// would have it. `None` if it may be one of several: the scene has them, or has one and the table where a scene would have another.
     pub fn full_name(&self, key: &str) -> Option<String> {
         if key.contains('.') {
             return Some(key.into());
@@ -105,15 +105,16 @@ impl Template {
         let (name, item) = key.split_at(key.find('[').unwrap_or(key.len()));
         let table = match name {
             "title" | "gravity" | "friction" => return Some(key.into()),
-            "blocks" | "half_width" | "half_height" | "density" | "mass" => "column",
-            "eta" | "factors" => "restitution",
+            "blocks" | "half_width" | "half_height" | "density" | "mass" | "inertia" => "column",
+            "eta" | "factors" | "law" => "restitution",
             "theta" => "initial",
             "t_end" | "method" | "rtol" | "atol" | "step" | "stick_angle" | "overturn_angle" => "solver",
             _ => "excitation.horizontal",
         };
         match &self.root.named(name)[..] {
             [] => Some(format!("{table}.{key}")),
-            [name] => Some(format!("{name}{item}")),
+            [found] if !item.is_empty() || *found == format!("{table}.{name}") => Some(format!("{found}{item}")),
+            [found] if !self.root.has_table(table) => Some(found.clone()),
             _ => None,
         }
     }

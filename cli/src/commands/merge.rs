@@ -4,7 +4,7 @@
 //! given as well.
 
 use crate::commands::print;
-use crate::commands::sweep::{columns, inputs_of};
+use crate::commands::sweep::{OUTCOME, TIME, columns, inputs_of};
 use crate::error::Failure;
 use crate::output;
 #[cfg(feature = "parquet")]
@@ -12,7 +12,7 @@ use crate::table::parquet;
 use crate::table::{self, Column, Format, Rows};
 use csv::StringRecord;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Fate, Sweep};
+use rocking::sweep::{Ask, Fate, Sweep};
 use std::fs::File;
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -41,7 +41,8 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let tables: Vec<&Path> = tables.into_iter().map(|(_, path)| path).collect();
 
     let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
-    let merged = tempfile::NamedTempFile::new_in(output::folder_of(out)).map_err(failed)?;
+    let target = output::target(out)?;
+    let merged = tempfile::NamedTempFile::new_in(output::folder_of(&target)).map_err(failed)?;
     let rows = match format {
         Format::Csv => join_csv(&tables, wanted.as_ref(), merged.as_file(), failed)?,
         #[cfg(feature = "parquet")]
@@ -52,7 +53,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
     output::share(&merged).map_err(failed)?;
-    merged.persist(out).map_err(|error| failed(error.error))?;
+    merged.persist(target).map_err(|error| failed(error.error))?;
     print(&format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), out.display()))
 }
 
@@ -69,12 +70,17 @@ impl Wanted<'_> {
         Ok(Wanted { file, columns: columns(&sweep)?, sweep })
     }
 
-    /// Whether a row has the values of a point, and in each cell what its column is for.
+    /// Whether a row has the values of a point, and in each cell what its column and the question are for.
     fn has(&self, row: &StringRecord, point: usize) -> bool {
         let is_setting = |(setting, cell): (&Setting, &str)| table::on_one_line(&setting.to_string()) == cell;
         let of_axes = || self.sweep.settings(point).into_iter().zip(row.iter().skip(1));
-        let mut cells = self.columns.iter().zip(row);
-        point < self.sweep.len() && of_axes().all(is_setting) && cells.all(|(column, cell)| column.takes(cell))
+        let cells = || self.columns.iter().zip(row);
+        let cell = |name: &str| cells().find(|(column, _)| column.name == name).map_or("", |(_, cell)| cell);
+        let is_timed = self.sweep.ask != Ask::Overturns && cell(OUTCOME) == Fate::Overturns.name();
+        point < self.sweep.len()
+            && of_axes().all(is_setting)
+            && cells().all(|(column, cell)| column.takes(cell))
+            && is_timed != cell(TIME).is_empty()
     }
 }
 
@@ -97,8 +103,8 @@ fn join(
         if *header.get_or_insert_with(|| found.clone()) != found {
             return Err(other_columns(path, wanted));
         }
-        let outcome = found.iter().position(|name| name == "outcome");
-        let outcome = outcome.ok_or_else(|| broken(path)("it has no column `outcome`"))?;
+        let outcome = found.iter().position(|name| name == OUTCOME);
+        let outcome = outcome.ok_or_else(|| broken(path)(format!("it has no column `{OUTCOME}`")))?;
         for row in rows {
             let row = row.map_err(broken(path))?;
             let point = index(&row, path)?;

@@ -44,6 +44,8 @@ pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
         record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
     }
     told.measure(&record);
+    let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
+    output::check(&outputs, std::slice::from_ref(&path))?;
     if let Some(out) = &arguments.out {
         output::file(out, record.to_csv())?;
     }

@@ -26,7 +26,7 @@ pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
 /// Draws a table into files beside or below the table; they have its name.
 ///
 /// # Errors
-/// [`Failure::Spectrum`], [`Failure::Output`], [`Failure::File`], [`Failure::NoParquet`]
+/// [`Failure::Spectrum`], [`Failure::Output`], [`Failure::File`], [`Failure::InUse`], [`Failure::NoParquet`]
 pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Failure> {
     Format::of(table)?;
     let name = table.with_extension(match format {
@@ -40,6 +40,7 @@ pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Fai
         }
         _ => name,
     };
+    output::check(&files(&picture), &[table.into()])?;
     print(&draw(table, &picture)?)
 }
 

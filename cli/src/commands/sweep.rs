@@ -16,7 +16,7 @@ use rocking::scene_file::{MOST_BLOCKS, Setting};
 use rocking::sweep::{Ask, Fate, Row, Sweep};
 use serde::Serialize;
 use std::fs::{File, TryLockError};
-use std::io::{BufRead, BufReader, BufWriter, Error, ErrorKind, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -32,24 +32,21 @@ const PATIENCE: Duration = Duration::from_millis(250);
 /// # Errors
 /// [`Failure`]
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
-    let format = Format::of(&asked.out)?;
+    let out = asked.table();
+    let format = Format::of(&out)?;
     let sweep = Sweep::from_file(&asked.file).map_err(Failure::scene)?;
     if asked.plot.is_some() {
         spectrum::check(asked, &sweep)?;
     }
-    check_files(asked, &sweep)?;
+    let target = check_files(asked, &sweep)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
     let columns = columns(&sweep)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.map_or(0, usize::from)).build();
     let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
-    let failed = |error: std::io::Error| Failure::File { path: asked.out.clone(), problem: error.to_string() };
+    let failed = |error: std::io::Error| Failure::File { path: out.clone(), problem: error.to_string() };
     let fingerprint = fingerprint(&sweep, &range, &asked.file)?;
-    let mut table = Growing::open(&asked.out, &header(&columns), fingerprint, range.clone()).map_err(|error| {
-        if error.kind() == ErrorKind::ResourceBusy {
-            Failure::Running { path: asked.out.clone() }
-        } else {
-            failed(error)
-        }
+    let mut table = Growing::open(&target, &header(&columns), fingerprint, range.clone()).map_err(|error| {
+        if error.kind() == ErrorKind::ResourceBusy { Failure::Running { path: out.clone() } } else { failed(error) }
     })?;
     let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
     let resumed = table.next - range.start;
@@ -71,7 +68,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let tally = if asked.quiet { None } else { Some(Tally::of(&table.part).map_err(broken)?) };
     table.close(format, &columns)?;
     let drawn = match &asked.plot {
-        Some(picture) => spectrum::draw(&asked.out, picture)?,
+        Some(picture) => spectrum::draw(&out, picture)?,
         None => String::new(),
     };
     let Some(tally) = tally else { return Ok(()) };
@@ -79,14 +76,15 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
         return json(&tally);
     }
     let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-    print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), asked.out.display()))
+    print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), out.display()))
 }
 
-/// Whether nothing that the sweep is made of, or writes elsewhere, would be written over.
-fn check_files(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
-    let mut outputs = vec![asked.out.clone()];
+/// Where the table is put, if nothing that the sweep is made of, or writes elsewhere, is written over.
+fn check_files(asked: &arguments::Sweep, sweep: &Sweep) -> Result<PathBuf, Failure> {
+    let mut outputs = vec![asked.table()];
     outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
-    output::check(&outputs, &inputs_of(&asked.file, sweep))
+    output::check(&outputs, &inputs_of(&asked.file, sweep))?;
+    output::target(&outputs[0])
 }
 
 /// The files that a sweep is made of, its own among them.
@@ -129,6 +127,19 @@ impl Shard {
     }
 }
 
+/// As in the name of a file.
+impl std::fmt::Display for Shard {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}-of-{}", self.number, self.count)
+    }
+}
+
+/// The column of what became of the column.
+pub const OUTCOME: &str = "outcome";
+
+/// The column of when it overturned.
+pub const TIME: &str = "overturned_at";
+
 /// The columns of the table of a sweep.
 ///
 /// # Errors
@@ -139,10 +150,10 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
         let is_number = axis.values.iter().all(|value| matches!(value, Setting::Number(_)));
         Column::full(&axis.key, if is_number { Kind::Number } else { Kind::Text })
     }));
-    columns.push(Column::full("outcome", Kind::Text));
+    columns.push(Column::full(OUTCOME, Kind::Text));
     columns.push(Column::sparse("impacts", Kind::Whole));
     columns.push(Column::sparse("block", Kind::Whole));
-    columns.push(Column::sparse("overturned_at", Kind::Number));
+    columns.push(Column::sparse(TIME, Kind::Number));
     if sweep.ask == Ask::Peaks {
         let base = sweep.template.with(std::iter::empty()).map_err(Failure::scene)?;
         let counts = sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
@@ -196,9 +207,6 @@ struct Growing {
 impl Growing {
     /// Goes on with what is there, or begins; busy where another process is doing so.
     fn open(out: &Path, header: &str, fingerprint: u64, range: Range<usize>) -> std::io::Result<Growing> {
-        if out.is_dir() {
-            return Err(Error::new(ErrorKind::IsADirectory, "a folder has this name"));
-        }
         let name = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
         let mut file = File::options().read(true).write(true).create(true).truncate(false).open(&part)?;
@@ -209,7 +217,16 @@ impl Growing {
         let (mut kept, mut rows) = (0u64, 0usize);
         let mut line = Vec::new();
         let mut reader = BufReader::new(&mut file);
-        while reader.read_until(b'\n', &mut line)? > 0 && line.ends_with(b"\n") {
+        // Up to the first that is not the one due: a cut line, or what a failing disk has left.
+        let is_due = |line: &[u8], rows: usize| match rows {
+            0 => line.strip_suffix(b"\n") == Some(header.as_bytes()),
+            _ => {
+                line.ends_with(b"\n")
+                    && line.starts_with(format!("{},", range.start + rows - 1).as_bytes())
+                    && !line.contains(&0)
+            }
+        };
+        while reader.read_until(b'\n', &mut line)? > 0 && is_due(&line, rows) {
             kept += line.len() as u64;
             rows += 1;
             line.clear();
@@ -311,7 +328,7 @@ impl Tally {
     fn of(path: &Path) -> std::io::Result<Tally> {
         let mut tally = Tally::default();
         let mut reader = csv::Reader::from_path(path)?;
-        let outcome = reader.headers()?.iter().position(|name| name == "outcome");
+        let outcome = reader.headers()?.iter().position(|name| name == OUTCOME);
         for row in reader.records() {
             let row = row?;
             let name = outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default();

@@ -80,6 +80,12 @@ pub enum NoSpectrum {
         /// Axes of numbers with two values or more.
         count: usize,
     },
+    /// Beyond what is drawn.
+    #[error("`{key}` has values that cannot be drawn; let their sizes be between 1e-100 and 1e100, or zero")]
+    Extreme {
+        /// The axis.
+        key: String,
+    },
     /// Too many to be read.
     #[error(
         "the axes before the last two make {count} panels, and {MOST_PANELS} can be read; give those axes fewer values"
@@ -91,7 +97,7 @@ pub enum NoSpectrum {
     /// A part of a sweep, or axes that run in pairs.
     #[error(
         "there are {rows} points and the values of the axes make {points}; draw a whole sweep with axes that are \
-         combined as `cartesian`, of shards the table that `rocking merge` makes"
+         combined as `cartesian` and have each value once, of shards the table that `rocking merge` makes"
     )]
     NoGrid {
         /// Points there are.
@@ -129,7 +135,7 @@ impl Plane {
     /// Of axes by their keys, with their values as a table has them.
     ///
     /// # Errors
-    /// [`NoSpectrum::FewAxes`], [`NoSpectrum::ManyPanels`]
+    /// [`NoSpectrum::FewAxes`], [`NoSpectrum::Extreme`], [`NoSpectrum::ManyPanels`]
     pub fn of(axes: &[(String, Vec<String>)]) -> Result<Plane, NoSpectrum> {
         let numbers = |values: &[String]| -> Option<Vec<f64>> {
             let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
@@ -137,8 +143,8 @@ impl Plane {
         };
         let scale = |place: usize| {
             let (key, values) = &axes[place];
-            let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]));
-            Some((place, Scale::of(key, varying?)))
+            let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]))?;
+            Some((place, Scale::of(key, varying)))
         };
         let mut spanning = (0..axes.len()).rev().filter_map(scale);
         let (Some((y_place, y)), x) = (spanning.next(), spanning.next()) else {
@@ -146,6 +152,10 @@ impl Plane {
         };
         let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes { count: 1 }) };
         drop(spanning);
+        let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());
+        if let Some(scale) = [&x, &y].into_iter().find(|scale| !scale.values.iter().all(is_drawn)) {
+            return Err(NoSpectrum::Extreme { key: scale.key.clone() });
+        }
         let others = axes.iter().enumerate().filter(|(place, _)| ![x_place, y_place].contains(place));
         let mut titles = vec![String::new()];
         for (key, values) in others.map(|(_, axis)| axis).filter(|(_, values)| values.len() > 1) {
@@ -284,10 +294,7 @@ mod tests {
         let axes = [axis("blocks", &["1", "3"]), two, axis("rtol", &["1e-6"]), axis("omega_p", &["1", "2"]), file];
         let plane = Plane::of(&axes).expect("two axes");
         assert_eq!((plane.x.key.as_str(), plane.y.key.as_str()), ("eta", "omega_p"));
-        assert_eq!(
-            plane.titles,
-            ["1 block, file = a", "1 block, file = b", "3 blocks, file = a", "3 blocks, file = b"]
-        );
+        assert_eq!(plane.titles, ["1 block, a", "1 block, b", "3 blocks, a", "3 blocks, b"]);
         assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
         assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
         assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes { count: 1 }));
