@@ -175,11 +175,13 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
 /// [`Failure::File`] where no file can be.
 pub fn target(path: &Path) -> Result<PathBuf, Failure> {
     let refused = |problem: &str| Failure::File { path: path.into(), problem: problem.into() };
-    let is_folder = || path.to_string_lossy().ends_with(std::path::is_separator);
+    let text = path.to_string_lossy();
+    let is_folder = || text.strip_suffix('.').unwrap_or(&text).ends_with(std::path::is_separator);
     match std::fs::metadata(path) {
         Ok(found) if found.is_dir() => Err(refused("a folder has this name")),
         Ok(found) if !found.is_file() => Err(refused("it is no file: results are put in place when they are whole")),
         Ok(_) => path.canonicalize().map_err(|error| refused(&error.to_string())),
+        Err(_) if path.is_symlink() => Err(refused("it is a link to a file that is not there")),
         Err(_) if is_folder() => Err(refused("it is the name of a folder")),
         Err(_) if !folder_of(path).is_dir() => Err(refused("there is no such folder")),
         Err(_) => Ok(path.into()),

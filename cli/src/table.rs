@@ -46,10 +46,10 @@ impl Column {
     /// Whether a cell of CSV may be one of this column.
     pub fn takes(&self, cell: &str) -> bool {
         match self.kind {
+            Kind::Text => true,
             _ if cell.is_empty() => self.may_be_blank,
             Kind::Whole => cell.parse::<u64>().is_ok(),
             Kind::Number => cell.parse::<f64>().is_ok(),
-            Kind::Text => true,
         }
     }
 }

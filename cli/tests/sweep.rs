@@ -292,6 +292,7 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
             vec!["line 3", "a key with brackets stands in quotes"],
         ),
         ("scene = \"base.toml\"\n[axes]\n\"block[1].mass\" = [1.0]\n", vec!["line 3", "no such table"]),
+        ("scene = \"base.toml\"\n[axes]\n\"block[2].mass\" = 0,1\n", vec!["line 3", "decimals have a point"]),
         // One would take the place of the other.
         (
             "scene = \"base.toml\"\n[axes]\namplitude_g = [0.5]\namplitude_uplift = [2, 3]\n",
@@ -369,6 +370,17 @@ fn axes_are_in_the_order_of_the_file_and_round_numbers_are_round() {
     let values = |axis: usize| rows[1..].iter().map(|row| row[axis].as_str()).collect::<Vec<_>>();
     assert_eq!(values(1), ["0.1", "0.1", "0.1", "1", "1", "1", "10", "10", "10"]);
     assert_eq!(values(2)[..3], ["1", "2", "4"]);
+    for (axis, expected) in [
+        ("amplitude = { from = 1e-4, to = 1e3, steps = 8", "0.0001,0.001,0.01,0.1,1,10,100,1000"),
+        ("rtol = { from = 1e-12, to = 1e-9, steps = 4", "1e-12,1e-11,1e-10,1e-9"),
+        ("overturn_angle = { from = 0.1, to = 1.5, steps = 3", "0.1,0.3872983346207417,1.5"),
+    ] {
+        let sweep = format!("scene = \"base.toml\"\n[axes]\n{axis}, scale = \"log\" }}\n[axes.solver]\n# none\n");
+        std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
+        let text = table(folder.path(), &[]);
+        let values: Vec<&str> = text.lines().skip(1).filter_map(|line| line.split(',').nth(1)).collect();
+        assert_eq!(values.join(","), expected);
+    }
 }
 
 /// Shards without a name of their own do not write over each other.
@@ -402,9 +414,16 @@ fn a_damaged_part_is_gone_on_with_from_the_damage() {
     let lines: Vec<&str> = rows.lines().collect();
     let without = [&lines[..100], &lines[101..]].concat().join("\n") + "\n";
     let zeros = [&rows.as_bytes()[..5000], &[0; 4096], &rows.as_bytes()[9096..]].concat();
-    for damaged in [without.into_bytes(), zeros, b"another header\n0,\n".to_vec()] {
+    let before_zeros = rows[..5000].lines().count() - 2;
+    for (damaged, kept) in [
+        (without.into_bytes(), "(99 of them".into()),
+        (zeros, format!("({before_zeros} of them")),
+        (b"another header\n0,\n".to_vec(), "row(s) to".into()),
+    ] {
         std::fs::write(folder.path().join(&name), damaged).expect("written");
-        assert!(table(folder.path(), &[]) == whole);
+        let told = common::succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+        assert!(told.contains(&kept), "{kept} in {told}");
+        assert!(std::fs::read_to_string(folder.path().join("t.csv")).expect("written") == whole);
     }
 }
 
@@ -420,11 +439,14 @@ fn links_are_followed_and_devices_left_alone() {
     common::succeeds(path, &["sweep", "sweep.toml", "--out", "link.csv", "--quiet"]);
     assert!(path.join("link.csv").is_symlink());
     assert_eq!(std::fs::read_to_string(path.join("real.csv")).expect("written"), whole);
+    std::os::unix::fs::symlink("nowhere.csv", path.join("dangling.csv")).expect("made");
     let _socket = std::os::unix::net::UnixListener::bind(path.join("socket")).expect("made");
     for (arguments, named) in [
         (&["sweep", "sweep.toml", "--out", "socket"][..], "no file"),
         (&["merge", "socket", "t.csv"], "no file"),
         (&["sweep", "sweep.toml", "--out", "folder/"], "a folder"),
+        (&["sweep", "sweep.toml", "--out", "folder/."], "a folder"),
+        (&["sweep", "sweep.toml", "--out", "dangling.csv"], "a link"),
         (&["sweep", "sweep.toml", "--out", "nowhere/t.csv"], "no such folder"),
         (&["sweep", "sweep.toml", "--out", "t.csv", "--plot", "nowhere/t.svg"], "no such folder"),
     ] {
@@ -433,7 +455,7 @@ fn links_are_followed_and_devices_left_alone() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}\n{message}");
         assert!(message.contains(named), "{arguments:?}\n{message}");
     }
-    assert_eq!(std::fs::read_dir(path).expect("a folder").count(), 6, "two inputs, table, file, link and socket");
+    assert_eq!(std::fs::read_dir(path).expect("a folder").count(), 7, "two inputs, table, file, two links and socket");
 }
 
 /// What a sweep reads, or writes as something else, it does not write over.

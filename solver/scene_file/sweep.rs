@@ -133,7 +133,8 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
-        if inner.keys().is_empty() {
+        // An empty section of a table that the scene has is one whose axes are commented out.
+        if inner.keys().is_empty() && !template.has_table(&path) {
             return Err(no_values(table, &key));
         }
         if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
@@ -195,16 +196,20 @@ fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
             (1.0, _) => to,
             // Whole numbers from end to end stay whole.
             (_, false) => from + step as f64 * (to - from) / (steps - 1.0),
-            (share, true) => rounded(libm::exp(libm::log(from) + share * (libm::log(to) - libm::log(from)))),
+            (share, true) => {
+                let [from, to] = [from, to].map(libm::log);
+                // Rounding of the logarithm is a relative error of the number.
+                rounded(libm::exp(from + share * (to - from)), 2.0 * f64::EPSILON * (1.0 + from.abs() + to.abs()))
+            }
         })
     };
     Ok((0..steps as usize).map(value).collect())
 }
 
-/// The number of fifteen digits that a number is but for the last roundings: powers of ten between powers of ten, whole numbers.
-fn rounded(value: f64) -> f64 {
-    let short = format!("{value:.14e}").parse().unwrap_or(value);
-    if (value - short).abs() <= 4.0 * f64::EPSILON * value.abs() { short } else { value }
+/// The number of twelve digits that a number is but for a relative error: powers of ten between powers of ten, whole numbers.
+fn rounded(value: f64, error: f64) -> f64 {
+    let short = format!("{value:.11e}").parse().unwrap_or(value);
+    if (value - short).abs() <= error * value.abs() { short } else { value }
 }
 
 /// The files of a folder beside the base scene, in the order of their names.

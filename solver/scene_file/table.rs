@@ -226,14 +226,12 @@ impl Table {
         entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
     }
 
-    /// Full names of the keys of this table and those within that are called `name`.
+    /// Full names of the keys of this table and those within that are called `name`; tables are none.
     pub fn named(&self, name: &str) -> Vec<String> {
-        let of_entry = |entry: &Entry| {
-            let mut found = if *entry.key == *name { vec![self.dotted(name)] } else { Vec::new() };
-            if let Value::Table(table) = &entry.value {
-                found.extend(table.named(name));
-            }
-            found
+        let of_entry = |entry: &Entry| match &entry.value {
+            Value::Table(table) => table.named(name),
+            _ if *entry.key == *name => vec![self.dotted(name)],
+            _ => Vec::new(),
         };
         self.entries.iter().flat_map(of_entry).collect()
     }
@@ -555,7 +553,7 @@ const LARGEST_WHOLE: f64 = 9e15;
 fn hint(message: &str, line: &str) -> &'static str {
     if message.contains("duplicate key") && line.starts_with('[') {
         "a table stands once, but as many [[block]] as there are blocks"
-    } else if line.split('=').next().is_some_and(|key| key.trim_start().find('[').is_some_and(|at| at > 0)) {
+    } else if line.split('=').next().is_some_and(|key| !key.contains(['"', '\'']) && key.trim().find('[') > Some(0)) {
         "a key with brackets stands in quotes"
     } else if line.contains('\\') {
         "a path with backslashes stands in single quotes"

@@ -95,6 +95,11 @@ impl Template {
         Reader { text: &self.text, file: &self.file, records: Some(&self.records) }
     }
 
+    /// Whether the scene has a table of this dotted name.
+    pub(super) fn has_table(&self, name: &str) -> bool {
+        self.root.has_table(name)
+    }
+
     /// The full name of a key: as it is if it has a point, otherwise that of the only key in the scene called so, or where a scene
     /// would have it. `None` if it may be one of several: the scene has them, or has one and the table where a scene would have another.
     pub fn full_name(&self, key: &str) -> Option<String> {

@@ -1,7 +1,7 @@
 //! `rocking sweep`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on where it was.
 //!
 //! Rows go in order into a hidden file of CSV beside the table, whose name holds a fingerprint of all that decides them. What is found
-//! there is kept up to its last whole line. When all rows are there it gets the name of the table; a table of Parquet is made of it
+//! there is kept up to the first row that is not the one due. When all rows are there it gets the name of the table; a table of Parquet is made of it
 //! first, and the hidden file stays until that has its name.
 
 use crate::arguments;

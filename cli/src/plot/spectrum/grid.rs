@@ -159,11 +159,12 @@ impl Plane {
         let others = axes.iter().enumerate().filter(|(place, _)| ![x_place, y_place].contains(place));
         let mut titles = vec![String::new()];
         for (key, values) in others.map(|(_, axis)| axis).filter(|(_, values)| values.len() > 1) {
+            let values = shortened(values);
             let count = titles.len() * values.len();
             if count > MOST_PANELS {
                 return Err(NoSpectrum::ManyPanels { count });
             }
-            let with = |above: &String, value: &String| match above.as_str() {
+            let with = |above: &String, value: &str| match above.as_str() {
                 "" => title(key, value),
                 above => format!("{above}, {}", title(key, value)),
             };
@@ -210,6 +211,15 @@ impl Plane {
         }
         [panel, column, row]
     }
+}
+
+/// Paths of files without the folder that all have in common; other texts as they are.
+fn shortened(values: &[String]) -> Vec<&str> {
+    let folder = |value: &str| value.rfind(['/', '\\']).map_or(0, |end| end + 1);
+    let common = folder(&values[0]);
+    let is_common = |value: &String| value.as_bytes().get(..common) == values[0].as_bytes().get(..common);
+    let start = if values.iter().all(is_common) { common } else { 0 };
+    values.iter().map(|value| &value[start..]).collect()
 }
 
 /// A class for each cell of each panel.
@@ -290,11 +300,12 @@ mod tests {
 
     #[test]
     fn the_last_two_axes_of_numbers_that_vary_span_the_plane() {
-        let (file, two) = (axis("file", &["a", "b"]), axis("eta", &["0.9", "0.8"]));
+        let (file, two) = (axis("file", &["r/a", "r/b"]), axis("eta", &["0.9", "0.8"]));
         let axes = [axis("blocks", &["1", "3"]), two, axis("rtol", &["1e-6"]), axis("omega_p", &["1", "2"]), file];
         let plane = Plane::of(&axes).expect("two axes");
         assert_eq!((plane.x.key.as_str(), plane.y.key.as_str()), ("eta", "omega_p"));
         assert_eq!(plane.titles, ["1 block, a", "1 block, b", "3 blocks, a", "3 blocks, b"]);
+        assert_eq!(shortened(&["r/a".into(), "s/a".into()]), ["r/a", "s/a"]);
         assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
         assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
         assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes { count: 1 }));

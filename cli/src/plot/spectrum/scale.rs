@@ -129,12 +129,12 @@ fn label(key: &str) -> String {
     }
 }
 
-/// A key and its value as the title of a panel: `3 blocks`, `η = 0.9`, the name of a record's file.
+/// A key and its value as the title of a panel: `3 blocks`, `η = 0.9`, a record's file.
 pub fn title(key: &str, value: &str) -> String {
     match (key.rsplit('.').next().unwrap_or(key), value) {
         ("blocks", "1") => "1 block".into(),
         ("blocks", count) => format!("{count} blocks"),
-        ("file", path) => path.rsplit(['/', '\\']).next().unwrap_or(path).into(),
+        ("file", path) => path.into(),
         _ => {
             let label = label(key);
             let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
@@ -181,6 +181,6 @@ mod tests {
         assert_eq!(["1", "5"].map(|count| title("column.blocks", count)), ["1 block", "5 blocks"]);
         assert_eq!(title("restitution.eta", "0.9"), "η = 0.9");
         assert_eq!(title("column.half_width", "0.4"), "Half-width = 0.4 m");
-        assert_eq!(title("excitation.horizontal.file", "a/b.AT2"), "b.AT2");
+        assert_eq!(title("excitation.horizontal.file", "a/b.AT2"), "a/b.AT2");
     }
 }
