@@ -132,6 +132,15 @@ fn every_cell_shows_what_the_table_says() {
 }
 
 #[test]
+fn signs_that_xml_does_not_know_are_left_out() {
+    let folder = folder_with("title = [\"a\\u0001b<\", \"c\"]\nomega_p = [1.0, 2.0]\namplitude_uplift = [0.5, 2.0]\n");
+    common::succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
+    let figure = read(folder.path(), "f.svg");
+    let document = Document::parse(&figure).expect("XML");
+    assert!(document.descendants().any(|node| node.text() == Some("title = ab<")), "{figure}");
+}
+
+#[test]
 fn points_without_result_are_hatched() {
     // Half-widths below zero are no column.
     let folder = folder_with("half_width = [-0.2, 0.2, 0.4]\namplitude_uplift = [0.5, 2.0, 8.0]\n");

@@ -326,7 +326,11 @@ fn synthetic(table: &mut Table, scales: Scales) -> Result<Record, Wrong> {
         *number = table.positive(key)?.unwrap_or(*number);
     }
     let record = synthetic.record().map_err(|error| {
-        let key = if let RecordError::OutOfRange { name, .. } = error { name } else { "kind" };
+        let key = match error {
+            RecordError::OutOfRange { name: "pga", .. } if table.has("pga_g") => "pga_g",
+            RecordError::OutOfRange { name, .. } => name,
+            _ => "kind",
+        };
         table.wrong(key, error.to_string(), "correct the number")
     })?;
     Ok(record.starting_at(start))

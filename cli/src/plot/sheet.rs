@@ -263,9 +263,8 @@ impl Sheet {
         let drawn = SvgBackend::new().with_pretty(true).render_scene(&self.scene());
         // Its root has no view box: the sheet would not scale.
         let body = drawn.split_once('>').map_or("", |(_, body)| body);
-        // Signs that XML does not know, as a file's name may have them.
-        let visible = |text: &str| escape(&text.replace(char::is_control, ""));
-        let (height, title, caption) = (self.height, visible(&self.title), visible(caption));
+        let (height, [title, caption]) =
+            (self.height, [self.title.as_str(), caption].map(|text| escape(&visible(text))));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
              viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
@@ -296,7 +295,7 @@ impl Sheet {
                     x: tidy(at[0]),
                     y: tidy(at[1]),
                     // A dollar would begin a formula.
-                    content: text.replace('$', "\\$"),
+                    content: visible(text).replace('$', "\\$"),
                     size: *size,
                     anchor: match anchor {
                         Anchor::Start => TextAnchor::Start,
@@ -401,4 +400,9 @@ pub fn text_width(text: &str, size: u32) -> f64 {
         _ => 0.62,
     };
     f64::from(size) * text.chars().map(em).sum::<f64>()
+}
+
+/// Text without signs that XML does not know, as a file's name may have them.
+fn visible(text: &str) -> String {
+    text.replace(char::is_control, "")
 }

@@ -1,0 +1,121 @@
+//! Tables with other values than their file has: keys under their dotted names, and which take each other's place.
+
+use super::{Entry, Table, Value};
+use crate::scene_file::Setting;
+use std::sync::Arc;
+
+impl Value {
+    fn of(setting: &Setting) -> Value {
+        match setting {
+            Setting::Number(number) => Value::Number(*number),
+            Setting::Text(text) => Value::Text(text.as_str().into()),
+        }
+    }
+}
+
+impl Table {
+    /// Whether the file gives a table of this dotted name.
+    pub fn has_table(&self, name: &str) -> bool {
+        let (first, rest) = name.split_once('.').map_or((name, None), |(first, rest)| (first, Some(rest)));
+        match (self.entry(first).map(|entry| &entry.value), rest) {
+            (Some(Value::Table(table)), Some(rest)) => table.has_table(rest),
+            (Some(Value::Table(_)), None) => true,
+            _ => false,
+        }
+    }
+
+    /// Gives a key, under its dotted name, another value or its first; tables on the way are made, lists are not. `block[2].mass` is of
+    /// the second block, `initial.theta[2]` the second of a list. `None` if something else stands where a table or a list should.
+    pub fn set(&mut self, key: &str, value: &Setting) -> Option<()> {
+        let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+        let (name, index) = match first.split_once('[') {
+            Some((name, index)) => {
+                let index = index.strip_suffix(']')?;
+                let number: usize = index.parse().ok().filter(|number: &usize| number.to_string() == index)?;
+                (name, Some(number.checked_sub(1)?))
+            }
+            None => (first, None),
+        };
+        if rest.is_none() && index.is_none() {
+            self.set_own(name, Value::of(value));
+            return Some(());
+        }
+        if !self.has(name) && index.is_none() {
+            let (place, dotted) = (self.place(), self.dotted(name));
+            let table = Table { name: dotted.into(), place: place.clone(), entries: Arc::default(), asked: Vec::new() };
+            let value = Value::Table(table);
+            Arc::make_mut(&mut self.entries).push(Entry {
+                key: name.into(),
+                key_place: place.clone(),
+                value_place: place,
+                value,
+            });
+        }
+        let entries = Arc::make_mut(&mut self.entries);
+        let found = match (&mut entries.iter_mut().find(|entry| *entry.key == *name)?.value, index) {
+            (Value::Array(items), Some(index)) => &mut Arc::make_mut(items).get_mut(index)?.0,
+            (found, None) => found,
+            _ => return None,
+        };
+        match (found, rest) {
+            (Value::Table(table), Some(rest)) => table.set(rest, value),
+            (Value::Table(_), None) | (_, Some(_)) => None,
+            (item, None) => {
+                *item = Value::of(value);
+                Some(())
+            }
+        }
+    }
+
+    /// The same of a key of this very table.
+    fn set_own(&mut self, name: &str, value: Value) {
+        // As most often in a sweep: it is there, and no other of its kind beside it.
+        if let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) {
+            entry.value = value;
+            return;
+        }
+        let place = self.find(name);
+        let entries = Arc::make_mut(&mut self.entries);
+        entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
+        entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
+    }
+
+    /// Full names of the keys of this table and those within that are called `name`; tables are none.
+    pub fn named(&self, name: &str) -> Vec<String> {
+        let of_entry = |entry: &Entry| match &entry.value {
+            Value::Table(table) => table.named(name),
+            _ if *entry.key == *name => vec![self.dotted(name)],
+            _ => Vec::new(),
+        };
+        self.entries.iter().flat_map(of_entry).collect()
+    }
+}
+
+/// Keys of which a table takes one: where one is set, the others go.
+const ALTERNATIVES: [&[&str]; 6] = [
+    &["amplitude", "amplitude_g", "amplitude_uplift", "velocity"],
+    &["omega", "frequency", "period", "omega_p"],
+    &["scale", "pga_g"],
+    &["pga", "pga_g"],
+    &["density", "mass"],
+    &["eta", "factors", "law"],
+];
+
+/// Whether a scene has one of two different keys, under their dotted names, and never both.
+pub fn exclude_each_other(a: &str, b: &str) -> bool {
+    let parts = |key: &str| {
+        let (table, name) = key.rsplit_once('.').unwrap_or(("", key));
+        (table.to_string(), without_index(name).to_string())
+    };
+    let ((table, name), (other_table, other_name)) = (parts(a), parts(b));
+    table == other_table && name != other_name && are_alternatives(&name, &other_name)
+}
+
+/// `block` of `block[2]`.
+pub fn without_index(name: &str) -> &str {
+    name.split('[').next().unwrap_or(name)
+}
+
+fn are_alternatives(a: &str, b: &str) -> bool {
+    ALTERNATIVES.iter().any(|group| group.contains(&a) && group.contains(&b))
+}
