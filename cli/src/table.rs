@@ -3,6 +3,7 @@
 //! Both hold the same: a blank cell of CSV is a null of Parquet, a number has the same bits. Parquet comes with the feature
 //! `parquet` of this crate; without it, a table whose name ends in `.parquet` is refused.
 
+pub mod growing;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 

@@ -1,22 +1,17 @@
 //! `rocking sweep`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on where it was.
 //!
-//! Rows go in order into a hidden file of CSV beside the table, whose name holds a fingerprint of all that decides them. What is found
-//! there is kept up to the first row that is not the one due. When all rows are there it gets the name of the table; a table of Parquet is made of it
-//! first, and the hidden file stays until that has its name.
+//! The growing table (`table/growing.rs`) is told from others by a fingerprint of all that decides its rows.
 
 use crate::arguments;
 use crate::commands::{json, print, spectrum};
 use crate::error::Failure;
 use crate::output;
 use crate::progress::Points;
-#[cfg(feature = "parquet")]
-use crate::table::parquet;
+use crate::table::growing::Growing;
 use crate::table::{Column, Format, Kind, header, quoted};
 use rocking::scene_file::{MOST_BLOCKS, Setting};
 use rocking::sweep::{Ask, Fate, Row, Sweep};
 use serde::Serialize;
-use std::fs::{File, TryLockError};
-use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -45,9 +40,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
     let failed = |error: std::io::Error| Failure::File { path: out.clone(), problem: error.to_string() };
     let fingerprint = fingerprint(&sweep, &range, &asked.file)?;
-    let mut table = Growing::open(&target, &header(&columns), fingerprint, range.clone()).map_err(|error| {
-        if error.kind() == ErrorKind::ResourceBusy { Failure::Running { path: out.clone() } } else { failed(error) }
-    })?;
+    let mut table = Growing::open(&target, &header(&columns), fingerprint, range.clone())?;
     let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
     let resumed = table.next - range.start;
     let (mut size, mut next, mut last) = (BATCH, table.next, Vec::new());
@@ -192,90 +185,6 @@ fn line(row: &Row, columns: usize) -> String {
         }
     }
     cells.join(",")
-}
-
-/// A table under way.
-#[derive(Debug)]
-struct Growing {
-    file: BufWriter<File>,
-    part: PathBuf,
-    out: PathBuf,
-    /// The point whose row is due.
-    next: usize,
-}
-
-impl Growing {
-    /// Goes on with what is there, or begins; busy where another process is doing so.
-    fn open(out: &Path, header: &str, fingerprint: u64, range: Range<usize>) -> std::io::Result<Growing> {
-        let name = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
-        let mut file = File::options().read(true).write(true).create(true).truncate(false).open(&part)?;
-        // Two at once would write rows between each other's. Elsewhere a lock would keep this very program from reading.
-        if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-            return Err(ErrorKind::ResourceBusy.into());
-        }
-        let (mut kept, mut rows) = (0u64, 0usize);
-        let mut line = Vec::new();
-        let mut reader = BufReader::new(&mut file);
-        // Up to the first that is not the one due: a cut line, or what a failing disk has left.
-        let is_due = |line: &[u8], rows: usize| match rows {
-            0 => line.strip_suffix(b"\n") == Some(header.as_bytes()),
-            _ => {
-                line.ends_with(b"\n")
-                    && line.starts_with(format!("{},", range.start + rows - 1).as_bytes())
-                    && !line.contains(&0)
-            }
-        };
-        while reader.read_until(b'\n', &mut line)? > 0 && is_due(&line, rows) {
-            kept += line.len() as u64;
-            rows += 1;
-            line.clear();
-        }
-        file.set_len(kept)?;
-        file.seek(SeekFrom::End(0))?;
-        let mut file = BufWriter::new(file);
-        if rows == 0 {
-            writeln!(file, "{header}")?;
-            file.flush()?;
-        }
-        Ok(Growing { file, part, out: out.into(), next: range.start + rows.saturating_sub(1) })
-    }
-
-    fn append(&mut self, lines: impl Iterator<Item = String>) -> std::io::Result<()> {
-        for line in lines {
-            writeln!(self.file, "{line}")?;
-            self.next += 1;
-        }
-        self.file.flush()
-    }
-
-    /// Gives the table its name. Killed before, after or within, a sweep has all it needs to come here again.
-    #[cfg_attr(not(feature = "parquet"), allow(unused_variables, reason = "CSV has no types"))]
-    fn close(mut self, format: Format, columns: &[Column]) -> Result<(), Failure> {
-        let failed = |error: std::io::Error| Failure::File { path: self.out.clone(), problem: error.to_string() };
-        self.file.flush().map_err(failed)?;
-        match format {
-            Format::Csv => std::fs::rename(&self.part, &self.out).map_err(failed),
-            #[cfg(feature = "parquet")]
-            Format::Parquet => {
-                let whole = self.part.with_extension("whole");
-                let written = File::create(&whole)
-                    .and_then(|file| parquet::from_csv(&self.part, columns, BufWriter::new(file)))
-                    .and_then(|()| std::fs::rename(&whole, &self.out));
-                if let Err(error) = written {
-                    // What is half written is of no use; the part is.
-                    let _ = std::fs::remove_file(&whole);
-                    return Err(match error.kind() {
-                        std::io::ErrorKind::InvalidData => {
-                            Failure::Part { path: self.part.clone(), problem: error.to_string() }
-                        }
-                        _ => failed(error),
-                    });
-                }
-                std::fs::remove_file(&self.part).map_err(failed)
-            }
-        }
-    }
 }
 
 /// A number that changes with all that decides the rows: version, scene, axes, records, range.

@@ -1,7 +1,7 @@
 //! A small sweep and a folder with it.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 /// Two blocks under a pulse.
@@ -37,6 +37,23 @@ pub fn folder(sweep: &str) -> tempfile::TempDir {
     folder
 }
 
+/// Runs the sweep of the folder; the text of its table.
+pub fn table(folder: &Path, arguments: &[&str]) -> String {
+    let all = [&["sweep", "sweep.toml", "--out", "t.csv", "--quiet"], arguments].concat();
+    super::succeeds(folder, &all);
+    std::fs::read_to_string(folder.join("t.csv")).expect("written")
+}
+
+/// Starts the sweep of the folder on one thread.
+pub fn start(folder: &Path, table: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .args(["sweep", "sweep.toml", "--out", table, "--threads", "1", "--quiet"])
+        .current_dir(folder)
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("started")
+}
+
 /// The sweep with points enough to be killed while it runs.
 pub fn long() -> String {
     SWEEP.replace("steps = 5", "steps = 40").replace("steps = 6", "steps = 100").replace("[1, 2]", "[3]")
@@ -46,12 +63,7 @@ pub fn long() -> String {
 pub fn kill_and_go_on(folder: &Path, table: &str, mut after_kill: impl FnMut()) {
     let mut kills = 0;
     for wait in (15..).step_by(20) {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
-            .args(["sweep", "sweep.toml", "--out", table, "--threads", "1", "--quiet"])
-            .current_dir(folder)
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("started");
+        let mut child = start(folder, table);
         std::thread::sleep(Duration::from_millis(wait));
         child.kill().expect("SIGKILL");
         if child.wait().expect("it ends").success() {

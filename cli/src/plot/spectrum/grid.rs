@@ -143,8 +143,8 @@ impl Plane {
         };
         let scale = |place: usize| {
             let (key, values) = &axes[place];
-            let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]))?;
-            Some((place, Scale::of(key, varying)))
+            let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]));
+            Some((place, Scale::of(key, varying?)))
         };
         let mut spanning = (0..axes.len()).rev().filter_map(scale);
         let (Some((y_place, y)), x) = (spanning.next(), spanning.next()) else {
