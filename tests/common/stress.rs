@@ -29,7 +29,7 @@ impl Random {
 
     /// Uniform in the logarithm, `low .. high`.
     pub fn scale(&mut self, low: f64, high: f64) -> f64 {
-        self.within(low.ln(), high.ln()).exp()
+        libm::exp(self.within(libm::log(low), libm::log(high)))
     }
 
     pub fn below(&mut self, count: usize) -> usize {
@@ -57,7 +57,7 @@ fn column(random: &mut Random) -> Column {
             (random.within(0.3, 1.5), random.within(0.1, 0.6), random.within(0.5, 2.0))
         };
         // Masses of their own: up to 1e6 from block to block.
-        let mut block = Block::with_mass(h * alpha.tan(), h, density);
+        let mut block = Block::with_mass(h * libm::tan(alpha), h, density);
         if random.once_in(4) {
             block.inertia *= random.within(0.2, 2.0);
         }
