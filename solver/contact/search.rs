@@ -1,9 +1,8 @@
 //! Search for the admissible pattern of a contact problem: from a guess by setting right what is violated, and by trying all
 //! patterns if that does not lead there (MODEL.md section 5, item 3).
 
-use super::{Instant, Mechanism, Motion, SingularMass, chosen, relative};
-use crate::dynamics::ContactForce;
-use crate::few::Size;
+use super::instant::{Answer, Instant, Mechanism, SingularMass, chosen, relative};
+use crate::numerics::per_block::Size;
 use rocking_codegen::pattern::Interface;
 
 /// Patterns are enumerated up to this many interfaces at `φ = 0` (3^9 = 19,683 of them); beyond, a contact problem without
@@ -14,17 +13,8 @@ const MOST_ENUMERATED: usize = 9;
 /// and contacts on the verge are thrown open by rounding; larger, and they open visibly late.
 const VERGE: f64 = 1e-12;
 
-/// How one candidate pattern answers a contact problem.
-pub(super) struct Answer<S: Size> {
-    /// Rates after an impact, or accelerations, per block.
-    pub(super) motion: S::List<f64>,
-    pub(super) resultants: S::List<ContactForce>,
-    /// By what the motion differs from that without contacts.
-    pub(super) change: Motion<S>,
-}
-
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
-pub(super) struct Problem<'i, 'a, S: Size, F> {
+pub(super) struct ContactProblem<'i, 'a, S: Size, F> {
     pub(super) instant: &'i Instant<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
     pub(super) free: &'i [bool],
@@ -33,7 +23,7 @@ pub(super) struct Problem<'i, 'a, S: Size, F> {
     pub(super) answer: F,
 }
 
-impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> Problem<'_, 'a, S, F> {
+impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, S, F> {
     #[inline(always)]
     fn parts(&self, state: Interface, answer: &Answer<S>, interface: usize) -> bool {
         f64::from(state.sign()) * relative(&answer.motion, interface) >= self.least_parting
@@ -141,8 +131,8 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> Problem<'_, 'a, S, F> {
 mod tests {
     use super::*;
     use crate::column::{Block, Column};
-    use crate::contact::project;
-    use crate::few::Any;
+    use crate::contact::instant::project;
+    use crate::numerics::per_block::Any;
     use proptest::prelude::*;
     use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
     use rocking_codegen::pattern::Pattern;
@@ -184,7 +174,7 @@ mod tests {
             let before = instant.motion(&instant.posture(&states), &omega);
             let free = instant.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
             let answer = |candidate: &Mechanism<Any>| project(candidate, &before);
-            let problem = Problem { instant, free: &free, least_parting: f64::MIN_POSITIVE, answer };
+            let problem = ContactProblem { instant, free: &free, least_parting: f64::MIN_POSITIVE, answer };
             let mut admissible = Vec::new();
             for candidate in problem.all(&states) {
                 let mechanism = instant.mechanism(candidate).expect("solvable");

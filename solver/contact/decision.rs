@@ -1,0 +1,21 @@
+//! What a contact problem decides: pattern and rates after it, and what its contacts transmitted.
+
+use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::per_block::PerBlock;
+use rocking_codegen::pattern::Pattern;
+
+/// What a contact problem has decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The pattern from now on.
+    pub pattern: Pattern,
+    /// Rates of the blocks from now on `[rad/s]`, length N.
+    pub omega: PerBlock<f64>,
+    /// No pattern was admissible: a block would fly.
+    pub separation: bool,
+    /// Kinetic energy lost over that before, 0 to 1.
+    pub energy_lost: f64,
+    /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
+    /// contact's centre, restitution included. Empty where rates do not jump.
+    pub impulses: PerBlock<ContactForce>,
+}

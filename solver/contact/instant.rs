@@ -1,0 +1,168 @@
+//! The column at the instant of a contact problem: mechanisms of candidate patterns, their motions, and the answer of each.
+
+use crate::column::Column;
+use crate::mechanics::dynamics::{ContactForce, Ground};
+use crate::mechanics::kinematics::{Factorised, Posture, Turn, Vec2};
+use crate::mechanics::links::{imposed_acceleration, link_acceleration};
+use crate::numerics::per_block::Size;
+use rocking_codegen::pattern::{Interface, Pattern};
+
+/// Share of the largest angle or rate that sums and solves over a dozen blocks may leave of a difference that is zero. Rates
+/// below it are no motion apart: an interface thrown open with one would land in the same instant, for ever.
+pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Gaps `[rad]` and rates `[rad/s]` below this are zero whatever they are compared with: columns in free fall come to angles of 1e-60,
+/// whose roundings are no motion. Larger, and the rocking of very slender columns would be cut off.
+const NOTHING: f64 = 1e-40;
+
+/// Share of the largest acceleration, at least that of a falling column, by which a released interface may seem to be driven
+/// back: its instant is known to the integration's tolerance only. Beyond it, something else has changed, and it is examined like the others.
+pub(super) const RELEASE_TOLERANCE: f64 = 1e-6;
+
+/// How one candidate pattern answers a contact problem.
+pub(super) struct Answer<S: Size> {
+    /// Rates after an impact, or accelerations, per block.
+    pub(super) motion: S::List<f64>,
+    pub(super) resultants: S::List<ContactForce>,
+    /// By what the motion differs from that without contacts.
+    pub(super) change: Motion<S>,
+}
+
+/// The mass matrix of a pattern could not be factorised: its blocks differ beyond what rounding can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SingularMass;
+
+/// The column as it stands at the instant of a contact problem.
+pub(super) struct Instant<'a, S: Size> {
+    pub(super) size: S,
+    pub(super) column: &'a Column,
+    pub(super) theta: &'a [f64],
+    pub(super) turns: S::List<Turn>,
+}
+
+/// The column in one pattern, with its masses.
+pub(super) struct Mechanism<'a, S: Size> {
+    pub(super) states: S::List<Interface>,
+    pub(super) posture: Posture<'a, S>,
+    pub(super) mass: Factorised<S>,
+}
+
+impl<'a, S: Size> Instant<'a, S> {
+    #[inline(always)]
+    pub(super) fn new(size: S, column: &'a Column, theta: &'a [f64]) -> Instant<'a, S> {
+        Instant { size, column, theta, turns: Turn::all(size, theta) }
+    }
+
+    #[inline(always)]
+    pub(super) fn states(&self, pattern: &Pattern) -> S::List<Interface> {
+        self.size.copied(&pattern.0)
+    }
+
+    #[inline(always)]
+    pub(super) fn posture(&self, states: &[Interface]) -> Posture<'a, S> {
+        Posture::of(self.size, self.column, states, &self.turns)
+    }
+
+    #[inline(always)]
+    pub(super) fn mechanism(&self, states: S::List<Interface>) -> Result<Mechanism<'a, S>, SingularMass> {
+        let posture = self.posture(&states);
+        let mass = posture.factorised_mass().ok_or(SingularMass)?;
+        Ok(Mechanism { states, posture, mass })
+    }
+
+    /// Motion in a posture at the blocks' rates.
+    #[inline(always)]
+    pub(super) fn motion(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Motion<S> {
+        Motion { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.copied(omega) }
+    }
+}
+
+/// The interfaces that a list names.
+#[inline(always)]
+pub(super) fn chosen(list: &[bool]) -> impl Iterator<Item = usize> {
+    list.iter().enumerate().filter(|(_, is_chosen)| **is_chosen).map(|(interface, _)| interface)
+}
+
+/// `φ̇_i` or `φ̈_i` of the blocks' rates or accelerations.
+pub(super) fn relative(motion: &[f64], interface: usize) -> f64 {
+    motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
+}
+
+/// The largest size.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+/// Whether the gap of angles, or of rates, at an interface is no more than rounding.
+#[inline(always)]
+pub(super) fn is_rounding(values: &[f64], interface: usize) -> bool {
+    let gap = relative(values, interface);
+    gap == 0.0 || gap.abs() <= (ROUNDING * largest(values)).max(NOTHING)
+}
+
+/// Whether an interface, open or not, has no gap.
+pub(crate) fn is_gapless(theta: &[f64], interface: usize) -> bool {
+    is_rounding(theta, interface)
+}
+
+/// Whether an interface, open or not, has no gap yet and no rate.
+pub(crate) fn is_motionless(theta: &[f64], omega: &[f64], interface: usize) -> bool {
+    is_rounding(theta, interface) && is_rounding(omega, interface)
+}
+
+/// Relative acceleration `[rad/s²]` below which an interface that has just opened is taken to be on the verge, where it is zero.
+pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
+    let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
+    let fall = ground.gravity.abs().max(column.gravity()) / height;
+    RELEASE_TOLERANCE * fall.max(largest(accelerations))
+}
+
+/// Velocities of the centroids and the blocks' rates, or accelerations.
+#[derive(Clone)]
+pub(super) struct Motion<S: Size> {
+    pub(super) linear: S::List<Vec2>,
+    pub(super) angular: S::List<f64>,
+}
+
+impl<S: Size> Motion<S> {
+    /// Less another one.
+    #[inline(always)]
+    pub(super) fn less(mut self, other: &Motion<S>) -> Motion<S> {
+        self.linear.iter_mut().zip(&*other.linear).for_each(|(a, b)| *a = [a[0] - b[0], a[1] - b[1]]);
+        self.angular.iter_mut().zip(&*other.angular).for_each(|(a, b)| *a -= b);
+        self
+    }
+}
+
+/// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (MODEL.md section 5, item 1).
+#[inline(always)]
+pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Motion<S>) -> Answer<S> {
+    let posture = &mechanism.posture;
+    let mut rates = posture.generalised(&before.linear, &before.angular);
+    mechanism.mass.solve(&mut rates);
+    let motion = posture.angular(&rates);
+    let change = Motion { linear: posture.linear(&rates), angular: motion.clone() }.less(before);
+    let resultants = posture.resultants(&change.linear, &change.angular);
+    Answer { motion, resultants, change }
+}
+
+/// The accelerations of a pattern at the blocks' rates, and what its contacts carry (MODEL.md section 4).
+#[inline(always)]
+pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], ground: Ground) -> Answer<S> {
+    let posture = &mechanism.posture;
+    let mut total = imposed_acceleration(posture, &posture.link_rates(omega), ground);
+    let alpha = link_acceleration(posture, &mechanism.mass, &total);
+    total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
+    let motion = posture.angular(&alpha);
+    let resultants = posture.resultants(&total, &motion);
+    Answer { change: Motion { linear: total, angular: motion.clone() }, motion, resultants }
+}
+
+/// Whether an interface is closed, or has only just opened: it may choose its state anew.
+pub(super) fn may_open<'f, S: Size>(
+    instant: &'f Instant<S>,
+    states: &'f [Interface],
+    omega: &'f [f64],
+) -> impl Fn(usize) -> bool + 'f {
+    move |i: usize| !states[i].is_open() || is_motionless(instant.theta, omega, i)
+}

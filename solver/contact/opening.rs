@@ -1,0 +1,57 @@
+//! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
+
+use super::decision::Decision;
+use super::instant::{Instant, SingularMass, accelerate, largest, may_open, relative, verge_acceleration};
+use super::search::ContactProblem;
+use crate::column::Column;
+use crate::mechanics::dynamics::Ground;
+use crate::numerics::per_block::{PerBlock, Size, for_size};
+use rocking_codegen::pattern::{Interface, Pattern};
+
+/// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (MODEL.md section 4): the
+/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion call for. `released` are interfaces, with their
+/// sides, whose resultants have reached a corner in this instant: they open, whatever rounding says of their acceleration.
+///
+/// # Errors
+/// [`SingularMass`]
+pub fn open(
+    column: &Column,
+    pattern: &Pattern,
+    theta: &[f64],
+    omega: &[f64],
+    ground: Ground,
+    released: &[(usize, Interface)],
+) -> Result<Decision, SingularMass> {
+    for_size!(column.len(), size => open_at(&Instant::new(size, column, theta), pattern, omega, ground, released))
+}
+
+fn open_at<S: Size>(
+    instant: &Instant<S>,
+    pattern: &Pattern,
+    omega: &[f64],
+    ground: Ground,
+    released: &[(usize, Interface)],
+) -> Result<Decision, SingularMass> {
+    let mut guess = instant.states(pattern);
+    let mut free = instant.size.list_of(may_open(instant, &guess, omega));
+    for &(interface, side) in released {
+        guess[interface] = side;
+        free[interface] = false;
+    }
+    let mut mechanism = instant.mechanism(guess)?;
+    let mut answer = accelerate(&mechanism, omega, ground);
+    let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
+    let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces };
+    let mut separation = problem.solve(&mut mechanism, &mut answer)?;
+    let tolerance = verge_acceleration(instant.column, &answer.motion, ground);
+    let is_driven_back =
+        |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
+    let driven_back: PerBlock<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
+    if !driven_back.is_empty() {
+        driven_back.iter().for_each(|&interface| free[interface] = true);
+        let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces };
+        separation = problem.solve(&mut mechanism, &mut answer)?;
+    }
+    let (pattern, omega) = (Pattern::from_states(&mechanism.states), PerBlock::from_slice(omega));
+    Ok(Decision { pattern, omega, separation, energy_lost: 0.0, impulses: PerBlock::new() })
+}

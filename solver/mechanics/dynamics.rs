@@ -1,0 +1,103 @@
+//! The trait through which the integrator sees a mode.
+//!
+//! A mode's state is its free angles and rates only, `x = [θ, θ̇]`, base first. The right-hand side, the energies and the
+//! contact forces of a mode come either from generated code ([`crate::generated`]) or from hand-written code for any number
+//! of blocks ([`crate::generic`]); the integrator is compiled once for each number of degrees of freedom.
+
+pub use crate::numerics::state_vector::StateVector;
+use rocking_ground::Segment;
+
+/// Ground motion at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ground {
+    /// Horizontal ground acceleration `ẍ_g [m/s²]`.
+    pub x: f64,
+    /// Effective gravity `g + ÿ_g [m/s²]`.
+    pub gravity: f64,
+}
+
+impl Ground {
+    /// Ground motion at `t` `[s]` in a segment, with gravity `[m/s²]`.
+    #[inline(always)]
+    pub fn of(segment: &Segment, t: f64, gravity: f64) -> Ground {
+        Ground { x: segment.horizontal.value(t), gravity: gravity + segment.vertical.value(t) }
+    }
+}
+
+/// Contact force at an interface, on the stack above (MODEL.md section 4).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactForce {
+    /// Normal part `[N]`, compression positive, in the axes of the lower block.
+    pub normal: f64,
+    /// Tangential part `[N]`, positive to the right.
+    pub tangential: f64,
+    /// Clockwise moment about the contact's centre `[N m]`.
+    pub moment: f64,
+}
+
+/// Where forces are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interfaces {
+    /// Everywhere.
+    All,
+    /// At least where an interface is closed.
+    Closed,
+}
+
+/// Mechanical energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// `[J]`
+    pub kinetic: f64,
+    /// `[J]`, zero at the level of the ground.
+    pub potential: f64,
+}
+
+impl Energy {
+    /// Kinetic and potential together `[J]`.
+    pub fn total(self) -> f64 {
+        self.kinetic + self.potential
+    }
+}
+
+/// One rocking mode of one column, with its scene constants.
+pub trait Dynamics {
+    /// `[θ, θ̇]` of the free angles, length 2·dof, base first.
+    type State: StateVector;
+
+    /// One value per free angle.
+    type Links: StateVector;
+
+    /// A state of zeros.
+    fn zero_state(&self) -> Self::State;
+
+    /// One zero per free angle.
+    fn zero_links(&self) -> Self::Links;
+
+    /// Writes `[θ̇, θ̈]` into `derivative`.
+    fn derivative(&self, state: &Self::State, ground: Ground, derivative: &mut Self::State);
+
+    /// Energies relative to the moving ground, with `gravity` the effective one `[m/s²]`.
+    fn energy(&self, state: &Self::State, gravity: f64) -> Energy;
+
+    /// Mass matrix `[kg m²]`, row by row, dof × dof.
+    fn mass_matrix(&self, state: &Self::State) -> Vec<f64>;
+
+    /// Mass matrix `[kg m²]` into `matrix`, row by row, of a state whose cosines and sines are given too.
+    fn coupling(&self, state: &Self::State, cos: &Self::Links, sin: &Self::Links, matrix: &mut [f64]);
+
+    /// The weights `[C, S]` of the equations `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`, linear in the second derivatives of
+    /// cosines and sines and in the ground's acceleration; of Taylor coefficients, those of the weights.
+    fn weights(&self, cos_ddot: &Self::Links, sin_ddot: &Self::Links, ground: Ground) -> [Self::Links; 2];
+
+    /// Contact forces, base first, into `forces` (length N), at all interfaces or only at the closed ones; `derivative` belongs to
+    /// `state` and `ground`.
+    fn contact_forces(
+        &self,
+        state: &Self::State,
+        derivative: &Self::State,
+        ground: Ground,
+        which: Interfaces,
+        forces: &mut [ContactForce],
+    );
+}

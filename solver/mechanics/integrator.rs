@@ -1,0 +1,451 @@
+//! The integrator of a mode: steps of one method over the equations of one mode, behind a trait object.
+//!
+//! [`Steps`] is what integrates, [`Forces`] is what knows mechanics. Each pair of method and mode is compiled by itself; a run calls a few
+//! functions per step through the table of the object. An integrator owns the state at the start of its next step and allocates nothing
+//! after it has been built.
+
+use super::dynamics::{ContactForce, Dynamics, Ground, Interfaces};
+use super::margins::{Margins, Opening};
+use super::pendulum::Pendulum;
+use super::rocker::Rocker;
+use crate::numerics::ode::control::{Attempt, Part, StepControl, Tolerance, without_remainder};
+use crate::numerics::ode::explicit::{Explicit, System, Tableau};
+use crate::numerics::ode::interpolant::Interpolant;
+use crate::numerics::ode::taylor::{MAX_ORDER, SeriesSystem, Taylor};
+use crate::numerics::polynomial::difference::Difference;
+use crate::numerics::polynomial::track::Track;
+use crate::numerics::scalar::Scalar;
+use crate::numerics::state_vector::StateVector;
+use rocking_ground::Segment;
+use std::sync::Arc;
+
+/// What integrates. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
+pub(crate) trait Steps {
+    /// Begins at a state; what earlier steps have taught of step lengths is forgotten.
+    fn begin(&mut self, t: f64, x: &[f64]);
+    /// Continues from another state.
+    fn restart(&mut self, t: f64, x: &[f64]);
+    /// State at the start of the next step.
+    fn start(&self) -> &[f64];
+    /// Writes `[θ̇, θ̈]` at the start of the next step into `slope`.
+    fn start_slope(&mut self, t: f64, slope: &mut [f64]);
+    /// A first step length for the state at the start `[s]`.
+    fn first_step(&self, tolerance: Tolerance) -> f64;
+    /// Attempts a step of the wanted length, or of what the method finds better, and of no more than `most` `[s]`.
+    fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt;
+    /// Accepts the last attempt: its inside may be read.
+    fn accept(&mut self);
+    /// Makes the accepted attempt end after `h` `[s]`, at an event.
+    fn cut(&mut self, t: f64, h: f64, tolerance: Tolerance);
+    /// State at the end of the last attempt, or of the part up to an event.
+    fn end(&self) -> &[f64];
+    /// Continues from the end of the last attempt.
+    fn advance(&mut self);
+    /// State inside the last attempt, `s` from 0 to 1 of a part of it.
+    fn state_inside(&mut self, part: Part, s: f64, state: &mut [f64]);
+    /// A linear function of the angles inside the step; exactly zero at its start where that is known.
+    fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
+    /// A bound of how far angles, or the difference of two, move from their start in the step; infinite where the track is the cheapest bound.
+    fn reach(&self, _angles: Difference) -> f64 {
+        f64::INFINITY
+    }
+    /// Whether an angle, or the difference of two, is known to be monotonic in the step without its track.
+    fn is_monotonic(&self, _angles: Difference) -> bool {
+        false
+    }
+}
+
+/// What knows mechanics.
+pub(crate) trait Forces {
+    /// Goes over to another segment of ground motion.
+    fn enter(&mut self, segment: &Segment);
+    /// Ground motion at `t`.
+    fn ground(&self, t: f64) -> Ground;
+    /// Writes the contact forces at a state into `forces`, base first.
+    fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]);
+    /// The same at the end of the last attempt, at `t`.
+    fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]);
+    /// Whether a closed interface opens within `reach` `[s]` of the start of the last attempt; `index` is its place among the closed ones.
+    fn opening(&self, margins: &Margins, index: usize, reach: f64) -> Opening;
+    /// The mode, of one free angle, on a ground that does not move.
+    fn pendulum(&self) -> Option<Pendulum>;
+    /// The mode, of one free angle, on a ground that moves to the side.
+    fn rocker(&self) -> Option<Rocker>;
+    /// Right-hand sides evaluated so far.
+    fn rhs_calls(&self) -> usize;
+}
+
+/// Steps of one method in one mode.
+pub(crate) trait Integrator: Steps + Forces + Send {}
+
+impl<I: Steps + Forces + Send> Integrator for I {}
+
+/// A mode under the ground motion of one segment, as a right-hand side.
+struct Driven<D: Dynamics> {
+    mode: Arc<D>,
+    segment: Segment,
+    gravity: f64,
+    calls: usize,
+    /// State and slope of an evaluation of forces.
+    state: D::State,
+    slope: D::State,
+}
+
+impl<D: Dynamics> Driven<D> {
+    fn new(mode: Arc<D>, gravity: f64) -> Driven<D> {
+        let zero = mode.zero_state();
+        Driven { mode, segment: Segment::QUIET, gravity, calls: 0, state: zero.clone(), slope: zero }
+    }
+
+    #[inline(always)]
+    fn ground(&self, t: f64) -> Ground {
+        Ground::of(&self.segment, t, self.gravity)
+    }
+
+    #[inline(always)]
+    fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]) {
+        self.calls += 1;
+        let ground = self.ground(t);
+        self.state.as_mut_slice().copy_from_slice(x);
+        self.mode.derivative(&self.state, ground, &mut self.slope);
+        self.mode.contact_forces(&self.state, &self.slope, ground, which, forces);
+    }
+
+    /// `J θ̈ + cos θ · C + sin θ · S = 0`, where the weights are those of gravity alone.
+    fn pendulum(&self) -> Option<Pendulum> {
+        let (zero, still) = (self.mode.zero_state(), self.mode.zero_links());
+        let [of_cos, of_sin] = self.mode.weights(&still, &still, Ground { x: 0.0, gravity: self.gravity });
+        let inertia = *self.mode.mass_matrix(&zero).first()?;
+        Pendulum::new(inertia, [*of_cos.as_slice().first()?, *of_sin.as_slice().first()?])
+    }
+}
+
+impl<D: Dynamics> System for Driven<D> {
+    type State = D::State;
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
+        self.calls += 1;
+        self.mode.derivative(x, Ground::of(&self.segment, t, self.gravity), slope);
+    }
+}
+
+/// Steps of an explicit Runge-Kutta method.
+pub(crate) struct ExplicitSteps<D: Dynamics, M> {
+    system: Driven<D>,
+    method: Explicit<D::State, M>,
+    control: StepControl,
+    /// Length of all steps `[s]`, where the method has no step control.
+    fixed: Option<f64>,
+    start: D::State,
+    slope: D::State,
+    /// The part that the stages of the method belong to.
+    part: Part,
+    /// Dense output of each [`Part`], and whether it is current.
+    interpolants: [(Interpolant<D::State>, bool); 2],
+}
+
+impl<D: Dynamics, M: Tableau> ExplicitSteps<D, M> {
+    /// A method on a mode, with gravity `[m/s²]`; steps of fixed length `[s]` where one is given.
+    pub fn new(mode: Arc<D>, gravity: f64, fixed: Option<f64>) -> Self {
+        let zero = mode.zero_state();
+        ExplicitSteps {
+            system: Driven::new(mode, gravity),
+            method: Explicit::new(&zero),
+            control: StepControl::new(M::ERROR_ORDER),
+            fixed,
+            start: zero.clone(),
+            slope: zero.clone(),
+            part: Part::Attempt,
+            interpolants: [(); 2].map(|()| (Interpolant::new(&zero), false)),
+        }
+    }
+
+    fn interpolant(&mut self, part: Part) -> &Interpolant<D::State> {
+        let (interpolant, is_current) = &mut self.interpolants[part as usize];
+        if !*is_current {
+            self.method.interpolate(&mut self.system, interpolant);
+            *is_current = true;
+        }
+        interpolant
+    }
+}
+
+impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
+    fn begin(&mut self, t: f64, x: &[f64]) {
+        self.start.as_mut_slice().copy_from_slice(x);
+        self.system.slope(t, &self.start, &mut self.slope);
+    }
+
+    fn restart(&mut self, t: f64, x: &[f64]) {
+        self.begin(t, x);
+    }
+
+    fn start(&self) -> &[f64] {
+        self.start.as_slice()
+    }
+
+    fn start_slope(&mut self, _: f64, slope: &mut [f64]) {
+        slope.copy_from_slice(self.slope.as_slice());
+    }
+
+    fn first_step(&self, tolerance: Tolerance) -> f64 {
+        self.fixed.unwrap_or_else(|| self.control.first_step(&self.start, &self.slope, tolerance))
+    }
+
+    fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {
+        let h = without_remainder(wanted, most);
+        self.part = Part::Attempt;
+        self.interpolants.iter_mut().for_each(|(_, is_current)| *is_current = false);
+        let error = self.method.attempt(&mut self.system, t, &self.start, &self.slope, h, tolerance);
+        let fits = h * if self.fixed.is_some() { 1.0 } else { self.control.factor(error) };
+        let wanted = if error.is_nan() {
+            0.1 * h
+        } else if error > 1.0 {
+            fits.min(h)
+        } else if h < wanted {
+            // A step cut short by a segment's end says nothing against the step wanted.
+            wanted.max(fits)
+        } else {
+            fits
+        };
+        Attempt { h, error, wanted }
+    }
+
+    fn accept(&mut self) {
+        self.method.accept(&mut self.system);
+    }
+
+    fn cut(&mut self, t: f64, h: f64, tolerance: Tolerance) {
+        // Rows inside the step are those of the whole attempt.
+        self.interpolant(Part::Attempt);
+        self.part = Part::UpToEvent;
+        self.interpolants[Part::UpToEvent as usize].1 = false;
+        self.method.attempt(&mut self.system, t, &self.start, &self.slope, h, tolerance);
+    }
+
+    fn end(&self) -> &[f64] {
+        self.method.end().as_slice()
+    }
+
+    fn advance(&mut self) {
+        self.slope.clone_from(self.method.end_slope());
+        self.start.clone_from(self.method.end());
+    }
+
+    fn state_inside(&mut self, part: Part, s: f64, state: &mut [f64]) {
+        self.interpolant(part).evaluate(s, state);
+    }
+
+    fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
+        let interpolant = self.interpolant(self.part);
+        let (length, mut polynomial) = (interpolant.length, interpolant.bernstein(|x| angles.of(x)));
+        if starts_at_zero {
+            let (dof, h) = (self.start.as_slice().len() / 2, length);
+            let (rate, acceleration) = (&self.start.as_slice()[dof..], &self.slope.as_slice()[dof..]);
+            polynomial.start_with(0.0, h * angles.of(rate), h * h * angles.of(acceleration));
+        }
+        Track::Bernstein(polynomial)
+    }
+}
+
+impl<D: Dynamics + Send + Sync, M: Tableau> Forces for ExplicitSteps<D, M> {
+    fn enter(&mut self, segment: &Segment) {
+        self.system.segment.clone_from(segment);
+    }
+
+    fn ground(&self, t: f64) -> Ground {
+        self.system.ground(t)
+    }
+
+    fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.contact_forces(t, x, which, forces);
+    }
+
+    fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]) {
+        let ground = self.ground(t);
+        self.system.mode.contact_forces(self.method.end(), self.method.end_slope(), ground, which, forces);
+    }
+
+    /// Unclear: dense output says nothing of accelerations.
+    fn opening(&self, _: &Margins, _: usize, _: f64) -> Opening {
+        Opening::Unclear
+    }
+
+    fn pendulum(&self) -> Option<Pendulum> {
+        self.system.pendulum()
+    }
+
+    fn rocker(&self) -> Option<Rocker> {
+        Rocker::of(&*self.system.mode, self.system.gravity)
+    }
+
+    fn rhs_calls(&self) -> usize {
+        self.system.calls
+    }
+}
+
+/// A mode under the ground motion of one segment, as equations with Taylor coefficients.
+struct Expanded<D: Dynamics> {
+    driven: Driven<D>,
+    /// Coefficients of the horizontal ground acceleration and of the effective gravity.
+    ground: [[f64; MAX_ORDER]; 2],
+}
+
+impl<D: Dynamics> SeriesSystem for Expanded<D> {
+    type State = D::State;
+    type Links = D::Links;
+
+    #[inline(always)]
+    fn expand_at(&mut self, t: f64, orders: usize) {
+        let Segment { horizontal, vertical, .. } = &self.driven.segment;
+        for (coefficients, piece) in self.ground.iter_mut().zip([horizontal, vertical]) {
+            piece.expand_at(t, &mut coefficients[..orders]);
+        }
+        self.ground[1][0] += self.driven.gravity;
+    }
+
+    #[inline(always)]
+    fn matrix(&self, x: &D::State, cos: &D::Links, sin: &D::Links, matrix: &mut [f64]) {
+        self.driven.mode.coupling(x, cos, sin, matrix);
+    }
+
+    #[inline(always)]
+    fn weights(&mut self, order: usize, cos_ddot: &D::Links, sin_ddot: &D::Links) -> [D::Links; 2] {
+        let ground = Ground { x: self.ground[0][order], gravity: self.ground[1][order] };
+        self.driven.mode.weights(cos_ddot, sin_ddot, ground)
+    }
+
+    #[inline(always)]
+    fn sin_cos(angle: f64) -> (f64, f64) {
+        Scalar::sin_cos(angle)
+    }
+}
+
+/// Steps by Taylor series. Each order counts as a right-hand side.
+pub(crate) struct TaylorSteps<D: Dynamics> {
+    system: Expanded<D>,
+    start: D::State,
+    /// A state to be filled.
+    inside: D::State,
+    series: Taylor<D::State, D::Links>,
+}
+
+impl<D: Dynamics> TaylorSteps<D> {
+    /// The series of a mode, with gravity `[m/s²]`, of an order for this tolerance.
+    pub fn new(mode: Arc<D>, gravity: f64, rtol: f64) -> Self {
+        let start = mode.zero_state();
+        let series = Taylor::new(&start, &mode.zero_links(), rtol);
+        let driven = Driven::new(mode, gravity);
+        TaylorSteps { system: Expanded { driven, ground: [[0.0; MAX_ORDER]; 2] }, inside: start.clone(), start, series }
+    }
+
+    /// All terms of the margins of a closed interface.
+    #[cfg(test)]
+    pub fn margin_terms(&self, margins: &Margins, index: usize, reach: f64) -> Option<[wide::f64x2; MAX_ORDER]> {
+        margins.terms(index, &self.series, &self.system.ground, reach, |_, _| false)
+    }
+}
+
+/// Longest first step `[s]`: no series of a rocking column converges for much longer.
+const LONGEST_FIRST_STEP: f64 = 1.0;
+
+impl<D: Dynamics> Steps for TaylorSteps<D> {
+    fn begin(&mut self, t: f64, x: &[f64]) {
+        self.restart(t, x);
+        self.series.begin();
+    }
+
+    fn restart(&mut self, _: f64, x: &[f64]) {
+        self.start.as_mut_slice().copy_from_slice(x);
+    }
+
+    fn start(&self) -> &[f64] {
+        self.start.as_slice()
+    }
+
+    /// What the next attempt begins with: no work of its own.
+    fn start_slope(&mut self, t: f64, slope: &mut [f64]) {
+        let known = self.series.known_at(t, &self.start);
+        self.series.slope(&mut self.system, t, &self.start, slope);
+        self.system.driven.calls += self.series.known_at(t, &self.start) - known;
+    }
+
+    /// Any length: the first attempt finds the length of the step at the cost of no new coefficients.
+    fn first_step(&self, _: Tolerance) -> f64 {
+        LONGEST_FIRST_STEP
+    }
+
+    fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {
+        let known = self.series.known_at(t, &self.start);
+        let attempted = self.series.attempt(&mut self.system, t, &self.start, [wanted, most], tolerance);
+        self.system.driven.calls += self.series.known_at(t, &self.start) - known;
+        attempted
+    }
+
+    fn accept(&mut self) {}
+
+    fn cut(&mut self, _: f64, h: f64, _: Tolerance) {
+        self.series.cut(h);
+    }
+
+    fn end(&self) -> &[f64] {
+        self.series.end().as_slice()
+    }
+
+    fn advance(&mut self) {
+        self.start.clone_from(self.series.end());
+    }
+
+    fn state_inside(&mut self, part: Part, s: f64, state: &mut [f64]) {
+        self.series.state_inside(part, s, &mut self.inside);
+        state.copy_from_slice(self.inside.as_slice());
+    }
+
+    fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
+        Track::Powers(self.series.track(angles, starts_at_zero))
+    }
+
+    fn reach(&self, angles: Difference) -> f64 {
+        self.series.reach(angles)
+    }
+
+    fn is_monotonic(&self, angles: Difference) -> bool {
+        self.series.is_monotonic(angles)
+    }
+}
+
+impl<D: Dynamics + Send + Sync> Forces for TaylorSteps<D> {
+    fn enter(&mut self, segment: &Segment) {
+        self.system.driven.segment.clone_from(segment);
+        self.series.forget();
+    }
+
+    fn ground(&self, t: f64) -> Ground {
+        self.system.driven.ground(t)
+    }
+
+    fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.driven.contact_forces(t, x, which, forces);
+    }
+
+    fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]) {
+        self.system.driven.contact_forces(t, self.series.end().as_slice(), which, forces);
+    }
+
+    fn opening(&self, margins: &Margins, index: usize, reach: f64) -> Opening {
+        margins.opening(index, &self.series, &self.system.ground, reach)
+    }
+
+    fn pendulum(&self) -> Option<Pendulum> {
+        self.system.driven.pendulum()
+    }
+
+    fn rocker(&self) -> Option<Rocker> {
+        Rocker::of(&*self.system.driven.mode, self.system.driven.gravity)
+    }
+
+    fn rhs_calls(&self) -> usize {
+        self.system.driven.calls
+    }
+}

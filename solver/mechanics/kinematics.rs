@@ -1,0 +1,403 @@
+//! Where the blocks of a column are in a pattern, and how they move: corners, centroids, Jacobians, contact resultants.
+//!
+//! Found by walking up the column from corner to corner, for any number of blocks and any pattern. This is the geometry behind
+//! contact ([`crate::contact`]) and behind the hand-written dynamics ([`super::generic`]); generated code shares none of it.
+//!
+//! Notation: link 0 moves with the ground, link `a >= 1` turns by the free angle `a`. Clockwise is positive, so a rate ω
+//! about a pivot moves a point at `r` with `ω (r_y, -r_x)` and a rate alone accelerates it by `-ω² r`.
+
+use crate::column::{Block, Column};
+use super::dynamics::ContactForce;
+use crate::numerics::per_block::{Any, Size};
+use crate::numerics::sines;
+use rocking_codegen::pattern::{Interface, Pattern};
+
+/// A vector of the plane, `[x, y]`.
+pub type Vec2 = [f64; 2];
+
+/// A column's geometry in one pattern and position.
+#[derive(Clone, Debug)]
+pub struct Posture<'a, S: Size = Any> {
+    pub(crate) size: S,
+    column: &'a Column,
+    /// Link of each block, base first, length N.
+    pub link: S::List<usize>,
+    /// Number of links that move.
+    pub dof: usize,
+    /// How the lower block of each interface is turned, length N.
+    lower: S::List<Turn>,
+    /// Centre of each contact `[m]`, length N.
+    contact_centre: S::List<Vec2>,
+    /// Centroids `[m]`, length N.
+    centroid: S::List<Vec2>,
+    /// From the pivot of link `a` to the centroid of block `j`, or to the next pivot where the block is on a higher link:
+    /// row `j`, column `a - 1`; zero where the link is above the block.
+    lever: S::Table<Vec2>,
+}
+
+/// Sine and cosine of an angle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turn {
+    pub sin: f64,
+    pub cos: f64,
+}
+
+impl Turn {
+    /// The ground's.
+    const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
+
+    pub fn new(angle: f64) -> Turn {
+        let (sin, cos) = sines::sin_cos(angle);
+        Turn { sin, cos }
+    }
+
+    /// How blocks are turned by these angles `[rad]`; those of one link turn together.
+    pub fn all<S: Size>(size: S, theta: &[f64]) -> S::List<Turn> {
+        let mut turns = size.list(Turn::NONE);
+        for index in 0..size.blocks() {
+            let is_joined = index > 0 && theta[index] == theta[index - 1];
+            turns[index] = if is_joined { turns[index - 1] } else { Turn::new(theta[index]) };
+        }
+        turns
+    }
+
+    /// `R(θ)(u, v)`
+    #[inline(always)]
+    fn rotate(self, [u, v]: Vec2) -> Vec2 {
+        [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
+    }
+}
+
+#[inline(always)]
+fn plus(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+#[inline(always)]
+fn minus(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+impl<'a> Posture<'a> {
+    /// The geometry where block `i` is turned by `theta[i]` `[rad]`, base first, length N; blocks of one link have equal
+    /// angles.
+    pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
+        let size = Any(column.len());
+        Posture::of(size, column, &pattern.0, &Turn::all(size, theta))
+    }
+}
+
+impl<'a, S: Size> Posture<'a, S> {
+    /// The geometry where interfaces are in these states and blocks are turned like this.
+    pub(crate) fn of(size: S, column: &'a Column, states: &[Interface], turns: &S::List<Turn>) -> Posture<'a, S> {
+        let (mut link, mut dof) = (size.list(0), 0);
+        let (mut pivots, mut centroid) = (size.list([0.0, 0.0]), size.list([0.0, 0.0]));
+        let (mut lower, mut contact_centre) = (size.list(Turn::NONE), size.list([0.0, 0.0]));
+        let (mut centre, mut below) = ([0.0, 0.0], Turn::NONE);
+        let (blocks, states) = (&column.blocks()[..size.blocks()], &states[..size.blocks()]);
+        for index in 0..size.blocks() {
+            contact_centre[index] = centre;
+            lower[index] = below;
+            let own = turns[index];
+            let mut base = centre;
+            if states[index].is_open() {
+                let offset = f64::from(states[index].sign()) * column.contact_half_width(index);
+                let pivot = plus(centre, below.rotate([offset, 0.0]));
+                pivots[dof] = pivot;
+                dof += 1;
+                base = minus(pivot, own.rotate([offset, 0.0]));
+            }
+            link[index] = dof;
+            let half_height = blocks[index].half_height;
+            centroid[index] = plus(base, own.rotate([0.0, half_height]));
+            centre = plus(base, own.rotate([0.0, 2.0 * half_height]));
+            below = own;
+        }
+        let width = size.links(dof);
+        let mut lever = size.table(width, [0.0, 0.0]);
+        for block in 0..size.blocks() {
+            let own = link[block];
+            for below in 1..=size.links(own) {
+                if below <= own {
+                    let end = if below == own { centroid[block] } else { pivots[below] };
+                    lever[block * width + below - 1] = minus(end, pivots[below - 1]);
+                }
+            }
+        }
+        Posture { size, column, link, dof, lower, contact_centre, centroid, lever }
+    }
+
+    /// Blocks, as many as the size says.
+    #[inline(always)]
+    fn blocks(&self) -> &[Block] {
+        &self.column.blocks()[..self.size.blocks()]
+    }
+
+    /// Columns of tables.
+    #[inline(always)]
+    fn width(&self) -> usize {
+        self.size.links(self.dof)
+    }
+
+    /// Levers of a block.
+    #[inline(always)]
+    fn levers(&self, block: usize) -> &[Vec2] {
+        &self.lever[block * self.width()..(block + 1) * self.width()]
+    }
+
+    /// Rates of the moving links, length dof and more, among the rates of the blocks, length N.
+    #[inline(always)]
+    pub fn link_rates(&self, block: &[f64]) -> S::List<f64> {
+        let mut rates = self.size.list(0.0);
+        for index in 0..self.size.blocks() {
+            if self.link[index] > 0 {
+                rates[self.link[index] - 1] = block[index];
+            }
+        }
+        rates
+    }
+
+    /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, or the part of accelerations due to link accelerations.
+    #[inline(always)]
+    pub fn linear(&self, rates: &[f64]) -> S::List<Vec2> {
+        self.size.list_of(|block| {
+            let levers = self.levers(block).iter().zip(rates);
+            levers.fold([0.0, 0.0], |sum, (r, rate)| [sum[0] + rate * r[1], sum[1] - rate * r[0]])
+        })
+    }
+
+    /// Angular rates of the blocks for link rates.
+    #[inline(always)]
+    pub fn angular(&self, rates: &[f64]) -> S::List<f64> {
+        self.size.list_of(|block| if self.link[block] == 0 { 0.0 } else { rates[self.link[block] - 1] })
+    }
+
+    /// Centripetal accelerations of the centroids `[m/s²]` at link rates.
+    #[inline(always)]
+    pub fn centripetal(&self, rates: &[f64]) -> S::List<Vec2> {
+        self.size.list_of(|block| {
+            self.levers(block).iter().zip(rates).fold([0.0, 0.0], |sum, (r, rate)| {
+                let square = rate * rate;
+                [sum[0] - square * r[0], sum[1] - square * r[1]]
+            })
+        })
+    }
+
+    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof; where it is larger, links that do not move have unit mass.
+    #[inline(always)]
+    pub fn mass_matrix(&self) -> S::Table<f64> {
+        let width = self.width();
+        let mut matrix = self.size.table(width, 0.0);
+        for (index, block) in self.blocks().iter().enumerate() {
+            let (levers, own) = (self.levers(index), self.link[index]);
+            for row in 0..self.size.links(own) {
+                for column in 0..=row {
+                    let (r, q) = (levers[row], levers[column]);
+                    matrix[row * width + column] += block.mass * (r[0] * q[0] + r[1] * q[1]);
+                }
+            }
+            if own > 0 {
+                matrix[(own - 1) * (width + 1)] += block.inertia;
+            }
+        }
+        for row in 0..width {
+            if row >= self.dof {
+                matrix[row * (width + 1)] = 1.0;
+            }
+            for column in row + 1..width {
+                matrix[row * width + column] = matrix[column * width + row];
+            }
+        }
+        matrix
+    }
+
+    /// The mass matrix factorised; `None` if rounding has made it indefinite.
+    #[inline(always)]
+    pub fn factorised_mass(&self) -> Option<Factorised<S>> {
+        Factorised::new(self.mass_matrix(), self.width())
+    }
+
+    /// `Jᵀ m v`: what loads per unit mass on the centroids `[m/s²]` and angular loads per unit inertia `[rad/s²]` do on the
+    /// free angles `[N m]`; with velocities, the generalised momenta.
+    #[inline(always)]
+    pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> S::List<f64> {
+        let mut result = self.size.list(0.0);
+        for (index, block) in self.blocks().iter().enumerate() {
+            let (levers, own) = (self.levers(index), self.link[index]);
+            for row in 0..self.size.links(own) {
+                let r = levers[row];
+                result[row] += block.mass * (r[1] * linear[index][0] - r[0] * linear[index][1]);
+            }
+            if own > 0 {
+                result[own - 1] += block.inertia * angular[index];
+            }
+        }
+        result
+    }
+
+    /// What the contacts transmit to the stacks above when the blocks are given these accelerations less gravity
+    /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
+    #[inline(always)]
+    pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
+        let blocks = self.blocks();
+        self.size.list_of(|interface| {
+            let (centre, Turn { sin, cos }) = (self.contact_centre[interface], self.lower[interface]);
+            let (mut force, mut moment) = ([0.0, 0.0], 0.0);
+            for index in interface..self.size.blocks() {
+                let block = &blocks[index];
+                let r = minus(self.centroid[index], centre);
+                let load = [block.mass * linear[index][0], block.mass * linear[index][1]];
+                force = plus(force, load);
+                moment += block.inertia * angular[index] + (r[1] * load[0] - r[0] * load[1]);
+            }
+            let (normal, tangential) = (force[0] * sin + force[1] * cos, force[0] * cos - force[1] * sin);
+            ContactForce { normal, tangential, moment }
+        })
+    }
+
+    /// `½ Σ m v² + I ω²` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.
+    #[inline(always)]
+    pub fn kinetic_energy(&self, linear: &[Vec2], angular: &[f64]) -> f64 {
+        let blocks = self.blocks().iter().zip(linear.iter().zip(angular));
+        blocks.map(|(b, (v, w))| 0.5 * (b.mass * (v[0] * v[0] + v[1] * v[1]) + b.inertia * w * w)).sum()
+    }
+
+    /// `Σ m g y` `[J]` under this gravity.
+    pub fn potential_energy(&self, gravity: f64) -> f64 {
+        let blocks = self.blocks().iter().zip(&*self.centroid);
+        blocks.map(|(block, position)| block.mass * gravity * position[1]).sum()
+    }
+}
+
+/// A mass matrix as `L Lᵀ` (Cholesky). nalgebra's asks for memory, which contact problems are too many and too small for.
+#[derive(Clone, Debug)]
+pub struct Factorised<S: Size = Any> {
+    /// `L`, row by row, `1 / L_ii` on its diagonal.
+    lower: S::Table<f64>,
+    width: usize,
+}
+
+impl<S: Size> Factorised<S> {
+    /// Of a symmetric matrix, row by row, width × width; `None` if it is not positive definite.
+    #[inline(always)]
+    pub fn new(mut matrix: S::Table<f64>, width: usize) -> Option<Factorised<S>> {
+        for row in 0..width {
+            for column in 0..=row {
+                let mut left = matrix[row * width + column];
+                for inner in 0..column {
+                    left -= matrix[row * width + inner] * matrix[column * width + inner];
+                }
+                matrix[row * width + column] = if column < row {
+                    left * matrix[column * (width + 1)]
+                } else if left > 0.0 && left.is_finite() {
+                    1.0 / left.sqrt()
+                } else {
+                    return None;
+                };
+            }
+        }
+        Some(Factorised { lower: matrix, width })
+    }
+
+    /// `x` of `L Lᵀ x = right`, in place; length width.
+    #[inline(always)]
+    pub fn solve(&self, right: &mut [f64]) {
+        let width = self.width;
+        for row in 0..width {
+            for inner in 0..row {
+                right[row] -= self.lower[row * width + inner] * right[inner];
+            }
+            right[row] *= self.lower[row * (width + 1)];
+        }
+        for row in (0..width).rev() {
+            for below in row + 1..width {
+                right[row] -= self.lower[below * width + row] * right[below];
+            }
+            right[row] *= self.lower[row * (width + 1)];
+        }
+    }
+}
+
+/// A block seen from the side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outline {
+    /// Corners `[m]`: bottom left, bottom right, top right, top left.
+    pub corners: [Vec2; 4],
+    /// The corner of the contact below on which the block pivots `[m]`; `None` where it is joined to what is below.
+    pub pivot: Option<Vec2>,
+}
+
+/// Outlines of the blocks, base first, length N, with the origin at the centre of the base on the ground; angles as in
+/// [`Posture::new`]. For pictures: no equation of motion uses them.
+///
+/// ```
+/// use rocking::{Column, kinematics::outlines, pattern::Pattern};
+///
+/// let column = Column::equal_blocks(1, 0.4, 1.0, 1.0, 9.81)?;
+/// let block = outlines(&column, &Pattern::from_signs(&[1]), &[0.1])[0];
+/// assert_eq!(block.pivot, Some([0.4, 0.0]));
+/// assert!((block.corners[0][1] - 0.8 * 0.1f64.sin()).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outline> {
+    let posture = Posture::new(column, pattern, theta);
+    let outline = |(index, block): (usize, &Block)| {
+        let (b, h) = (block.half_width, block.half_height);
+        let corner = |offset: Vec2| plus(posture.centroid[index], Turn::new(theta[index]).rotate(offset));
+        let state = pattern.0[index];
+        let offset = f64::from(state.sign()) * column.contact_half_width(index);
+        let pivot = plus(posture.contact_centre[index], posture.lower[index].rotate([offset, 0.0]));
+        Outline { corners: [[-b, -h], [b, -h], [b, h], [-b, h]].map(corner), pivot: state.is_open().then_some(pivot) }
+    };
+    column.blocks().iter().enumerate().map(outline).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking_codegen::pattern::modes;
+
+    /// In every mode of four unequal blocks and its mirror image, seen from the face below, the base of each block is where a turn
+    /// about its pivot puts it; where the interface is closed, on the face.
+    #[test]
+    fn outlines_touch_the_face_below_at_the_pivot() {
+        let sizes = [(0.5, 0.4), (0.4, 0.6), (0.4, 0.3), (0.6, 0.2)];
+        let column = Column::new(sizes.map(|(b, h)| Block::rectangle(b, h, 1.0)).to_vec(), 9.81).expect("valid");
+        for (label, pattern) in modes(4).flat_map(|(label, pattern)| [(label, pattern.mirror()), (label, pattern)]) {
+            let mut theta = [0.0; 4];
+            for (index, state) in pattern.0.iter().enumerate() {
+                let below = if index == 0 { 0.0 } else { theta[index - 1] };
+                theta[index] = below + 0.1 * f64::from(state.sign());
+            }
+            let blocks = outlines(&column, &pattern, &theta);
+            for (index, state) in pattern.0.iter().enumerate() {
+                let (centre, angle) = match index {
+                    0 => ([0.0, 0.0], 0.0),
+                    _ => {
+                        let [_, _, right, left] = blocks[index - 1].corners;
+                        ([0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])], theta[index - 1])
+                    }
+                };
+                let along_face = |point: Vec2| Turn::new(-angle).rotate(minus(point, centre));
+                let (half_width, contact) = (sizes[index].0, column.contact_half_width(index));
+                let [left, right] = [blocks[index].corners[0], blocks[index].corners[1]].map(along_face);
+                let sign = f64::from(state.sign());
+                let expected = |side: f64| {
+                    let lever = side * half_width - sign * contact;
+                    [sign * contact + lever * libm::cos(0.1 * sign), -lever * libm::sin(0.1 * sign)]
+                };
+                for (corner, expected) in [(left, expected(-1.0)), (right, expected(1.0))] {
+                    let off = minus(corner, expected);
+                    // A dozen sums and products of numbers below 4.
+                    assert!(off[0].abs() + off[1].abs() < 1e-14, "{label}, block {index}: {corner:?}, {expected:?}");
+                }
+                match blocks[index].pivot.map(along_face) {
+                    Some(pivot) => {
+                        assert!((pivot[0] - sign * contact).abs() + pivot[1].abs() < 1e-14, "{label}, block {index}");
+                    }
+                    None => assert_eq!(sign, 0.0, "{label}, block {index}"),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Links: rigid groups of blocks, their first moments, and their accelerations under imposed ones.
+
+use super::dynamics::Ground;
+use super::kinematics::{Factorised, Posture, Vec2};
+use crate::column::Column;
+use crate::numerics::per_block::Size;
+use rocking_codegen::pattern::Pattern;
+
+/// First moments and levers of the links, base first.
+pub(crate) fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
+    let link = pattern.linkage().link_of_block();
+    let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
+    let (mut moments, mut levers) = (Vec::new(), Vec::new());
+    for own in 1..=pattern.dof() {
+        let (mut moment, mut lever) = ([0.0, 0.0], [0.0, 0.0]);
+        let mut first = None;
+        for (i, block) in column.blocks().iter().enumerate().filter(|(i, _)| link[*i] >= own) {
+            if link[i] == own {
+                let first = *first.get_or_insert(i);
+                moment[0] -= block.mass * pivot(first);
+                moment[1] += block.mass * (lever[1] + block.half_height);
+                lever[1] += 2.0 * block.half_height;
+                lever[0] = if i + 1 < link.len() { pivot(i + 1) - pivot(first) } else { 0.0 };
+            } else {
+                moment[0] += block.mass * lever[0];
+                moment[1] += block.mass * lever[1];
+            }
+        }
+        moments.push(moment);
+        levers.push(lever);
+    }
+    (moments, levers)
+}
+
+/// Accelerations less gravity: the ground's and those that the rates cause.
+#[inline(always)]
+pub(crate) fn imposed_acceleration<S: Size>(posture: &Posture<S>, rates: &[f64], ground: Ground) -> S::List<Vec2> {
+    let mut acceleration = posture.centripetal(rates);
+    for a in acceleration.iter_mut() {
+        a[0] += ground.x;
+        a[1] += ground.gravity;
+    }
+    acceleration
+}
+
+/// `θ̈` of the links `[rad/s²]` under imposed accelerations of the centroids `[m/s²]`.
+#[inline(always)]
+pub(crate) fn link_acceleration<S: Size>(
+    posture: &Posture<S>,
+    mass: &Factorised<S>,
+    imposed: &S::List<Vec2>,
+) -> S::List<f64> {
+    let mut alpha = posture.generalised(imposed, &posture.size.list(0.0));
+    alpha.iter_mut().for_each(|load| *load = -*load);
+    mass.solve(&mut alpha);
+    alpha
+}

@@ -1,0 +1,366 @@
+//! Margins of closed interfaces over a Taylor step, as series in time: what excludes most steps from a search for openings.
+//!
+//! A closed interface opens when the moment about one of its corners, of all that the contact transmits to the stack above, falls to
+//! zero. With `a` the accelerations less gravity and `r` from the corner, that moment is `Σ r × m a + I θ̈` over the blocks above.
+//! Links above contribute nothing but their push on the pivot: about their own pivots their moments vanish, which is their equations
+//! of motion. So, with cosine and sine `c, s` of the link that the interface is in and `x, y` what its upper and lower neighbours
+//! and the ground impose,
+//!
+//! ```text
+//! G = c A + s B + I θ̈,    A, B linear in c̈, s̈ of all links and in the ground's acceleration
+//! ```
+//!
+//! the same form as that of the equations of motion ([`Dynamics::weights`](crate::dynamics::Dynamics::weights)): Taylor coefficients
+//! of `G` take two convolutions, and sums over them bound `G` on the whole step.
+
+use super::harmonics::Harmonics;
+use super::kinematics::Vec2;
+use super::links::carried;
+use super::pendulum::Waves;
+use crate::column::Column;
+use crate::numerics::ode::taylor::{MAX_ORDER, Taylor};
+use crate::numerics::polynomial::powers::Powers;
+use crate::numerics::polynomial::track::Track;
+use crate::numerics::state_vector::StateVector;
+use rocking_codegen::pattern::Pattern;
+use wide::f64x2;
+
+/// Both corners of a closed interface: opening on the right edge, on the left edge. Moments on the left have the opposite sign, so
+/// that both margins are above zero while the interface stays closed.
+#[derive(Clone, Debug)]
+struct Corners {
+    /// The link that the interface is in, from one; zero on the part that stands on the ground.
+    link: usize,
+    /// First moment of all above about the corner, in the link's axes `[kg m]`.
+    base: [f64x2; 2],
+    /// `Σ m r × d` and `Σ m r · d`, `r` from the corner and `d` from the link's pivot `[kg m²]`.
+    own: [f64x2; 2],
+    /// From the corner to the pivot of the next link `[m]`.
+    top: [f64x2; 2],
+    /// Of the link's blocks above the interface, about their centroids `[kg m²]`.
+    inertia: f64x2,
+}
+
+/// What series tell of a closed interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Opening {
+    /// It does not open.
+    StaysClosed,
+    /// It opens at about `s`, 0 to 1, where its margin falls with this slope `[N m]`.
+    Opens { s: f64, slope: f64 },
+    /// Its margin must be looked at itself.
+    Unclear,
+}
+
+/// The closed interfaces of a mode, and what their margins are made of.
+#[derive(Clone, Debug)]
+pub(crate) struct Margins {
+    corners: Vec<Corners>,
+    /// Per link, in its axes: first moment of all that it carries about its pivot `[kg m]`, and from there to the next pivot `[m]`.
+    links: Vec<[Vec2; 2]>,
+}
+
+impl Margins {
+    pub fn new(column: &Column, pattern: &Pattern) -> Margins {
+        let (moments, levers) = carried(column, pattern);
+        let closed = (0..column.len()).filter(|i| !pattern.0[*i].is_open());
+        Margins {
+            corners: closed.map(|interface| Corners::new(column, pattern, interface)).collect(),
+            links: moments.into_iter().zip(levers).map(|(moment, lever)| [moment, lever]).collect(),
+        }
+    }
+
+    /// What the series tell of the closed interface of this index, counted from the base, for a time `reach` from the start of the
+    /// last attempt. `ground` has the coefficients of its horizontal acceleration and of the effective gravity.
+    pub fn opening<V: StateVector, L: StateVector>(
+        &self,
+        index: usize,
+        series: &Taylor<V, L>,
+        ground: &[[f64; MAX_ORDER]; 2],
+        reach: f64,
+    ) -> Opening {
+        let (mut least, mut lasts) = (f64x2::ZERO, [f64x2::ZERO; 3]);
+        let stays_closed = |k: usize, term: f64x2| {
+            least += if k == 0 { term } else { term.fast_min(f64x2::ZERO) };
+            lasts = [lasts[1], lasts[2], term.abs()];
+            let rest = f64x2::splat(REST) * (lasts[0] + lasts[1] + lasts[2]);
+            k >= SETTLED && (least - rest).to_array().iter().all(|margin| *margin > 0.0)
+        };
+        match self.terms(index, series, ground, reach, stays_closed) {
+            Some(terms) => opening_of(&terms[..series.order()]),
+            None => Opening::StaysClosed,
+        }
+    }
+
+    /// The margins of the closed interface of this index over a swing of the only link on a ground that does not move, over the angle
+    /// from its start: below the link it bears the link's push, inside it is part of the pendulum.
+    pub fn over_swing(&self, index: usize, gravity: f64, waves: &Waves) -> Harmonics {
+        let (corners, [moment, _]) = (&self.corners[index], self.links[0]);
+        let [u, v] = corners.base.map(|base| f64x2::splat(-gravity) * base);
+        let mut margins = Harmonics::default();
+        if corners.link == 0 {
+            let ([top_u, top_v], [moment_u, moment_v]) = (corners.top, moment.map(f64x2::splat));
+            margins.add(u, &[1.0, 0.0, 0.0, 0.0, 0.0]);
+            margins.add(top_v * moment_u - top_u * moment_v, &waves.cos_ddot);
+            margins.add(top_v * moment_v + top_u * moment_u, &waves.sin_ddot);
+        } else {
+            let [cross, dot] = corners.own;
+            margins.add(u, &waves.cos);
+            margins.add(v, &waves.sin);
+            margins.add(-cross, &waves.square_of_rate);
+            margins.add(dot + corners.inertia, &waves.acceleration);
+        }
+        margins.from(waves.start)
+    }
+
+    /// Taylor terms of both margins at `reach`, up to the series' order; `None` as soon as `is_enough` of an order and its term.
+    pub(super) fn terms<V: StateVector, L: StateVector>(
+        &self,
+        index: usize,
+        series: &Taylor<V, L>,
+        ground: &[[f64; MAX_ORDER]; 2],
+        reach: f64,
+        mut is_enough: impl FnMut(usize, f64x2) -> bool,
+    ) -> Option<[f64x2; MAX_ORDER]> {
+        let corners = &self.corners[index];
+        let own = corners.link.checked_sub(1);
+        let (mut terms, mut weights) = ([f64x2::ZERO; MAX_ORDER], [[f64x2::ZERO; 2]; MAX_ORDER]);
+        let mut power = 1.0;
+        for k in 0..series.order() {
+            weights[k] = self.weights(corners, series.second_derivatives(k), [ground[0][k], ground[1][k]]);
+            let mut sum = weights[k][0];
+            if let Some(link) = own {
+                sum = corners.inertia * f64x2::splat(series.acceleration(k, link));
+                for (circle, [of_cos, of_sin]) in series.circles().zip(weights[..=k].iter().rev()) {
+                    let [cos, sin] = circle[link].to_array();
+                    sum += f64x2::splat(cos) * *of_cos + f64x2::splat(sin) * *of_sin;
+                }
+            }
+            terms[k] = sum * f64x2::splat(power);
+            power *= reach;
+            if is_enough(k, terms[k]) {
+                return None;
+            }
+        }
+        Some(terms)
+    }
+
+    /// `[A, B]` of one order, from second derivatives `[c̈, s̈]` of all links.
+    #[inline(always)]
+    fn weights(&self, corners: &Corners, circle: impl Fn(usize) -> Vec2, ground: Vec2) -> [f64x2; 2] {
+        let turned = |[u, v]: Vec2, link: usize| {
+            let [cos, sin] = circle(link);
+            [u * cos + v * sin, v * cos - u * sin]
+        };
+        let (mut below, mut above) = (ground, [0.0, 0.0]);
+        for (link, [moment, lever]) in self.links.iter().enumerate() {
+            if link + 1 < corners.link {
+                let [x, y] = turned(*lever, link);
+                below = [below[0] + x, below[1] + y];
+            } else if link + 1 > corners.link {
+                let [x, y] = turned(*moment, link);
+                above = [above[0] + x, above[1] + y];
+            }
+        }
+        let [mut of_cos, mut of_sin] = [f64x2::ZERO; 2];
+        for ([u, v], [x, y]) in [(corners.base, below), (corners.top, above)] {
+            let (x, y) = (f64x2::splat(x), f64x2::splat(y));
+            of_cos += v * x - u * y;
+            of_sin -= u * x + v * y;
+        }
+        if let Some(link) = corners.link.checked_sub(1) {
+            let [cos, sin] = circle(link).map(f64x2::splat);
+            let [cross, dot] = corners.own;
+            of_cos += cross * cos + dot * sin;
+            of_sin += cross * sin - dot * cos;
+        }
+        [of_cos, of_sin]
+    }
+}
+
+impl Corners {
+    fn new(column: &Column, pattern: &Pattern, interface: usize) -> Corners {
+        let links = pattern.linkage().link_of_block();
+        let link = links[interface];
+        let first = links.iter().position(|own| *own == link).unwrap_or(0);
+        let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
+        // Of a part that stands, any place serves as its pivot.
+        let pivot_of_link = pivot(first);
+        let side = |sign: f64| {
+            let (mut base, mut own, mut top, mut inertia) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
+            let height_of = |blocks: std::ops::Range<usize>| -> f64 {
+                column.blocks()[blocks].iter().map(|block| 2.0 * block.half_height).sum()
+            };
+            let corner = [sign * column.contact_half_width(interface) - pivot_of_link, height_of(first..interface)];
+            for (j, block) in column.blocks().iter().enumerate().skip(interface) {
+                let place = if links[j] == link {
+                    inertia += block.inertia;
+                    [-pivot_of_link, height_of(first..j) + block.half_height]
+                } else {
+                    let next = links.iter().position(|own| *own == link + 1).unwrap_or(j);
+                    let place = [pivot(next) - pivot_of_link, height_of(first..next)];
+                    top = [place[0] - corner[0], place[1] - corner[1]];
+                    place
+                };
+                let arm = [place[0] - corner[0], place[1] - corner[1]];
+                base = [base[0] + block.mass * arm[0], base[1] + block.mass * arm[1]];
+                own[0] += block.mass * (arm[1] * place[0] - arm[0] * place[1]);
+                own[1] += block.mass * (arm[0] * place[0] + arm[1] * place[1]);
+            }
+            [base[0], base[1], own[0], own[1], top[0], top[1], inertia].map(|value| sign * value)
+        };
+        let (right, left) = (side(1.0), side(-1.0));
+        let both: [f64x2; 7] = std::array::from_fn(|index| f64x2::new([right[index], left[index]]));
+        let [base_u, base_v, cross, dot, top_u, top_v, inertia] = both;
+        Corners { link, base: [base_u, base_v], own: [cross, dot], top: [top_u, top_v], inertia }
+    }
+}
+
+/// Order from which on those that follow are bounded by the last three. Lower, and parts of a term that cancel by chance are taken for
+/// a series that has settled; higher, and all of it is computed for nothing.
+const SETTLED: usize = 5;
+
+/// How many times the last three terms all that follow may be: of a series whose terms fall by a quarter each, it is once and a half.
+/// They fall by more, or the step would not have been accepted. Lower, and an opening late in a long step could be missed.
+const REST: f64 = 2.0;
+
+/// Doubts that a margin falls through between the earliest place that it may be zero at and the place where it seems to be: more means
+/// that it stays close to zero, or comes there twice.
+const CLOSE: f64 = 4.0;
+
+/// What the polynomials `Σ terms[k] s^k` of both margins tell, which are cut off where their method's series is.
+fn opening_of(terms: &[f64x2]) -> Opening {
+    let [start, later @ .., before, last] = terms else { return Opening::Unclear };
+    let doubts = before.abs() + last.abs();
+    let least = later.iter().fold(*start - doubts - doubts, |least, term| least + term.fast_min(f64x2::ZERO));
+    let mut first: Option<(f64, f64)> = None;
+    for side in (0..2).filter(|side| least.as_array()[*side] <= 0.0) {
+        let of = |term: &f64x2| term.as_array()[side];
+        let margin = Powers::with_terms(of(&terms[0]), terms[1..].iter().map(of));
+        let doubt = of(&doubts);
+        let Some(earliest) = Track::Powers(margin.shifted(1.0, -doubt)).first_root(0) else { continue };
+        // What has no root may be touched, and a touch may come before a root.
+        let Some(s) = Track::Powers(margin).first_root(0) else { return Opening::Unclear };
+        let [_, slope] = margin.with_slope(s);
+        if of(&terms[0]) <= doubt || (s - earliest) * -slope > CLOSE * doubt || slope >= -doubt {
+            return Opening::Unclear;
+        }
+        if first.is_none_or(|(earlier, _)| s < earlier) {
+            first = Some((s, slope));
+        }
+    }
+    first.map_or(Opening::StaysClosed, |(s, slope)| Opening::Opens { s, slope })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::stepper::{Stepper, TaylorSeries};
+    use super::*;
+    use crate::column::Block;
+    use crate::dynamics::{ContactForce, Interfaces};
+    use crate::excitation::{Piece, Segment};
+    use crate::generic::GenericMode;
+    use crate::ode::Tolerance;
+    use rocking_codegen::pattern::modes;
+    use std::rc::Rc;
+
+    const TOLERANCE: Tolerance = Tolerance { rtol: 1e-14, atol: 1e-16 };
+
+    fn column(blocks: usize) -> Column {
+        let size = |i: usize| Block::rectangle(0.5 - 0.07 * i as f64, 0.8 + 0.3 * (i % 3) as f64, 1.0 + i as f64);
+        Column::new((0..blocks).map(size).collect(), 9.81).expect("positive sizes")
+    }
+
+    /// A step of a mode from a state that all angles and rates differ in, on a ground that moves both ways.
+    fn stepped(column: &Column, pattern: &Pattern, h: f64) -> TaylorSeries<GenericMode> {
+        let mode = Rc::new(GenericMode::new(column, pattern));
+        let mut series =
+            TaylorSeries::new(mode, Rc::new(Margins::new(column, pattern)), column.gravity(), TOLERANCE.rtol);
+        let sine = |amplitude, phase| Piece::Sine { amplitude, omega: 5.0, start: 0.0, phase };
+        let (horizontal, vertical) = (sine(3.0, 0.2), sine(2.0, 1.1));
+        series.enter(Segment { start: 0.0, end: 1.0, horizontal, vertical, jumps: false });
+        let dof = pattern.dof();
+        let x: Vec<f64> = (0..2 * dof).map(|i| 0.2 * libm::sin(3.0 + 2.0 * i as f64)).collect();
+        assert!(series.attempt(0.3, &x, h, h, TOLERANCE).is_good(), "{pattern}: the step is good");
+        series
+    }
+
+    #[test]
+    fn series_are_the_moments_about_both_corners() {
+        let h = 0.02;
+        for blocks in 1..=4 {
+            let column = column(blocks);
+            for (_, pattern) in modes(blocks) {
+                let mut series = stepped(&column, &pattern, h);
+                let closed = (0..blocks).filter(|i| !pattern.0[*i].is_open());
+                for (index, interface) in closed.enumerate() {
+                    let terms = series.margin_terms(index, h).expect("all terms");
+                    for s in [0.0, 0.4, 1.0] {
+                        let mut state = series.zero();
+                        series.state_inside(s, &mut state);
+                        let mut forces = vec![ContactForce::default(); blocks];
+                        series.weigh(0.3 + s * h, &state, Interfaces::Closed, &mut forces);
+                        let ContactForce { normal, moment, .. } = forces[interface];
+                        let lever = column.contact_half_width(interface) * normal;
+                        let found = terms.iter().rev().fold(f64x2::ZERO, |sum, c| sum * f64x2::splat(s) + *c);
+                        // The step errs by 1e-14 of rates, so accelerations by that over the step: 1e-12, times some sums.
+                        let slack = 1e-10 * lever.abs().max(moment.abs());
+                        for (found, expected) in found.to_array().into_iter().zip([lever + moment, lever - moment]) {
+                            assert!((found - expected).abs() < slack, "{pattern} {interface} {s}: {found} {expected}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn harmonics_are_the_moments_about_both_corners() {
+        for blocks in 2..=4 {
+            let column = column(blocks);
+            let single = modes(blocks).map(|(_, pattern)| pattern).filter(|pattern| pattern.dof() == 1);
+            for pattern in single.flat_map(|pattern| [pattern.mirror(), pattern]) {
+                let (mode, margins) = (Rc::new(GenericMode::new(&column, &pattern)), Margins::new(&column, &pattern));
+                let mut series = TaylorSeries::new(mode, Rc::new(margins.clone()), column.gravity(), TOLERANCE.rtol);
+                let sign = f64::from(pattern.0.iter().map(|interface| interface.sign()).sum::<i8>());
+                let pendulum = series.pendulum().expect("it is driven");
+                let start = pendulum.beyond(0.02 * sign, sign);
+                let swing = pendulum.swing(start, 0.3);
+                let waves = pendulum.waves(&swing, sign);
+                for (index, interface) in (0..blocks).filter(|i| !pattern.0[*i].is_open()).enumerate() {
+                    let harmonics = margins.over_swing(index, column.gravity(), &waves);
+                    for way in [0.0, 0.01, -0.015] {
+                        let rate = swing.rate_at(start + way).expect("it comes there");
+                        let state = vec![pendulum.theta(start + way, sign), sign * rate];
+                        let mut forces = vec![ContactForce::default(); blocks];
+                        series.weigh(0.0, &state, Interfaces::Closed, &mut forces);
+                        let ContactForce { normal, moment, .. } = forces[interface];
+                        let lever = column.contact_half_width(interface) * normal;
+                        let found = harmonics.from(libm::sincos(way)).start().to_array();
+                        for (found, expected) in found.into_iter().zip([lever + moment, lever - moment]) {
+                            assert!(
+                                (found - expected).abs() < 1e-12 * lever,
+                                "{pattern} {interface} {way}: {found} {expected}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_opens_does_so_where_series_say() {
+        // 1 - 0.2 s - s² + ...: one side falls to zero, the other hardly falls.
+        let falling = [1.0, -0.2, -1.0, 0.1, 0.01, 1e-4, 1e-6, 1e-8, 1e-10];
+        let side = |k: usize, other: f64| f64x2::new([falling[k], if k == 0 { other } else { 1e-3 * falling[k] }]);
+        let terms = |other: f64| (0..falling.len()).map(|k| side(k, other)).collect::<Vec<_>>();
+        let Opening::Opens { s, slope } = opening_of(&terms(1.0)) else { panic!("it opens") };
+        let powers = |s: f64| falling.iter().rev().fold(0.0, |sum, c| sum * s + c);
+        assert!(powers(s).abs() < 1e-15 && slope < -1.0);
+        assert_eq!(opening_of(&terms(1e-12)), Opening::Unclear, "no margin at first");
+        let high: Vec<f64x2> = terms(1.0).iter().map(|c| *c * f64x2::splat(0.1)).collect();
+        let high: Vec<f64x2> = [&[high[0] + f64x2::splat(1.0)], &high[1..]].concat();
+        assert_eq!(opening_of(&high), Opening::StaysClosed);
+    }
+}

@@ -1,0 +1,257 @@
+//! One mode by itself: its right-hand side, energies and forces, and its integration without events.
+//!
+//! For programs that bring their own event logic, and for comparing generated with generic equations. The event-driven solver
+//! ([`crate::simulate()`]) moves the same mode by the integrator that [`Mode::integrator`] builds.
+
+use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
+use super::integrator::{ExplicitSteps, Integrator, TaylorSteps};
+use crate::numerics::ode::control::{Part, Tolerance};
+use crate::numerics::ode::explicit::Tableau;
+use crate::numerics::ode::methods::{ForTableau, Method};
+use rocking_codegen::pattern::Pattern;
+use rocking_ground::Excitation;
+use std::sync::Arc;
+
+/// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
+pub struct Mode {
+    pattern: Pattern,
+    equations: Arc<dyn Erased>,
+}
+
+/// How [`Mode::integrate`] solves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct IntegrateOptions {
+    /// Gravity `[m/s²]`.
+    pub gravity: f64,
+    /// Method.
+    pub method: Method,
+    /// Relative tolerance of a step, dimensionless.
+    pub rtol: f64,
+    /// Absolute tolerance of a step `[rad]`, `[rad/s]`.
+    pub atol: f64,
+    /// Length of the steps of methods without step control `[s]`.
+    pub step: f64,
+}
+
+impl Default for IntegrateOptions {
+    fn default() -> IntegrateOptions {
+        IntegrateOptions { gravity: crate::column::DEFAULT_GRAVITY, method: Method::Auto, rtol: 1e-9, atol: 1e-12, step: 1e-3 }
+    }
+}
+
+/// Why [`Mode::integrate`] has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IntegrateError {
+    /// The state has another length than the mode's.
+    #[error("the state has {found} component(s); the mode has {expected}: angles, then rates, of its free angles")]
+    StateLength {
+        /// `2·dof`
+        expected: usize,
+        /// Length given.
+        found: usize,
+    },
+    /// The times are not ascending from zero on.
+    #[error("times must be finite, ascending and not below zero; time {index} is {time}")]
+    Times {
+        /// Place in the list, from zero.
+        index: usize,
+        /// Time given `[s]`.
+        time: f64,
+    },
+    /// The tolerance cannot be met with steps that still advance the time.
+    #[error("at t = {time} s: the step has fallen to {step:e} s; loosen rtol and atol")]
+    StepTooSmall {
+        /// `[s]`
+        time: f64,
+        /// `[s]`
+        step: f64,
+    },
+}
+
+/// [`Dynamics`] over slices, whatever the types of states.
+trait Erased: Send + Sync {
+    fn dof(&self) -> usize;
+    fn integrator(self: Arc<Self>, method: Method, gravity: f64, rtol: f64, step: f64) -> Box<dyn Integrator>;
+    fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64>;
+    fn energy(&self, x: &[f64], gravity: f64) -> Energy;
+    fn mass_matrix(&self, x: &[f64]) -> Vec<f64>;
+    fn contact_forces(&self, x: &[f64], ground: Ground, forces: &mut [ContactForce]);
+}
+
+/// An integrator to be built for the tableau of a method.
+struct Building<D> {
+    mode: Arc<D>,
+    gravity: f64,
+    step: Option<f64>,
+}
+
+impl<D: Dynamics + Send + Sync + 'static> ForTableau for Building<D> {
+    type Built = Box<dyn Integrator>;
+
+    fn with<M: Tableau>(self) -> Box<dyn Integrator> {
+        Box::new(ExplicitSteps::<D, M>::new(self.mode, self.gravity, self.step))
+    }
+}
+
+fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
+    let mut state = mode.zero_state();
+    state.as_mut_slice().copy_from_slice(x);
+    state
+}
+
+impl<D: Dynamics + Send + Sync + 'static> Erased for D {
+    fn dof(&self) -> usize {
+        self.zero_links().as_slice().len()
+    }
+
+    fn integrator(self: Arc<Self>, method: Method, gravity: f64, rtol: f64, step: f64) -> Box<dyn Integrator> {
+        let step = (!method.has_step_control()).then_some(step);
+        match method.explicit(Building { mode: self, gravity, step }) {
+            Ok(integrator) => integrator,
+            Err(Building { mode, .. }) => Box::new(TaylorSteps::new(mode, gravity, rtol)),
+        }
+    }
+
+    fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {
+        let mut slope = self.zero_state();
+        Dynamics::derivative(self, &state(self, x), ground, &mut slope);
+        slope.as_slice().to_vec()
+    }
+
+    fn energy(&self, x: &[f64], gravity: f64) -> Energy {
+        Dynamics::energy(self, &state(self, x), gravity)
+    }
+
+    fn mass_matrix(&self, x: &[f64]) -> Vec<f64> {
+        Dynamics::mass_matrix(self, &state(self, x))
+    }
+
+    fn contact_forces(&self, x: &[f64], ground: Ground, forces: &mut [ContactForce]) {
+        let x = state(self, x);
+        let mut slope = self.zero_state();
+        Dynamics::derivative(self, &x, ground, &mut slope);
+        Dynamics::contact_forces(self, &x, &slope, ground, Interfaces::All, forces);
+    }
+}
+
+impl Mode {
+    /// A mode on equations of one's own: dynamics that belong to the pattern.
+    pub fn from_dynamics(pattern: Pattern, dynamics: impl Dynamics + Send + Sync + 'static) -> Mode {
+        Mode { pattern, equations: Arc::new(dynamics) }
+    }
+
+    /// The integrator of a method in this mode, with gravity `[m/s²]`; `step` `[s]` is for methods without step control.
+    pub(crate) fn integrator(&self, method: Method, gravity: f64, rtol: f64, step: f64) -> Box<dyn Integrator> {
+        Arc::clone(&self.equations).integrator(method, gravity, rtol, step)
+    }
+
+    /// The pattern.
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// `[θ̇, θ̈]` at a state.
+    ///
+    /// # Panics
+    /// If `x` has not length 2·dof.
+    pub fn derivative(&self, x: &[f64], ground: Ground) -> Vec<f64> {
+        self.equations.derivative(x, ground)
+    }
+
+    /// Energies relative to the moving ground, with the effective gravity `g + ÿ_g [m/s²]`.
+    pub fn energy(&self, x: &[f64], gravity: f64) -> Energy {
+        self.equations.energy(x, gravity)
+    }
+
+    /// Mass matrix `[kg m²]`, row by row, dof × dof.
+    pub fn mass_matrix(&self, x: &[f64]) -> Vec<f64> {
+        self.equations.mass_matrix(x)
+    }
+
+    /// Contact forces at all interfaces, base first, length N.
+    pub fn contact_forces(&self, x: &[f64], ground: Ground) -> Vec<ContactForce> {
+        let mut forces = vec![ContactForce::default(); self.pattern.0.len()];
+        self.equations.contact_forces(x, ground, &mut forces);
+        forces
+    }
+
+    /// States at `times` `[s]` (ascending, the first is that of `x`) in this mode alone: hinges that hold both ways, no events.
+    ///
+    /// # Errors
+    /// [`IntegrateError`]
+    ///
+    /// ```
+    /// use rocking::{Column, Excitation, Mode, pattern::Pattern};
+    /// let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81)?;
+    /// let mode = Mode::new(&column, &Pattern::from_signs(&[1])).unwrap();
+    /// let states = mode.integrate(&[0.1, 0.0], &Excitation::default(), &[0.0, 0.2], &Default::default())?;
+    /// let energy = |x: &[f64]| mode.energy(x, 9.81).total();
+    /// assert!((energy(&states[1]) / energy(&states[0]) - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn integrate(
+        &self,
+        x: &[f64],
+        excitation: &Excitation,
+        times: &[f64],
+        options: &IntegrateOptions,
+    ) -> Result<Vec<Vec<f64>>, IntegrateError> {
+        let expected = 2 * self.equations.dof();
+        if x.len() != expected {
+            return Err(IntegrateError::StateLength { expected, found: x.len() });
+        }
+        let mut least = 0.0;
+        for (index, &time) in times.iter().enumerate() {
+            if !(time.is_finite() && time >= least) {
+                return Err(IntegrateError::Times { index, time });
+            }
+            least = time;
+        }
+        let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Ok(Vec::new()) };
+        let tolerance = Tolerance { rtol: options.rtol, atol: options.atol };
+        let mut integrator = self.integrator(options.method, options.gravity, options.rtol, options.step);
+        let segments = excitation.segments(last.max(f64::MIN_POSITIVE));
+        let (mut t, mut states) = (first, vec![x.to_vec()]);
+        let (mut wanted, mut has_begun) = (f64::INFINITY, false);
+        for segment in segments.iter().filter(|segment| segment.end > first) {
+            let end = segment.end.min(last);
+            integrator.enter(segment);
+            if has_begun {
+                let start = integrator.start().to_vec();
+                integrator.restart(t, &start);
+            } else {
+                integrator.begin(t, x);
+                wanted = integrator.first_step(tolerance);
+                has_begun = true;
+            }
+            let mut longest = f64::INFINITY;
+            while t < end {
+                let left = end - t;
+                let attempt = integrator.attempt(t, wanted, left.min(longest), tolerance);
+                wanted = attempt.wanted;
+                if !attempt.is_good() {
+                    longest = wanted;
+                    if t + wanted <= t {
+                        return Err(IntegrateError::StepTooSmall { time: t, step: wanted });
+                    }
+                    continue;
+                }
+                longest = f64::INFINITY;
+                integrator.accept();
+                let reached = if attempt.h == left { end } else { t + attempt.h };
+                while let Some(time) = times.get(states.len()).filter(|time| **time <= reached) {
+                    let mut state = x.to_vec();
+                    integrator.state_inside(Part::Attempt, ((time - t) / attempt.h).min(1.0), &mut state);
+                    states.push(state);
+                }
+                integrator.advance();
+                t = reached;
+            }
+        }
+        // Times equal to the first one.
+        states.resize_with(times.len(), || x.to_vec());
+        Ok(states)
+    }
+}

@@ -1,0 +1,164 @@
+//! What generated code is made of: the arithmetic it needs, the column it reads, the functions it gives.
+//!
+//! Generated functions are generic over the [`Scalar`]: doubles for a run, lanes for an ensemble, double-doubles for a
+//! reference, duals for derivatives.
+
+pub use crate::numerics::scalar::Scalar;
+
+/// What a column is to the generated equations: sizes with the sides of the open interfaces in the signs of the pivots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry<S> {
+    /// Gravity `[m/s²]`.
+    pub gravity: S,
+    /// Pivot offsets `s_i c_i [m]`, zero at closed interfaces, length N.
+    pub pivot: Vec<S>,
+    /// Half-heights `[m]`, length N.
+    pub half_height: Vec<S>,
+    /// Masses `[kg]`, length N.
+    pub mass: Vec<S>,
+    /// Centroidal moments of inertia `[kg m²]`, length N.
+    pub inertia: Vec<S>,
+}
+
+impl<S: Scalar> Geometry<S> {
+    /// The same column in another scalar; `lift` is given each size in the order of the fields, base first.
+    pub fn lift<T>(&self, mut lift: impl FnMut(S) -> T) -> Geometry<T> {
+        let mut all = |values: &[S]| values.iter().map(|value| lift(*value)).collect();
+        let (pivot, half_height) = (all(&self.pivot), all(&self.half_height));
+        let (mass, inertia) = (all(&self.mass), all(&self.inertia));
+        Geometry { gravity: lift(self.gravity), pivot, half_height, mass, inertia }
+    }
+}
+
+/// The accelerations of all modes with one number of degrees of freedom. Implemented by generated code.
+pub trait StepProgram<S: Scalar> {
+    /// Free angles.
+    const DOF: usize;
+    /// One value per free angle.
+    type Vector: AsRef<[S]> + AsMut<[S]> + Copy;
+    /// `[θ, θ̇]`, length 2·dof.
+    type State: AsRef<[S]> + AsMut<[S]> + Clone;
+    /// Scene constants, in the order of the program's doc.
+    type Constants: for<'a> TryFrom<&'a [S]> + Clone;
+    /// Mass matrix and energies of the same modes.
+    type Energies: EnergyProgram<S, Vector = Self::Vector>;
+    /// Weights of the same equations, for Taylor coefficients.
+    type Series: SeriesProgram<S, Vector = Self::Vector>;
+
+    /// A vector filled with one value.
+    fn vector(fill: S) -> Self::Vector;
+
+    /// A state filled with one value.
+    fn state(fill: S) -> Self::State;
+
+    /// `θ̈ [rad/s²]` from the cosines and sines of the angles, the rates `[rad/s]`, the horizontal ground acceleration and
+    /// the effective gravity `g + ÿ_g [m/s²]`. Programs for horizontal ground motion have gravity among their constants and
+    /// do not read the last one.
+    fn acceleration(
+        constants: &Self::Constants,
+        cos: &Self::Vector,
+        sin: &Self::Vector,
+        omega: &Self::Vector,
+        ground_x: S,
+        gravity: S,
+    ) -> Self::Vector;
+}
+
+/// The equations of all modes with one number of degrees of freedom in the form
+/// `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`, with `J` the diagonal of the mass matrix. Implemented by generated code.
+pub trait SeriesProgram<S: Scalar> {
+    /// One value per free angle.
+    type Vector;
+    /// Scene constants, in the order of the program's doc.
+    type Constants: for<'a> TryFrom<&'a [S]> + Clone;
+
+    /// The weights `[C, S]` `[N m]`: linear in the second derivatives of cosines and sines `[1/s²]`, the horizontal ground
+    /// acceleration and the effective gravity `[m/s²]`; of Taylor coefficients, those of the weights.
+    fn weights(
+        constants: &Self::Constants,
+        cos_ddot: &Self::Vector,
+        sin_ddot: &Self::Vector,
+        ground_x: S,
+        gravity: S,
+    ) -> [Self::Vector; 2];
+}
+
+/// Cosines, sines and rates of a state `[θ, θ̇]`.
+#[inline(always)]
+pub fn split<S: Scalar, P: StepProgram<S>>(state: &[S]) -> (P::Vector, P::Vector, P::Vector) {
+    let (angles, rates) = state.split_at(P::DOF);
+    let zero = P::vector(rates[0].like(0.0));
+    let (mut cos, mut sin, mut omega) = (zero, zero, zero);
+    S::sin_cos_each(angles, sin.as_mut(), cos.as_mut());
+    omega.as_mut().iter_mut().zip(rates).for_each(|(omega, rate)| *omega = *rate);
+    (cos, sin, omega)
+}
+
+/// The right-hand side `[θ̇, θ̈]` of a state `[θ, θ̇]`: one sine and cosine per free angle, then straight-line code.
+#[inline(always)]
+pub fn slope<S: Scalar, P: StepProgram<S>>(
+    constants: &P::Constants,
+    state: &P::State,
+    ground_x: S,
+    gravity: S,
+    slope: &mut [S],
+) {
+    let (cos, sin, omega) = split::<S, P>(state.as_ref());
+    let acceleration = P::acceleration(constants, &cos, &sin, &omega, ground_x, gravity);
+    for (slope, value) in slope.iter_mut().zip(omega.as_ref().iter().chain(acceleration.as_ref())) {
+        *slope = *value;
+    }
+}
+
+/// Mass matrix and energies of all modes with one number of degrees of freedom. Implemented by generated code.
+pub trait EnergyProgram<S: Scalar> {
+    /// One value per free angle.
+    type Vector;
+    /// dof × dof.
+    type Matrix: AsRef<[Self::Vector]>;
+    /// Scene constants, in the order of the program's doc.
+    type Constants: for<'a> TryFrom<&'a [S]> + Clone;
+
+    /// Mass matrix `[kg m²]`.
+    fn mass_matrix(constants: &Self::Constants, cos: &Self::Vector, sin: &Self::Vector) -> Self::Matrix;
+
+    /// Kinetic and potential energy `[J]`.
+    fn energies(
+        constants: &Self::Constants,
+        cos: &Self::Vector,
+        sin: &Self::Vector,
+        omega: &Self::Vector,
+        gravity: S,
+    ) -> [S; 2];
+}
+
+/// From a column to the scene constants of one program, in the program's order.
+pub type SceneConstants<S> = fn(&Geometry<S>) -> Vec<S>;
+
+/// Contact forces `[N, T, M]` of one interface from
+/// `(constants, cos θ, sin θ, θ̇, θ̈, ground_x, gravity)`; `M` is zero where the interface is open.
+pub type ContactForces<S> = fn(&[S], &[S], &[S], &[S], &[S], S, S) -> [S; 3];
+
+/// Generated equations of the contact forces at one interface.
+#[derive(Clone, Copy, Debug)]
+pub struct InterfaceEquations<S> {
+    /// Scene constants of `forces`.
+    pub constants: SceneConstants<S>,
+    /// The forces.
+    pub forces: ContactForces<S>,
+}
+
+/// Generated equations of one linkage.
+#[derive(Clone, Debug)]
+pub struct LinkageEquations<S> {
+    /// Free angles.
+    pub dof: usize,
+    /// Scene constants of the accelerations: for horizontal ground motion, and for any.
+    pub accelerations: [SceneConstants<S>; 2],
+    /// Scene constants of mass matrix and energies.
+    pub energies: SceneConstants<S>,
+    /// Scene constants of the weights.
+    pub series: SceneConstants<S>,
+    /// Per interface, base first.
+    pub interfaces: Vec<InterfaceEquations<S>>,
+}

@@ -1,0 +1,13 @@
+//! Numerical methods that know nothing of blocks: scalars and sines, polynomials, guards, methods of integration.
+//!
+//! Nothing here imports from another room of the library.
+
+pub mod guards;
+pub mod lanes;
+pub mod ode;
+pub mod per_block;
+pub mod polynomial;
+pub mod scalar;
+pub mod scalars;
+pub mod sines;
+pub mod state_vector;

@@ -1,0 +1,133 @@
+//! Step size from error.
+
+use crate::numerics::state_vector::StateVector;
+
+/// Error tolerances: component `i` may err by `atol + rtol · |x_i|` in one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Relative, dimensionless.
+    pub rtol: f64,
+    /// Absolute, in the unit of the state.
+    pub atol: f64,
+}
+
+impl Tolerance {
+    /// What component values `before` and `after` a step may err by.
+    #[inline(always)]
+    pub fn scale(self, before: f64, after: f64) -> f64 {
+        self.atol + self.rtol * before.abs().max(after.abs())
+    }
+}
+
+/// The elementary controller: `h ← h · 0.9 · error^(-1/q)`, within limits. Hairer, Nørsett & Wanner, II.4.
+#[derive(Clone, Copy, Debug)]
+pub struct StepControl {
+    exponent: f64,
+}
+
+/// Aim below the tolerance by this factor: larger means more rejected steps, smaller more accepted ones.
+const SAFETY: f64 = 0.9;
+/// A step shrinks by no more than this: an error estimate far above one says little.
+const SHRINK: f64 = 0.2;
+/// A step grows by no more than this: an error estimate near zero may be a coincidence.
+const GROW: f64 = 6.0;
+
+impl StepControl {
+    /// A controller for an error estimate of this order.
+    pub fn new(error_order: usize) -> StepControl {
+        StepControl { exponent: -1.0 / error_order as f64 }
+    }
+
+    /// The factor for the next step after one with this error.
+    pub fn factor(self, error: f64) -> f64 {
+        if error == 0.0 {
+            return GROW;
+        }
+        // libm: powers differ between C libraries, and step sizes decide digits.
+        (SAFETY * libm::pow(error, self.exponent)).clamp(SHRINK, GROW)
+    }
+
+    /// A first step for a state with this slope: small against the time in which the state or its slope changes by itself.
+    pub fn first_step<V: StateVector>(self, x: &V, slope: &V, tolerance: Tolerance) -> f64 {
+        let (mut size, mut speed) = (0.0f64, 0.0f64);
+        for (x, v) in x.as_slice().iter().zip(slope.as_slice()) {
+            let scale = tolerance.scale(*x, *x);
+            size = size.max(x.abs() / scale);
+            speed = speed.max(v.abs() / scale);
+        }
+        // Step with which a term of the error's order with unit coefficient just meets the tolerance.
+        let by_tolerance = libm::pow(tolerance.rtol.max(1e-16), -self.exponent);
+        let by_state = if speed > 0.0 { 0.01 * size / speed } else { f64::INFINITY };
+        by_tolerance.min(by_state.max(1e-4 * by_tolerance)) * 0.1
+    }
+}
+
+/// An attempted step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attempt {
+    /// Its length `[s]`.
+    pub h: f64,
+    /// Relative to the tolerance, at most one if the step is good; not a number where it has left the range of doubles.
+    pub error: f64,
+    /// The step to attempt next, from its end if it is good, from the same place if not `[s]`.
+    pub wanted: f64,
+}
+
+impl Attempt {
+    /// Whether the step may be taken.
+    pub fn is_good(&self) -> bool {
+        self.error <= 1.0
+    }
+}
+
+/// Which part of an attempted step a place `s`, 0 to 1, refers to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The step as attempted.
+    Attempt,
+    /// The step up to the event at which it was cut.
+    UpToEvent,
+}
+
+/// The wanted step, up to `most`; 0.6 of `most` where the whole step would leave a small remainder.
+#[inline(always)]
+pub fn without_remainder(wanted: f64, most: f64) -> f64 {
+    if wanted >= most { most } else { wanted.min(0.6 * most) }
+}
+
+/// `x^(1/n)` to one per cent, from the third root on to half of that, of normal numbers, the same on every machine: steps need no more.
+#[inline(always)]
+pub fn rough_root(x: f64, n: usize) -> f64 {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    let (bits, one) = (x.to_bits(), 1.0f64.to_bits());
+    // A parabola through both ends of an octave for the logarithm, and its like for the power.
+    let part = f64::from_bits(bits & MANTISSA | one) - 1.0;
+    let octaves = (bits >> 52) as f64 - 1023.0 + part + BULGE * part * (1.0 - part);
+    let root = octaves * (1.0 / n as f64);
+    // Rounded down: `floor` is a call where instructions are the plainest.
+    let towards_zero = root as i64;
+    let whole = towards_zero - i64::from(root < towards_zero as f64);
+    let part = root - whole as f64;
+    let power = 1.0 + part - BULGE * part * (1.0 - part);
+    f64::from_bits(power.to_bits().wrapping_add_signed(whole << 52))
+}
+
+/// `4 (log₂ 3/2 - 1/2)`, about: the height of a logarithm over its chord.
+const BULGE: f64 = 0.3435;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rough_roots_are_right_to_half_a_per_cent() {
+        for n in [1, 2, 3, 4, 7, 12, 19] {
+            for power in -300..300 {
+                let x = 1.37f64.powi(power);
+                let error = rough_root(x, n) / libm::pow(x, 1.0 / n as f64) - 1.0;
+                assert!(error.abs() < if n < 3 { 0.01 } else { 0.005 }, "{x:e} {n}");
+            }
+        }
+        assert!(rough_root(f64::INFINITY, 4) > 1e70);
+    }
+}

@@ -1,0 +1,85 @@
+//! The list of methods. An explicit method is added by a file with its [`Tableau`](super::explicit::Tableau) in `tableaus/` and one line here.
+
+use super::tableaus::{
+    dop853::Dop853, dormand_prince54::DormandPrince54, kutta_merson::KuttaMerson, runge_kutta4::RungeKutta4,
+};
+use serde::{Deserialize, Serialize};
+
+/// Declares [`Method`] and [`Method::explicit`] from the list of explicit methods: name in scene files, tableau, step control, doc.
+macro_rules! methods {
+    ($($(#[$doc:meta])* $method:ident, $name:literal, $has_step_control:literal;)*) => {
+        /// Integration method.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        #[non_exhaustive]
+        pub enum Method {
+            /// What costs least, by the work-precision benchmark: Taylor series, closed forms of free swings, and multi-sample steps over the
+            /// record of one block. The default.
+            #[default]
+            Auto,
+            $($(#[$doc])* #[serde(rename = $name)] $method,)*
+            /// Taylor series of an order that follows from the tolerance and the number of free angles.
+            Taylor,
+        }
+
+        impl Method {
+            /// All methods.
+            pub const ALL: &'static [Method] = &[Method::Auto, $(Method::$method,)* Method::Taylor];
+
+            /// The name of the method in a scene file.
+            pub fn name(self) -> &'static str {
+                match self {
+                    Method::Auto => "auto",
+                    $(Method::$method => $name,)*
+                    Method::Taylor => "taylor",
+                }
+            }
+
+            /// Whether the method chooses the length of its steps by the tolerances.
+            pub fn has_step_control(self) -> bool {
+                match self {
+                    $(Method::$method => $has_step_control,)*
+                    Method::Auto | Method::Taylor => true,
+                }
+            }
+
+            /// Calls back with the tableau of an explicit method; `None` for a Taylor series.
+            pub(crate) fn explicit<B: ForTableau>(self, build: B) -> Result<B::Built, B> {
+                match self {
+                    $(Method::$method => Ok(build.with::<$method>()),)*
+                    Method::Auto | Method::Taylor => Err(build),
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    /// Order 8(5,3), dense output of order 7.
+    Dop853, "dop853", true;
+    /// Dormand & Prince 5(4), for comparison. Under records and at tolerances above 1e-5 its run time comes close to that of Taylor series.
+    DormandPrince54, "dormand-prince54", true;
+    /// Merson's method of order 4, the paper's, for comparison.
+    KuttaMerson, "kutta-merson", true;
+    /// The classic method of order 4 with steps of fixed length, for comparison; the tolerances have no effect.
+    RungeKutta4, "rk4", false;
+}
+
+/// Work that is compiled for the tableau of a method.
+pub(crate) trait ForTableau {
+    /// The result.
+    type Built;
+    /// Does the work for one tableau.
+    fn with<M: super::explicit::Tableau>(self) -> Self::Built;
+}
+
+impl Method {
+    /// Methods that choose their steps by the tolerance and reach any: all named methods but those of order 4.
+    pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
+
+    /// The method of this name; `dopri5` is known as well.
+    pub fn parse(name: &str) -> Option<Method> {
+        let name = if name == "dopri5" { "dormand-prince54" } else { name };
+        Method::ALL.iter().copied().find(|method| method.name() == name)
+    }
+}

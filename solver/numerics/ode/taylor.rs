@@ -1,0 +1,469 @@
+//! A Taylor method for angles whose equations are linear in second derivatives of their sines and cosines.
+//!
+//! The series about a state (`taylor/series.rs`) is computed to an order that the tolerance asks for, then a step is taken that is as long
+//! as its last terms allow. It is its own dense output, and a step that has to be shortened is the same series at another place.
+//!
+//! Choose it wherever events are located: finding one costs no right-hand side. Order: about `2 - ln(rtol) / 2`, more with one angle,
+//! after which a higher one costs more than the longer step saves (Jorba & Zou, 2005, and what a step costs beside
+//! its coefficients); fewer where the step is short.
+
+mod alone;
+mod coefficients;
+mod series;
+
+pub use coefficients::MAX_ORDER;
+pub use series::SeriesSystem;
+
+use super::control::{Attempt, Part, Tolerance, rough_root, without_remainder};
+use crate::numerics::polynomial::difference::Difference;
+use crate::numerics::polynomial::powers::Powers;
+use crate::numerics::state_vector::StateVector;
+use coefficients::{NUMBER, RECIPROCAL};
+use series::{Series, rate_of};
+use wide::f64x2;
+
+/// Lowest order.
+const MIN_ORDER: usize = 4;
+
+/// What a term before the last one still counts for: of an odd or even function every second coefficient is zero.
+const BEFORE_LAST: f64 = 0.1;
+
+/// Terms are kept this much smaller than the tolerance. Without, errors are what is asked for at best, several times that where the
+/// motion lingers at an unstable balance; it costs an eighth of the step.
+const MARGIN: f64 = 8.0;
+
+/// Error of a step of the largest order below which a lower one is looked for: above, it would save less than looking costs.
+const SHORT: f64 = 1e-3;
+
+/// Steps aim this far below what just meets the tolerance.
+const SAFETY: f64 = 0.9;
+
+/// Error of a step above which a longer one is not looked for: it would save less than looking costs.
+const LONG_ENOUGH: f64 = 0.1;
+
+/// A step is no longer than so many times what was wanted: the last terms of a series say little of a step far beyond those that
+/// they were looked at for, where the motion lingers at an unstable balance most of all.
+const LARGEST_GROWTH: f64 = 8.0;
+
+/// Rounds in which a step as long as the terms allow is looked for.
+const GUESSES: usize = 3;
+
+/// Steps on the series at a state.
+#[derive(Clone, Debug)]
+pub struct Taylor<V, L: StateVector> {
+    series: Series<V, L>,
+    /// Length of the last attempt, and of the part of it up to an event `[s]`.
+    attempted: f64,
+    h: f64,
+    end: V,
+    /// Highest order of the rates' coefficients that the last attempt uses.
+    order: usize,
+    /// How far each angle, and its rate, move in the last attempt, at most.
+    reach: L::Of<[f64; 2]>,
+}
+
+impl<V: StateVector, L: StateVector> Taylor<V, L> {
+    /// Storage for states like `zero` and angles like `zero_links`; orders for steps of this tolerance.
+    pub fn new(zero: &V, zero_links: &L, rtol: f64) -> Taylor<V, L> {
+        // With one angle an order costs little beside what a step costs.
+        let extra = if zero_links.as_slice().len() == 1 { 6.0 } else { 0.5 };
+        let order = (1.0 + extra - 0.5 * libm::log(rtol)).ceil() as usize;
+        Taylor {
+            series: Series::new(zero, zero_links, order.clamp(MIN_ORDER, MAX_ORDER)),
+            attempted: 0.0,
+            h: 0.0,
+            end: zero.clone(),
+            order: 0,
+            reach: zero_links.each([0.0; 2]),
+        }
+    }
+
+    /// Forgets how long the steps were: what came before has no bearing on what comes.
+    pub fn begin(&mut self) {
+        self.order = 0;
+    }
+
+    /// Forgets the expansion: the equations have changed.
+    pub fn forget(&mut self) {
+        self.series.forget();
+    }
+
+    /// Attempts a step from `(t, x)`, as long as the terms allow and no longer than `most`; `wanted` is a guess of that. From the same
+    /// place again nothing is computed but what is missing.
+    #[inline(always)]
+    pub fn attempt<S: SeriesSystem<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        x: &V,
+        [wanted, most]: [f64; 2],
+        tolerance: Tolerance,
+    ) -> Attempt {
+        // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
+        let is_short = wanted >= most && self.order > 0 && 2 * self.order <= self.series.largest_order;
+        self.series.expand(system, t, x, if is_short { self.order.max(MIN_ORDER) } else { self.series.largest_order });
+        let (mut target, mut guesses) = (wanted, 0);
+        let (h, order, error, next) = loop {
+            let h = without_remainder(target, most);
+            let is_cut = h == most || h < target;
+            let (order, error) = self.measure(system, h, is_cut, tolerance);
+            guesses += 1;
+            if is_cut && error <= 1.0 {
+                // That says nothing of a longer one.
+                break (h, order, error, target);
+            }
+            if error <= 1.0 && error > LONG_ENOUGH || guesses == GUESSES {
+                break (h, order, error, h * self.factor_wanted(error, order));
+            }
+            let (factor, is_sure) = fitting(error, order);
+            target = (h * factor).min(LARGEST_GROWTH * wanted);
+            if is_sure {
+                break (without_remainder(target, most), order, 1.0, target);
+            }
+        };
+        // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
+        (self.attempted, self.h, self.order) = (h, h, order);
+        let mut is_finite = error.is_finite();
+        if error <= 1.0 {
+            self.evaluate(order, h);
+            is_finite = self.end.as_slice().iter().all(|value| value.is_finite());
+        }
+        if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
+    }
+
+    /// Order and error of a step: of one that something else cuts short the least order with which it is good.
+    #[inline(always)]
+    fn measure<S: SeriesSystem<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        h: f64,
+        is_cut: bool,
+        tolerance: Tolerance,
+    ) -> (usize, f64) {
+        let (scale, order) = (self.scale(h, tolerance), self.series.largest_order);
+        let error = if self.series.known == order { self.error_at(order, h, &scale) } else { 0.0 };
+        if is_cut && error < SHORT { self.least_order(system, h, &scale) } else { (order, error) }
+    }
+
+    /// The least order with which a step is good, and its error; the largest one if none is.
+    #[inline(always)]
+    fn least_order<S: SeriesSystem<State = V, Links = L>>(
+        &mut self,
+        system: &mut S,
+        h: f64,
+        scale: &L::Of<f64>,
+    ) -> (usize, f64) {
+        let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, MARGIN * h * h * h);
+        let mut last = self.term(order, power, scale);
+        while order < self.series.largest_order {
+            if order == self.series.known {
+                self.series.extend(system, self.series.largest_order);
+            }
+            order += 1;
+            power *= h;
+            let size = self.term(order, power, scale);
+            error = larger(size, BEFORE_LAST * last);
+            if error <= 1.0 {
+                break;
+            }
+            last = size;
+        }
+        (order, error)
+    }
+
+    /// Error of a step of an order.
+    #[inline(always)]
+    fn error_at(&self, order: usize, h: f64, scale: &L::Of<f64>) -> f64 {
+        let (mut power, mut square, mut left) = (MARGIN, h, order - 1);
+        while left > 0 {
+            power *= if left % 2 == 1 { square } else { 1.0 };
+            square *= square;
+            left /= 2;
+        }
+        larger(self.term(order, power * h, scale), BEFORE_LAST * self.term(order - 1, power, scale))
+    }
+
+    /// Ends the last attempt earlier, after `h`, on the same polynomial.
+    pub fn cut(&mut self, h: f64) {
+        self.h = h;
+        self.evaluate(self.order, h);
+    }
+
+    /// Writes `[θ̇, θ̈]` at a place into `slope`: the first terms of the series there.
+    pub fn slope<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, slope: &mut [f64]) {
+        self.series.expand(system, t, x, self.series.largest_order);
+        let dof = self.series.dof();
+        for (link, driver) in self.series.driver[1].as_ref().iter().enumerate() {
+            slope[link] = x.as_slice()[dof + link];
+            slope[dof + link] = rate_of(driver);
+        }
+    }
+
+    /// What a term of the rates weighs in a step, relative to what rates and angles may err by, which are as large in it as their
+    /// first terms let them be. An angle's term is the rate's times the step over its order, which is `MIN_ORDER` at least.
+    #[inline(always)]
+    fn scale(&self, h: f64, tolerance: Tolerance) -> L::Of<f64> {
+        let dof = self.series.dof();
+        let mut scale = self.series.of_each(0.0);
+        for (link, scale) in scale.as_mut().iter_mut().enumerate() {
+            let (theta, rate) = (self.series.x.as_slice()[link].abs(), self.series.x.as_slice()[dof + link].abs());
+            let [first, second] = [1, 2].map(|order: usize| rate_of(&self.series.driver[order].as_ref()[link]).abs());
+            let most_rate = rate + h * (first + h * second);
+            let most = theta + h * (rate + h * (0.5 * first + h * RECIPROCAL[3] * second));
+            let of_angle = h * RECIPROCAL[MIN_ORDER + 1] / tolerance.scale(theta, most);
+            *scale = larger(of_angle, 1.0 / tolerance.scale(rate, most_rate));
+        }
+        scale
+    }
+
+    /// Size of the terms of one order in a step, relative to the tolerance.
+    #[inline(always)]
+    fn term(&self, order: usize, power: f64, scale: &L::Of<f64>) -> f64 {
+        let mut size = 0.0f64;
+        for (driver, scale) in self.series.driver[order].as_ref().iter().zip(scale.as_ref()) {
+            size = larger((rate_of(driver) * power).abs() * scale, size);
+        }
+        size
+    }
+
+    /// Relative to the last step: where its last term would just meet the tolerance.
+    fn factor_wanted(&self, error: f64, order: usize) -> f64 {
+        (SAFETY / rough_root(error.max(1e-30), order)).clamp(1e-3, LARGEST_GROWTH)
+    }
+
+    /// State at the end of the last attempt.
+    pub fn end(&self) -> &V {
+        &self.end
+    }
+
+    /// Orders known of the series at a place: none if it is another one than the last attempt's.
+    pub fn known_at(&self, t: f64, x: &V) -> usize {
+        if self.series.is_at(t, x) { self.series.known } else { 0 }
+    }
+
+    /// Time at the end of the last attempt `[s]`.
+    pub fn end_time(&self) -> f64 {
+        self.series.t + self.h
+    }
+
+    /// Order of the last attempt's polynomial.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// `[c, s]` of order after order, per angle.
+    pub fn circles(&self) -> impl Iterator<Item = &[f64x2]> {
+        self.series.circle.iter().map(AsRef::as_ref)
+    }
+
+    /// `[c̈, s̈]` of an order below [`Taylor::order`], by angle.
+    pub fn second_derivatives(&self, order: usize) -> impl Fn(usize) -> [f64; 2] {
+        let circle = self.series.circle[order + 2].as_ref();
+        let factor = NUMBER[order + 1] * NUMBER[order + 2];
+        move |angle| circle[angle].to_array().map(|coefficient| factor * coefficient)
+    }
+
+    /// `θ̈` of an order below [`Taylor::order`].
+    pub fn acceleration(&self, order: usize, angle: usize) -> f64 {
+        NUMBER[order + 1] * rate_of(&self.series.driver[order + 1].as_ref()[angle])
+    }
+
+    /// State inside the last attempt, or the part of it up to an event, `s` from 0 to 1.
+    pub fn state_inside(&self, part: Part, s: f64, state: &mut V) {
+        let length = match part {
+            Part::Attempt => self.attempted,
+            Part::UpToEvent => self.h,
+        };
+        self.series.state_at(self.order, s * length, state);
+    }
+
+    /// A difference of two angles over the last attempt, as a polynomial; exactly zero at the start where that is known.
+    #[inline(always)]
+    pub fn track(&self, angles: Difference, starts_at_zero: bool) -> Powers {
+        let mut power = 1.0;
+        let terms = self.series.driver[..=self.order].iter().zip(&RECIPROCAL[1..]).map(|(driver, reciprocal)| {
+            let rates = driver.as_ref();
+            power *= self.h;
+            angles.by(|link| rate_of(&rates[link])) * power * reciprocal
+        });
+        Powers::with_terms(if starts_at_zero { 0.0 } else { angles.of(self.series.x.as_slice()) }, terms)
+    }
+
+    /// How far a difference of two angles moves from its start in the last attempt, at most.
+    pub fn reach(&self, angles: Difference) -> f64 {
+        let reach = self.reach.as_ref();
+        reach[angles.upper][0] + angles.lower.map_or(0.0, |lower| reach[lower][0])
+    }
+
+    /// Whether an angle, or the difference of two, surely goes one way all through the last attempt: its rate, taken positive at first,
+    /// is above zero at the end even without the terms that add to it beyond the first order. What is left is concave, so it is
+    /// above zero in between.
+    pub fn is_monotonic(&self, angles: Difference) -> bool {
+        let [start, first] = [0, 1].map(|order: usize| {
+            let driver = self.series.driver[order].as_ref();
+            angles.by(|link| rate_of(&driver[link]))
+        });
+        let (first, reach) = (self.h * first, self.reach.as_ref());
+        let way = if start == 0.0 { first } else { start };
+        let end = angles.of(&self.end.as_slice()[self.series.dof()..]);
+        // No smaller than the sum over the sizes of the differences.
+        let size = reach[angles.upper][1] + angles.lower.map_or(0.0, |lower| reach[lower][1]);
+        let [start, first, end] = [start, first, end].map(|rate| if way < 0.0 { -rate } else { rate });
+        let (sum, size) = (end - start - first, size - first.abs());
+        start + first + 0.5 * (sum - size) > 0.0
+    }
+
+    /// The end of a step, by Horner's rule up to an order, and how far the angles move until then.
+    #[inline(always)]
+    fn evaluate(&mut self, order: usize, h: f64) {
+        let mut end = self.end.clone();
+        let sizes = self.series.state_at(order, h, &mut end);
+        self.end = end;
+        let rates = &self.series.x.as_slice()[self.series.dof()..];
+        for (reach, (sizes, rate)) in self.reach.as_mut().iter_mut().zip(sizes.as_ref().iter().zip(rates)) {
+            let [of_rate, of_mean] = sizes.to_array();
+            *reach = [h * (rate.abs() + of_mean), of_rate];
+        }
+    }
+}
+
+/// By what a step with this error may be longer, or has to be shorter, and whether it is good then without another look: weights of
+/// terms grow with the step no faster than itself, and fall with it no faster than its square.
+#[inline(always)]
+fn fitting(error: f64, order: usize) -> (f64, bool) {
+    let is_too_long = error > 1.0;
+    let careful = SAFETY / rough_root(larger(error, 1e-30), if is_too_long { order - 3 } else { order });
+    let is_near = careful > 0.7 && careful < 1.4;
+    if is_near || !is_too_long { (careful, is_near) } else { (SAFETY / rough_root(error, order), false) }
+}
+
+/// The larger of two; the second where one is not a number.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two pendulums in one: `θ̈ = -sin θ`, so `J = 1`, `C = 0`, `S = 1`; order by order only the constant term.
+    struct Pendulum;
+
+    impl SeriesSystem for Pendulum {
+        type State = [f64; 2];
+        type Links = [f64; 1];
+
+        fn expand_at(&mut self, _: f64, _: usize) {}
+
+        fn matrix(&self, _: &[f64; 2], _: &[f64; 1], _: &[f64; 1], matrix: &mut [f64]) {
+            matrix[0] = 1.0;
+        }
+
+        fn weights(&mut self, order: usize, _: &[f64; 1], _: &[f64; 1]) -> [[f64; 1]; 2] {
+            [[0.0], [if order == 0 { 1.0 } else { 0.0 }]]
+        }
+
+        fn sin_cos(angle: f64) -> (f64, f64) {
+            libm::sincos(angle)
+        }
+    }
+
+    fn advance(steps: usize, order: usize) -> [f64; 2] {
+        let mut taylor = Taylor::new(&[0.0; 2], &[0.0], 1e-14);
+        assert!(order <= taylor.series.largest_order, "as much room");
+        taylor.series.largest_order = order;
+        let (mut x, h) = ([1.0, 0.0], 12.0 / steps as f64);
+        for step in 0..steps {
+            // A tolerance that nothing meets: all orders are used.
+            taylor.attempt(&mut Pendulum, step as f64 * h, &x, [h, h], Tolerance { rtol: 1e-300, atol: 1e-300 });
+            taylor.cut(h);
+            x = *taylor.end();
+        }
+        x
+    }
+
+    #[test]
+    fn observed_order_is_the_stated_one() {
+        let exact = advance(400, MAX_ORDER);
+        for order in [4, 6, 8] {
+            let error = |steps: usize| {
+                let end = advance(steps, order);
+                (end[0] - exact[0]).hypot(end[1] - exact[1])
+            };
+            // Half the step, 2^order of the error; measured 4.0, 6.1, 8.1.
+            let observed = (error(48) / error(96)).log2();
+            assert!((observed - order as f64).abs() < 0.4, "{observed} for {order}");
+        }
+    }
+
+    /// `E = θ̇²/2 - cos θ` over a hundred swings: rounding only.
+    #[test]
+    fn energy_is_kept_to_rounding() {
+        let energy = |x: &[f64; 2]| 0.5 * x[1] * x[1] - libm::cos(x[0]);
+        let tolerance = Tolerance { rtol: 1e-14, atol: 1e-16 };
+        let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
+        let (mut t, mut x, mut h, mut steps) = (0.0, [2.0, 0.0], 0.5, 0);
+        let start = energy(&x);
+        while t < 800.0 {
+            let attempt = taylor.attempt(&mut Pendulum, t, &x, [h, f64::INFINITY], tolerance);
+            if attempt.is_good() {
+                t += attempt.h;
+                x = *taylor.end();
+                steps += 1;
+            }
+            h = attempt.wanted;
+        }
+        // Three thousand steps of some roundings each, at random: 1e-16 · 55, three times over.
+        assert!((energy(&x) - start).abs() < 2e-14, "{:e}", energy(&x) - start);
+        assert!(steps < 4000, "{steps}");
+    }
+
+    #[test]
+    fn angles_stay_within_their_reach_and_go_monotonic_where_that_is_said() {
+        let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
+        let angle = Difference { sign: 1.0, upper: 0, lower: None };
+        let mut monotonic = [0, 0];
+        for (x, h) in [([1.2, -0.4], 0.2), ([1.2, 0.4], 0.2), ([0.3, 0.02], 0.2), ([0.0, 0.5], 0.1)] {
+            let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
+            assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance).is_good());
+            for part in [1.0, 0.3] {
+                taylor.cut(part * h);
+                let places = (0..=50).map(|i| f64::from(i) / 50.0);
+                let states = places.map(|s| {
+                    let mut state = [0.0; 2];
+                    taylor.state_inside(Part::UpToEvent, s, &mut state);
+                    state
+                });
+                let states: Vec<[f64; 2]> = states.collect();
+                let moved = states.iter().map(|state| (state[0] - x[0]).abs()).fold(0.0, f64::max);
+                let turns = states.windows(2).any(|pair| pair[0][1] * pair[1][1] < 0.0);
+                assert!(moved <= taylor.reach(angle) * (1.0 + 1e-14), "{x:?} {part}: {moved} {}", taylor.reach(angle));
+                assert!(taylor.reach(angle) < 3.0 * moved + 0.02, "a bound of use: {x:?} {part}: {moved}");
+                assert!(!(turns && taylor.is_monotonic(angle)), "{x:?} {part}");
+                monotonic[usize::from(taylor.is_monotonic(angle))] += 1;
+            }
+        }
+        assert!(monotonic.iter().all(|count| *count > 0), "both are told: {monotonic:?}");
+    }
+
+    #[test]
+    fn the_interpolant_is_the_series() {
+        let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
+        let mut taylor = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
+        let (x, h) = ([1.2, -0.4], 0.2);
+        assert!(taylor.attempt(&mut Pendulum, 0.0, &x, [h, h], tolerance).is_good());
+        let track = taylor.track(Difference { sign: 1.0, upper: 0, lower: None }, false);
+        for s in [0.0, 0.3, 1.0] {
+            let mut inside = [0.0; 2];
+            taylor.state_inside(Part::UpToEvent, s, &mut inside);
+            let mut other = Taylor::new(&[0.0; 2], &[0.0], tolerance.rtol);
+            other.attempt(&mut Pendulum, 0.0, &x, [s * h, s * h], tolerance);
+            for (inside, end) in inside.iter().zip(other.end()) {
+                // Both are truncated below 1e-13, and rounded.
+                assert!((inside - end).abs() < 4e-13);
+            }
+            assert!((track.evaluate(s) - inside[0]).abs() < 1e-15);
+        }
+    }
+}

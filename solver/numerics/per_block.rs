@@ -1,0 +1,267 @@
+//! Lists with one entry per block, interface or link.
+//!
+//! Contact problems are many and small, and most columns have few blocks: the code that handles them is compiled for each [`Size`], where
+//! loops have known lengths and nothing is allocated.
+
+use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
+use std::ops::{Deref, DerefMut};
+
+/// Length up to which a list allocates nothing. A larger one costs every list its room on the stack.
+const INLINE_LENGTH: usize = 6;
+
+/// A list with at most one entry per block, interface or link, base first: a slice that owns its entries, without allocation for
+/// columns of up to six blocks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
+pub struct PerBlock<T>(SmallVec<[T; INLINE_LENGTH]>);
+
+impl<T> PerBlock<T> {
+    /// An empty list.
+    pub fn new() -> PerBlock<T> {
+        PerBlock(SmallVec::new())
+    }
+
+    /// Appends an entry.
+    #[inline]
+    pub fn push(&mut self, entry: T) {
+        self.0.push(entry);
+    }
+
+    /// Removes all entries.
+    #[inline]
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Keeps the entries for which a condition holds.
+    pub fn retain(&mut self, keep: impl FnMut(&mut T) -> bool) {
+        self.0.retain(keep);
+    }
+
+    /// Appends entries.
+    pub fn extend(&mut self, entries: impl IntoIterator<Item = T>) {
+        self.0.extend(entries);
+    }
+}
+
+impl<T: Clone> PerBlock<T> {
+    /// A list of `length` equal entries.
+    pub fn filled(entry: T, length: usize) -> PerBlock<T> {
+        PerBlock(SmallVec::from_elem(entry, length))
+    }
+}
+
+impl<T: Copy> PerBlock<T> {
+    /// A copy of a slice.
+    #[inline]
+    pub fn from_slice(entries: &[T]) -> PerBlock<T> {
+        PerBlock(SmallVec::from_slice(entries))
+    }
+}
+
+impl<T> Default for PerBlock<T> {
+    fn default() -> PerBlock<T> {
+        PerBlock::new()
+    }
+}
+
+impl<T> Deref for PerBlock<T> {
+    type Target = [T];
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
+}
+
+impl<T> DerefMut for PerBlock<T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+}
+
+impl<T> FromIterator<T> for PerBlock<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(entries: I) -> PerBlock<T> {
+        PerBlock(entries.into_iter().collect())
+    }
+}
+
+impl<'l, T> IntoIterator for &'l PerBlock<T> {
+    type Item = &'l T;
+    type IntoIter = std::slice::Iter<'l, T>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}
+
+/// A table of blocks or links against links, row by row.
+#[derive(Clone, Debug)]
+pub struct Square<T>(SmallVec<[T; INLINE_LENGTH * INLINE_LENGTH]>);
+
+impl<T> Deref for Square<T> {
+    type Target = [T];
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
+}
+
+impl<T> DerefMut for Square<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+}
+
+/// How many blocks a column has: known when compiled, or not.
+pub trait Size: Copy {
+    /// A list with one entry per block, interface or link. Entries of links that do not exist keep their fill value.
+    type List<T: Copy>: Deref<Target = [T]> + DerefMut + Clone;
+    /// Rows of blocks or links against columns of links.
+    type Table<T: Copy>: Deref<Target = [T]> + DerefMut + Clone;
+
+    /// Number of blocks.
+    fn blocks(self) -> usize;
+
+    /// Columns of a table, and links that loops run over, where `moving` links move. A size known at compile time answers with the number
+    /// of blocks, so that no loop branches on it.
+    fn links(self, moving: usize) -> usize;
+
+    /// A list with an entry per block.
+    fn list<T: Copy>(self, fill: T) -> Self::List<T>;
+
+    /// A table with a row per block and this number of columns.
+    fn table<T: Copy>(self, columns: usize, fill: T) -> Self::Table<T>;
+
+    /// A list with the first entries of another one, one per block.
+    #[inline(always)]
+    fn copied<T: Copy>(self, entries: &[T]) -> Self::List<T> {
+        let mut list = self.list(entries[0]);
+        list.copy_from_slice(&entries[..self.blocks()]);
+        list
+    }
+
+    /// A list made entry by entry.
+    #[inline(always)]
+    fn list_of<T: Copy + Default>(self, entry: impl Fn(usize) -> T) -> Self::List<T> {
+        let mut list = self.list(T::default());
+        for (index, place) in list[..self.blocks()].iter_mut().enumerate() {
+            *place = entry(index);
+        }
+        list
+    }
+}
+
+/// A number of blocks known when compiled.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<const N: usize>;
+
+/// Any number of blocks.
+#[derive(Clone, Copy, Debug)]
+pub struct Any(pub usize);
+
+/// An array as a list.
+#[derive(Clone, Copy, Debug)]
+pub struct Array<T, const N: usize>([T; N]);
+
+/// An array of arrays as a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid<T, const N: usize>([[T; N]; N]);
+
+impl<T, const N: usize> Deref for Array<T, N> {
+    type Target = [T];
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
+}
+
+impl<T, const N: usize> DerefMut for Array<T, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+}
+
+impl<T, const N: usize> Deref for Grid<T, N> {
+    type Target = [T];
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        self.0.as_flattened()
+    }
+}
+
+impl<T, const N: usize> DerefMut for Grid<T, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        self.0.as_flattened_mut()
+    }
+}
+
+impl<const N: usize> Size for Known<N> {
+    type List<T: Copy> = Array<T, N>;
+    type Table<T: Copy> = Grid<T, N>;
+
+    #[inline(always)]
+    fn blocks(self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn links(self, _: usize) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn list<T: Copy>(self, fill: T) -> Array<T, N> {
+        Array([fill; N])
+    }
+
+    #[inline(always)]
+    fn table<T: Copy>(self, _: usize, fill: T) -> Grid<T, N> {
+        Grid([[fill; N]; N])
+    }
+}
+
+impl Size for Any {
+    type List<T: Copy> = PerBlock<T>;
+    type Table<T: Copy> = Square<T>;
+
+    fn blocks(self) -> usize {
+        self.0
+    }
+
+    fn links(self, moving: usize) -> usize {
+        moving
+    }
+
+    fn list<T: Copy>(self, fill: T) -> PerBlock<T> {
+        PerBlock::filled(fill, self.0)
+    }
+
+    fn table<T: Copy>(self, columns: usize, fill: T) -> Square<T> {
+        Square(SmallVec::from_elem(fill, self.0 * columns))
+    }
+}
+
+/// An expression with the size of a column of so many blocks: compiled for up to five of them, and for any.
+macro_rules! for_size {
+    ($blocks:expr, $size:ident => $body:expr) => {
+        match $blocks {
+            1 => for_size!(@known 1, $size => $body),
+            2 => for_size!(@known 2, $size => $body),
+            3 => for_size!(@known 3, $size => $body),
+            4 => for_size!(@known 4, $size => $body),
+            5 => for_size!(@known 5, $size => $body),
+            blocks => {
+                let $size = $crate::numerics::per_block::Any(blocks);
+                $body
+            }
+        }
+    };
+    (@known $n:literal, $size:ident => $body:expr) => {{
+        let $size = $crate::numerics::per_block::Known::<$n>;
+        $body
+    }};
+}
+pub(crate) use for_size;

@@ -1,0 +1,49 @@
+//! States of known or unknown length: what a method of integration moves.
+
+/// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
+pub trait StateVector: Clone {
+    /// As many things of another kind.
+    type Of<T: Clone>: AsRef<[T]> + AsMut<[T]> + Clone;
+
+    /// The components.
+    fn as_slice(&self) -> &[f64];
+    /// The components, to be written.
+    fn as_mut_slice(&mut self) -> &mut [f64];
+    /// One thing for each component.
+    fn each<T: Clone>(&self, fill: T) -> Self::Of<T>;
+}
+
+impl<const D: usize> StateVector for [f64; D] {
+    type Of<T: Clone> = [T; D];
+
+    #[inline(always)]
+    fn each<T: Clone>(&self, fill: T) -> [T; D] {
+        std::array::from_fn(|_| fill.clone())
+    }
+
+    #[inline(always)]
+    fn as_slice(&self) -> &[f64] {
+        self
+    }
+
+    #[inline(always)]
+    fn as_mut_slice(&mut self) -> &mut [f64] {
+        self
+    }
+}
+
+impl StateVector for Vec<f64> {
+    type Of<T: Clone> = Vec<T>;
+
+    fn each<T: Clone>(&self, fill: T) -> Vec<T> {
+        vec![fill; self.len()]
+    }
+
+    fn as_slice(&self) -> &[f64] {
+        self
+    }
+
+    fn as_mut_slice(&mut self) -> &mut [f64] {
+        self
+    }
+}

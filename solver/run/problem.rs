@@ -1,0 +1,106 @@
+//! What a run is given and does not change: scene, ground motion, and what follows from them.
+
+use super::certainty::Prospects;
+use crate::mechanics::dynamics::{Ground, Interfaces};
+use crate::numerics::ode::control::Tolerance;
+use crate::numerics::ode::methods::Method;
+use crate::numerics::per_block::PerBlock;
+use crate::scene::{Scene, Wanted};
+use rocking_ground::{Segment, Timeline};
+
+/// Scene and ground motion of a run.
+pub(crate) struct Problem<'a> {
+    pub scene: &'a Scene,
+    pub ground: &'a Timeline,
+    /// Proofs of the outcome, where a run may end with one.
+    pub prospects: Option<&'a Prospects>,
+    pub skips: Skips,
+    /// Factor of the plastic relative rate at each interface.
+    pub kappa: PerBlock<f64>,
+    pub tolerance: Tolerance,
+    /// Nothing but the outcome is requested, and the ground comes to rest before the end.
+    pub may_stand: bool,
+}
+
+/// What a run leaves out because the answer is the same without: everything, unless a benchmark measures what each is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Skips {
+    /// Steps through phases of one free angle on a ground that does not move, which swing in closed form (`Method::Auto` only).
+    pub swings: bool,
+    /// Steps from sample to sample of a record, where one block takes up to 32 intervals in one step (`Method::Auto` only).
+    pub samples: bool,
+    /// Steps through times at rest.
+    pub rests: bool,
+    /// Scene constants of modes that the run does not enter.
+    pub modes: bool,
+    /// Terms of a vertical ground motion that does not exist.
+    pub vertical: bool,
+    /// Contact forces that nobody reads.
+    pub forces: bool,
+    /// The time after the outcome is certain, where nothing else is requested.
+    pub certainty: bool,
+}
+
+impl Skips {
+    /// Nothing is left out.
+    pub const NOTHING: Skips = Skips {
+        swings: false,
+        samples: false,
+        rests: false,
+        modes: false,
+        vertical: false,
+        forces: false,
+        certainty: false,
+    };
+}
+
+impl Default for Skips {
+    fn default() -> Skips {
+        Skips { swings: true, samples: true, rests: true, modes: true, vertical: true, forces: true, certainty: true }
+    }
+}
+
+impl<'a> Problem<'a> {
+    pub fn new(scene: &'a Scene, ground: &'a Timeline, prospects: Option<&'a Prospects>, skips: Skips) -> Problem<'a> {
+        let options = &scene.options;
+        Problem {
+            scene,
+            ground,
+            prospects,
+            skips,
+            kappa: scene.restitution.per_interface(&scene.column),
+            tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
+            may_stand: prospects.is_some() && ground.last().is_some_and(Segment::is_quiet),
+        }
+    }
+
+    /// Ground motion at an instant, seen from what follows it.
+    pub fn ground_at(&self, segment: usize, t: f64) -> Ground {
+        Ground::of(&self.ground[segment], t, self.scene.column.gravity())
+    }
+
+    /// Whether rows, events, peaks, forces and times in modes are recorded, not only the outcome.
+    pub fn is_recorded(&self) -> bool {
+        self.scene.options.wanted == Wanted::Everything
+    }
+
+    /// Whether contact forces are recorded.
+    pub fn records_forces(&self) -> bool {
+        self.scene.options.record_forces && self.is_recorded()
+    }
+
+    /// The interfaces whose contact forces are evaluated.
+    pub fn interfaces(&self) -> Interfaces {
+        if self.records_forces() || !self.skips.forces { Interfaces::All } else { Interfaces::Closed }
+    }
+
+    /// Whether phases of one free angle on a ground that does not move are taken in closed form.
+    pub fn swings_in_closed_form(&self) -> bool {
+        self.skips.swings && self.scene.options.method == Method::Auto
+    }
+
+    /// Whether phases of one block may take several samples of a record in one step.
+    pub fn steps_over_samples(&self) -> bool {
+        self.skips.samples && self.scene.options.method == Method::Auto
+    }
+}

@@ -1,0 +1,74 @@
+//! The state of a run: `x⁻` before an event and `x⁺` after it are two values of this type.
+
+use crate::numerics::per_block::PerBlock;
+use rocking_codegen::pattern::{Interface, Pattern};
+
+/// Angles, rates and pattern of the column at an instant, with what the laws of contact and the integrator carry across events.
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    /// Time `[s]`.
+    pub t: f64,
+    /// Index of the segment of ground motion that the time is in.
+    pub segment: usize,
+    /// Absolute angles `[rad]`, per block.
+    pub theta: PerBlock<f64>,
+    /// Rates `[rad/s]`, per block.
+    pub omega: PerBlock<f64>,
+    /// Interface states.
+    pub pattern: Pattern,
+    /// What the laws of contact carry.
+    pub contact: ContactMemory,
+    /// What the integrator carries.
+    pub pace: Pace,
+}
+
+/// What the laws of contact carry from one event to the next.
+#[derive(Clone, Debug)]
+pub(crate) struct ContactMemory {
+    /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides: gap, rate and
+    /// acceleration are zero there.
+    pub released: PerBlock<(usize, Interface)>,
+    /// After a separation: until when closed interfaces that cannot stay closed are not examined.
+    pub hold: Hold,
+    /// Times of the last two events `[s]`, the latest last.
+    pub last_events: [f64; 2],
+    /// Events in this instant but the first.
+    pub events_at_once: usize,
+}
+
+/// The time for which a separation is not examined again.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hold {
+    /// `[s]`
+    pub until: f64,
+    /// Length of the hold `[s]`.
+    span: f64,
+}
+
+/// Shortest hold `[s]`; the hold doubles while separations follow each other. Shorter, and a column in flight costs thousands of contact
+/// problems; longer, and contact is regained late.
+const SHORTEST_HOLD: f64 = 1e-6;
+
+/// Longest hold `[s]`.
+const LONGEST_HOLD: f64 = 1e-2;
+
+impl Hold {
+    /// No separation yet.
+    pub const NONE: Hold = Hold { until: f64::NEG_INFINITY, span: SHORTEST_HOLD };
+
+    /// The hold after a separation at `t` `[s]`.
+    pub fn after_separation(self, t: f64) -> Hold {
+        let is_repeated = t - self.until <= 100.0 * self.span;
+        let span = if is_repeated { (2.0 * self.span).min(LONGEST_HOLD) } else { SHORTEST_HOLD };
+        Hold { until: t + span, span }
+    }
+}
+
+/// What the integrator has learnt of step lengths.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pace {
+    /// Step length suggested by the steps before `[s]`.
+    pub step: Option<f64>,
+    /// Place, among [`INTERVALS`](crate::numerics::ode::samples::INTERVALS), of the number of intervals that the next multi-sample step tries.
+    pub intervals: usize,
+}

@@ -1,0 +1,92 @@
+//! A stretch of a run: a span of time without an event, its inside, and why it ended.
+
+use super::problem::Problem;
+use super::state::State;
+use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::per_block::PerBlock;
+use crate::response::{SolveError, Work};
+use rocking_codegen::pattern::Interface;
+
+/// Why a stretch ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Ended {
+    /// These interfaces (from zero) closed.
+    Closing(PerBlock<usize>),
+    /// The resultant at a closed interface (from zero) reached a corner; the interface opens on this side.
+    Opening(usize, Interface),
+    /// The ground acceleration jumped.
+    Jump,
+    /// The run is over.
+    Over(Over),
+}
+
+/// Why a run is over. Blocks are counted from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Over {
+    /// It is certain that the column does not overturn any more.
+    Stands,
+    /// It is certain that this block overturns.
+    Falls(usize),
+    /// The angle of this block reached the overturning angle.
+    Overturned(usize),
+    /// Nothing can start the column any more.
+    AtRest,
+    /// The time is over.
+    EndOfTime,
+}
+
+/// A span of time without an event. The inside is read by the recorder; the end is `x⁻` of the event, if the stretch ended with one.
+pub(crate) struct Stretch<'m> {
+    /// Start `[s]`.
+    pub start: f64,
+    /// End `[s]`.
+    pub end: f64,
+    /// Why it ended; `None` if the motion continues.
+    pub ended: Option<Ended>,
+    /// What lies between.
+    pub inside: &'m mut dyn Inside,
+}
+
+/// The inside of a stretch.
+pub(crate) trait Inside {
+    /// Angles and rates per block at a time of the stretch `[s]`.
+    fn state_at(&mut self, t: f64) -> (PerBlock<f64>, PerBlock<f64>);
+
+    /// Link of each block, base first, from one; zero where the block stands on the ground.
+    fn links(&self) -> &[usize];
+
+    /// The largest size of a link's angle in the stretch if it exceeds `known`, else `known` or less `[rad]`. Links are counted from zero.
+    fn peak(&mut self, link: usize, known: f64) -> f64;
+
+    /// Calls `note` with contact forces at start, middle and end of panels so short that forces are parabolas over them.
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3]));
+
+    /// Visits finer stretches in place of this one, where its own inside does not answer what is requested; `true` if it did so.
+    fn refine(&mut self, _problem: &Problem, _request: Request, _visit: &mut dyn FnMut(&mut Stretch)) -> bool {
+        false
+    }
+
+    /// The state at the end of the stretch: `x⁻`. The motion is over with that.
+    fn end(&mut self) -> State;
+}
+
+/// What a recorder requests of the inside of a multi-sample step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Request {
+    /// Rows or forces: the whole of it.
+    pub is_whole: bool,
+    /// Otherwise crests above this size; infinite where peaks are not recorded `[rad]`.
+    pub known_peak: f64,
+}
+
+/// What moves a column from one event to the next: the column at rest, or a mode.
+pub(crate) trait Motion: Send {
+    /// Enters with `x⁺`.
+    fn enter(&mut self, problem: &Problem, after: State);
+
+    /// The next stretch.
+    fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError>;
+
+    /// Work since the last call, which is forgotten with it.
+    fn take_work(&mut self) -> Work;
+}
