@@ -5,6 +5,7 @@
 //! of blocks ([`crate::generic`]); the integrator is compiled once for each number of degrees of freedom.
 
 use crate::ode::{AtNodes, NODES, States};
+use rocking_ground::Segment;
 
 /// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
 pub trait StateVector: Clone {
@@ -61,6 +62,15 @@ pub struct Ground {
     pub x: f64,
     /// Effective gravity `g + ÿ_g [m/s²]`.
     pub gravity: f64,
+}
+
+impl Ground {
+    /// Ground motion of a segment at `t`, under a column with this gravity `[m/s²]`.
+    #[inline(always)]
+    pub fn at(segment: &Segment, t: f64, gravity: f64) -> Ground {
+        let [x, vertical] = segment.accelerations(t);
+        Ground { x, gravity: gravity + vertical }
+    }
 }
 
 /// Contact force at an interface, on the stack above (MODEL.md section 4).

@@ -23,7 +23,6 @@ mod swing;
 
 use crate::contact::verge_acceleration;
 use crate::dynamics::{ContactForce, Interfaces, StateVector};
-use crate::excitation::Segment;
 use crate::few::Few;
 use crate::ode::{Attempt, Difference, Tolerance};
 use crate::response::ModeName;
@@ -35,6 +34,7 @@ use leap::Leaps;
 pub(crate) use margins::Margins;
 use pendulum::Pendulum;
 use rocking_codegen::pattern::{Interface, Pattern};
+use rocking_ground::Segment;
 use std::rc::Rc;
 pub(crate) use stepper::{RungeKutta, Stepper, TaylorSeries};
 

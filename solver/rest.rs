@@ -7,12 +7,12 @@
 
 use crate::column::Column;
 use crate::dynamics::{ContactForce, Energy, Ground};
-use crate::excitation::{Piece, Segment};
 use crate::phase::Ended;
 use crate::simulate::Run;
 use rocking_codegen::pattern::Interface;
+use rocking_ground::{Piece, Segment};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const ZERO: f64 = 16.0 * f64::EPSILON;
@@ -28,7 +28,7 @@ const NOTED: (f64, f64) = (16.0, 4096.0);
 pub(crate) fn wait(run: &mut Run) -> Ended {
     let since = run.t;
     let first = run.segment;
-    let segments = Rc::clone(&run.segments);
+    let segments = Arc::clone(&run.segments);
     let limit = least_uplift(&run.scene.column);
     loop {
         let segment = &segments[run.segment];
@@ -241,7 +241,7 @@ fn note_forces(run: &mut Run, segment: &Segment, until: f64) {
     let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
     for place in 0..=count {
         let t = run.t + (until - run.t) * place as f64 / count as f64;
-        let ground = segment.ground(t, column.gravity());
+        let ground = Ground::at(segment, t, column.gravity());
         run.history.note_forces(&contact_forces(column, ground));
     }
 }
@@ -256,7 +256,7 @@ fn output_until(run: &mut Run, until: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::excitation::Piece;
+    use rocking_ground::Piece;
 
     /// First zero of one guard.
     fn first_zero(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {

@@ -2,7 +2,6 @@
 
 use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::dynamics::Ground;
-use crate::excitation::{Layout, Segment, Timeline};
 use crate::few::{Few, Size, for_size};
 use crate::history::History;
 use crate::kinematics::{Posture, Turn};
@@ -13,8 +12,9 @@ use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Sep
 use crate::rest;
 use crate::scene::{Scene, SceneError, Wanted};
 use rocking_codegen::pattern::{Interface, Pattern};
+use rocking_ground::{Segment, Timeline, TimelineCache};
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Events per block in one instant beyond which the laws of contact go in circles: the instant is then decided by closing what
 /// has not moved, as a separation. Fewer, and instants at which several interfaces are on the verge are cut short.
@@ -137,7 +137,7 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64)) -> Result<Res
 #[derive(Default)]
 pub struct Simulator {
     modes: Modes,
-    ground: Layout,
+    ground: TimelineCache,
 }
 
 impl Simulator {
@@ -194,7 +194,7 @@ fn run(mut run: Run) -> Result<Response, SolveError> {
 pub(crate) struct Run<'a> {
     pub scene: &'a Scene,
     modes: &'a mut Modes,
-    pub segments: Rc<Timeline>,
+    pub segments: Arc<Timeline>,
     /// Index of the segment that the present time is in.
     pub segment: usize,
     pub t: f64,
@@ -232,7 +232,7 @@ impl<'a> Run<'a> {
     fn new(
         scene: &'a Scene,
         modes: &'a mut Modes,
-        segments: Rc<Timeline>,
+        segments: Arc<Timeline>,
         progress: &'a mut dyn FnMut(f64),
     ) -> Run<'a> {
         let with_vertical = modes.have_vertical();
@@ -290,7 +290,7 @@ impl<'a> Run<'a> {
 
     /// Ground motion at the present instant, seen from what follows.
     pub fn ground(&self) -> Ground {
-        self.segments[self.segment].ground(self.t, self.scene.column.gravity())
+        Ground::at(&self.segments[self.segment], self.t, self.scene.column.gravity())
     }
 
     fn rest(&mut self) -> Result<Ended, SolveError> {

@@ -10,7 +10,7 @@ use crate::ode::{AtNodes, GAPS, INTERVALS, LinearlyForced, NODES, SampledStep, T
 use crate::program::Scalar;
 use crate::scene::Wanted;
 use crate::simulate::Run;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// One free angle on a ground that moves to the side by `a`: `θ¨ = cos θ (C + C' a) + sin θ (S + S' a)`.
 #[derive(Clone, Copy, Debug)]
@@ -213,7 +213,7 @@ impl<V: StateVector> Phase<V> {
             overturned: run.scene.options.overturn_angle,
             peak: if is_peak_wanted { run.history.peak_theta[0] } else { f64::INFINITY },
         };
-        let timeline = Rc::clone(&run.segments);
+        let timeline = Arc::clone(&run.segments);
         let known = timeline.samples(run.segment, INTERVALS[run.leap]);
         let mut place = place_of(known.len() as f64 - 1.0).ok_or(INTERVALS[0])?;
         let (first, t) = (run.segment, run.t);

@@ -8,12 +8,12 @@ use super::margins::{Margins, Outlook};
 use super::pendulum::Pendulum;
 use crate::dynamics::{ContactForce, Dynamics, Ground, Interfaces, StateVector};
 use crate::event::Track;
-use crate::excitation::Segment;
 use crate::ode::{
     Attempt, Difference, Interpolant, MAX_ORDER, Pair, SeriesSystem, StepControl, System, Taylor, Tolerance,
     without_crumb,
 };
 use crate::program::Scalar;
+use rocking_ground::Segment;
 use std::rc::Rc;
 
 /// One step after another in one mode.
@@ -79,7 +79,7 @@ impl<D: Dynamics> Driven<D> {
     #[inline(always)]
     fn weigh(&mut self, t: f64, x: &D::State, which: Interfaces, forces: &mut [ContactForce]) {
         self.calls += 1;
-        let ground = self.segment.ground(t, self.gravity);
+        let ground = Ground::at(&self.segment, t, self.gravity);
         // As long as a state.
         let mut slope = x.clone();
         self.mode.derivative(x, ground, &mut slope);
@@ -101,7 +101,7 @@ impl<D: Dynamics> System for Driven<D> {
     #[inline(always)]
     fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
         self.calls += 1;
-        self.mode.derivative(x, self.segment.ground(t, self.gravity), slope);
+        self.mode.derivative(x, Ground::at(&self.segment, t, self.gravity), slope);
     }
 }
 
@@ -153,7 +153,7 @@ impl<D: Dynamics, P: Pair<D::State>> Stepper<D::State> for RungeKutta<D, P> {
     }
 
     fn ground(&self, t: f64) -> Ground {
-        self.system.segment.ground(t, self.system.gravity)
+        Ground::at(&self.system.segment, t, self.system.gravity)
     }
 
     fn pendulum(&self) -> Option<Pendulum> {
@@ -314,7 +314,7 @@ impl<D: Dynamics> Stepper<D::State> for TaylorSeries<D> {
     }
 
     fn ground(&self, t: f64) -> Ground {
-        self.system.driven.segment.ground(t, self.system.driven.gravity)
+        Ground::at(&self.system.driven.segment, t, self.system.driven.gravity)
     }
 
     fn pendulum(&self) -> Option<Pendulum> {
