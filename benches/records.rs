@@ -57,8 +57,8 @@
 mod common;
 
 use rocking::dynamics::{Dynamics, Ground};
-use rocking::excitation::{Piece, Segment, TextOptions};
 use rocking::generated::{GeneratedMode, equations};
+use rocking::ground::{Piece, Segment, TextOptions};
 use rocking::ode::{
     Difference, Dop853, DormandPrince54, Interpolant, MAX_ORDER, Pair, Powers, RungeKutta4, SeriesSystem, StepControl,
     System, Taylor, Tolerance,
@@ -191,7 +191,7 @@ impl<M: Dynamics> System for PerSample<'_, M> {
     #[inline(always)]
     fn slope(&mut self, t: f64, x: &M::State, slope: &mut M::State) {
         self.calls += 1;
-        self.mode.derivative(x, self.segment.ground(t, GRAVITY), slope);
+        self.mode.derivative(x, Ground::at(&self.segment, t, GRAVITY), slope);
     }
 }
 

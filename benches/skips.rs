@@ -6,7 +6,7 @@
 
 mod common;
 
-use rocking::excitation::Synthetic;
+use rocking::ground::Synthetic;
 use rocking::{Column, Method, Motion, Record, Response, Restitution, Scene, Simulator, Skips, Wanted};
 use std::hint::black_box;
 use std::time::Instant;

@@ -46,7 +46,6 @@ pub mod contact;
 mod diagnostics;
 pub mod dynamics;
 pub mod event;
-pub mod excitation;
 pub mod few;
 pub mod generated;
 pub mod generic;
@@ -69,15 +68,13 @@ mod sine;
 pub mod sweep;
 
 pub use column::{Block, Column, ColumnError, Stack};
-pub use excitation::{Excitation, Motion, Record, RecordError};
 pub use mode::Mode;
 pub use response::{Event, EventKind, Impulse, ModeName, Response, Sample, StopReason, Work};
 pub use rocking_codegen::{GroundMotion, pattern};
+pub use rocking_ground as ground;
+pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordError};
 pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, Skips, SolveOptions, Wanted};
 
 pub use scene_file::SceneFileError;
 pub use simulate::{Simulator, SolveError, simulate, simulate_observed};
 pub use sweep::Sweep;
-
-/// Gravity where a scene does not say otherwise `[m/s²]`.
-pub const DEFAULT_GRAVITY: f64 = 9.81;

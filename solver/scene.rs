@@ -1,9 +1,9 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
 use crate::column::Column;
-use crate::excitation::Excitation;
 use crate::few::Few;
 use crate::generated::Equations;
+use rocking_ground::Excitation;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 

@@ -165,7 +165,7 @@ fn alone(mode: &Mode, x: &[f64], motion: &Motion, times: &[f64]) -> Vec<Vec<f64>
         stops.extend(inside.iter().filter(|t| **t > from));
         stops.push(segment.end);
         let tolerance = Tolerance { rtol: 1e-13, atol: 1e-16 };
-        let found = mode.integrate(&x, |t| segment.ground(t, 9.81), &stops, tolerance).expect("smooth");
+        let found = mode.integrate(&x, |t| Ground::at(&segment, t, 9.81), &stops, tolerance).expect("smooth");
         states.extend(inside.iter().map(|t| found[stops.iter().position(|stop| stop == t).expect("a stop")].clone()));
         x.clone_from(&found[stops.len() - 1]);
         from = segment.end;

@@ -104,8 +104,8 @@ fn every_record_beside_the_project_has_its_peak() {
     ];
     for (name, peak) in peaks {
         let text = std::fs::read_to_string(folder.join(name)).expect("readable");
-        let units = name.ends_with(".txt").then_some(rocking::excitation::AccelerationUnit::G);
-        let options = rocking::excitation::TextOptions { units, ..Default::default() };
+        let units = name.ends_with(".txt").then_some(rocking::ground::AccelerationUnit::G);
+        let options = rocking::ground::TextOptions { units, ..Default::default() };
         let record = Record::from_text(&text, options).expect("valid");
         assert!((record.peak() / 9.81 - peak).abs() < 5e-5, "{name}: {}", record.peak() / 9.81);
     }

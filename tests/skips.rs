@@ -60,7 +60,7 @@ fn formulas_give_what_steps_give() {
 
 /// One block on filtered noise of many kinds: sizes, slendernesses, sampling intervals, strengths, frequencies and starts.
 fn on_noise(seed: u64) -> Scene {
-    use rocking::excitation::Synthetic;
+    use rocking::ground::Synthetic;
     use rocking::{Column, Motion};
     let of = |count: u64| (seed / count % 4) as f64;
     let size = 0.3 * 1.6f64.powf(of(1));

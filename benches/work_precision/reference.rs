@@ -18,7 +18,7 @@
 use crate::double::{Double, ZERO};
 use crate::impact;
 use crate::series::{Mode, Series, expand};
-use rocking::excitation::Segment;
+use rocking::ground::Segment;
 use rocking::pattern::Pattern;
 use rocking::program::Scalar;
 use rocking::{Event, EventKind, Excitation, Method, Response, Scene, StopReason, simulate};

@@ -67,7 +67,7 @@ fn record() -> Scene {
     let blocks = vec![Block::rectangle(0.45, 1.1, 2700.0), Block::rectangle(0.4, 1.0, 2700.0)];
     let mut scene = Scene::new(Column::new(blocks, 9.81).expect("a valid column"));
     let text = include_str!("../../scenes/records/synthetic.AT2");
-    let record = Record::from_text(text, rocking::excitation::TextOptions::default()).expect("a valid record");
+    let record = Record::from_text(text, rocking::ground::TextOptions::default()).expect("a valid record");
     scene.excitation.horizontal = Some(Motion::Record(record));
     until(scene, 20.0, 1.0)
 }

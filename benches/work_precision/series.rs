@@ -11,8 +11,8 @@
 //! `C[k]` and `S[k]` contain `θ̈[k]` by way of `c[k+2]` and `s[k+2]`; its share there is what makes `M` of the left-hand side.
 
 use crate::double::{Double, ZERO};
-use rocking::excitation::{Piece, Segment};
 use rocking::generated::{equations, geometry};
+use rocking::ground::{Piece, Segment};
 use rocking::pattern::Pattern;
 use rocking::program::{EnergyProgram, Geometry, InterfaceEquations, Scalar, SeriesProgram, StepProgram, split};
 use rocking::{Column, GroundMotion};

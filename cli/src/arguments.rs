@@ -3,7 +3,7 @@
 use crate::commands::sweep::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use rocking::excitation::AccelerationUnit;
+use rocking::ground::AccelerationUnit;
 use std::path::{Path, PathBuf};
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.

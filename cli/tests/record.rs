@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 
 fn fixture(name: &str) -> String {
-    root().join("tests/records").join(name).display().to_string()
+    root().join("ground/tests/records").join(name).display().to_string()
 }
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {

@@ -99,7 +99,7 @@ impl<D: Dynamics> Driven<D> {
 
     #[inline(always)]
     fn ground(&self, t: f64) -> Ground {
-        Ground::of(&self.segment, t, self.gravity)
+        Ground::at(&self.segment, t, self.gravity)
     }
 
     #[inline(always)]
@@ -126,7 +126,7 @@ impl<D: Dynamics> System for Driven<D> {
     #[inline(always)]
     fn slope(&mut self, t: f64, x: &D::State, slope: &mut D::State) {
         self.calls += 1;
-        self.mode.derivative(x, Ground::of(&self.segment, t, self.gravity), slope);
+        self.mode.derivative(x, Ground::at(&self.segment, t, self.gravity), slope);
     }
 }
 

@@ -258,10 +258,10 @@ mod tests {
     use super::*;
     use crate::column::Block;
     use crate::dynamics::{ContactForce, Interfaces};
-    use crate::excitation::{Piece, Segment};
     use crate::generic::GenericMode;
     use crate::ode::Tolerance;
     use rocking_codegen::pattern::modes;
+    use rocking_ground::{Piece, Segment};
     use std::rc::Rc;
 
     const TOLERANCE: Tolerance = Tolerance { rtol: 1e-14, atol: 1e-16 };

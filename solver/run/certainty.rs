@@ -79,10 +79,10 @@
 //! Several blocks have no such proof: their impacts may take any part of the energy that they have.
 
 use crate::column::Column;
-use crate::excitation::Foresight;
 use crate::few::Few;
 use crate::kinematics::Turn;
 use crate::scene::Scene;
+use rocking_ground::Lookahead;
 use std::f64::consts::FRAC_PI_2;
 
 /// What keeps a column from overturning.
@@ -122,8 +122,8 @@ impl Prospects {
     }
 
     /// What must be known of the ground motion to come.
-    pub fn foresight(&self) -> Foresight {
-        Foresight { impulses: true, decay: self.growth }
+    pub fn foresight(&self) -> Lookahead {
+        Lookahead { impulses: true, decay: self.growth }
     }
 
     /// Potential energy above rest `[J]` of blocks turned like this, base first: `V`, term by term, as a difference of the energies

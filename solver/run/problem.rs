@@ -76,7 +76,7 @@ impl<'a> Problem<'a> {
 
     /// Ground motion at an instant, seen from what follows it.
     pub fn ground_at(&self, segment: usize, t: f64) -> Ground {
-        Ground::of(&self.ground[segment], t, self.scene.column.gravity())
+        Ground::at(&self.ground[segment], t, self.scene.column.gravity())
     }
 
     /// Whether rows, events, peaks, forces and times in modes are recorded, not only the outcome.

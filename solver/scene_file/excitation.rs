@@ -3,8 +3,8 @@
 use super::table::{Table, Wrong};
 use super::{Reader, SceneFileError};
 use crate::column::Column;
-use crate::excitation::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};
 use crate::scene::LARGEST;
+use rocking_ground::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -196,7 +196,7 @@ impl Reader<'_> {
             record: path.clone(),
             problem,
         };
-        let bytes = std::fs::read(&path)
+        let bytes = rocking_ground::read_file(&path)
             .map_err(|error| refuse(format!("{error}; give the path relative to the scene file")))?;
         let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
         if let Some(records) = self.records {

@@ -3,8 +3,8 @@
 use super::excitation::set_amplitude;
 use super::table::{Cause, Table, Wrong};
 use super::{Reader, SceneFileError};
-use crate::excitation::Record;
 use crate::scene::Scene;
+use rocking_ground::Record;
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};

@@ -5,7 +5,7 @@
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
 use rocking::dynamics::Ground;
-use rocking::excitation::Segment;
+use rocking::ground::Segment;
 use rocking::ode::Tolerance;
 use rocking::pattern::Pattern;
 use rocking::{Column, EventKind, Excitation, Mode, Response, Scene};
@@ -118,7 +118,7 @@ fn phase(
         if times.windows(2).any(|pair| pair[1] <= pair[0]) {
             continue;
         }
-        let ground = |t: f64| segment.ground(t, column.gravity());
+        let ground = |t: f64| Ground::at(segment, t, column.gravity());
         let Some(states) = mode.integrate(&x, ground, &times, tolerance) else {
             found.state.lower(f64::NEG_INFINITY, from);
             return;

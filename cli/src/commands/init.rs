@@ -3,7 +3,7 @@
 use crate::commands::print;
 use crate::error::Failure;
 use crate::output;
-use rocking::excitation::{RecordFile, TextOptions};
+use rocking::ground::{RecordFile, TextOptions, read_file};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -49,7 +49,7 @@ struct Shaking {
 impl Shaking {
     fn new(file: &Path, record: &Path) -> Result<Shaking, Failure> {
         let failed = |error: std::io::Error| Failure::RecordFile { path: record.into(), problem: error.to_string() };
-        let bytes = std::fs::read(record).map_err(failed)?;
+        let bytes = read_file(record).map_err(failed)?;
         let found = std::fs::canonicalize(record).map_err(failed)?;
         let folder = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());

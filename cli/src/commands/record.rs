@@ -5,7 +5,7 @@ use crate::commands::{json, print, records};
 use crate::error::{Failure, with_dashes};
 use crate::number::significant;
 use crate::{output, plot};
-use rocking::excitation::{Measures, RecordFile, TextOptions};
+use rocking::ground::{Measures, RecordFile, TextOptions, read_file};
 use rocking::{DEFAULT_GRAVITY, Record, RecordError};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -141,7 +141,7 @@ impl Problem {
 }
 
 pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
-    let bytes = std::fs::read(path).map_err(Problem::System)?;
+    let bytes = read_file(path).map_err(Problem::System)?;
     RecordFile::read(&bytes, options).map_err(Problem::Content)
 }
 
@@ -149,13 +149,13 @@ pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
 #[derive(Debug, Serialize)]
 pub struct Told {
     pub file: PathBuf,
-    pub format: rocking::excitation::Format,
+    pub format: rocking::ground::Format,
     pub title: String,
     pub station: String,
     pub component: String,
     pub channels: Vec<String>,
     /// Of the accelerations in the file.
-    pub unit: rocking::excitation::AccelerationUnit,
+    pub unit: rocking::ground::AccelerationUnit,
     /// Samples that the header declares.
     pub declared: Option<usize>,
     /// Peak that the header states `[m/s²]`.

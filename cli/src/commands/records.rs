@@ -9,7 +9,7 @@ use crate::commands::{json, print};
 use crate::error::Failure;
 use crate::number::significant;
 use rocking::RecordError;
-use rocking::excitation::TextOptions;
+use rocking::ground::TextOptions;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

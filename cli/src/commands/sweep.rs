@@ -200,7 +200,7 @@ fn fingerprint(sweep: &Sweep, range: &Range<usize>, file: &Path) -> Result<u64, 
     }
     // Another record of the same name gives other rows.
     for record in records(sweep) {
-        hash.add(&std::fs::read(record).unwrap_or_default());
+        hash.add(&rocking::ground::read_file(record).unwrap_or_default());
     }
     Ok(hash.0)
 }

@@ -11,7 +11,7 @@ use crate::peers::block::{Block, Shaking};
 use crate::peers::python::Python;
 use crate::peers::{crate_differential_equations as de, crate_ode_solvers as os, henon, rk4};
 use crate::report;
-use rocking::excitation::Synthetic;
+use rocking::ground::Synthetic;
 use rocking::{Column, EventKind, Motion, Scene, simulate};
 
 const HALF_WIDTH: f64 = 0.5;

@@ -9,7 +9,7 @@
 //!
 //! Nothing is corrected here: an uncorrected record drifts, and its displacement is then no ground displacement.
 
-use super::record::Record;
+use crate::record::Record;
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -109,9 +109,9 @@ impl Record {
     /// Ground velocity at the samples `[m/s]`, from rest at the first.
     ///
     /// ```
-    /// let record = rocking::Record::new(vec![1.0, 1.0, 0.0], 2.0, 0.0)?;
+    /// let record = rocking_ground::Record::new(vec![1.0, 1.0, 0.0], 2.0, 0.0)?;
     /// assert_eq!(record.velocity(), [0.0, 2.0, 3.0]);
-    /// # Ok::<(), rocking::RecordError>(())
+    /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     pub fn velocity(&self) -> Vec<f64> {
         std::iter::once(0.0).chain(self.intervals().map(|interval| interval.velocity(interval.h))).collect()

@@ -36,7 +36,7 @@ impl AccelerationUnit {
     /// The unit of this name, if there is such a one: `g`, `m/s2`, `CM/SEC**2`, `cm/s/s`, `gal`, `in/sec^2`, ...
     ///
     /// ```
-    /// use rocking::excitation::AccelerationUnit;
+    /// use rocking_ground::AccelerationUnit;
     /// assert_eq!(AccelerationUnit::parse("cm/sec/sec"), AccelerationUnit::parse("Gal"));
     /// assert_eq!(AccelerationUnit::parse("cm/s"), None);
     /// ```

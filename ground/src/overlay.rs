@@ -1,6 +1,6 @@
 //! Pieces of several motions side by side: the spans of time in which each of them has one formula.
 
-use super::piece::Piece;
+use crate::piece::Piece;
 use smallvec::{SmallVec, smallvec};
 
 /// A smooth piece and its time.

@@ -1,49 +1,51 @@
-//! Ground motion laid out in time, kept from one run to the next.
+//! A ground motion divided in time, with bounds of what is to come, kept from one run to the next.
 
-use super::push::decayed;
-use super::{Excitation, Piece, Segment};
+use crate::excitation::Excitation;
+use crate::impulse::decayed;
+use crate::piece::Piece;
+use crate::segment::Segment;
 use std::ops::Deref;
-use std::rc::Rc;
+use std::sync::Arc;
 
-/// The timeline of the last ground motion.
+/// The timeline of the last ground motion, kept for the next run: a record is divided into segments once for many runs.
 #[derive(Default)]
-pub(crate) struct Layout {
+pub struct TimelineCache {
     /// What it is of, and until when `[s]`, where it has many segments.
     of: Option<(Excitation, f64)>,
-    timeline: Rc<Timeline>,
+    timeline: Arc<Timeline>,
 }
 
-/// What a run wants to know of ground motion to come.
+/// Bounds that a [`Timeline`] is to hold of the ground motion to come.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Foresight {
-    /// Whether impulses are wanted.
+pub struct Lookahead {
+    /// Whether [`Timeline::impulse_from`] is to be known.
     pub impulses: bool,
-    /// How fast pushes lose weight, if they are wanted `[1/s]`.
+    /// Discount rate of [`Timeline::push_from`], where that is to be known `[1/s]`.
     pub decay: Option<f64>,
 }
 
 /// Segments from which on it is seen whether they are the same: fewer are laid out anew in less time.
 const MANY_SEGMENTS: usize = 16;
 
-impl Layout {
-    /// The timeline of `0 .. t_end` `[s]`, with what is to come as far as that is wanted.
-    pub fn timeline(&mut self, excitation: &Excitation, t_end: f64, foresight: Foresight) -> Rc<Timeline> {
+impl TimelineCache {
+    /// The timeline of `0 .. t_end` `[s]`, with the bounds that `lookahead` names.
+    pub fn timeline(&mut self, excitation: &Excitation, t_end: f64, lookahead: Lookahead) -> Arc<Timeline> {
         if !self.of.as_ref().is_some_and(|(own, until)| *until == t_end && own == excitation) {
-            let timeline = Rc::make_mut(&mut self.timeline);
+            let timeline = Arc::make_mut(&mut self.timeline);
             excitation.lay_out(t_end, &mut timeline.segments);
             timeline.impulses.clear();
             timeline.pushes.clear();
             timeline.note_samples();
             self.of = (timeline.segments.len() >= MANY_SEGMENTS).then(|| (excitation.clone(), t_end));
         }
-        Rc::make_mut(&mut self.timeline).look_ahead(foresight);
-        Rc::clone(&self.timeline)
+        Arc::make_mut(&mut self.timeline).look_ahead(lookahead);
+        Arc::clone(&self.timeline)
     }
 }
 
 /// Segments in order of time, without gaps.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Timeline {
+pub struct Timeline {
     segments: Vec<Segment>,
     /// Horizontal accelerations where segments begin, and where the last one ends `[m/s²]`; beside each other, not strewn over the
     /// segments.
@@ -62,6 +64,7 @@ pub(crate) struct Timeline {
 impl Deref for Timeline {
     type Target = [Segment];
 
+    #[inline]
     fn deref(&self) -> &[Segment] {
         &self.segments
     }
@@ -73,6 +76,7 @@ const UNEVEN: f64 = 1e-9;
 impl Timeline {
     /// Horizontal accelerations from the start of a segment on, at the bounds of up to so many, as long as they are a record of equal
     /// intervals with nothing vertical beside it; one at most, if it is none.
+    #[inline]
     pub fn samples(&self, first: usize, most: usize) -> &[f64] {
         let until = self.goes_on_until.get(first).map_or(first, |until| (*until).min(first + most));
         self.accelerations.get(first..=until).unwrap_or_default()
@@ -110,7 +114,7 @@ impl Timeline {
     }
 
     /// Notes what is to come after each segment, unless that is known.
-    fn look_ahead(&mut self, Foresight { impulses, decay }: Foresight) {
+    fn look_ahead(&mut self, Lookahead { impulses, decay }: Lookahead) {
         if impulses && self.impulses.is_empty() {
             self.impulses.resize(self.segments.len(), 0.0);
             for (index, Segment { start, end, horizontal, vertical, .. }) in
@@ -160,7 +164,7 @@ impl Timeline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::excitation::{Motion, Record};
+    use crate::{Motion, Record};
 
     #[test]
     fn what_is_to_come_is_bounded_and_the_bound_is_met() {
@@ -168,10 +172,10 @@ mod tests {
         let record = Motion::Record(Record::new(values, 0.1, 0.0).expect("valid"));
         let pulse = Motion::SinePulse { amplitude: 7.0, omega: 3.0, start: 3.95 };
         let both = Motion::Sum { terms: vec![record, pulse] };
-        let (mut layout, decay) = (Layout::default(), 1.3);
+        let (mut cache, decay) = (TimelineCache::default(), 1.3);
         let mut foreseen = |vertical: Option<Motion>| {
             let excitation = Excitation { horizontal: Some(both.clone()), vertical };
-            layout.timeline(&excitation, 8.0, Foresight { impulses: true, decay: Some(decay) })
+            cache.timeline(&excitation, 8.0, Lookahead { impulses: true, decay: Some(decay) })
         };
         let timeline = foreseen(None);
         assert!(timeline.len() > 40);
@@ -211,9 +215,9 @@ mod tests {
         let values: Vec<f64> = (1..=30).map(f64::from).collect();
         let record = Motion::Record(Record::new(values.clone(), 0.1, 0.05).expect("valid"));
         let push = Motion::Rectangular { amplitude: 2.0, start: 1.05, duration: 0.9 };
-        let mut layout = Layout::default();
+        let mut cache = TimelineCache::default();
         let alone = Excitation { horizontal: Some(record.clone()), vertical: None };
-        let timeline = layout.timeline(&alone, 5.0, Foresight::default());
+        let timeline = cache.timeline(&alone, 5.0, Lookahead::default());
         assert_eq!(timeline.samples(0, 4), [0.0], "before it begins");
         let first: Vec<f64> = timeline.samples(1, 4).to_vec();
         assert!(first.iter().zip(&values).all(|(a, b)| (a - b).abs() < 1e-12) && first.len() == 5, "{first:?}");
@@ -224,14 +228,14 @@ mod tests {
             (1, 1, 0)
         );
         let both = Excitation { horizontal: Some(Motion::Sum { terms: vec![record.clone(), push] }), vertical: None };
-        let timeline = layout.timeline(&both, 5.0, Foresight::default());
+        let timeline = cache.timeline(&both, 5.0, Lookahead::default());
         // It jumps at the eleventh sample, and at the twentieth.
         assert_eq!([1, 5, 10, 11, 19, 20].map(|first: usize| timeline.samples(first, 100).len()), [10, 6, 1, 9, 1, 10]);
         let lifted = Excitation {
             horizontal: Some(record),
             vertical: Some(Motion::Rectangular { amplitude: 1.0, start: 0.0, duration: 9.0 }),
         };
-        let timeline = layout.timeline(&lifted, 5.0, Foresight::default());
+        let timeline = cache.timeline(&lifted, 5.0, Lookahead::default());
         assert!((0..timeline.len()).all(|first| timeline.samples(first, 100).is_empty()), "none is a record alone");
     }
 }

@@ -1,12 +1,11 @@
 //! Record files of every known format are understood as their layouts say, in all their variants, or refused with a place and
 //! a remedy; no bytes make the readers panic.
 //!
-//! `tests/records/` holds one invented motion, `motion.csv`, written in every format. A file must give that motion within half a
+//! `ground/tests/records/` holds one invented motion, `motion.csv`, written in every format. A file must give that motion within half a
 //! unit of the last digit that it prints.
 
 use proptest::prelude::*;
-use rocking::excitation::{AccelerationUnit, Format, RecordFile, TextOptions};
-use rocking::{Record, RecordError};
+use rocking_ground::{AccelerationUnit, Format, Record, RecordError, RecordFile, TextOptions};
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -584,7 +583,7 @@ fn exponents_of_three_digits_need_no_letter() {
 
 #[test]
 fn every_record_beside_the_project_has_the_peak_of_its_readme() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/records");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/records");
     let Ok(readme) = std::fs::read_to_string(folder.join("README.md")) else {
         println!("skipped: {} is not there", folder.display());
         return;
@@ -616,7 +615,7 @@ fn every_record_beside_the_project_has_the_peak_of_its_readme() {
 fn a_record_remembers_its_origin_where_a_run_is_described() {
     let record = read("dyna/XX.MIB..HNE.D.64.ASC", &options()).into_record().expect("valid");
     let record = record.named("XX.MIB..HNE.D.64.ASC").scaled(2.0).expect("finite");
-    let json = serde_json::to_value(rocking::Motion::Record(record)).expect("described");
+    let json = serde_json::to_value(rocking_ground::Motion::Record(record)).expect("described");
     assert_eq!(json["kind"], "record");
     assert_eq!((&json["samples"], &json["scale"], &json["component"]), (&42.into(), &2.0.into(), &"HNE".into()));
     assert_eq!((&json["file"], &json["station"]), (&"XX.MIB..HNE.D.64.ASC".into(), &"XX.MIB (MILL_BRIDGE)".into()));

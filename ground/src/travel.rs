@@ -1,13 +1,13 @@
 //! Where the ground goes: velocity and displacement of a ground motion, piece by piece in closed form.
 
-use super::motion::Motion;
-use super::piece::Piece;
+use crate::motion::Motion;
+use crate::piece::Piece;
 
 impl Motion {
     /// Velocity and displacement of the ground at `t` `[m/s]`, `[m]`: the acceleration integrated from a ground at rest.
     ///
     /// ```
-    /// use rocking::Motion;
+    /// use rocking_ground::Motion;
     /// let pulse = Motion::SinePulse { amplitude: 2.0, omega: 4.0, start: 1.0 };
     /// let [velocity, displacement] = pulse.travel(pulse.end().unwrap());
     /// assert!(velocity.abs() < 1e-14);
@@ -74,8 +74,8 @@ impl Travel {
 
 #[cfg(test)]
 mod tests {
-    use super::super::motion::tests::kinds;
     use super::*;
+    use crate::motion::tests::kinds;
     use std::f64::consts::{PI, TAU};
 
     /// Velocity and displacement are integrals: Gauss's rule with three places on small panels between break points.

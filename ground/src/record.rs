@@ -1,9 +1,9 @@
 //! Sampled ground motion: a validated series, linear between samples.
 
-use super::formats::RecordFile;
-use super::overlay::Span;
-use super::piece::Piece;
-use super::unit::AccelerationUnit;
+use crate::formats::RecordFile;
+use crate::overlay::Span;
+use crate::piece::Piece;
+use crate::unit::AccelerationUnit;
 use serde::Serialize;
 use serde::ser::SerializeStruct;
 use std::ops::Deref;
@@ -335,7 +335,7 @@ impl Record {
 
     /// The record with what is known of its origin, and what the user should know of it.
     #[must_use]
-    pub(super) fn with_source(self, source: Source, warnings: Vec<String>) -> Record {
+    pub(crate) fn with_source(self, source: Source, warnings: Vec<String>) -> Record {
         Record { source, warnings, ..self }
     }
 
@@ -411,9 +411,9 @@ impl Record {
     /// [`RecordError::TooShort`] if fewer than two samples are left.
     ///
     /// ```
-    /// let record = rocking::Record::new(vec![0.0, 1.0, 2.0, 3.0, 4.0], 0.1, 0.0)?;
+    /// let record = rocking_ground::Record::new(vec![0.0, 1.0, 2.0, 3.0, 4.0], 0.1, 0.0)?;
     /// assert_eq!(record.trimmed(0.1, 0.3)?.accel(), [1.0, 2.0, 3.0]);
-    /// # Ok::<(), rocking::RecordError>(())
+    /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     pub fn trimmed(self, from: f64, to: f64) -> Result<Record, RecordError> {
         let inside = |sample: usize| {
@@ -451,7 +451,7 @@ impl Record {
         self.start + sample as f64 * self.dt
     }
 
-    pub(super) fn pieces(&self) -> impl Iterator<Item = Span> {
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = Span> {
         self.accel.windows(2).enumerate().map(|(index, pair)| {
             let (start, end) = (self.time(index), self.time(index + 1));
             let piece = match pair {
@@ -464,7 +464,7 @@ impl Record {
     }
 
     /// Acceleration at `t [s]`, `[m/s²]`.
-    pub(super) fn value(&self, t: f64) -> f64 {
+    pub(crate) fn value(&self, t: f64) -> f64 {
         let place = (t - self.start) / self.dt;
         let last = (self.accel.len() - 1) as f64;
         if !(0.0..last).contains(&place) {

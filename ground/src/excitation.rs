@@ -1,31 +1,9 @@
-//! Ground motion: what shakes the column, horizontally and vertically.
-//!
-//! A [`Motion`] is given as data; [`Excitation::segments`] lays both components out in time as smooth pieces with known ends,
-//! so that the integrator never steps across a kink or a jump and evaluates one formula without asking for the time.
+//! Both components of a ground motion, and their division into smooth segments.
 
-mod formats;
-mod layout;
-mod measures;
-mod motion;
-mod overlay;
-mod piece;
-mod push;
-mod record;
-mod synthetic;
-mod travel;
-mod unit;
-
-pub use formats::{Format, RecordFile};
-pub(crate) use layout::{Foresight, Layout, Timeline};
-pub use measures::Measures;
-pub use motion::Motion;
-pub use piece::Piece;
-pub use record::{Record, RecordError, Source, TextOptions};
-pub use synthetic::Synthetic;
-pub use unit::AccelerationUnit;
-
-use crate::dynamics::Ground;
-use overlay::{lay_out, overlay};
+use crate::motion::Motion;
+use crate::overlay::{lay_out, overlay};
+use crate::piece::Piece;
+use crate::segment::Segment;
 use serde::Serialize;
 
 /// Ground motion in both directions.
@@ -35,38 +13,6 @@ pub struct Excitation {
     pub horizontal: Option<Motion>,
     /// Vertical, positive upwards.
     pub vertical: Option<Motion>,
-}
-
-/// A span of time in which both components are smooth.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Segment {
-    /// `[s]`
-    pub start: f64,
-    /// `[s]`
-    pub end: f64,
-    /// Horizontal ground acceleration.
-    pub horizontal: Piece,
-    /// Vertical ground acceleration.
-    pub vertical: Piece,
-    /// Whether the acceleration jumps at `start`; otherwise it has a kink at most.
-    pub jumps: bool,
-}
-
-impl Segment {
-    /// A ground that does not move, at no particular time.
-    pub const QUIET: Segment =
-        Segment { start: 0.0, end: 0.0, horizontal: Piece::Zero, vertical: Piece::Zero, jumps: false };
-
-    /// Ground motion at `t` with gravity `[m/s²]` added.
-    #[inline(always)]
-    pub fn ground(&self, t: f64, gravity: f64) -> Ground {
-        Ground { x: self.horizontal.value(t), gravity: gravity + self.vertical.value(t) }
-    }
-
-    /// Whether nothing moves in it.
-    pub fn is_quiet(&self) -> bool {
-        self.horizontal == Piece::Zero && self.vertical == Piece::Zero
-    }
 }
 
 impl Excitation {
@@ -93,7 +39,7 @@ impl Excitation {
     }
 
     /// The same, in place of what was there.
-    fn lay_out(&self, t_end: f64, segments: &mut Vec<Segment>) {
+    pub(crate) fn lay_out(&self, t_end: f64, segments: &mut Vec<Segment>) {
         let room = |motion: &Option<Motion>| match motion {
             Some(Motion::Record(record)) => record.accel().len(),
             _ => 2,
@@ -140,7 +86,7 @@ mod tests {
         assert_eq!(spans, [(0.0, 0.5), (0.5, 1.5), (1.5, 4.0)]);
         assert!(segments.iter().all(|segment| !segment.jumps));
         assert!(segments[0].is_quiet() && segments[2].is_quiet());
-        assert!((segments[1].ground(0.75, 9.81).x - 2.0).abs() < 1e-15);
+        assert!((segments[1].accelerations(0.75)[0] - 2.0).abs() < 1e-15);
     }
 
     #[test]

@@ -1,7 +1,5 @@
 //! One smooth stretch of ground acceleration.
 
-use crate::lanes::Lanes;
-use crate::program::Scalar;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -132,30 +130,6 @@ impl Piece {
         }
     }
 
-    /// Accelerations at several instants, `offsets` after `t` `[m/s²]`.
-    #[inline(always)]
-    pub fn values<const W: usize>(&self, t: f64, offsets: Lanes<W>) -> Lanes<W> {
-        let splat = Lanes::<W>::from_f64;
-        match *self {
-            Piece::Zero => splat(0.0),
-            Piece::Linear { slope, .. } => splat(self.value(t)) + splat(slope) * offsets,
-            Piece::Sine { amplitude, omega, start, phase } => {
-                let (sin, cos) = libm::sincos(omega * (t - start) + phase);
-                splat(amplitude) * turned(sin, cos, splat(omega) * offsets)
-            }
-            Piece::Cosine { amplitude, omega, start } => {
-                let (sin, cos) = libm::sincos(omega * (t - start));
-                splat(amplitude) * turned(cos, -sin, splat(omega) * offsets)
-            }
-            _ => self.values_one_by_one(t, offsets),
-        }
-    }
-
-    fn values_one_by_one<const W: usize>(&self, t: f64, mut offsets: Lanes<W>) -> Lanes<W> {
-        offsets.0.iter_mut().for_each(|offset| *offset = self.value(t + *offset));
-        offsets
-    }
-
     /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
     pub fn expand_at(&self, t: f64, coefficients: &mut [f64]) {
         coefficients.fill(0.0);
@@ -211,6 +185,7 @@ impl Piece {
     }
 
     /// Acceleration `[m/s²]` at `t` and its rate `[m/s³]`.
+    #[inline]
     pub fn with_rate(&self, t: f64) -> (f64, f64) {
         match *self {
             Piece::Sine { amplitude, omega, start, phase } => {
@@ -297,6 +272,7 @@ impl Piece {
     }
 
     /// How fast it changes `[rad/s]`: the angular frequency where there is one, zero where nothing oscillates.
+    #[inline]
     pub fn omega(&self) -> f64 {
         match *self {
             Piece::Zero | Piece::Linear { .. } => 0.0,
@@ -360,18 +336,6 @@ impl Piece {
             Piece::Sum(ref terms) => terms.iter().map(Piece::size).sum(),
         }
     }
-}
-
-/// `sin (x + angle)` of sine and cosine of `x`. Half a turn is four times what polynomials reach: their quarter is doubled twice.
-#[inline(always)]
-fn turned<const W: usize>(sin: f64, cos: f64, angle: Lanes<W>) -> Lanes<W> {
-    let splat = Lanes::<W>::from_f64;
-    let (mut of_sin, mut of_cos) = (splat(0.25) * angle).sin_cos();
-    for _ in 0..2 {
-        let twice = of_sin + of_sin;
-        (of_sin, of_cos) = (twice * of_cos, splat(1.0) - twice * of_sin);
-    }
-    splat(sin) * of_cos + splat(cos) * of_sin
 }
 
 /// Whether accelerations differ by more than rounding at this scale.
@@ -466,14 +430,6 @@ mod tests {
             // 0.3^20 / 20! and, for the Ricker pulse, 0.3^20 / 10!: below rounding of the amplitude.
             assert!((sum - piece.value(t + at)).abs() < 1e-14, "{piece:?}");
             assert!((coefficients[1] - piece.rate(t)).abs() < 1e-14, "{piece:?}");
-            // Within what polynomials reach, at four times that, and beyond.
-            for reach in [0.3, 1.0, 3.0] {
-                let offsets = Lanes([0.0, 0.1, 0.4, 1.0].map(|share| share * reach));
-                let values = piece.values(t, offsets).0;
-                for (value, offset) in values.iter().zip(offsets.0) {
-                    assert!((value - piece.value(t + offset)).abs() < 1e-14, "{piece:?} {offset}");
-                }
-            }
             let bend = (piece.rate(t + d) - piece.rate(t - d)) / (2.0 * d);
             assert!(bend.abs() <= piece.curvature_bound() + 1e-6, "{piece:?}");
         }

@@ -1,10 +1,10 @@
 //! How hard the ground pushes: what its acceleration comes to over a time, where the motion itself does not matter.
 
-use super::piece::Piece;
+use crate::piece::Piece;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
 
 /// An upper bound of `exp(-x)`, `x >= 0`, that is close: a quotient where that is short.
-pub(super) fn decayed(x: f64) -> f64 {
+pub(crate) fn decayed(x: f64) -> f64 {
     if x < 0.1 { 1.0 / (1.0 + x * (1.0 + 0.5 * x)) } else { libm::exp(-x) }
 }
 

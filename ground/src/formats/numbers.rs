@@ -4,7 +4,7 @@
 //! of their columns, which a Fortran format in the file or the format's description gives. The columns also tell where a file
 //! that is cut off ends within a number: what is left of it may read as another one. Nothing here knows a file format.
 
-use crate::excitation::RecordError;
+use crate::RecordError;
 
 /// What stands between two numbers of a row.
 pub fn separator(c: char) -> bool {

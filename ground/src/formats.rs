@@ -11,8 +11,8 @@ mod numbers;
 mod peer;
 mod table;
 
-use super::record::{Record, RecordError, Source, TextOptions};
-use super::unit::AccelerationUnit;
+use crate::record::{Record, RecordError, Source, TextOptions};
+use crate::unit::AccelerationUnit;
 use serde::Serialize;
 use std::fmt;
 
@@ -81,11 +81,11 @@ impl RecordFile {
     /// [`RecordError`], with line and column where there is one.
     ///
     /// ```
-    /// use rocking::excitation::{Format, RecordFile, TextOptions};
+    /// use rocking_ground::{Format, RecordFile, TextOptions};
     /// let text = b"t [s], a [m/s2]\n0, 0.5\n0.02, -1.5\n0.04, 0.25\n";
     /// let file = RecordFile::read(text, &TextOptions::default())?;
     /// assert_eq!((file.format, file.dt, file.accel), (Format::Table, 0.02, vec![0.5, -1.5, 0.25]));
-    /// # Ok::<(), rocking::RecordError>(())
+    /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     pub fn read(bytes: &[u8], options: &TextOptions) -> Result<RecordFile, RecordError> {
         let text = decode(bytes)?;

@@ -17,7 +17,7 @@ use super::{
     Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
     peak_warning, positive_dt, tidy, whole_count,
 };
-use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+use crate::{AccelerationUnit, RecordError, TextOptions};
 
 /// Lines of reals before the samples, and their columns.
 const REALS: (usize, Layout) = (13, Layout { per_row: 8, width: 10 });

@@ -16,7 +16,7 @@ use super::numbers::{Block, is_text, words};
 use super::{
     Format, RecordFile, agreed_dt, agreed_unit, brief, largest, leading_number, positive_dt, tidy, whole_count,
 };
-use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+use crate::{AccelerationUnit, RecordError, TextOptions};
 
 /// Lines among which the keys are sought.
 const HEADER_LINES: usize = 200;

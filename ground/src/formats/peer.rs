@@ -13,7 +13,7 @@
 
 use super::numbers::{Block, Layout, is_text, number, words};
 use super::{Format, RecordFile, agreed_dt, agreed_unit, brief, largest, number_after, positive_dt, tidy, whole_count};
-use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+use crate::{AccelerationUnit, RecordError, TextOptions};
 
 /// The line with count and interval is sought among the first ones only.
 const HEADER_LINES: usize = 10;

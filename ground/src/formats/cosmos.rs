@@ -22,7 +22,7 @@ use super::{
     Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
     peak_warning, positive_dt, tidy, whole_count,
 };
-use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+use crate::{AccelerationUnit, RecordError, TextOptions};
 
 /// The unit among the integers: its place in the format's table, and one less where somebody counted from 1. What stands there
 /// otherwise, 1 for accelerations, is no unit of theirs.

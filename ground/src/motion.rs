@@ -7,9 +7,9 @@
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
 //! (their pulse, and Gabor's wavelet beside it).
 
-use super::overlay::{Span, Spans, overlay};
-use super::piece::Piece;
-use super::record::Record;
+use crate::overlay::{Span, Spans, overlay};
+use crate::piece::Piece;
+use crate::record::Record;
 use serde::Serialize;
 use smallvec::smallvec;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
@@ -162,7 +162,7 @@ pub enum Motion {
 }
 
 /// Half-length of a symmetric Ricker wavelet in `u`.
-pub(super) const RICKER_REACH: f64 = 6.0;
+pub(crate) const RICKER_REACH: f64 = 6.0;
 
 /// Half-length of an antisymmetric Ricker wavelet in `u`.
 const ANTISYMMETRIC_REACH: f64 = 6.5;
@@ -178,7 +178,7 @@ enum Range {
 
 impl Motion {
     /// The smooth pieces in order of time, without overlap; nothing moves outside them.
-    pub(super) fn pieces(&self) -> Spans {
+    pub(crate) fn pieces(&self) -> Spans {
         let span = |start: f64, duration: f64, piece: Piece| Span { start, end: start + duration, piece };
         let sine = |start: f64, duration: f64, [amplitude, omega, phase]: [f64; 3]| {
             span(start, duration, Piece::Sine { amplitude, omega, start, phase })
@@ -370,7 +370,7 @@ fn phase_of_type_c(cycles: u32) -> f64 {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// One of each kind that is a formula and ends.

@@ -13,7 +13,7 @@
 
 use super::numbers::{Word, refused, split, words};
 use super::{Format, RecordFile, agreed_unit, tidy};
-use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+use crate::{AccelerationUnit, RecordError, TextOptions};
 
 /// A time column may be rounded to its last printed digit: a row may be off the grid by this share of `dt`.
 const GRID_TOLERANCE: f64 = 0.05;

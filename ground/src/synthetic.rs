@@ -11,7 +11,7 @@
 //!
 //! Both are stepped by Newmark's method with constant average acceleration. The same seed gives the same record on every machine.
 
-use super::record::{Record, RecordError, Source};
+use crate::record::{Record, RecordError, Source};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 use std::f64::consts::TAU;
@@ -55,11 +55,11 @@ impl Synthetic {
     /// The record.
     ///
     /// ```
-    /// use rocking::excitation::Synthetic;
+    /// use rocking_ground::Synthetic;
     /// let record = Synthetic { seed: 7, ..Synthetic::default() }.record()?;
     /// assert_eq!(record.accel().len(), 2001);
     /// assert!((record.peak() - 3.0).abs() < 1e-14);
-    /// # Ok::<(), rocking::RecordError>(())
+    /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     ///
     /// # Errors

@@ -19,7 +19,7 @@
 
 use super::numbers::{Block, Layout, is_text, number, split};
 use super::{Format, RecordFile, agreed_dt, agreed_unit, brief, leading_number, peak_warning, positive_dt, tidy};
-use crate::excitation::{AccelerationUnit, RecordError, TextOptions};
+use crate::{AccelerationUnit, RecordError, TextOptions};
 
 /// Lines of the header.
 const HEADER_LINES: usize = 17;

@@ -1,0 +1,60 @@
+//! The bytes of a record file, of regular files of limited size only.
+
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read, Result};
+use std::path::Path;
+
+/// Largest file that is read as a record `[bytes]`: two hours of three components at 200 Hz are 40 MiB of text. A larger file is no record,
+/// and would fill the memory.
+pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// The content of a record file.
+///
+/// # Errors
+/// What the system says of a file that cannot be read. [`ErrorKind::InvalidInput`] for what is no regular file: a folder; a device or a
+/// pipe, which may never end. [`ErrorKind::FileTooLarge`] above [`LARGEST_FILE`].
+pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
+    // Before it is opened: to open a pipe waits for its writer.
+    let metadata = std::fs::metadata(&path)?;
+    if !metadata.is_file() {
+        let kind = if metadata.is_dir() { "a folder" } else { "a device or a pipe" };
+        let text = format!("this is {kind}; a record is a regular file, write what it gives into one");
+        return Err(Error::new(ErrorKind::InvalidInput, text));
+    }
+    let mut bytes = Vec::new();
+    if metadata.len() <= LARGEST_FILE {
+        // A file may grow, or have another size than the system states.
+        File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    }
+    if metadata.len().max(bytes.len() as u64) > LARGEST_FILE {
+        let text = format!(
+            "the file has more than {} MiB, too many for a record; cut out the part with the motion",
+            LARGEST_FILE >> 20
+        );
+        return Err(Error::new(ErrorKind::FileTooLarge, text));
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_of_limited_size_are_read() {
+        let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+        assert!(read_file(manifest).expect("readable").starts_with(b"[package]"));
+        let kind = |path: &str| read_file(path).expect_err("it must be refused").kind();
+        assert_eq!(kind(env!("CARGO_MANIFEST_DIR")), ErrorKind::InvalidInput);
+        assert_eq!(kind("there is no such file"), ErrorKind::NotFound);
+        if cfg!(unix) {
+            assert_eq!(kind("/dev/zero"), ErrorKind::InvalidInput);
+        }
+        let large = std::env::temp_dir().join(format!("rocking-ground-large-{}", std::process::id()));
+        let written = File::create(&large).and_then(|file| file.set_len(LARGEST_FILE + 1));
+        let error = read_file(&large).expect_err("it must be refused");
+        std::fs::remove_file(&large).expect("it was written");
+        written.expect("a sparse file");
+        assert!(error.kind() == ErrorKind::FileTooLarge && error.to_string().contains("64 MiB"), "{error}");
+    }
+}

@@ -1,0 +1,36 @@
+//! A span of time in which both components of a ground motion are smooth.
+
+use crate::piece::Piece;
+
+/// A span of time in which both components are smooth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// `[s]`
+    pub start: f64,
+    /// `[s]`
+    pub end: f64,
+    /// Horizontal ground acceleration.
+    pub horizontal: Piece,
+    /// Vertical ground acceleration.
+    pub vertical: Piece,
+    /// Whether the acceleration jumps at `start`; otherwise it has a kink at most.
+    pub jumps: bool,
+}
+
+impl Segment {
+    /// A ground that does not move, at no particular time.
+    pub const QUIET: Segment =
+        Segment { start: 0.0, end: 0.0, horizontal: Piece::Zero, vertical: Piece::Zero, jumps: false };
+
+    /// Accelerations at `t`: horizontal and vertical `[m/s²]`.
+    #[inline(always)]
+    pub fn accelerations(&self, t: f64) -> [f64; 2] {
+        [self.horizontal.value(t), self.vertical.value(t)]
+    }
+
+    /// Whether nothing moves in it.
+    #[inline]
+    pub fn is_quiet(&self) -> bool {
+        self.horizontal == Piece::Zero && self.vertical == Piece::Zero
+    }
+}
