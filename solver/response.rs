@@ -1,7 +1,7 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
-use crate::dynamics::ContactForce;
-use crate::few::Few;
+use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::{ModeLabel, Pattern};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -55,8 +55,8 @@ pub struct Event {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that closed in the same instant, from 1, where there are several.
-    #[serde(skip_serializing_if = "Few::is_empty")]
-    pub interfaces: Few<usize>,
+    #[serde(skip_serializing_if = "is_empty")]
+    pub interfaces: PerBlock<usize>,
     /// Pattern before.
     #[serde(serialize_with = "signs")]
     pub before: Pattern,
@@ -70,17 +70,17 @@ pub struct Event {
     /// Whether the pattern after is the mirror image of the labelled mode.
     pub mirrored: bool,
     /// Angles `[rad]`, per block.
-    pub theta: Few<f64>,
+    pub theta: PerBlock<f64>,
     /// Rates before `[rad/s]`, per block.
-    pub omega_before: Few<f64>,
+    pub omega_before: PerBlock<f64>,
     /// Rates after `[rad/s]`, per block.
-    pub omega_after: Few<f64>,
+    pub omega_after: PerBlock<f64>,
     /// Kinetic energy lost over that before, 0 to 1; impacts only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_lost: Option<f64>,
     /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
-    #[serde(skip_serializing_if = "Few::is_empty")]
-    pub impulses: Few<Impulse>,
+    #[serde(skip_serializing_if = "is_empty")]
+    pub impulses: PerBlock<Impulse>,
 }
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
@@ -98,6 +98,10 @@ impl From<&ContactForce> for Impulse {
     fn from(impulse: &ContactForce) -> Impulse {
         Impulse { normal: impulse.normal, tangential: impulse.tangential, moment: impulse.moment }
     }
+}
+
+fn is_empty<T>(list: &PerBlock<T>) -> bool {
+    list.is_empty()
 }
 
 fn signs<S: serde::Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {
@@ -146,6 +150,21 @@ pub struct Work {
     pub waits: usize,
     /// Whether the run ended before its time because nothing could start it again, or its outcome was certain.
     pub ended_early: bool,
+}
+
+impl Work {
+    /// Adds the work of another part of a run.
+    pub(crate) fn add(&mut self, other: &Work) {
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+        self.repeated += other.repeated;
+        self.rhs_calls += other.rhs_calls;
+        self.force_calls += other.force_calls;
+        self.phases += other.phases;
+        self.swings += other.swings;
+        self.leaps += other.leaps;
+        self.waits += other.waits;
+    }
 }
 
 /// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
@@ -236,7 +255,7 @@ impl Response {
             warnings.push(format!(
                 "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
                  (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
-                crate::generated::MAX_BLOCKS
+                crate::mechanics::generated::MAX_BLOCKS
             ));
         }
         warnings

@@ -1,8 +1,9 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
 use crate::column::Column;
-use crate::few::Few;
-use crate::generated::Equations;
+use crate::mechanics::generated::Equations;
+pub use crate::numerics::ode::methods::Method;
+use crate::numerics::per_block::PerBlock;
 use rocking_ground::Excitation;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -23,15 +24,15 @@ pub enum Restitution {
 impl Restitution {
     /// `κ_i` per interface, base first: `eta / (1 - 2 m c_1² / I_O)`, the factors, or one.
     pub fn factors(&self, column: &Column) -> Vec<f64> {
-        self.per_interface(column).into_vec()
+        self.per_interface(column).to_vec()
     }
 
     /// The same.
-    pub(crate) fn per_interface(&self, column: &Column) -> Few<f64> {
+    pub(crate) fn per_interface(&self, column: &Column) -> PerBlock<f64> {
         match self {
-            Restitution::Plastic => Few::from_elem(1.0, column.len()),
-            Restitution::Eta(eta) => Few::from_elem(eta / column.housner_ratio(), column.len()),
-            Restitution::Factors(factors) => Few::from_slice(factors),
+            Restitution::Plastic => PerBlock::filled(1.0, column.len()),
+            Restitution::Eta(eta) => PerBlock::filled(eta / column.housner_ratio(), column.len()),
+            Restitution::Factors(factors) => PerBlock::from_slice(factors),
         }
     }
 }
@@ -43,63 +44,6 @@ pub struct Initial {
     pub theta: Vec<f64>,
     /// Rates `[rad/s]`, base first, length N; empty for zero.
     pub omega: Vec<f64>,
-}
-
-/// Integration method.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// What costs least, by the work-precision benchmark: Taylor series, closed forms where there are any, and collocation over several samples of
-    /// a record for one block. The default.
-    #[default]
-    Auto,
-    /// Order 8(5,3), dense output of order 7.
-    Dop853,
-    /// Dormand & Prince 5(4): for comparison; at tolerances above 1e-5, and under records, it comes close to Taylor series.
-    DormandPrince54,
-    /// Taylor series of an order that follows from the tolerance and the number of free angles.
-    Taylor,
-    /// Merson's method of order 4, the paper's: for comparison.
-    KuttaMerson,
-    /// The classic method of order 4 with steps of [`SolveOptions::step`]: for comparison; the tolerances do nothing.
-    RungeKutta4,
-}
-
-impl Method {
-    /// All methods.
-    pub const ALL: [Method; 6] = [
-        Method::Auto,
-        Method::Dop853,
-        Method::DormandPrince54,
-        Method::Taylor,
-        Method::KuttaMerson,
-        Method::RungeKutta4,
-    ];
-
-    /// All but the one that stands for others.
-    pub const NAMED: [Method; 5] =
-        [Method::Dop853, Method::DormandPrince54, Method::Taylor, Method::KuttaMerson, Method::RungeKutta4];
-
-    /// Those that choose their steps by the tolerance and reach any: all but those of order 4.
-    pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
-
-    /// Its name in a scene file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Auto => "auto",
-            Method::Dop853 => "dop853",
-            Method::DormandPrince54 => "dormand-prince54",
-            Method::Taylor => "taylor",
-            Method::KuttaMerson => "kutta-merson",
-            Method::RungeKutta4 => "rk4",
-        }
-    }
-
-    /// The method of this name; `dopri5` is known as well.
-    pub fn parse(name: &str) -> Option<Method> {
-        let name = if name == "dopri5" { "dormand-prince54" } else { name };
-        Method::ALL.into_iter().find(|method| method.name() == name)
-    }
 }
 
 /// Whose right-hand sides are used.
@@ -156,51 +100,6 @@ pub struct SolveOptions {
     pub record_forces: bool,
     /// What the run is to find.
     pub wanted: Wanted,
-    /// What is left out because nothing comes of it.
-    pub skips: Skips,
-}
-
-/// What a run leaves out because nothing comes of it, the answer being the same: all of it, by default. The switches are there to
-/// measure what each is worth (`cargo bench --bench skips`, `docs/skips.csv`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Skips {
-    /// Steps through phases of one free angle on a ground that does not move: these swing in closed form, to rounding. Only of
-    /// [`Method::Auto`]; a method that is named takes all its steps.
-    pub swings: bool,
-    /// Steps from sample to sample of a record: one block takes up to 32 intervals in one step, to the tolerance, and goes from sample to sample,
-    /// beside that, only where something is to be read inside. Only of [`Method::Auto`].
-    pub samples: bool,
-    /// Steps through times at rest, before the first uplift and later: the roots of the ground motion's guards are found with steps as
-    /// long as its curvature allows, and a ground that does not move is passed in one.
-    pub rests: bool,
-    /// Scene constants of modes that the run does not enter.
-    pub modes: bool,
-    /// Terms of a vertical ground motion that there is not.
-    pub vertical: bool,
-    /// Contact forces that nobody reads: where nothing is recorded, those at open interfaces, all where none is closed, and all in steps
-    /// in which no interface can open.
-    pub forces: bool,
-    /// The time after the outcome is certain, where nothing else is wanted ([`crate::outcome`]).
-    pub certainty: bool,
-}
-
-impl Skips {
-    /// Nothing is left out.
-    pub const NOTHING: Skips = Skips {
-        swings: false,
-        samples: false,
-        rests: false,
-        modes: false,
-        vertical: false,
-        forces: false,
-        certainty: false,
-    };
-}
-
-impl Default for Skips {
-    fn default() -> Skips {
-        Skips { swings: true, samples: true, rests: true, modes: true, vertical: true, forces: true, certainty: true }
-    }
 }
 
 impl Default for SolveOptions {
@@ -216,7 +115,6 @@ impl Default for SolveOptions {
             dynamics: DynamicsSource::default(),
             record_forces: true,
             wanted: Wanted::default(),
-            skips: Skips::default(),
         }
     }
 }
@@ -267,39 +165,6 @@ pub struct SceneError {
 }
 
 impl Scene {
-    /// The method that a run uses: the one that the options name; Taylor series for [`Method::Auto`].
-    pub fn method(&self) -> Method {
-        match self.options.method {
-            Method::Auto => Method::Taylor,
-            named => named,
-        }
-    }
-
-    /// Whether phases of one free angle on a ground that does not move are taken in closed form.
-    pub(crate) fn swings_in_closed_form(&self) -> bool {
-        self.options.skips.swings && self.options.method == Method::Auto
-    }
-
-    /// Whether phases of one free angle may take several samples of a record in one step.
-    pub(crate) fn leaps_over_samples(&self) -> bool {
-        self.options.skips.samples && self.options.method == Method::Auto
-    }
-
-    /// Whether the run ends as soon as what is wanted is certain.
-    pub(crate) fn ends_when_certain(&self) -> bool {
-        self.options.wanted != Wanted::Everything && self.options.skips.certainty
-    }
-
-    /// Whether the run may end as soon as it is certain that the column overturns: that of one block can be.
-    pub(crate) fn may_fall_early(&self) -> bool {
-        self.options.wanted == Wanted::Overturns && self.ends_when_certain() && self.column.len() == 1
-    }
-
-    /// Whether friction demand and normal forces are recorded.
-    pub(crate) fn records_forces(&self) -> bool {
-        self.options.record_forces && self.options.wanted == Wanted::Everything
-    }
-
     /// A scene with this column at rest, no ground motion, plastic impacts and default options.
     pub fn new(column: Column) -> Scene {
         Scene {

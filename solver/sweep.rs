@@ -9,9 +9,9 @@
 use crate::response::{ModeName, Response};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
-use crate::simulate::{Simulator, SolveError};
+use crate::run::{Simulator, SolveError};
 use rayon::prelude::*;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// A key of the scene and the values it takes.
 #[derive(Clone, Debug, PartialEq)]
@@ -210,7 +210,7 @@ impl<'s> Worker<'s> {
             }
         };
         // Read from a file, it is valid.
-        let response = self.simulator.run_valid(scene, &mut |_| {})?;
+        let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
         Ok(self.sweep.outcome(scene, &response))
     }
 }

@@ -141,10 +141,20 @@ fn hold(name: &str, lines: &[String]) {
     );
 }
 
+/// The methods in the order of the committed files.
+const METHODS: [Method; 6] = [
+    Method::Auto,
+    Method::Dop853,
+    Method::DormandPrince54,
+    Method::Taylor,
+    Method::KuttaMerson,
+    Method::RungeKutta4,
+];
+
 /// Every method and both sources of equations.
 fn variants(name: &str, scene: &Scene) -> Vec<(String, Scene)> {
     let mut variants = Vec::new();
-    for method in Method::ALL {
+    for method in METHODS {
         for dynamics in [DynamicsSource::Generated, DynamicsSource::Generic] {
             let mut scene = scene.clone();
             (scene.options.method, scene.options.dynamics) = (method, dynamics);
@@ -219,7 +229,7 @@ fn reference_runs_give_what_they_gave() {
 fn random_scenes_give_what_they_gave() {
     let scene = |seed: u64| {
         let mut scene = stress::scene(seed);
-        scene.options.method = Method::ALL[(seed % 6) as usize];
+        scene.options.method = METHODS[(seed % 6) as usize];
         // The fixed step of the classic method: of the size of the others' steps.
         scene.options.step = 1e-3 * scene.options.t_end;
         (format!("{seed} {}", scene.options.method.name()), scene)

@@ -1,7 +1,7 @@
 //! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
 
 use super::decision::Decision;
-use super::instant::{Instant, SingularMass, accelerate, largest, may_open, relative, verge_acceleration};
+use super::instant::{Instant, Mechanism, SingularMass, accelerate, may_open, relative, verge_acceleration};
 use super::search::ContactProblem;
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;

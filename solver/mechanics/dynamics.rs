@@ -4,61 +4,8 @@
 //! contact forces of a mode come either from generated code ([`crate::generated`]) or from hand-written code for any number
 //! of blocks ([`crate::generic`]); the integrator is compiled once for each number of degrees of freedom.
 
-<<<<<<< HEAD:solver/mechanics/dynamics.rs
 pub use crate::numerics::state_vector::StateVector;
 use rocking_ground::Segment;
-=======
-use crate::ode::{AtNodes, NODES, States};
-use rocking_ground::Segment;
-
-/// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
-pub trait StateVector: Clone {
-    /// As many things of another kind.
-    type Of<T: Clone>: AsRef<[T]> + AsMut<[T]> + Clone;
-
-    /// The components.
-    fn as_slice(&self) -> &[f64];
-    /// The components, to be written.
-    fn as_mut_slice(&mut self) -> &mut [f64];
-    /// One thing for each component.
-    fn each<T: Clone>(&self, fill: T) -> Self::Of<T>;
-}
-
-impl<const D: usize> StateVector for [f64; D] {
-    type Of<T: Clone> = [T; D];
-
-    #[inline(always)]
-    fn each<T: Clone>(&self, fill: T) -> [T; D] {
-        std::array::from_fn(|_| fill.clone())
-    }
-
-    #[inline(always)]
-    fn as_slice(&self) -> &[f64] {
-        self
-    }
-
-    #[inline(always)]
-    fn as_mut_slice(&mut self) -> &mut [f64] {
-        self
-    }
-}
-
-impl StateVector for Vec<f64> {
-    type Of<T: Clone> = Vec<T>;
-
-    fn each<T: Clone>(&self, fill: T) -> Vec<T> {
-        vec![fill; self.len()]
-    }
-
-    fn as_slice(&self) -> &[f64] {
-        self
-    }
-
-    fn as_mut_slice(&mut self) -> &mut [f64] {
-        self
-    }
-}
->>>>>>> a5a8cdf:solver/dynamics.rs
 
 /// Ground motion at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,18 +17,11 @@ pub struct Ground {
 }
 
 impl Ground {
-<<<<<<< HEAD:solver/mechanics/dynamics.rs
-    /// Ground motion at `t` `[s]` in a segment, with gravity `[m/s²]`.
-    #[inline(always)]
-    pub fn of(segment: &Segment, t: f64, gravity: f64) -> Ground {
-        Ground { x: segment.horizontal.value(t), gravity: gravity + segment.vertical.value(t) }
-=======
     /// Ground motion of a segment at `t`, under a column with this gravity `[m/s²]`.
     #[inline(always)]
     pub fn at(segment: &Segment, t: f64, gravity: f64) -> Ground {
         let [x, vertical] = segment.accelerations(t);
         Ground { x, gravity: gravity + vertical }
->>>>>>> a5a8cdf:solver/dynamics.rs
     }
 }
 

@@ -96,8 +96,8 @@ pub fn generated_mode<P: Program + 'static>(
 pub trait Program:
     StepProgram<
         f64,
-        State: StateVector + Send + Sync,
-        Vector: StateVector + Send + Sync,
+        State: StateVector,
+        Vector: StateVector,
         Constants: Send + Sync,
         Energies: EnergyProgram<f64, Constants: Send + Sync>,
         Series: SeriesProgram<f64, Constants: Send + Sync>,
@@ -108,8 +108,8 @@ pub trait Program:
 impl<P> Program for P where
     P: StepProgram<
             f64,
-            State: StateVector + Send + Sync,
-            Vector: StateVector + Send + Sync,
+            State: StateVector,
+            Vector: StateVector,
             Constants: Send + Sync,
             Energies: EnergyProgram<f64, Constants: Send + Sync>,
             Series: SeriesProgram<f64, Constants: Send + Sync>,

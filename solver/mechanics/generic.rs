@@ -132,7 +132,7 @@ impl Dynamics for GenericMode {
         let posture = self.posture(state);
         let alpha = &derivative[self.dof..];
         let mut total = imposed_acceleration(&posture, &state[self.dof..], ground);
-        for (a, own) in total.iter_mut().zip(posture.linear(alpha)) {
+        for (a, own) in total.iter_mut().zip(&posture.linear(alpha)) {
             *a = [a[0] + own[0], a[1] + own[1]];
         }
         result.copy_from_slice(&posture.resultants(&total, &posture.angular(alpha)));

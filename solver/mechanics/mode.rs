@@ -36,7 +36,7 @@ pub struct IntegrateOptions {
 
 impl Default for IntegrateOptions {
     fn default() -> IntegrateOptions {
-        IntegrateOptions { gravity: crate::column::DEFAULT_GRAVITY, method: Method::Auto, rtol: 1e-9, atol: 1e-12, step: 1e-3 }
+        IntegrateOptions { gravity: rocking_ground::DEFAULT_GRAVITY, method: Method::Auto, rtol: 1e-9, atol: 1e-12, step: 1e-3 }
     }
 }
 

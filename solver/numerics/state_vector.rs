@@ -1,23 +1,23 @@
 //! States of known or unknown length: what a method of integration moves.
 
 /// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
-pub trait StateVector: Clone {
+pub trait StateVector: Clone + Send + Sync {
     /// As many things of another kind.
-    type Of<T: Clone>: AsRef<[T]> + AsMut<[T]> + Clone;
+    type Of<T: Clone + Send + Sync>: AsRef<[T]> + AsMut<[T]> + Clone + Send + Sync;
 
     /// The components.
     fn as_slice(&self) -> &[f64];
     /// The components, to be written.
     fn as_mut_slice(&mut self) -> &mut [f64];
     /// One thing for each component.
-    fn each<T: Clone>(&self, fill: T) -> Self::Of<T>;
+    fn each<T: Clone + Send + Sync>(&self, fill: T) -> Self::Of<T>;
 }
 
 impl<const D: usize> StateVector for [f64; D] {
-    type Of<T: Clone> = [T; D];
+    type Of<T: Clone + Send + Sync> = [T; D];
 
     #[inline(always)]
-    fn each<T: Clone>(&self, fill: T) -> [T; D] {
+    fn each<T: Clone + Send + Sync>(&self, fill: T) -> [T; D] {
         std::array::from_fn(|_| fill.clone())
     }
 
@@ -33,9 +33,9 @@ impl<const D: usize> StateVector for [f64; D] {
 }
 
 impl StateVector for Vec<f64> {
-    type Of<T: Clone> = Vec<T>;
+    type Of<T: Clone + Send + Sync> = Vec<T>;
 
-    fn each<T: Clone>(&self, fill: T) -> Vec<T> {
+    fn each<T: Clone + Send + Sync>(&self, fill: T) -> Vec<T> {
         vec![fill; self.len()]
     }
 

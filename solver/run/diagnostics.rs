@@ -3,11 +3,11 @@
 //! Histories hold angles and rates only. Whoever wants energies or contact forces at those times asks here, after the run, and
 //! nobody else pays for them.
 
+use super::rest;
 use crate::column::Column;
-use crate::dynamics::{ContactForce, Energy, Ground};
-use crate::mode::Mode;
+use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
+use crate::mechanics::mode::Mode;
 use crate::response::Sample;
-use crate::rest;
 
 impl Sample {
     /// Energies relative to the moving ground, with gravity `g`: vertical ground motion does work on them.

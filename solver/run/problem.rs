@@ -1,6 +1,6 @@
 //! What a run is given and does not change: scene, ground motion, and what follows from them.
 
-use super::certainty::Prospects;
+use super::certainty::stands::Prospects;
 use crate::mechanics::dynamics::{Ground, Interfaces};
 use crate::numerics::ode::control::Tolerance;
 use crate::numerics::ode::methods::Method;
@@ -92,6 +92,11 @@ impl<'a> Problem<'a> {
     /// The interfaces whose contact forces are evaluated.
     pub fn interfaces(&self) -> Interfaces {
         if self.records_forces() || !self.skips.forces { Interfaces::All } else { Interfaces::Closed }
+    }
+
+    /// How fast one block that may fall early runs away from its balance `[1/s]`; `None` where a run may not end with a fall that is certain.
+    pub fn growth(&self) -> Option<f64> {
+        self.prospects.and_then(|prospects| prospects.growth)
     }
 
     /// Whether phases of one free angle on a ground that does not move are taken in closed form.

@@ -22,6 +22,26 @@ pub(crate) struct State {
     pub pace: Pace,
 }
 
+impl State {
+    /// A column of so many blocks that stands, at time zero.
+    pub fn at_rest(blocks: usize) -> State {
+        State {
+            t: 0.0,
+            segment: 0,
+            theta: PerBlock::filled(0.0, blocks),
+            omega: PerBlock::filled(0.0, blocks),
+            pattern: Pattern::rest(blocks),
+            contact: ContactMemory {
+                released: PerBlock::new(),
+                hold: Hold::NONE,
+                last_events: [f64::NAN; 2],
+                events_at_once: 0,
+            },
+            pace: Pace::default(),
+        }
+    }
+}
+
 /// What the laws of contact carry from one event to the next.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactMemory {

@@ -1,10 +1,11 @@
 //! A stretch of a run: a span of time without an event, its inside, and why it ended.
 
+use super::error::SolveError;
 use super::problem::Problem;
 use super::state::State;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
-use crate::response::{SolveError, Work};
+use crate::response::Work;
 use rocking_codegen::pattern::Interface;
 
 /// Why a stretch ended.
@@ -37,8 +38,6 @@ pub(crate) enum Over {
 
 /// A span of time without an event. The inside is read by the recorder; the end is `x⁻` of the event, if the stretch ended with one.
 pub(crate) struct Stretch<'m> {
-    /// Start `[s]`.
-    pub start: f64,
     /// End `[s]`.
     pub end: f64,
     /// Why it ended; `None` if the motion continues.

@@ -241,11 +241,6 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         if self.series.is_at(t, x) { self.series.known } else { 0 }
     }
 
-    /// Time at the end of the last attempt `[s]`.
-    pub fn end_time(&self) -> f64 {
-        self.series.t + self.h
-    }
-
     /// Order of the last attempt's polynomial.
     pub fn order(&self) -> usize {
         self.order

@@ -98,7 +98,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
 
     /// The same value for each angle.
     #[inline(always)]
-    pub fn of_each<T: Clone>(&self, value: T) -> L::Of<T> {
+    pub fn of_each<T: Clone + Send + Sync>(&self, value: T) -> L::Of<T> {
         self.cos_ddot.each(value)
     }
 

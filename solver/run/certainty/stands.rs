@@ -1,4 +1,4 @@
-//! What becomes of a column, before it has: proofs for runs that ask for nothing but the outcome.
+//! The proof that a column does not overturn any more, for runs that request nothing but the outcome.
 //!
 //! # It stands
 //!
@@ -51,37 +51,11 @@
 //!
 //! A column in the box stands if `√W + √(μ/2) ∫ |a| dt`, over all that is to come, is below `√E`: before the ground has come to rest. Runs that
 //! end while it moves are not judged so: what stands until then may not much later.
-//!
-//! # It overturns
-//!
-//! With `ψ` the angle of one block beyond the balance, out being positive, `p² = m g R / I_O`, and `a` the acceleration, towards the side to
-//! which it leans, of a ground without vertical motion,
-//!
-//! ```text
-//!     ψ¨ = p² (sin ψ - a/g cos ψ),     z = ψ̇ + 2 p sin ψ/2,     ż = p cos(ψ/2) z - p² a/g cos ψ
-//! ```
-//!
-//! On a ground at rest the sign of `z` tells whether the block comes to pass the balance, or does not come back over it: it is zero on the
-//! two ways that end in it. On one that moves, as long as `z >= 0`, the block does not land, since `ψ̇ > 0` where `ψ < 0`; and until it
-//! has overturned, at `ψ_o`, both cosines are bounded from below, by `cos(ψ/2) >= c > 0` and `cos ψ >= 0` if `ψ_o <= π/2`. Hence, with `q = p c`,
-//!
-//! ```text
-//!     z(s) >= e^{q (s - t)} (z(t) - J),     J = p²/g ∫ max(a, 0) e^{-q (s - t)} ds     over all that is to come
-//! ```
-//!
-//! If `z > J` now, `z` is above zero for ever: the block is past the point of no return. With `w` the widest way that may be left, to `ψ_o` from
-//! `ψ` or, if that is behind, from the balance, it overturns within `arsinh(½ (p + q) w / (z - J)) / q`: its rate is no less than
-//! `(z - J) e^{q (s - t)} - p x` where it has made the way `x`, no shorter than `ψ`, from there; so `x` is no less than
-//! `(z - J) (e^{q (s - t)} - e^{-p (s - t)}) / (p + q)`, with `p >= q`.
-//! Beyond the balance it only gets faster where nothing pushes it back. Nor does it matter what the ground does after that time, so that
-//! `J` need not go on for longer.
-//!
-//! Several blocks have no such proof: their impacts may take any part of the energy that they have.
 
 use crate::column::Column;
-use crate::few::Few;
-use crate::kinematics::Turn;
-use crate::scene::Scene;
+use crate::mechanics::kinematics::Turn;
+use crate::numerics::per_block::PerBlock;
+use crate::scene::{Scene, Wanted};
 use rocking_ground::Lookahead;
 use std::f64::consts::FRAC_PI_2;
 
@@ -91,7 +65,7 @@ pub struct Barrier {
     /// Energy above that of the column at rest that is needed to leave the box `[J]`.
     pub energy: f64,
     /// The box: no block's angle is larger than this, base first `[rad]`.
-    pub angles: Few<f64>,
+    pub angles: PerBlock<f64>,
     /// The mass that a ground in motion takes hold of, `μ [kg]`: momenta are no larger than those of this mass with all of the energy.
     pub mass: f64,
 }
@@ -101,7 +75,7 @@ pub struct Barrier {
 pub(crate) struct Prospects {
     pub barrier: Barrier,
     /// `g M_i c_i` and `g B_i` of each block `[J]`: what `V` is made of.
-    weights: Few<[f64; 2]>,
+    weights: PerBlock<[f64; 2]>,
     /// What a ground's acceleration must come to, to take the column from rest over the barrier `[m/s]`.
     pub impulse: f64,
     /// How fast one block that may fall early runs away from its balance `[1/s]`.
@@ -110,19 +84,20 @@ pub(crate) struct Prospects {
 
 impl Prospects {
     /// Of runs of this scene, if they may end when what is wanted is certain.
-    pub fn of(scene: &Scene) -> Option<Prospects> {
-        let barrier = scene.ends_when_certain().then(|| scene.column.barrier(scene.options.overturn_angle))?;
+    pub fn new(scene: &Scene) -> Option<Prospects> {
+        let is_outcome_all = scene.options.wanted != Wanted::Everything;
+        let barrier = is_outcome_all.then(|| scene.column.barrier(scene.options.overturn_angle))?;
         let (column, impulse) = (&scene.column, (2.0 * barrier.energy / barrier.mass).sqrt());
         let weights = column.blocks().iter().enumerate().map(|(i, block)| {
             let above = column.mass_above(i) - block.mass;
             let lifted = column.mass_above(i) * column.contact_half_width(i);
             [lifted, block.half_height * (block.mass + 2.0 * above)].map(|moment| column.gravity() * moment)
         });
-        Some(Prospects { weights: weights.collect(), barrier, impulse, growth: scene.growth_rate() })
+        Some(Prospects { weights: weights.collect(), barrier, impulse, growth: growth_rate(scene) })
     }
 
-    /// What must be known of the ground motion to come.
-    pub fn foresight(&self) -> Lookahead {
+    /// Bounds of the ground motion to come that the proofs read.
+    pub fn lookahead(&self) -> Lookahead {
         Lookahead { impulses: true, decay: self.growth }
     }
 
@@ -144,13 +119,13 @@ impl Prospects {
     }
 }
 
-impl Scene {
-    /// How fast one block that may fall early runs away from its balance at least, until it has overturned: `q` `[1/s]`.
-    pub(crate) fn growth_rate(&self) -> Option<f64> {
-        let (stack, limit) = (self.column.stack(0), self.options.overturn_angle);
-        let widest = stack.slenderness().max((limit - stack.slenderness()).abs());
-        self.may_fall_early().then(|| stack.frequency_parameter() * libm::cos(0.5 * widest))
-    }
+/// How fast one block that may fall early runs away from its balance at least, until it has overturned: `q` `[1/s]`. `None` where a run may
+/// not end with a fall that is certain: only that of one block can be.
+fn growth_rate(scene: &Scene) -> Option<f64> {
+    let (stack, limit) = (scene.column.stack(0), scene.options.overturn_angle);
+    let widest = stack.slenderness().max((limit - stack.slenderness()).abs());
+    let may_fall_early = scene.options.wanted == Wanted::Overturns && scene.column.len() == 1;
+    may_fall_early.then(|| stack.frequency_parameter() * libm::cos(0.5 * widest))
 }
 
 impl Column {
@@ -169,7 +144,7 @@ impl Column {
     /// ```
     pub fn barrier(&self, overturn_angle: f64) -> Barrier {
         let stacks = || (0..self.len()).map(|block| self.stack(block));
-        let angles: Few<f64> = stacks().map(|stack| stack.slenderness().min(overturn_angle).min(FRAC_PI_2)).collect();
+        let angles: PerBlock<f64> = stacks().map(|stack| stack.slenderness().min(overturn_angle).min(FRAC_PI_2)).collect();
         let energies = stacks().zip(&angles).map(|(stack, angle)| {
             let (sin, cos) = libm::sincos(*angle);
             let lift = stack.half_width * sin - stack.centroid_height * sin * sin / (1.0 + cos);
@@ -186,7 +161,7 @@ impl Column {
 mod tests {
     use super::*;
     use crate::column::Block;
-    use crate::kinematics::Posture;
+    use crate::mechanics::kinematics::Posture;
     use proptest::prelude::*;
     use rocking_codegen::pattern::Pattern;
     use std::f64::consts::FRAC_PI_2;

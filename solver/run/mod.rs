@@ -1,0 +1,22 @@
+//! A run as a fold over stretches: a stretch of motion, its record, and at its end the transition from `x⁻` to `x⁺`.
+
+pub mod certainty;
+mod diagnostics;
+mod error;
+mod modes;
+mod phase;
+mod problem;
+mod recorder;
+mod rest;
+mod samples;
+mod simulator;
+mod state;
+mod step;
+mod stretch;
+mod stretches;
+mod swing;
+mod transition;
+
+pub use error::SolveError;
+pub use problem::Skips;
+pub use simulator::{Simulator, simulate, simulate_observed};

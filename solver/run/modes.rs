@@ -1,0 +1,123 @@
+//! The motions that runs have entered, kept from one run to the next as long as they are of the same column and options.
+
+use super::phase::Phase;
+use super::problem::{Problem, Skips};
+use super::rest::Rest;
+use super::state::State;
+use super::stretch::Motion;
+use crate::column::Column;
+use crate::mechanics::generated;
+use crate::mechanics::mode::Mode;
+use crate::response::Work;
+use crate::scene::{DynamicsSource, Scene, SolveOptions};
+use rocking_codegen::GroundMotion;
+use rocking_codegen::pattern::{Pattern, modes};
+
+/// The motions of a column: rest, and modes with their scene constants and the storage of their phases.
+#[derive(Default)]
+pub(crate) struct Modes {
+    basis: Option<Basis>,
+    rest: Rest,
+    entered: Vec<Entered>,
+}
+
+/// All that a mode depends on.
+#[derive(PartialEq)]
+struct Basis {
+    column: Column,
+    options: SolveOptions,
+    skips: Skips,
+    ground: GroundMotion,
+}
+
+/// A pattern that runs have entered.
+struct Entered {
+    pattern: Pattern,
+    phase: Phase,
+    is_generic: bool,
+    /// Whether the present run has entered it.
+    is_entered: bool,
+}
+
+impl Modes {
+    /// Drops what does not hold for a scene; `true` if it does so.
+    pub fn prepare(&mut self, scene: &Scene, skips: Skips) -> bool {
+        let is_horizontal = scene.excitation.vertical.is_none() && skips.vertical;
+        let ground = if is_horizontal { GroundMotion::Horizontal } else { GroundMotion::WithVertical };
+        let holds = |basis: &Basis| {
+            (basis.ground, basis.skips, &basis.column, &basis.options) == (ground, skips, &scene.column, &scene.options)
+        };
+        if self.basis.as_ref().is_some_and(holds) {
+            return false;
+        }
+        let basis = Basis { column: scene.column.clone(), options: scene.options.clone(), skips, ground };
+        *self = Modes { basis: Some(basis), ..Modes::default() };
+        true
+    }
+
+    /// Begins a run.
+    pub fn begin(&mut self, problem: &Problem) {
+        if !problem.skips.modes && self.entered.is_empty() {
+            let both = |(_, pattern): (_, Pattern)| [pattern.mirror(), pattern];
+            let patterns = modes(problem.scene.column.len()).flat_map(both);
+            self.entered = patterns.map(|pattern| self.built(&pattern, problem)).collect();
+        }
+        self.entered.iter_mut().for_each(|entered| entered.is_entered = false);
+    }
+
+    /// Whether generated equations have the terms of vertical ground motion.
+    fn ground(&self) -> GroundMotion {
+        self.basis.as_ref().map_or(GroundMotion::WithVertical, |basis| basis.ground)
+    }
+
+    /// Enters the motion of a state. Scene constants of a mode are computed when it is entered first.
+    pub fn enter(&mut self, problem: &Problem, after: State) -> &mut dyn Motion {
+        if after.pattern.dof() == 0 {
+            self.rest.enter(problem, after);
+            return &mut self.rest;
+        }
+        let index = match self.entered.iter().position(|entered| entered.pattern == after.pattern) {
+            Some(index) => index,
+            None => {
+                self.entered.push(self.built(&after.pattern, problem));
+                self.entered.len() - 1
+            }
+        };
+        let entered = &mut self.entered[index];
+        entered.is_entered = true;
+        entered.phase.enter(problem, after);
+        &mut entered.phase
+    }
+
+    fn built(&self, pattern: &Pattern, problem: &Problem) -> Entered {
+        let (ground, scene) = (self.ground(), problem.scene);
+        let source = scene.options.dynamics;
+        let generated = match source {
+            DynamicsSource::Generated => (generated::EQUATIONS.mode)(&scene.column, pattern, ground),
+            DynamicsSource::Supplied(equations) => (equations.mode)(&scene.column, pattern, ground),
+            DynamicsSource::Generic => None,
+        };
+        let is_generic = generated.is_none() && source != DynamicsSource::Generic;
+        let mode = generated.or_else(|| Mode::generic(&scene.column, pattern)).expect("the column is not at rest");
+        Entered {
+            pattern: pattern.clone(),
+            phase: Phase::new(&mode, problem),
+            is_generic,
+            is_entered: false,
+        }
+    }
+
+    /// Whether a mode that the present run has entered had no generated equations where it asked for them.
+    pub fn used_generic(&self) -> bool {
+        self.entered.iter().any(|entered| entered.is_entered && entered.is_generic)
+    }
+
+    /// The work of the present run.
+    pub fn take_work(&mut self) -> Work {
+        let with_vertical = self.ground() == GroundMotion::WithVertical;
+        let modes_entered = self.entered.iter().filter(|entered| entered.is_entered).count();
+        let mut work = Work { with_vertical, modes_entered, ..self.rest.take_work() };
+        self.entered.iter_mut().for_each(|entered| work.add(&entered.phase.take_work()));
+        work
+    }
+}

@@ -1,0 +1,310 @@
+//! A smooth phase of a mode: its integrator, its guards, and the data of its last stretch.
+//!
+//! `stretches.rs` says which stretch comes next; the kinds of stretches are `step.rs`, `swing.rs` and `samples.rs`.
+
+use super::certainty::falls::Fall;
+use super::problem::Problem;
+use super::state::State;
+use crate::column::Column;
+use crate::mechanics::dynamics::{ContactForce, Interfaces};
+use crate::mechanics::harmonics::Harmonics;
+use crate::mechanics::integrator::Integrator;
+use crate::mechanics::margins::Margins;
+use crate::mechanics::mode::Mode;
+use crate::mechanics::pendulum::{self, Pendulum};
+use crate::mechanics::rocker::Rocker;
+use crate::numerics::ode::control::Part;
+use crate::numerics::ode::samples::GAPS;
+use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::difference::Difference;
+use crate::response::Work;
+use rocking_codegen::pattern::Interface;
+
+/// The phases of a mode, with storage for them.
+pub(crate) struct Phase {
+    pub(super) integrator: Box<dyn Integrator>,
+    /// The mode on a ground that does not move, where it has one free angle and closed forms are requested.
+    pub(super) pendulum: Option<Pendulum>,
+    /// Steps over several samples of a record, where the column is one block and they are requested.
+    pub(super) samples: Option<SampleSteps>,
+    /// The point of no return, where the column is one block and nothing but the outcome is requested.
+    pub(super) fall: Option<Fall>,
+    pub(super) dof: usize,
+    /// Link of each block, base first, from one; zero where it stands on the ground.
+    pub(super) links: PerBlock<usize>,
+    pub(super) gaps: PerBlock<Gap>,
+    /// The closed interfaces.
+    pub(super) closed: PerBlock<usize>,
+    /// Margins of the closed interfaces against opening, as formulas.
+    pub(super) margins: Margins,
+    /// The same over the last swing.
+    pub(super) over_swing: PerBlock<Harmonics>,
+
+    /// The state at the start of the stretch; angles and rates are the integrator's until the phase ends.
+    pub(super) state: State,
+    /// Step length to attempt next `[s]`.
+    pub(super) wanted: f64,
+    /// Bound of the next attempt after a rejected one `[s]`.
+    pub(super) longest: f64,
+    /// Whether the outcome may have become certain since the last stretch.
+    pub(super) is_outcome_open: bool,
+    /// The last stretch.
+    pub(super) stretch: Kind,
+    /// Whether the phase has had a stretch of some length.
+    pub(super) has_moved: bool,
+    pub(super) forces: ForceCache,
+    /// Interfaces that close at the end of the stretch.
+    pub(super) closing: PerBlock<usize>,
+    /// A state inside the stretch.
+    pub(super) inside: PerBlock<f64>,
+    pub(super) slope: PerBlock<f64>,
+    pub(super) work: Work,
+    /// Right-hand sides when the phase began.
+    pub(super) calls: usize,
+}
+
+/// An open interface and its gap `s φ`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    pub interface: usize,
+    /// `s (θ_i - θ_{i-1})` of the moving links.
+    pub across: Difference,
+    /// Roots of the gap at the start of the step that are known: gap, rate and acceleration zero.
+    pub start_roots: usize,
+}
+
+/// A step as far as it is taken.
+#[derive(Clone, Copy)]
+pub(super) struct StepEnd {
+    /// Length of the step as attempted `[s]`.
+    pub attempted: f64,
+    /// Length up to the event, if it was cut there `[s]`.
+    pub h: f64,
+    /// Time at the end `[s]`.
+    pub end: f64,
+    /// The part of the attempt that was taken.
+    pub part: Part,
+}
+
+/// The course of a swing: the motion of the one gap of a phase on a ground that does not move.
+#[derive(Clone, Copy)]
+pub(super) struct Course {
+    pub pendulum: Pendulum,
+    pub swing: pendulum::Swing,
+    /// The side to which the link leans.
+    pub sign: f64,
+    /// Angle beyond the balance at the start `[rad]`.
+    pub start: f64,
+}
+
+/// A swing as far as it is taken.
+#[derive(Clone, Copy)]
+pub(super) struct Swing {
+    pub course: Course,
+    /// Angle beyond the balance, and its rate, at the end `[rad]`, `[rad/s]`.
+    pub end: [f64; 2],
+    /// Time at the end `[s]`.
+    pub until: f64,
+    /// `[θ, θ̇]` at the end; the angle is exactly zero at a landing.
+    pub x: [f64; 2],
+}
+
+/// Steps over several samples, where a phase takes them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SampleSteps {
+    pub rocker: Rocker,
+    /// Samples to pass before the next attempt.
+    pub pause: usize,
+}
+
+/// A step over several samples.
+#[derive(Clone, Copy)]
+pub(super) struct SampleStep {
+    pub intervals: usize,
+    /// The segment of the last interval.
+    pub last_segment: usize,
+    /// `[θ, θ̇]` at the end.
+    pub x: [f64; 2],
+    pub crests: Crests,
+}
+
+/// Where the angle may turn within a step over several samples, by the spaces between its nodes.
+#[derive(Clone, Copy)]
+pub(super) struct Crests {
+    /// The largest angle that each space may have, out being positive `[rad]`.
+    pub largest: [f64; GAPS.len()],
+    /// Whether the angle may turn in it.
+    pub may_turn: [bool; GAPS.len()],
+}
+
+/// What the last stretch was.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    /// An instant: nothing moved.
+    Instant,
+    /// A step of the method.
+    Step(StepEnd),
+    /// A swing in closed form.
+    Swing(Swing),
+    /// A step over several samples.
+    Samples(SampleStep),
+}
+
+/// Contact forces of a phase, evaluated where they are read.
+pub(super) struct ForceCache {
+    /// The forces evaluated last.
+    pub last: PerBlock<ContactForce>,
+    /// Forces at the start of the stretch, if they are known at all interfaces.
+    pub start: PerBlock<ContactForce>,
+    pub is_start_known: bool,
+    /// Margins `c N - |M|` of the closed interfaces at the start of the stretch, if they are known.
+    pub margins: PerBlock<f64>,
+    pub are_margins_known: bool,
+    /// Forces at the end of the stretch, if they are known at all interfaces.
+    pub end: PerBlock<ContactForce>,
+    pub is_end_known: bool,
+    /// Margins at the end of the stretch, if they are known.
+    pub end_margins: PerBlock<f64>,
+    pub are_end_margins_known: bool,
+}
+
+impl ForceCache {
+    fn new(blocks: usize, closed: usize) -> ForceCache {
+        let (forces, margins) = (PerBlock::filled(ContactForce::default(), blocks), PerBlock::filled(0.0, closed));
+        ForceCache {
+            last: forces.clone(),
+            start: forces.clone(),
+            is_start_known: false,
+            margins: margins.clone(),
+            are_margins_known: false,
+            end: forces,
+            is_end_known: false,
+            end_margins: margins,
+            are_end_margins_known: false,
+        }
+    }
+
+    /// Forgets all that is known.
+    pub fn forget(&mut self) {
+        (self.is_start_known, self.are_margins_known) = (false, false);
+        (self.is_end_known, self.are_end_margins_known) = (false, false);
+    }
+
+    /// Makes the end of the stretch its start.
+    pub fn advance(&mut self) {
+        self.is_start_known = std::mem::take(&mut self.is_end_known);
+        if self.is_start_known {
+            std::mem::swap(&mut self.start, &mut self.end);
+        }
+        self.are_margins_known = std::mem::take(&mut self.are_end_margins_known);
+        if self.are_margins_known {
+            std::mem::swap(&mut self.margins, &mut self.end_margins);
+        }
+    }
+}
+
+impl Phase {
+    /// The phases of a mode, for runs of a problem.
+    pub fn new(mode: &Mode, problem: &Problem) -> Phase {
+        let (pattern, scene) = (mode.pattern(), problem.scene);
+        let options = &scene.options;
+        let integrator = mode.integrator(options.method, scene.column.gravity(), options.rtol, options.step);
+        let blocks = pattern.0.len();
+        let mut dof = 0;
+        let link = |interface: &Interface| {
+            dof += usize::from(interface.is_open());
+            dof
+        };
+        let links: PerBlock<usize> = pattern.0.iter().map(link).collect();
+        let open = (0..blocks).filter(|i| pattern.0[*i].is_open());
+        let gap = |interface: usize| {
+            let (sign, upper) = (f64::from(pattern.0[interface].sign()), links[interface] - 1);
+            Gap { interface, across: Difference { sign, upper, lower: upper.checked_sub(1) }, start_roots: 0 }
+        };
+        let gaps = open.map(gap).collect();
+        let closed: PerBlock<usize> = (0..blocks).filter(|i| !pattern.0[*i].is_open()).collect();
+        let pendulum = if dof == 1 && problem.swings_in_closed_form() { integrator.pendulum() } else { None };
+        let steps_over_samples = dof == 1 && closed.is_empty() && problem.steps_over_samples();
+        let samples = if steps_over_samples { integrator.rocker().map(|rocker| SampleSteps { rocker, pause: 0 }) } else { None };
+        let fall = problem.growth().and_then(|growth| Fall::new(&scene.column, options.overturn_angle, growth, integrator.pendulum()?));
+        let zeros = || PerBlock::filled(0.0, 2 * dof);
+        Phase {
+            pendulum,
+            samples,
+            fall,
+            dof,
+            links,
+            gaps,
+            forces: ForceCache::new(blocks, closed.len()),
+            closed,
+            margins: Margins::new(&scene.column, pattern),
+            over_swing: PerBlock::new(),
+            state: State::at_rest(blocks),
+            wanted: 0.0,
+            longest: f64::INFINITY,
+            is_outcome_open: true,
+            stretch: Kind::Instant,
+            has_moved: false,
+            closing: PerBlock::new(),
+            inside: zeros(),
+            slope: zeros(),
+            work: Work::default(),
+            calls: 0,
+            integrator,
+        }
+    }
+
+    /// What a difference of angles can resolve `[rad]`.
+    pub(super) fn resolution(&self, x: &[f64]) -> f64 {
+        4.0 * f64::EPSILON * x[..self.dof].iter().fold(0.0f64, |size, angle| size.max(angle.abs()))
+    }
+
+    /// Angles and rates per block of a state of the links.
+    pub(super) fn per_block(&self, x: &[f64]) -> (PerBlock<f64>, PerBlock<f64>) {
+        let pick = |values: &[f64]| {
+            let of = |link: &usize| if *link == 0 { 0.0 } else { values[link - 1] };
+            self.links.iter().map(of).collect()
+        };
+        (pick(&x[..self.dof]), pick(&x[self.dof..]))
+    }
+
+    /// `c N - |M|` of a closed interface, from the forces evaluated last.
+    pub(super) fn margin(&self, column: &Column, interface: usize) -> f64 {
+        let force = self.forces.last[interface];
+        column.contact_half_width(interface) * force.normal - force.moment.abs()
+    }
+
+    /// Keeps the margins of all closed interfaces, from the forces evaluated last, as those at the start of the stretch.
+    fn note_margins(&mut self, column: &Column) {
+        for index in 0..self.closed.len() {
+            self.forces.margins[index] = self.margin(column, self.closed[index]);
+        }
+    }
+
+    /// Evaluates contact forces at the start of the stretch, unless what is requested of them is known.
+    pub(super) fn evaluate_start_forces(&mut self, problem: &Problem) {
+        let which = problem.interfaces();
+        let is_known = match which {
+            Interfaces::All => self.forces.is_start_known,
+            Interfaces::Closed => self.forces.are_margins_known,
+        };
+        if is_known {
+            return;
+        }
+        self.work.force_calls += 1;
+        self.inside.copy_from_slice(self.integrator.start());
+        self.integrator.contact_forces(self.state.t, &self.inside, which, &mut self.forces.last);
+        self.note_margins(&problem.scene.column);
+        self.forces.are_margins_known = true;
+        if which == Interfaces::All {
+            self.forces.start.copy_from_slice(&self.forces.last);
+            self.forces.is_start_known = true;
+        }
+    }
+
+    /// Evaluates contact forces at the state `inside`, at `t`.
+    pub(super) fn evaluate_forces_inside(&mut self, problem: &Problem, t: f64) {
+        self.work.force_calls += 1;
+        self.integrator.contact_forces(t, &self.inside, problem.interfaces(), &mut self.forces.last);
+    }
+}

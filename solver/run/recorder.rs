@@ -1,0 +1,267 @@
+//! The recorder: the only writer of rows, events, peaks, forces and times in modes.
+
+use super::modes::Modes;
+use super::problem::Problem;
+use super::state::State;
+use super::stretch::{Over, Request, Stretch};
+use super::transition::Transition;
+use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::per_block::{PerBlock, Size, for_size};
+use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason};
+use rocking_codegen::pattern::Pattern;
+use rocking_ground::Segment;
+use std::collections::BTreeMap;
+
+/// Room made for events when the first one comes.
+const USUAL_EVENTS: usize = 16;
+
+/// The record of a run under way.
+pub(crate) struct Recorder {
+    samples: Vec<Sample>,
+    next_sample: usize,
+    /// Segment of the row recorded last.
+    sample_segment: usize,
+    /// Pattern of the present motion.
+    pattern: Pattern,
+    /// Per block `[rad]`.
+    peak_theta: PerBlock<f64>,
+    /// Per interface.
+    friction_demand: PerBlock<f64>,
+    /// Per interface `[N]`.
+    min_normal_force: PerBlock<f64>,
+    events: Vec<Event>,
+    impacts: usize,
+    separations: Vec<Separation>,
+    /// When the present motion was entered `[s]`.
+    entered_at: f64,
+    /// Time per pattern `[s]`, in the order in which they were left.
+    times: Vec<(Pattern, f64)>,
+}
+
+impl Recorder {
+    /// The record of a run that begins with a state.
+    pub fn new(problem: &Problem, start: &State) -> Recorder {
+        let blocks = start.theta.len();
+        let mut recorder = Recorder {
+            samples: Vec::new(),
+            next_sample: 0,
+            sample_segment: 0,
+            pattern: start.pattern.clone(),
+            peak_theta: PerBlock::filled(0.0, blocks),
+            friction_demand: PerBlock::filled(0.0, blocks),
+            min_normal_force: PerBlock::filled(f64::INFINITY, blocks),
+            events: Vec::new(),
+            impacts: 0,
+            separations: Vec::new(),
+            entered_at: start.t,
+            times: Vec::new(),
+        };
+        if problem.is_recorded() {
+            recorder.record_angles(&start.theta);
+        }
+        recorder
+    }
+
+    /// Records a stretch.
+    pub fn read(&mut self, problem: &Problem, stretch: &mut Stretch) {
+        if !problem.is_recorded() {
+            return;
+        }
+        let is_whole = problem.records_forces() || self.next_row(problem).is_some_and(|t| t < stretch.end);
+        let request = Request { is_whole, known_peak: self.peak_theta[0] };
+        stretch.inside.refine(problem, request, &mut |finer| self.read_inside(problem, finer));
+        self.read_inside(problem, stretch);
+    }
+
+    /// Records rows, peaks and forces of a stretch.
+    fn read_inside(&mut self, problem: &Problem, stretch: &mut Stretch) {
+        while let Some(t) = self.next_row(problem).filter(|t| *t < stretch.end) {
+            let (theta, omega) = stretch.inside.state_at(t);
+            self.record_row(problem, t, theta.to_vec(), omega.to_vec());
+        }
+        let mut link = 0;
+        // Blocks of one link are neighbours and have one angle; the least of their peaks decides.
+        while let Some(known) = self.least_peak(stretch.inside.links(), link) {
+            let peak = stretch.inside.peak(link, known);
+            if peak > known {
+                let blocks = stretch.inside.links().iter().zip(self.peak_theta.iter_mut());
+                blocks.filter(|(own, _)| **own == link + 1).for_each(|(_, own)| *own = own.max(peak));
+            }
+            link += 1;
+        }
+        if problem.records_forces() {
+            stretch.inside.forces(problem, &mut |forces| self.record_forces(forces));
+        }
+    }
+
+    /// The least of the peaks so far of the blocks of a link; `None` if there is no such link.
+    fn least_peak(&self, links: &[usize], link: usize) -> Option<f64> {
+        let own = links.iter().zip(&self.peak_theta).filter(|(own, _)| **own == link + 1).map(|(_, peak)| *peak);
+        own.reduce(f64::min)
+    }
+
+    /// The next output time `[s]`, if there is one up to the end.
+    fn next_row(&self, problem: &Problem) -> Option<f64> {
+        let dt = problem.scene.output_dt.filter(|_| problem.is_recorded())?;
+        let t = self.next_sample as f64 * dt;
+        // The last row is not lost to the rounding of a product.
+        (t <= problem.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
+    }
+
+    fn record_row(&mut self, problem: &Problem, t: f64, theta: Vec<f64>, omega: Vec<f64>) {
+        let cursor = &mut self.sample_segment;
+        while *cursor + 1 < problem.ground.len() && problem.ground[*cursor].end <= t {
+            *cursor += 1;
+        }
+        let Segment { horizontal, vertical, .. } = &problem.ground[*cursor];
+        let ground = [horizontal.value(t), vertical.value(t)];
+        self.samples.push(Sample { t, theta, omega, ground, pattern: self.pattern.clone() });
+        self.next_sample += 1;
+    }
+
+    fn record_angles(&mut self, theta: &[f64]) {
+        for (peak, theta) in self.peak_theta.iter_mut().zip(theta) {
+            *peak = peak.max(theta.abs());
+        }
+    }
+
+    /// Records the extremes within a panel from its contact forces at start, middle and end: those of the parabolas through them.
+    fn record_forces(&mut self, forces: [&[ContactForce]; 3]) {
+        for interface in 0..self.friction_demand.len() {
+            let [a, b, c] = forces.map(|forces| forces[interface]);
+            let least = -crest([a, b, c].map(|force| -force.normal));
+            let demand = [a, b, c].map(|force| friction(&force));
+            let is_finite = demand.iter().all(|demand| demand.is_finite());
+            let most = if is_finite { crest(demand) } else { f64::INFINITY };
+            self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
+            self.friction_demand[interface] = self.friction_demand[interface].max(most);
+        }
+    }
+
+    /// Records a transition from `x⁻`.
+    pub fn transition(&mut self, problem: &Problem, before: &State, transition: &Transition) {
+        let kind = transition.kind;
+        if transition.separation {
+            self.separations.push(Separation { t: before.t, during: kind });
+        }
+        self.pattern.clone_from(&transition.after.pattern);
+        if !transition.is_event {
+            return;
+        }
+        self.impacts += usize::from(kind == EventKind::Impact);
+        if !problem.is_recorded() {
+            return;
+        }
+        if self.events.is_empty() {
+            self.events.reserve(USUAL_EVENTS);
+        }
+        for_size!(before.theta.len(), size => self.events.push(event(size, before, transition)));
+    }
+
+    /// Records that the present motion is left, at `x⁻`.
+    pub fn leave(&mut self, problem: &Problem, before: &State) {
+        if !problem.is_recorded() {
+            return;
+        }
+        self.record_angles(&before.theta);
+        let time = before.t - self.entered_at;
+        self.entered_at = before.t;
+        match self.times.iter_mut().find(|(pattern, _)| *pattern == before.pattern) {
+            Some((_, own)) => *own += time,
+            None => self.times.push((before.pattern.clone(), time)),
+        }
+    }
+
+    /// The response of a run that is over.
+    pub fn finish(mut self, problem: &Problem, last: &State, over: Over, modes: &mut Modes) -> Response {
+        let (status, block) = match over {
+            Over::Stands => (StopReason::Stands, None),
+            Over::Falls(block) => (StopReason::Falls, Some(block)),
+            Over::Overturned(block) => (StopReason::Overturned, Some(block)),
+            Over::AtRest => (StopReason::AtRest, None),
+            Over::EndOfTime => (StopReason::EndOfTime, None),
+        };
+        let blocks = last.theta.len();
+        if !status.overturns() {
+            while let Some(t) = self.next_row(problem) {
+                let (theta, omega) = match status {
+                    StopReason::AtRest => (vec![0.0; blocks], vec![0.0; blocks]),
+                    _ => (last.theta.to_vec(), last.omega.to_vec()),
+                };
+                self.record_row(problem, t, theta, omega);
+            }
+        }
+        let mut time_in_mode = BTreeMap::new();
+        if problem.is_recorded() {
+            for (pattern, time) in &self.times {
+                let at_rest_for_good = pattern.dof() == 0 && status == StopReason::AtRest;
+                let time = time + if at_rest_for_good { problem.scene.options.t_end - last.t } else { 0.0 };
+                if pattern.dof() > 0 || time > 0.0 {
+                    *time_in_mode.entry(ModeName::of(pattern).to_string()).or_insert(0.0) += time;
+                }
+            }
+        }
+        let mut work = modes.take_work();
+        work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
+        let if_recorded = |is_recorded: bool, list: PerBlock<f64>| if is_recorded { list.to_vec() } else { Vec::new() };
+        Response {
+            status,
+            t_final: last.t,
+            overturned_block: block.map(|block| block + 1),
+            samples: self.samples,
+            events: self.events,
+            impacts: self.impacts,
+            peak_theta: if_recorded(problem.is_recorded(), self.peak_theta),
+            time_in_mode,
+            friction_demand: if_recorded(problem.records_forces(), self.friction_demand),
+            min_normal_force: if_recorded(problem.records_forces(), self.min_normal_force),
+            separations: self.separations,
+            work,
+            used_generic: modes.used_generic(),
+        }
+    }
+}
+
+/// The event of a transition of a column of this size.
+#[inline(always)]
+fn event(size: impl Size, before: &State, transition: &Transition) -> Event {
+    let after = &transition.after;
+    let all = |values: &[f64]| PerBlock::from_slice(&values[..size.blocks()]);
+    let states = |pattern: &Pattern| Pattern::from_states(&pattern.0[..size.blocks()]);
+    let numbers = transition.interfaces.iter().map(|interface| interface + 1);
+    // Where nothing strikes, rates do not change but for what is snapped.
+    let strikes = !transition.impulses.is_empty();
+    let impulses = || PerBlock::from_slice(&size.list_of(|interface| Impulse::from(&transition.impulses[interface])));
+    Event {
+        t: after.t,
+        kind: transition.kind,
+        interface: numbers.clone().next(),
+        interfaces: if numbers.len() > 1 { numbers.collect() } else { PerBlock::new() },
+        mode_before: ModeName::of(&before.pattern),
+        mode: ModeName::of(&after.pattern),
+        mirrored: after.pattern.is_mirrored(),
+        before: states(&before.pattern),
+        after: states(&after.pattern),
+        theta: all(&after.theta),
+        omega_before: all(if strikes { &before.omega } else { &after.omega }),
+        omega_after: all(&after.omega),
+        energy_lost: (transition.kind == EventKind::Impact).then_some(transition.energy_lost),
+        impulses: if strikes { impulses() } else { PerBlock::new() },
+    }
+}
+
+/// `|T| / N`; infinite where the contact parts and something is still to be held.
+fn friction(force: &ContactForce) -> f64 {
+    match (force.normal > 0.0, force.tangential == 0.0) {
+        (true, _) => force.tangential.abs() / force.normal,
+        (false, true) => 0.0,
+        (false, false) => f64::INFINITY,
+    }
+}
+
+/// The largest value of the parabola through three equally spaced values, between the outer two.
+fn crest([a, b, c]: [f64; 3]) -> f64 {
+    let largest = a.max(b).max(c);
+    let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
+    if bend < 0.0 && slope.abs() < -bend { largest.max(b - 0.5 * slope * slope / bend) } else { largest }
+}

@@ -1,0 +1,377 @@
+//! The column at rest: no integration, only the search for the instant at which the ground starts it.
+//!
+//! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (docs/book/model.md, section 4; the paper's Eq. 1). On a piece of ground motion with
+//! a bounded second derivative, a step as long as the parabola through value and slope with that bound stays above zero cannot
+//! jump over a root: the search is conservative and converges quadratically. Under a single sine it begins just before the instant
+//! that its inverse names.
+
+use super::error::SolveError;
+use super::problem::Problem;
+use super::state::State;
+use super::stretch::{Ended, Inside, Motion, Over, Stretch};
+use crate::column::Column;
+use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
+use crate::numerics::per_block::PerBlock;
+use crate::response::Work;
+use rocking_codegen::pattern::Interface;
+use rocking_ground::{Piece, Segment};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
+const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Places per radian of the ground motion at which contact forces at rest are recorded: a crest is met to one in five hundred.
+const PLACES_PER_RADIAN: f64 = 8.0;
+
+/// Least and most places per segment.
+const PLACES: (f64, f64) = (16.0, 4096.0);
+
+/// The column at rest, waiting for the ground to start it.
+#[derive(Default)]
+pub(crate) struct Rest {
+    /// The state with which the rest began; none before the first one and after the last one.
+    since: Option<State>,
+    /// Time and segment at the end of the wait, seen from what follows.
+    until: (f64, usize),
+    /// The segment in which the wait ended.
+    last: usize,
+    /// Whether nothing starts the column any more.
+    is_final: bool,
+    links: PerBlock<usize>,
+    work: Work,
+}
+
+impl Rest {
+    fn since(&self) -> &State {
+        self.since.as_ref().expect("a rest is entered before it is read")
+    }
+}
+
+impl Motion for Rest {
+    fn enter(&mut self, _: &Problem, after: State) {
+        self.links = PerBlock::filled(0, after.theta.len());
+        self.since = Some(after);
+    }
+
+    /// Waits for the start, a jump of the ground acceleration that starts the column, or the end: one stretch, whatever the ground does in it.
+    fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
+        let since = self.since.as_ref().expect("a rest is entered before it is read");
+        let start = since.t;
+        let limit = least_uplift(&problem.scene.column);
+        let (mut t, mut index) = (start, since.segment);
+        self.is_final = false;
+        let ended = loop {
+            let segment = &problem.ground[index];
+            if t < since.contact.hold.until {
+                t = since.contact.hold.until.min(segment.end);
+            }
+            self.work.waits += usize::from(problem.skips.rests);
+            if let Some((start, interface, side)) = earliest_start(problem, segment, t, limit) {
+                t = start;
+                self.last = index;
+                break Ended::Opening(interface, side);
+            }
+            t = segment.end;
+            self.last = index;
+            if index + 1 == problem.ground.len() {
+                self.is_final = true;
+                break Ended::Over(Over::AtRest);
+            }
+            index += 1;
+            if problem.ground[index].jumps && is_thrown_open(problem, index, t) {
+                break Ended::Jump;
+            }
+        };
+        self.until = (t, index);
+        Ok(Stretch { end: t, ended: Some(ended), inside: self })
+    }
+
+    fn take_work(&mut self) -> Work {
+        std::mem::take(&mut self.work)
+    }
+}
+
+impl Inside for Rest {
+    fn state_at(&mut self, _: f64) -> (PerBlock<f64>, PerBlock<f64>) {
+        let zero = PerBlock::filled(0.0, self.links.len());
+        (zero.clone(), zero)
+    }
+
+    fn links(&self) -> &[usize] {
+        &self.links
+    }
+
+    fn peak(&mut self, _: usize, known: f64) -> f64 {
+        known
+    }
+
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3])) {
+        let (column, since, end) = (&problem.scene.column, self.since(), self.until.0);
+        let mut t = since.t;
+        for segment in &problem.ground[since.segment..=self.last] {
+            if t < since.contact.hold.until {
+                t = since.contact.hold.until.min(segment.end);
+            }
+            let until = if segment.end < end { segment.end } else { end };
+            let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - t);
+            let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
+            let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
+            for place in 0..=count {
+                let time = t + (until - t) * place as f64 / count as f64;
+                let forces = contact_forces(column, Ground::at(segment, time, column.gravity()));
+                note([&forces; 3]);
+            }
+            t = until;
+        }
+    }
+
+    /// A column that stays at rest has been so since the rest began.
+    fn end(&mut self) -> State {
+        let mut state = self.since.take().expect("a rest is entered before it is read");
+        if !self.is_final {
+            (state.t, state.segment) = self.until;
+        }
+        state
+    }
+}
+
+/// The horizontal acceleration that opens some interface where nothing else moves `[m/s²]`.
+fn least_uplift(column: &Column) -> f64 {
+    let own = |i: usize| column.gravity() * column.contact_half_width(i) / column.centroid_height(i);
+    (0..column.len()).map(own).fold(f64::INFINITY, f64::min)
+}
+
+/// Share of that acceleration below which rounding has no say.
+const CLEAR_SHARE: f64 = 1.0 - 1e-9;
+
+/// The first instant in a segment from `t` on at which some interface opens, and its side; `limit` is [`least_uplift`].
+fn earliest_start(problem: &Problem, segment: &Segment, t: f64, limit: f64) -> Option<(f64, usize, Interface)> {
+    if !problem.skips.rests {
+        return by_steps(problem, segment, t);
+    }
+    if let (Piece::Linear { .. }, Piece::Zero) = (&segment.horizontal, &segment.vertical) {
+        // Of a record, whose stretches are many: the largest acceleration is at an end.
+        let largest = segment.horizontal.value(t).abs().max(segment.horizontal.value(segment.end).abs());
+        if largest < CLEAR_SHARE * limit {
+            return None;
+        }
+    }
+    if segment.is_quiet() {
+        return None;
+    }
+    start_before(problem, segment, t + until_sine_is(CLEAR_SHARE * limit, segment, t), segment.end)
+}
+
+/// How long after `t` the ground's acceleration is below `limit` in size at least, where it is one sine; forever if it does not get there.
+fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
+    let (amplitude, omega, turned) = match (&segment.horizontal, &segment.vertical) {
+        (&Piece::Sine { amplitude, omega, start, phase }, Piece::Zero) => {
+            (amplitude, omega, omega * (t - start) + phase)
+        }
+        (&Piece::Cosine { amplitude, omega, start }, Piece::Zero) => {
+            (amplitude, omega, omega * (t - start) + FRAC_PI_2)
+        }
+        _ => return 0.0,
+    };
+    let share = limit / amplitude.abs();
+    if share > 1.0 {
+        return f64::INFINITY;
+    }
+    let (first, within) = (libm::asin(share), turned.rem_euclid(PI));
+    // From `first` to `π - first` of each half turn it is above the limit.
+    let before = if within > PI - first { within - PI } else { within };
+    (first - before).max(0.0) / omega
+}
+
+/// Steps that a rest is taken in where it is not skipped, per radian of the ground motion and, at least, per second.
+const STEPS_PER_RADIAN_AND_SECOND: [f64; 2] = [20.0, 100.0];
+
+/// The same without leaving out anything: step by step, as an integrator would go.
+fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usize, Interface)> {
+    let omega = segment.horizontal.omega().max(segment.vertical.omega());
+    let step = 1.0 / (STEPS_PER_RADIAN_AND_SECOND[0] * omega).max(STEPS_PER_RADIAN_AND_SECOND[1]);
+    let mut t = from;
+    loop {
+        let until = (t + step).min(segment.end);
+        let start = start_before(problem, segment, t, until.next_up());
+        if start.is_some() || until >= segment.end {
+            return start;
+        }
+        t = until;
+    }
+}
+
+/// The first opening between two instants: the first zero of a guard. All are looked at together, at places that none of them can
+/// have passed zero before.
+fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
+    let column = &problem.scene.column;
+    let mut t = from;
+    while t < until {
+        let motion = Shaking::at(segment, column.gravity(), t);
+        let mut step = f64::INFINITY;
+        for interface in 0..column.len() {
+            let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
+            for side in [Interface::Right, Interface::Left] {
+                match motion.step_to_zero(arm, side) {
+                    Some(0.0) => return Some((t, interface, side)),
+                    Some(own) => step = step.min(own),
+                    None => {}
+                }
+            }
+        }
+        t += step;
+    }
+    None
+}
+
+/// Whether some interface cannot stay closed under the acceleration at `t`, seen from a segment.
+fn is_thrown_open(problem: &Problem, segment: usize, t: f64) -> bool {
+    least_margin(problem, segment, t) < 0.0
+}
+
+/// Whether some interface may open under the acceleration at `t`: where rounding may decide, the contact problem does.
+pub(crate) fn may_open(problem: &Problem, segment: usize, t: f64) -> bool {
+    least_margin(problem, segment, t) < CONTACT_PROBLEM_MARGIN
+}
+
+/// Relative margin below which the contact problem decides about an opening.
+const CONTACT_PROBLEM_MARGIN: f64 = 1e-9;
+
+/// The least margin against opening, relative to its own scale.
+fn least_margin(problem: &Problem, segment: usize, t: f64) -> f64 {
+    let (ground, column) = (problem.ground_at(segment, t), &problem.scene.column);
+    let margin = |i: usize| {
+        let arms = [column.contact_half_width(i) * ground.gravity, column.centroid_height(i) * ground.x.abs()];
+        (arms[0] - arms[1]) / (arms[0].abs() + arms[1])
+    };
+    (0..column.len()).map(margin).fold(f64::INFINITY, f64::min)
+}
+
+/// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
+struct Shaking {
+    t: f64,
+    ground: Ground,
+    rates: [f64; 2],
+    bends: [f64; 2],
+}
+
+impl Shaking {
+    fn at(segment: &Segment, gravity: f64, t: f64) -> Shaking {
+        let Segment { horizontal, vertical, .. } = segment;
+        let [(x, rate), (y, rate_upwards)] = [horizontal, vertical].map(|piece| piece.with_rate(t));
+        Shaking {
+            t,
+            ground: Ground { x, gravity: gravity + y },
+            rates: [rate, rate_upwards],
+            bends: [horizontal.curvature_bound(), vertical.curvature_bound()],
+        }
+    }
+
+    /// The guard `c (g + ÿ_g) + s h ẍ_g` of a side (positive `ẍ_g` tips to the left): zero if it falls below zero here, else a time
+    /// before which it does not, `None` if it never does.
+    fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
+        let Shaking { t, ground, rates, bends } = self;
+        let sign = f64::from(side.sign());
+        let value = half_width * ground.gravity + sign * height * ground.x;
+        let slope = half_width * rates[1] + sign * height * rates[0];
+        let bend = half_width * bends[1] + height * bends[0];
+        let scale = half_width * ground.gravity.abs() + height * ground.x.abs();
+        if value <= GUARD_ROUNDING * scale && slope < 0.0 {
+            return Some(0.0);
+        }
+        // The longest step for which value + slope h - bend h²/2 stays at or above zero, without cancellation for either slope.
+        let value = value.max(0.0);
+        let root = (slope * slope + 2.0 * bend * value).sqrt();
+        let step = match (slope < 0.0, bend > 0.0) {
+            (true, _) => 2.0 * value / (root - slope),
+            (false, true) => (slope + root) / bend,
+            (false, false) => return None,
+        };
+        Some(match (t + step > *t, slope < 0.0) {
+            (true, _) => step,
+            // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
+            (false, true) => 0.0,
+            (false, false) => 2.0 * f64::EPSILON * t.abs().max(1e-12),
+        })
+    }
+}
+
+/// At rest the whole weight stands on each interface, and the ground drags it along. Base first, length N.
+pub fn contact_forces(column: &Column, ground: Ground) -> Vec<ContactForce> {
+    let force = |interface: usize| {
+        let mass = column.mass_above(interface);
+        let (normal, tangential) = (mass * ground.gravity, mass * ground.x);
+        ContactForce { normal, tangential, moment: column.centroid_height(interface) * tangential }
+    };
+    (0..column.len()).map(force).collect()
+}
+
+/// Energy of the column that stands still.
+pub fn energy(column: &Column) -> Energy {
+    let potential = column.mass_above(0) * column.gravity() * column.centroid_height(0);
+    Energy { kinetic: 0.0, potential }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// First zero of one guard.
+    fn first_zero(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {
+        let mut t = segment.start;
+        while t < segment.end {
+            match Shaking::at(segment, 9.81, t).step_to_zero(arm, side) {
+                Some(0.0) => return Some(t),
+                Some(step) => t += step,
+                None => return None,
+            }
+        }
+        None
+    }
+
+    fn segment(amplitude: f64) -> Segment {
+        let horizontal = Piece::Sine { amplitude, omega: 10.0, start: 0.0, phase: 0.0 };
+        Segment { start: 0.0, end: 0.6, horizontal, vertical: Piece::Zero, jumps: false }
+    }
+
+    #[test]
+    fn the_start_is_where_the_sine_reaches_the_threshold() {
+        // sin(10 t) = c g / (h A) = 0.5, tipping to the left.
+        let arm = [0.2, 0.8];
+        let amplitude = 0.2 * 9.81 / (0.8 * 0.5);
+        let t = first_zero(&segment(amplitude), arm, Interface::Left).expect("it starts");
+        assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
+        let later = first_zero(&segment(amplitude), arm, Interface::Right).expect("it starts");
+        assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_search_under_a_sine_begins_shortly_before_the_limit() {
+        let limit = 1.3;
+        for (amplitude, phase, since) in [(2.0, 0.4, 0.0), (-1.31, 2.9, 0.3), (5.0, -7.0, 1.7), (1.4, 1.5, 0.55)] {
+            let sine = Piece::Sine { amplitude, omega: 3.0, start: 0.2, phase };
+            let segment = Segment { start: 0.0, end: 9.0, horizontal: sine, vertical: Piece::Zero, jumps: false };
+            let wait = until_sine_is(limit, &segment, since);
+            let size = |t: f64| segment.horizontal.value(t).abs();
+            // A microsecond later the limit is passed: by 1e-6 s times a slope of 0.4 m/s³ at least, far above rounding.
+            assert!(
+                (0..1000).all(|i| size(since + wait * f64::from(i) / 1000.0) < limit || wait == 0.0),
+                "{amplitude}"
+            );
+            assert!(size(since + wait + 1e-6) > limit, "{amplitude} {wait}");
+        }
+        let quiet = Piece::Sine { amplitude: 1.29, omega: 3.0, start: 0.0, phase: 0.0 };
+        let segment = Segment { start: 0.0, end: 9.0, horizontal: quiet, vertical: Piece::Zero, jumps: false };
+        assert_eq!(until_sine_is(limit, &segment, 0.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_needle_starts_at_once_and_a_threshold_above_the_crest_is_never_reached() {
+        let t = first_zero(&segment(3.0), [1e-200, 1.6], Interface::Left).expect("it starts");
+        assert!(t < 1e-199);
+        let arm = [0.2, 0.8];
+        let crest = 0.2 * 9.81 / 0.8;
+        assert_eq!(first_zero(&segment(crest * (1.0 - 1e-12)), arm, Interface::Left), None);
+        assert!(first_zero(&segment(crest * (1.0 + 1e-9)), arm, Interface::Left).is_some());
+    }
+}

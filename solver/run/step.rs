@@ -1,0 +1,357 @@
+//! A step of the method as a stretch: the first zero of a guard inside it, and its end there.
+//!
+//! The state at an event is a full step of the method, not an interpolated value. Guards (start excluded, end included; of several in one
+//! step the first):
+//!
+//! | guard | falls to zero when | found on |
+//! |---|---|---|
+//! | `s_i φ_i` | open interface `i` closes | the dense output's polynomial |
+//! | `overturn - abs(θ_b)` | a link overturns | the dense output's polynomial |
+//! | `c_i N_i - abs(M_i)` | closed interface `i` opens | its Taylor series, or samples |
+
+use super::error::SolveError;
+use super::phase::{Gap, Kind, Phase, StepEnd};
+use super::problem::Problem;
+use super::stretch::{Ended, Over};
+use crate::mechanics::dynamics::{ContactForce, Interfaces};
+use crate::mechanics::margins::Opening;
+use crate::numerics::guards::{first_crossing, polished};
+use crate::numerics::ode::control::{Attempt, Part};
+use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::difference::Difference;
+use crate::response::ModeName;
+use rocking_codegen::pattern::Interface;
+use smallvec::SmallVec;
+
+/// The guard that is zero inside a step.
+#[derive(Clone, Copy, Debug)]
+enum Guard {
+    Gap(Gap),
+    Tilt { link: usize, sign: f64 },
+    Contact { interface: usize },
+}
+
+/// Newton's rounds when a step is made to end at a zero: the dense output is good to some digits, each round doubles them.
+const NEWTON_ROUNDS: usize = 4;
+
+/// A gap that a step does not widen to this many times its start cannot close in the step either: it would have to move as far. Safety
+/// factor of that bound, below 2 so that rounding cannot make two crests touch.
+const CLEAR_GAP_FACTOR: f64 = 1.999;
+
+/// Panels per radian that the fastest link turns in a step: forces vary with sines and squares of rates, and a parabola over a twentieth of
+/// a radian is right to 1e-4 of the weight.
+pub(super) const PANELS_PER_TURN: f64 = 20.0;
+
+/// Panels per radian of the ground motion.
+const PANELS_PER_RADIAN: f64 = 2.0;
+
+/// Panels beyond which a step of the loosest tolerances is not resolved.
+const MOST_PANELS: f64 = 64.0;
+
+/// Margins of the closed interfaces at places in a step: forces evaluated at one place serve all interfaces.
+type MarginSamples = SmallVec<[(f64, PerBlock<f64>); 6]>;
+
+impl Phase {
+    /// Attempts a step and ends it at its first event. `None` if the attempt is rejected; otherwise why the phase ends with it, if it does.
+    pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Option<Option<Ended>>, SolveError> {
+        let t = self.state.t;
+        let held = self.state.contact.hold.until - t;
+        let most = if held > 0.0 { left.min(held) } else { left }.min(self.longest);
+        let attempt = self.integrator.attempt(t, self.wanted, most, problem.tolerance);
+        self.wanted = attempt.wanted;
+        if !attempt.is_good() {
+            self.work.rejected += 1;
+            self.check_step(attempt)?;
+            self.longest = self.wanted;
+            return Ok(None);
+        }
+        self.longest = f64::INFINITY;
+        let h = attempt.h;
+        self.integrator.accept();
+        self.work.steps += 1;
+        let end = if h == left { problem.ground[self.state.segment].end } else { t + h };
+        self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
+        Ok(Some(match self.first_event(problem, h, end) {
+            Some((guard, s)) => self.cut_at(problem, guard, h, s),
+            None => None,
+        }))
+    }
+
+    #[cold]
+    fn check_step(&self, rejected: Attempt) -> Result<(), SolveError> {
+        let (time, step) = (self.state.t, rejected.wanted);
+        // A segment or an event may leave less than the resolution of the time: only an error may not.
+        if step > 2.0 * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
+            return Ok(());
+        }
+        let mode = ModeName::of(&self.state.pattern).to_string();
+        let ends = self.integrator.start().iter().chain(self.integrator.end());
+        if rejected.error.is_nan() || !ends.into_iter().all(|value| value.is_finite()) {
+            Err(SolveError::NotFinite { time, mode })
+        } else {
+            Err(SolveError::StepTooSmall { time, step, mode })
+        }
+    }
+
+    /// The first event inside the step just accepted, which ends at `end`, and where it is in it, 0 to 1.
+    fn first_event(&mut self, problem: &Problem, h: f64, end: f64) -> Option<(Guard, f64)> {
+        let mut first: Option<(Guard, f64)> = None;
+        let mut offer = |guard: Guard, s: Option<f64>| {
+            if let Some(s) = s.filter(|s| first.is_none_or(|(_, earliest)| *s < earliest)) {
+                first = Some((guard, s));
+            }
+        };
+        let resolution = self.resolution(self.integrator.start());
+        // An angle is a sum of gaps.
+        let mut reach = 0.0;
+        for &gap in &self.gaps {
+            let start = gap.across.of(&self.integrator.start()[..self.dof]);
+            let most = start + self.integrator.reach(gap.across);
+            if gap.start_roots == 0 && most < CLEAR_GAP_FACTOR * start {
+                reach += most;
+                continue;
+            }
+            let end = gap.across.of(&self.integrator.end()[..self.dof]);
+            if end > resolution && self.integrator.is_monotonic(gap.across) {
+                reach += start.max(end);
+                continue;
+            }
+            let track = self.integrator.track(gap.across, gap.start_roots > 0);
+            let size = track.size();
+            reach += size;
+            if gap.start_roots > 0 && size <= resolution {
+                continue;
+            }
+            offer(Guard::Gap(gap), track.first_root(gap.start_roots));
+        }
+        let limit = problem.scene.options.overturn_angle;
+        let tilting = if reach < limit { 0..0 } else { 0..self.dof };
+        for link in tilting {
+            let track = self.integrator.track(Difference { sign: 1.0, upper: link, lower: None }, false);
+            if track.size() >= limit {
+                let sign = if self.integrator.end()[link] < 0.0 { -1.0 } else { 1.0 };
+                offer(Guard::Tilt { link, sign }, track.shifted(-sign, limit).first_root(0));
+            }
+        }
+        let reach = first.map_or(1.0, |(_, s)| s);
+        self.first_opening(problem, h, end, reach).or(first)
+    }
+
+    /// The first opening of a closed interface before `reach`; if there is none in the whole step, the margins known at its end are kept.
+    fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(Guard, f64)> {
+        let mut first: Option<(Guard, f64)> = None;
+        let mut samples = MarginSamples::new();
+        for index in 0..self.closed.len() {
+            let reach = first.map_or(reach, |(_, s)| s);
+            if let Some(s) = self.opening_before(problem, [h, end], index, reach, &mut samples) {
+                first = Some((Guard::Contact { interface: self.closed[index] }, s));
+            }
+        }
+        if first.is_none()
+            && reach >= 1.0
+            && let Some((_, margins)) = samples.iter().find(|(place, _)| *place == 1.0)
+        {
+            self.forces.end_margins.copy_from_slice(margins);
+            self.forces.are_end_margins_known = true;
+        }
+        first
+    }
+
+    /// Where the closed interface of this index opens in a step of length and end `[h, end]`, 0 to `reach`.
+    fn opening_before(
+        &mut self,
+        problem: &Problem,
+        [h, end]: [f64; 2],
+        index: usize,
+        reach: f64,
+        samples: &mut MarginSamples,
+    ) -> Option<f64> {
+        let is_held = self.state.t < self.state.contact.hold.until;
+        let opening = if is_held { Opening::Unclear } else { self.integrator.opening(&self.margins, index, reach * h) };
+        if opening == Opening::StaysClosed {
+            return None;
+        }
+        if let Opening::Opens { s, slope } = opening {
+            let guard = |s: f64| self.margin_at(problem, [h, end], index, s, samples);
+            let opening = polished(guard, s * reach, slope / reach, reach);
+            if opening.is_some() {
+                return opening;
+            }
+        }
+        self.evaluate_start_forces(problem);
+        let start = self.forces.margins[index];
+        if start <= 0.0 && is_held {
+            return None;
+        }
+        first_crossing(|s| self.margin_at(problem, [h, end], index, s, samples), start, reach)
+    }
+
+    /// The margin of a closed interface at a place in the step.
+    fn margin_at(
+        &mut self,
+        problem: &Problem,
+        [h, end]: [f64; 2],
+        index: usize,
+        s: f64,
+        samples: &mut MarginSamples,
+    ) -> f64 {
+        if let Some((_, margins)) = samples.iter().find(|(place, _)| *place == s) {
+            return margins[index];
+        }
+        // The end of the step is the state that the next one starts from, to the last bit.
+        if s == 1.0 {
+            self.evaluate_end_forces(problem, end);
+        } else {
+            self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
+            self.evaluate_forces_inside(problem, self.state.t + s * h);
+        }
+        let column = &problem.scene.column;
+        let margins: PerBlock<f64> = self.closed.iter().map(|&interface| self.margin(column, interface)).collect();
+        let margin = margins[index];
+        if samples.len() < samples.inline_size() {
+            samples.push((s, margins));
+        }
+        margin
+    }
+
+    /// Evaluates contact forces at the end of the last attempt, at time `end`.
+    fn evaluate_end_forces(&mut self, problem: &Problem, end: f64) {
+        self.work.force_calls += 1;
+        self.integrator.contact_forces_at_end(end, problem.interfaces(), &mut self.forces.last);
+    }
+
+    /// Makes the step end where the guard is zero. `None` if the step, cut there, shows that the dense output was mistaken about a touch: the
+    /// phase goes on from there.
+    fn cut_at(&mut self, problem: &Problem, guard: Guard, attempted: f64, s: f64) -> Option<Ended> {
+        let t = self.state.t;
+        let mut h = s * attempted;
+        let (mut taken, mut has_touched) = (h, true);
+        for _ in 0..NEWTON_ROUNDS {
+            self.work.repeated += 1;
+            taken = h;
+            self.integrator.cut(t, h, problem.tolerance);
+            let end = self.integrator.end();
+            let (value, rate) = match guard {
+                Guard::Gap(gap) => (gap.across.of(&end[..self.dof]), gap.across.of(&end[self.dof..])),
+                Guard::Tilt { link, sign } => {
+                    (problem.scene.options.overturn_angle - sign * end[link], -sign * end[self.dof + link])
+                }
+                Guard::Contact { .. } => break,
+            };
+            has_touched = rate < 0.0 || value <= self.resolution(self.integrator.start());
+            let correction = -value / rate;
+            let next = h + correction;
+            if !(rate < 0.0 && next > 0.0 && next <= attempted) || correction.abs() <= f64::EPSILON * h {
+                break;
+            }
+            h = next;
+        }
+        // The state is that of the last attempt, and so is the time.
+        let h = taken;
+        // A mistake that takes no time would be made again: it is a touch.
+        let is_mistaken = !has_touched && t + h > t;
+        self.integrator.accept();
+        let segment_end = problem.ground[self.state.segment].end;
+        let end = if h == segment_end - t { segment_end } else { t + h };
+        self.stretch = Kind::Step(StepEnd { attempted, h, end, part: Part::UpToEvent });
+        if is_mistaken {
+            return None;
+        }
+        Some(match guard {
+            Guard::Contact { interface } => {
+                self.evaluate_end_forces(problem, end);
+                let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
+                Ended::Opening(interface, side)
+            }
+            Guard::Tilt { link, .. } => {
+                Ended::Over(Over::Overturned(self.links.iter().position(|own| *own == link + 1).unwrap_or(0)))
+            }
+            Guard::Gap(gap) => {
+                self.closing = self.closing_with(end, gap);
+                Ended::Closing(self.closing.clone())
+            }
+        })
+    }
+
+    /// The interfaces that close in the instant `t` in which `first` does.
+    fn closing_with(&self, t: f64, first: Gap) -> PerBlock<usize> {
+        let (dof, x) = (self.dof, self.integrator.end());
+        let (resolution, instant) = (self.resolution(x), 4.0 * f64::EPSILON * t);
+        let is_closing = |gap: &&Gap| {
+            let (value, rate) = (gap.across.of(&x[..dof]), gap.across.of(&x[dof..]));
+            gap.interface == first.interface || (rate < 0.0 && value <= resolution + rate.abs() * instant)
+        };
+        self.gaps.iter().filter(is_closing).map(|gap| gap.interface).collect()
+    }
+
+    /// Writes the state at a time of the step into `inside`.
+    pub(super) fn state_in_step(&mut self, step: StepEnd, t: f64) {
+        let s = ((t - self.state.t) / step.attempted).clamp(0.0, 1.0);
+        self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
+    }
+
+    /// See [`Inside::peak`](super::stretch::Inside::peak).
+    pub(super) fn peak_of_step(&mut self, step: StepEnd, link: usize, known: f64) -> f64 {
+        let angle = Difference { sign: 1.0, upper: link, lower: None };
+        let most = self.integrator.start()[link].abs() + self.integrator.reach(angle);
+        if most <= known {
+            return known;
+        }
+        let (x, end) = (self.integrator.start(), self.integrator.end());
+        if self.integrator.is_monotonic(angle) {
+            return x[link].abs().max(end[link].abs());
+        }
+        let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], step.h);
+        if control.iter().all(|c| c.abs() <= known) {
+            return known;
+        }
+        self.integrator.track(angle, false).largest_size(known)
+    }
+
+    /// See [`Inside::forces`](super::stretch::Inside::forces). Forces at the end are kept for the next step.
+    pub(super) fn forces_in_step(
+        &mut self,
+        problem: &Problem,
+        step: StepEnd,
+        note: &mut dyn FnMut([&[ContactForce]; 3]),
+    ) {
+        self.evaluate_start_forces(problem);
+        self.evaluate_end_forces(problem, step.end);
+        let last = self.forces.last.clone();
+        let rates = self.integrator.start()[self.dof..].iter().chain(&self.integrator.end()[self.dof..]);
+        let turned = step.h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
+        let segment = &problem.ground[self.state.segment];
+        let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
+        let panels = (PANELS_PER_TURN * turned + PANELS_PER_RADIAN * radians).ceil().clamp(1.0, MOST_PANELS) as usize;
+        let at = |place: f64| place / panels as f64;
+        let mut start = self.forces.start.clone();
+        for panel in 0..panels {
+            let mut end = last.clone();
+            if panel + 1 < panels {
+                self.evaluate_forces_at_share(problem, step, at(panel as f64 + 1.0));
+                end.copy_from_slice(&self.forces.last);
+            }
+            self.evaluate_forces_at_share(problem, step, at(panel as f64 + 0.5));
+            note([&start, &self.forces.last, &end]);
+            start = end;
+        }
+        self.forces.last.copy_from_slice(&last);
+        for index in 0..self.closed.len() {
+            self.forces.end_margins[index] = self.margin(&problem.scene.column, self.closed[index]);
+        }
+        self.forces.are_end_margins_known = true;
+        self.forces.end = last;
+        self.forces.is_end_known = problem.interfaces() == Interfaces::All;
+    }
+
+    /// Evaluates contact forces at a share of the step as far as it was taken.
+    fn evaluate_forces_at_share(&mut self, problem: &Problem, step: StepEnd, s: f64) {
+        self.integrator.state_inside(step.part, s, &mut self.inside);
+        self.evaluate_forces_inside(problem, self.state.t + s * step.h);
+    }
+}
+
+/// Bernstein coefficients of the cubic with value and rate `a, u` at the start and `b, v` at the end of a step `h`.
+fn hermite_control([a, u, b, v]: [f64; 4], h: f64) -> [f64; 4] {
+    [a, a + h * u / 3.0, b - h * v / 3.0, b]
+}

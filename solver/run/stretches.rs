@@ -1,0 +1,251 @@
+//! The stretches of a phase: which one comes next, and how it is read.
+//!
+//! The next stretch is the first of these that applies: a free swing in closed form (`swing.rs`), a step over several samples of a record
+//! (`samples.rs`), a step of the method (`step.rs`).
+
+use super::certainty::verdict;
+use super::error::SolveError;
+use super::phase::{Kind, Phase, StepEnd, Swing};
+use super::problem::Problem;
+use super::state::State;
+use super::stretch::{Ended, Inside, Motion, Over, Request, Stretch};
+use crate::column::Column;
+use crate::contact::verge_acceleration;
+use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::difference::Difference;
+use crate::response::Work;
+
+impl Phase {
+    /// Decides how many roots of each gap lie at the start, by how it came to be open.
+    fn arm(&mut self, column: &Column) {
+        for index in 0..self.gaps.len() {
+            let (across, x) = (self.gaps[index].across, self.integrator.start());
+            let is_closed = across.of(&x[..self.dof]) == 0.0;
+            let has_no_rate = across.of(&x[self.dof..]) == 0.0;
+            self.gaps[index].start_roots = match (is_closed, has_no_rate) {
+                (false, _) => 0,
+                (true, false) => 1,
+                (true, true) if self.is_critical(column, across) => 3,
+                (true, true) => 2,
+            };
+        }
+    }
+
+    /// Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
+    fn is_critical(&mut self, column: &Column, across: Difference) -> bool {
+        let t = self.state.t;
+        self.integrator.start_slope(t, &mut self.slope);
+        let accelerations = &self.slope[self.dof..];
+        across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(t))
+    }
+
+    /// Makes the end of the last stretch the start of the next one.
+    pub(super) fn advance(&mut self, problem: &Problem) {
+        let (t, segment) = match self.stretch {
+            Kind::Instant => return,
+            Kind::Step(StepEnd { end, .. }) => {
+                self.integrator.advance();
+                (end, self.state.segment)
+            }
+            Kind::Swing(Swing { until, x, .. }) => {
+                self.integrator.begin(until, &x);
+                (until, self.state.segment)
+            }
+            Kind::Samples(step) => {
+                let end = problem.ground[step.last_segment].end;
+                self.integrator.restart(end, &step.x);
+                (end, step.last_segment)
+            }
+        };
+        (self.state.t, self.state.segment) = (t, segment);
+        if matches!(self.stretch, Kind::Swing(_)) {
+            self.gaps[0].start_roots = 0;
+        } else {
+            // A gap that is still below the resolution of angles has not left its start.
+            let (resolution, x) = (self.resolution(self.integrator.start()), self.integrator.start());
+            for gap in self.gaps.iter_mut().filter(|gap| gap.across.of(x).abs() > resolution) {
+                gap.start_roots = 0;
+            }
+        }
+        self.forces.advance();
+        self.stretch = Kind::Instant;
+        self.has_moved = true;
+    }
+
+    /// Finds the next stretch; why it ended, if the phase ends with it.
+    fn find_stretch(&mut self, problem: &Problem) -> Result<Option<Ended>, SolveError> {
+        loop {
+            let segment = &problem.ground[self.state.segment];
+            let left = segment.end - self.state.t;
+            if self.state.t + left <= self.state.t {
+                if let Some(ended) = self.next_segment(problem) {
+                    return Ok(Some(ended));
+                }
+                continue;
+            }
+            if self.is_outcome_open {
+                if let Some(over) = self.certain_outcome(problem) {
+                    return Ok(Some(Ended::Over(over)));
+                }
+                // On a ground at rest it is not going to change but by an event.
+                self.is_outcome_open = !segment.is_quiet();
+            }
+            if let Some(ended) = self.swing(problem) {
+                return Ok(ended);
+            }
+            if self.step_over_samples(problem) {
+                return Ok(None);
+            }
+            if let Some(ended) = self.step(problem, left)? {
+                return Ok(ended);
+            }
+        }
+    }
+
+    /// Goes over to the next segment of ground motion; what ends the phase there, if anything.
+    fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
+        self.state.t = problem.ground[self.state.segment].end;
+        if self.state.segment + 1 == problem.ground.len() {
+            return Some(Ended::Over(Over::EndOfTime));
+        }
+        self.state.segment += 1;
+        let segment = &problem.ground[self.state.segment];
+        if segment.jumps {
+            return Some(Ended::Jump);
+        }
+        self.integrator.enter(segment);
+        self.is_outcome_open = true;
+        None
+    }
+
+    /// The outcome, if it is certain. If not, the phase goes on as it would have: the answer is that of a full run.
+    fn certain_outcome(&self, problem: &Problem) -> Option<Over> {
+        let x = self.integrator.start();
+        let sign = self.gaps[0].across.sign;
+        if self.fall.is_some_and(|fall| verdict::falls(&fall, problem, &self.state, [x[0], x[self.dof]], sign)) {
+            return Some(Over::Falls(0));
+        }
+        verdict::stands(problem, &self.state, || self.per_block(x)).then_some(Over::Stands)
+    }
+}
+
+impl Motion for Phase {
+    fn enter(&mut self, problem: &Problem, after: State) {
+        self.calls = self.integrator.rhs_calls();
+        self.work.phases += 1;
+        self.integrator.enter(&problem.ground[after.segment]);
+        for (block, &link) in self.links.iter().enumerate() {
+            if link > 0 {
+                self.inside[link - 1] = after.theta[block];
+                self.inside[self.dof + link - 1] = after.omega[block];
+            }
+        }
+        self.integrator.begin(after.t, &self.inside);
+        self.state = after;
+        self.arm(&problem.scene.column);
+        self.wanted = match self.state.pace.step {
+            Some(step) => step,
+            None => self.integrator.first_step(problem.tolerance),
+        };
+        self.longest = f64::INFINITY;
+        self.is_outcome_open = true;
+        self.stretch = Kind::Instant;
+        self.has_moved = false;
+        self.closing.clear();
+        self.forces.forget();
+        if let Some(samples) = &mut self.samples {
+            samples.pause = 0;
+        }
+    }
+
+    fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
+        self.advance(problem);
+        let ended = self.find_stretch(problem)?;
+        let end = match &self.stretch {
+            // A phase that ends at once has an inside of one instant.
+            Kind::Instant => self.state.t,
+            Kind::Step(step) => step.end,
+            Kind::Swing(swing) => swing.until,
+            Kind::Samples(step) => problem.ground[step.last_segment].end,
+        };
+        Ok(Stretch { end, ended, inside: self })
+    }
+
+    fn take_work(&mut self) -> Work {
+        std::mem::take(&mut self.work)
+    }
+}
+
+impl Inside for Phase {
+    fn state_at(&mut self, t: f64) -> (PerBlock<f64>, PerBlock<f64>) {
+        match self.stretch {
+            Kind::Step(step) => self.state_in_step(step, t),
+            Kind::Swing(swing) => self.state_in_swing(&swing, t),
+            Kind::Instant | Kind::Samples(_) => self.inside.copy_from_slice(self.integrator.start()),
+        }
+        self.per_block(&self.inside)
+    }
+
+    fn links(&self) -> &[usize] {
+        &self.links
+    }
+
+    fn peak(&mut self, link: usize, known: f64) -> f64 {
+        match self.stretch {
+            Kind::Step(step) => self.peak_of_step(step, link, known),
+            Kind::Swing(swing) => swing.peak(known),
+            Kind::Samples(step) => step.x[0].abs(),
+            Kind::Instant => known,
+        }
+    }
+
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3])) {
+        match self.stretch {
+            Kind::Step(step) => self.forces_in_step(problem, step, note),
+            Kind::Swing(swing) => self.forces_in_swing(problem, &swing, note),
+            Kind::Samples(_) => {}
+            // Forces at the end of a stretch belong to that stretch.
+            Kind::Instant if self.has_moved => {}
+            Kind::Instant => {
+                self.evaluate_start_forces(problem);
+                note([&self.forces.start; 3]);
+            }
+        }
+    }
+
+    fn refine(&mut self, problem: &Problem, request: Request, visit: &mut dyn FnMut(&mut Stretch)) -> bool {
+        match self.stretch {
+            Kind::Samples(step) => {
+                self.refine_samples(problem, step, request, visit);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn end(&mut self) -> State {
+        let x: PerBlock<f64> = match &self.stretch {
+            Kind::Instant => PerBlock::from_slice(self.integrator.start()),
+            Kind::Step(step) => {
+                self.state.t = step.end;
+                let mut x = PerBlock::from_slice(self.integrator.end());
+                // Angles of interfaces that close are equal to the last bit.
+                for gap in self.gaps.iter().filter(|gap| self.closing.contains(&gap.interface)) {
+                    x[gap.across.upper] = gap.across.lower.map_or(0.0, |lower| x[lower]);
+                }
+                x
+            }
+            Kind::Swing(swing) => {
+                self.state.t = swing.until;
+                PerBlock::from_slice(&swing.x)
+            }
+            Kind::Samples(step) => PerBlock::from_slice(&step.x),
+        };
+        let (theta, omega) = self.per_block(&x);
+        self.state.pace.step = Some(self.wanted);
+        self.work.rhs_calls += self.integrator.rhs_calls() - self.calls;
+        let next = State::at_rest(0);
+        State { theta, omega, ..std::mem::replace(&mut self.state, next) }
+    }
+}

@@ -1,0 +1,222 @@
+//! A free swing as a stretch: one free angle on a ground that does not move, in closed form ([`crate::mechanics::pendulum`]).
+//!
+//! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back: the
+//! margins of closed interfaces are polynomials of sine and cosine of the angle ([`crate::mechanics::harmonics`]).
+
+use super::phase::{Course, Kind, Phase, Swing};
+use super::problem::Problem;
+use super::step::PANELS_PER_TURN;
+use super::stretch::{Ended, Over};
+use crate::mechanics::dynamics::ContactForce;
+use crate::mechanics::harmonics::OnTheVerge;
+use crate::mechanics::pendulum::Pendulum;
+use crate::numerics::guards::{first_crossing, polished};
+use crate::numerics::per_block::PerBlock;
+use rocking_codegen::pattern::Interface;
+
+/// How a swing ends, at which angle and rate beyond the balance, and when from its start `[s]`.
+struct End {
+    ended: Ended,
+    psi: f64,
+    v: f64,
+    time: f64,
+}
+
+impl Course {
+    /// State `[θ, ω]` of an angle beyond the balance and its rate.
+    fn state(&self, [psi, v]: [f64; 2]) -> [f64; 2] {
+        [self.pendulum.theta(psi, self.sign), self.sign * v]
+    }
+
+    /// A bound of the angle at its crest; zero of one that has none, or turns beyond the balance, inwards.
+    fn height(&self) -> f64 {
+        let has_crest = self.swing.turns() && self.start < 0.0;
+        if has_crest { self.pendulum.short_of_balance(self.swing.turning_distance()) } else { 0.0 }
+    }
+
+    /// Angles between the start and which it is: its turning point, if it comes to that, and its end.
+    fn legs(&self, end: &End) -> [f64; 2] {
+        let is_cut_short = self.start < 0.0 && matches!(end.ended, Ended::Over(_));
+        let turn = self.swing.turning_point().filter(|_| !is_cut_short);
+        [turn.unwrap_or(self.start), end.psi]
+    }
+}
+
+impl Phase {
+    /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
+    pub(super) fn swing(&mut self, problem: &Problem) -> Option<Option<Ended>> {
+        let segment = &problem.ground[self.state.segment];
+        if !segment.is_quiet() || self.state.contact.hold.until > self.state.t {
+            return None;
+        }
+        let pendulum = self.pendulum?;
+        let (course, mut end) = self.course(problem, pendulum)?;
+        let left = segment.end - self.state.t;
+        if !self.closed.is_empty() {
+            let legs = course.legs(&end);
+            let (waves, gravity) = (pendulum.waves(&course.swing, course.sign), problem.scene.column.gravity());
+            self.over_swing.clear();
+            for index in 0..self.closed.len() {
+                self.over_swing.push(self.margins.over_swing(index, gravity, &waves));
+            }
+            for leg in legs {
+                let opening = self.opening_of_swing(problem, &course, leg);
+                if let Some(opening) = opening.filter(|opening| opening.time < end.time.min(left)) {
+                    end = opening;
+                }
+            }
+        }
+        self.work.swings += 1;
+        let is_cut = end.time > left;
+        let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
+        let until = if is_cut { segment.end } else { self.state.t + end.time };
+        let is_landed = !is_cut && matches!(end.ended, Ended::Closing(_));
+        let [theta, omega] = course.state([psi, v]);
+        let x = [if is_landed { 0.0 } else { theta }, omega];
+        self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x });
+        Some((!is_cut).then_some(end.ended))
+    }
+
+    /// The swing from the start of the stretch, and how it ends if no interface opens.
+    fn course(&self, problem: &Problem, pendulum: Pendulum) -> Option<(Course, End)> {
+        let gap = self.gaps[0];
+        let (sign, x) = (gap.across.sign, self.integrator.start());
+        let (height, rate) = (sign * x[0], sign * x[1]);
+        if !(height > 0.0 || (height == 0.0 && rate > 0.0)) {
+            return None;
+        }
+        let at = |theta: f64| pendulum.beyond(theta, sign);
+        let (start, landing, overturned) = (at(x[0]), at(0.0), at(sign * problem.scene.options.overturn_angle));
+        if landing >= 0.0 || (start == 0.0 && rate == 0.0) {
+            return None;
+        }
+        let swing = pendulum.swing(start, rate);
+        if swing.is_endless() {
+            return None;
+        }
+        // It goes out as long as it moves out, and falls out from beyond the balance.
+        let goes_out = rate > 0.0 || (swing.turns() || rate == 0.0) && start > 0.0;
+        let has_crest = swing.turns() && start < 0.0;
+        // Most often overturned means beyond the balance, where nothing with a crest comes.
+        let is_below_crest = || overturned < 0.0 && swing.turning_point().is_some_and(|crest| overturned <= crest);
+        let is_overturned = goes_out && (!has_crest || is_below_crest());
+        let (ended, psi) = match is_overturned {
+            true => (Ended::Over(Over::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0))), overturned),
+            false => (Ended::Closing(PerBlock::from_slice(&[gap.interface])), landing),
+        };
+        let size = swing.rate_at(psi)?;
+        let v = if is_overturned { size } else { -size };
+        let time = swing.time_to(psi, v);
+        if time.is_nan() || time < 0.0 {
+            return None;
+        }
+        Some((Course { pendulum, swing, sign, start }, End { ended, psi, v, time }))
+    }
+
+    /// The first opening of a closed interface on a leg of the swing, from its start to an angle.
+    fn opening_of_swing(&mut self, problem: &Problem, course: &Course, to: f64) -> Option<End> {
+        let from = course.start;
+        if self.closed.is_empty() || from == to {
+            return None;
+        }
+        let mut first: Option<(f64, usize)> = None;
+        for index in 0..self.closed.len() {
+            let reach = first.map_or(1.0, |(s, _)| s);
+            let interface = self.closed[index];
+            let margin = |phase: &mut Self, s: f64| {
+                phase.evaluate_forces_at_angle(problem, course, from + s * (to - from));
+                phase.margin(&problem.scene.column, interface)
+            };
+            // The formula's place is right but for the rounding of a weight that turns: the force itself brings the rest.
+            let known = match self.over_swing[index].opening(to - from) {
+                Ok(None) => continue,
+                Ok(Some([s, slope])) => polished(|s| margin(self, s), s, slope, 1.0),
+                Err(OnTheVerge) => None,
+            };
+            let crossing = match known {
+                Some(s) => Some(s).filter(|s| *s < reach),
+                None => {
+                    self.evaluate_start_forces(problem);
+                    let start = self.forces.margins[index];
+                    first_crossing(|s| margin(self, s), start, reach)
+                }
+            };
+            first = crossing.map(|s| (s, interface)).or(first);
+        }
+        let (s, interface) = first?;
+        let psi = from + s * (to - from);
+        let size = course.swing.rate_at(psi).unwrap_or(0.0);
+        let v = if to > from { size } else { -size };
+        self.evaluate_forces_at_angle(problem, course, psi);
+        let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
+        Some(End { ended: Ended::Opening(interface, side), psi, v, time: course.swing.time_to(psi, v) })
+    }
+
+    /// Evaluates contact forces at an angle of the swing.
+    fn evaluate_forces_at_angle(&mut self, problem: &Problem, course: &Course, psi: f64) {
+        let v = course.swing.rate_at(psi).unwrap_or(0.0);
+        self.inside.copy_from_slice(&course.state([psi, v]));
+        self.evaluate_forces_inside(problem, self.state.t);
+    }
+
+    /// Writes the state at a time of the swing into `inside`.
+    pub(super) fn state_in_swing(&mut self, swing: &Swing, t: f64) {
+        let course = &swing.course;
+        self.inside.copy_from_slice(&course.state(course.swing.after(t - self.state.t)));
+    }
+
+    /// Forces from the start of the swing to its crest, if it has turned, and to its end.
+    pub(super) fn forces_in_swing(
+        &mut self,
+        problem: &Problem,
+        swing: &Swing,
+        note: &mut dyn FnMut([&[ContactForce]; 3]),
+    ) {
+        let turn = if swing.has_turned() { swing.course.swing.turning_point() } else { None };
+        for to in [turn.unwrap_or(swing.course.start), swing.end[0]] {
+            self.forces_of_leg(problem, &swing.course, to, note);
+        }
+    }
+
+    /// Forces between the start of a swing and an angle.
+    fn forces_of_leg(
+        &mut self,
+        problem: &Problem,
+        course: &Course,
+        to: f64,
+        note: &mut dyn FnMut([&[ContactForce]; 3]),
+    ) {
+        let from = course.start;
+        if from == to {
+            return;
+        }
+        self.evaluate_start_forces(problem);
+        let panels = (PANELS_PER_TURN * (to - from).abs()).ceil().max(1.0) as usize;
+        let mut start = self.forces.start.clone();
+        for panel in 0..panels {
+            let at = |place: f64| from + (to - from) * place / panels as f64;
+            self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 0.5));
+            let middle = self.forces.last.clone();
+            self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 1.0));
+            note([&start, &middle, &self.forces.last]);
+            start.copy_from_slice(&self.forces.last);
+        }
+    }
+}
+
+impl Swing {
+    /// Whether the swing has turned.
+    fn has_turned(&self) -> bool {
+        self.course.swing.turns() && self.end[1] * self.course.swing.start_rate() < 0.0
+    }
+
+    /// The largest size of the angle in the swing if it exceeds `known` `[rad]`.
+    pub fn peak(&self, known: f64) -> f64 {
+        let at_end = self.course.state(self.end)[0].abs();
+        if !(self.has_turned() && self.course.height() > known) {
+            return at_end;
+        }
+        let crest = self.course.swing.turning_point().map(|turn| self.course.pendulum.theta(turn, self.course.sign).abs());
+        crest.map_or(at_end, |crest| crest.max(at_end))
+    }
+}
