@@ -100,7 +100,7 @@ impl From<&ContactForce> for Impulse {
     }
 }
 
-fn is_empty<T>(list: &PerBlock<T>) -> bool {
+fn is_empty<T: Copy>(list: &PerBlock<T>) -> bool {
     list.is_empty()
 }
 

@@ -3,96 +3,138 @@
 //! Contact problems are many and small, and most columns have few blocks: the code that handles them is compiled for each [`Size`], where
 //! loops have known lengths and nothing is allocated.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
+use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 /// Length up to which a list allocates nothing. A larger one costs every list its room on the stack.
 const INLINE_LENGTH: usize = 6;
 
 /// A list with at most one entry per block, interface or link, base first: a slice that owns its entries, without allocation for
-/// columns of up to six blocks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
-#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
-pub struct PerBlock<T>(SmallVec<[T; INLINE_LENGTH]>);
+/// columns of up to six blocks. A copy of a short list copies its storage as it is, without a loop.
+#[derive(Clone)]
+pub struct PerBlock<T: Copy>(Storage<T>);
 
-impl<T> PerBlock<T> {
-    /// An empty list.
-    pub fn new() -> PerBlock<T> {
-        PerBlock(SmallVec::new())
-    }
-
-    /// Appends an entry.
-    #[inline]
-    pub fn push(&mut self, entry: T) {
-        self.0.push(entry);
-    }
-
-    /// Removes all entries.
-    #[inline]
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
-
-    /// Keeps the entries for which a condition holds.
-    pub fn retain(&mut self, keep: impl FnMut(&mut T) -> bool) {
-        self.0.retain(keep);
-    }
-
-    /// Appends entries.
-    pub fn extend(&mut self, entries: impl IntoIterator<Item = T>) {
-        self.0.extend(entries);
-    }
-}
-
-impl<T: Clone> PerBlock<T> {
-    /// A list of `length` equal entries.
-    pub fn filled(entry: T, length: usize) -> PerBlock<T> {
-        PerBlock(SmallVec::from_elem(entry, length))
-    }
+#[derive(Clone)]
+enum Storage<T: Copy> {
+    /// The first `length` entries count; the others are copies of one of them.
+    Inline { entries: [T; INLINE_LENGTH], length: u8 },
+    /// An empty list, or a long one.
+    Heap(Vec<T>),
 }
 
 impl<T: Copy> PerBlock<T> {
+    /// An empty list.
+    pub fn new() -> PerBlock<T> {
+        PerBlock(Storage::Heap(Vec::new()))
+    }
+
+    /// A list of `length` equal entries.
+    #[inline]
+    pub fn filled(entry: T, length: usize) -> PerBlock<T> {
+        PerBlock(match length {
+            1..=INLINE_LENGTH => Storage::Inline { entries: [entry; INLINE_LENGTH], length: length as u8 },
+            _ => Storage::Heap(vec![entry; length]),
+        })
+    }
+
     /// A copy of a slice.
     #[inline]
     pub fn from_slice(entries: &[T]) -> PerBlock<T> {
-        PerBlock(SmallVec::from_slice(entries))
+        let Some(&first) = entries.first() else { return PerBlock::new() };
+        let mut list = PerBlock::filled(first, entries.len());
+        list.iter_mut().zip(entries).for_each(|(own, entry)| *own = *entry);
+        list
+    }
+
+    /// Appends an entry.
+    pub fn push(&mut self, entry: T) {
+        match &mut self.0 {
+            Storage::Inline { entries, length } if usize::from(*length) < INLINE_LENGTH => {
+                entries[usize::from(*length)] = entry;
+                *length += 1;
+            }
+            Storage::Inline { .. } => {
+                let mut entries = self.to_vec();
+                entries.push(entry);
+                self.0 = Storage::Heap(entries);
+            }
+            Storage::Heap(entries) if entries.is_empty() => *self = PerBlock::filled(entry, 1),
+            Storage::Heap(entries) => entries.push(entry),
+        }
+    }
+
+    /// Removes all entries.
+    pub fn clear(&mut self) {
+        *self = PerBlock::new();
     }
 }
 
-impl<T> Default for PerBlock<T> {
+impl<T: Copy> Default for PerBlock<T> {
     fn default() -> PerBlock<T> {
         PerBlock::new()
     }
 }
 
-impl<T> Deref for PerBlock<T> {
+impl<T: Copy> Deref for PerBlock<T> {
     type Target = [T];
     #[inline(always)]
     fn deref(&self) -> &[T] {
-        &self.0
+        match &self.0 {
+            Storage::Inline { entries, length } => &entries[..usize::from(*length).min(INLINE_LENGTH)],
+            Storage::Heap(entries) => entries,
+        }
     }
 }
 
-impl<T> DerefMut for PerBlock<T> {
+impl<T: Copy> DerefMut for PerBlock<T> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
-        &mut self.0
+        match &mut self.0 {
+            Storage::Inline { entries, length } => &mut entries[..usize::from(*length).min(INLINE_LENGTH)],
+            Storage::Heap(entries) => entries,
+        }
     }
 }
 
-impl<T> FromIterator<T> for PerBlock<T> {
+impl<T: Copy + fmt::Debug> fmt::Debug for PerBlock<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+impl<T: Copy + PartialEq> PartialEq for PerBlock<T> {
+    fn eq(&self, other: &PerBlock<T>) -> bool {
+        **self == **other
+    }
+}
+
+impl<T: Copy + Serialize> Serialize for PerBlock<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self[..].serialize(serializer)
+    }
+}
+
+impl<'de, T: Copy + Deserialize<'de>> Deserialize<'de> for PerBlock<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<PerBlock<T>, D::Error> {
+        Vec::deserialize(deserializer).map(|entries| PerBlock::from_slice(&entries))
+    }
+}
+
+impl<T: Copy> FromIterator<T> for PerBlock<T> {
     fn from_iter<I: IntoIterator<Item = T>>(entries: I) -> PerBlock<T> {
-        PerBlock(entries.into_iter().collect())
+        let mut list = PerBlock::new();
+        entries.into_iter().for_each(|entry| list.push(entry));
+        list
     }
 }
 
-impl<'l, T> IntoIterator for &'l PerBlock<T> {
+impl<'l, T: Copy> IntoIterator for &'l PerBlock<T> {
     type Item = &'l T;
     type IntoIter = std::slice::Iter<'l, T>;
     fn into_iter(self) -> Self::IntoIter {
-        self.0.iter()
+        self.iter()
     }
 }
 

@@ -8,7 +8,7 @@ use super::stretch::Motion;
 use crate::column::Column;
 use crate::mechanics::generated;
 use crate::mechanics::mode::Mode;
-use crate::response::Work;
+use crate::response::{ModeName, Work};
 use crate::scene::{DynamicsSource, Scene, SolveOptions};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::{Pattern, modes};
@@ -33,6 +33,8 @@ struct Basis {
 /// A pattern that runs have entered.
 struct Entered {
     pattern: Pattern,
+    /// Name of its mode.
+    name: String,
     phase: Phase,
     is_generic: bool,
     /// Whether the present run has entered it.
@@ -70,11 +72,14 @@ impl Modes {
         self.basis.as_ref().map_or(GroundMotion::WithVertical, |basis| basis.ground)
     }
 
-    /// Enters the motion of a state. Scene constants of a mode are computed when it is entered first.
-    pub fn enter(&mut self, problem: &Problem, after: State) -> &mut dyn Motion {
+    /// The place of the column at rest among the motions; modes follow.
+    pub const REST: usize = 0;
+
+    /// Enters the motion of a state: its place among the motions, and the motion. Scene constants of a mode are computed when it is entered first.
+    pub fn enter(&mut self, problem: &Problem, after: &State) -> (usize, &mut dyn Motion) {
         if after.pattern.dof() == 0 {
             self.rest.enter(problem, after);
-            return &mut self.rest;
+            return (Modes::REST, &mut self.rest);
         }
         let index = match self.entered.iter().position(|entered| entered.pattern == after.pattern) {
             Some(index) => index,
@@ -86,7 +91,7 @@ impl Modes {
         let entered = &mut self.entered[index];
         entered.is_entered = true;
         entered.phase.enter(problem, after);
-        &mut entered.phase
+        (index + 1, &mut entered.phase)
     }
 
     fn built(&self, pattern: &Pattern, problem: &Problem) -> Entered {
@@ -101,10 +106,17 @@ impl Modes {
         let mode = generated.or_else(|| Mode::generic(&scene.column, pattern)).expect("the column is not at rest");
         Entered {
             pattern: pattern.clone(),
+            name: ModeName::of(pattern).to_string(),
             phase: Phase::new(&mode, problem),
             is_generic,
             is_entered: false,
         }
+    }
+
+    /// Place and name of the modes that the present run has entered.
+    pub fn entered(&self) -> impl Iterator<Item = (usize, &str)> {
+        let entered = self.entered.iter().enumerate().filter(|(_, entered)| entered.is_entered);
+        entered.map(|(index, entered)| (index + 1, entered.name.as_str()))
     }
 
     /// Whether a mode that the present run has entered had no generated equations where it asked for them.

@@ -4,7 +4,7 @@
 
 use super::certainty::falls::Fall;
 use super::problem::Problem;
-use super::state::State;
+use super::state::Pace;
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Interfaces};
 use crate::mechanics::harmonics::Harmonics;
@@ -18,7 +18,7 @@ use crate::numerics::ode::samples::GAPS;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
-use rocking_codegen::pattern::Interface;
+use rocking_codegen::pattern::{Interface, Pattern};
 
 /// The phases of a mode, with storage for them.
 pub(crate) struct Phase {
@@ -40,8 +40,13 @@ pub(crate) struct Phase {
     /// The same over the last swing.
     pub(super) over_swing: PerBlock<Harmonics>,
 
-    /// The state at the start of the stretch; angles and rates are the integrator's until the phase ends.
-    pub(super) state: State,
+    pattern: Pattern,
+    /// Time at the start of the stretch `[s]`, and its segment.
+    pub(super) t: f64,
+    pub(super) segment: usize,
+    /// Until when openings are not examined, after a separation `[s]`.
+    pub(super) held_until: f64,
+    pub(super) pace: Pace,
     /// Step length to attempt next `[s]`.
     pub(super) wanted: f64,
     /// Bound of the next attempt after a rejected one `[s]`.
@@ -239,7 +244,11 @@ impl Phase {
             closed,
             margins: Margins::new(&scene.column, pattern),
             over_swing: PerBlock::new(),
-            state: State::at_rest(blocks),
+            pattern: pattern.clone(),
+            t: 0.0,
+            segment: 0,
+            held_until: f64::NEG_INFINITY,
+            pace: Pace::default(),
             wanted: 0.0,
             longest: f64::INFINITY,
             is_outcome_open: true,
@@ -261,11 +270,19 @@ impl Phase {
 
     /// Angles and rates per block of a state of the links.
     pub(super) fn per_block(&self, x: &[f64]) -> (PerBlock<f64>, PerBlock<f64>) {
-        let pick = |values: &[f64]| {
-            let of = |link: &usize| if *link == 0 { 0.0 } else { values[link - 1] };
-            self.links.iter().map(of).collect()
-        };
-        (pick(&x[..self.dof]), pick(&x[self.dof..]))
+        let mut both = [PerBlock::filled(0.0, self.links.len()), PerBlock::filled(0.0, self.links.len())];
+        for (own, values) in both.iter_mut().zip([&x[..self.dof], &x[self.dof..]]) {
+            for (own, link) in own.iter_mut().zip(&self.links).filter(|(_, link)| **link > 0) {
+                *own = values[link - 1];
+            }
+        }
+        let [theta, omega] = both;
+        (theta, omega)
+    }
+
+    /// The pattern of the mode.
+    pub(super) fn pattern(&self) -> &Pattern {
+        &self.pattern
     }
 
     /// `c N - |M|` of a closed interface, from the forces evaluated last.
@@ -293,7 +310,7 @@ impl Phase {
         }
         self.work.force_calls += 1;
         self.inside.copy_from_slice(self.integrator.start());
-        self.integrator.contact_forces(self.state.t, &self.inside, which, &mut self.forces.last);
+        self.integrator.contact_forces(self.t, &self.inside, which, &mut self.forces.last);
         self.note_margins(&problem.scene.column);
         self.forces.are_margins_known = true;
         if which == Interfaces::All {

@@ -34,8 +34,8 @@ pub(crate) struct Recorder {
     separations: Vec<Separation>,
     /// When the present motion was entered `[s]`.
     entered_at: f64,
-    /// Time per pattern `[s]`, in the order in which they were left.
-    times: Vec<(Pattern, f64)>,
+    /// Time per motion, by its place among the modes `[s]`.
+    times: Vec<f64>,
 }
 
 impl Recorder {
@@ -79,25 +79,10 @@ impl Recorder {
             let (theta, omega) = stretch.inside.state_at(t);
             self.record_row(problem, t, theta.to_vec(), omega.to_vec());
         }
-        let mut link = 0;
-        // Blocks of one link are neighbours and have one angle; the least of their peaks decides.
-        while let Some(known) = self.least_peak(stretch.inside.links(), link) {
-            let peak = stretch.inside.peak(link, known);
-            if peak > known {
-                let blocks = stretch.inside.links().iter().zip(self.peak_theta.iter_mut());
-                blocks.filter(|(own, _)| **own == link + 1).for_each(|(_, own)| *own = own.max(peak));
-            }
-            link += 1;
-        }
+        stretch.inside.raise_peaks(&mut self.peak_theta);
         if problem.records_forces() {
             stretch.inside.forces(problem, &mut |forces| self.record_forces(forces));
         }
-    }
-
-    /// The least of the peaks so far of the blocks of a link; `None` if there is no such link.
-    fn least_peak(&self, links: &[usize], link: usize) -> Option<f64> {
-        let own = links.iter().zip(&self.peak_theta).filter(|(own, _)| **own == link + 1).map(|(_, peak)| *peak);
-        own.reduce(f64::min)
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -138,38 +123,38 @@ impl Recorder {
         }
     }
 
-    /// Records a transition from `x⁻`.
-    pub fn transition(&mut self, problem: &Problem, before: &State, transition: &Transition) {
+    /// Records a transition from `x⁻` to `x⁺`.
+    pub fn transition(&mut self, problem: &Problem, before: &State, transition: &Transition, after: &State) {
         let kind = transition.kind;
-        if transition.separation {
+        if transition.decision.separation {
             self.separations.push(Separation { t: before.t, during: kind });
         }
-        self.pattern.clone_from(&transition.after.pattern);
-        if !transition.is_event {
-            return;
-        }
-        self.impacts += usize::from(kind == EventKind::Impact);
+        self.impacts += usize::from(transition.is_event && kind == EventKind::Impact);
         if !problem.is_recorded() {
             return;
         }
-        if self.events.is_empty() {
-            self.events.reserve(USUAL_EVENTS);
+        if problem.scene.output_dt.is_some() {
+            self.pattern.clone_from(&after.pattern);
         }
-        for_size!(before.theta.len(), size => self.events.push(event(size, before, transition)));
+        if transition.is_event {
+            if self.events.is_empty() {
+                self.events.reserve(USUAL_EVENTS);
+            }
+            for_size!(before.theta.len(), size => self.events.push(event(size, before, transition, after)));
+        }
     }
 
-    /// Records that the present motion is left, at `x⁻`.
-    pub fn leave(&mut self, problem: &Problem, before: &State) {
+    /// Records that a motion, by its place among the modes, is left at `x⁻`.
+    pub fn leave(&mut self, problem: &Problem, mode: usize, before: &State) {
         if !problem.is_recorded() {
             return;
         }
         self.record_angles(&before.theta);
-        let time = before.t - self.entered_at;
-        self.entered_at = before.t;
-        match self.times.iter_mut().find(|(pattern, _)| *pattern == before.pattern) {
-            Some((_, own)) => *own += time,
-            None => self.times.push((before.pattern.clone(), time)),
+        if self.times.len() <= mode {
+            self.times.resize(mode + 1, 0.0);
         }
+        self.times[mode] += before.t - self.entered_at;
+        self.entered_at = before.t;
     }
 
     /// The response of a run that is over.
@@ -193,12 +178,14 @@ impl Recorder {
         }
         let mut time_in_mode = BTreeMap::new();
         if problem.is_recorded() {
-            for (pattern, time) in &self.times {
-                let at_rest_for_good = pattern.dof() == 0 && status == StopReason::AtRest;
-                let time = time + if at_rest_for_good { problem.scene.options.t_end - last.t } else { 0.0 };
-                if pattern.dof() > 0 || time > 0.0 {
-                    *time_in_mode.entry(ModeName::of(pattern).to_string()).or_insert(0.0) += time;
-                }
+            let time = |mode: usize| self.times.get(mode).copied().unwrap_or(0.0);
+            for (mode, name) in modes.entered() {
+                *time_in_mode.entry(name.to_string()).or_insert(0.0) += time(mode);
+            }
+            let for_good = if status == StopReason::AtRest { problem.scene.options.t_end - last.t } else { 0.0 };
+            let at_rest = time(Modes::REST) + for_good;
+            if at_rest > 0.0 {
+                time_in_mode.insert(ModeName::REST.to_string(), at_rest);
             }
         }
         let mut work = modes.take_work();
@@ -224,14 +211,13 @@ impl Recorder {
 
 /// The event of a transition of a column of this size.
 #[inline(always)]
-fn event(size: impl Size, before: &State, transition: &Transition) -> Event {
-    let after = &transition.after;
+fn event(size: impl Size, before: &State, transition: &Transition, after: &State) -> Event {
     let all = |values: &[f64]| PerBlock::from_slice(&values[..size.blocks()]);
     let states = |pattern: &Pattern| Pattern::from_states(&pattern.0[..size.blocks()]);
     let numbers = transition.interfaces.iter().map(|interface| interface + 1);
     // Where nothing strikes, rates do not change but for what is snapped.
-    let strikes = !transition.impulses.is_empty();
-    let impulses = || PerBlock::from_slice(&size.list_of(|interface| Impulse::from(&transition.impulses[interface])));
+    let strikes = !transition.decision.impulses.is_empty();
+    let impulses = || PerBlock::from_slice(&size.list_of(|interface| Impulse::from(&transition.decision.impulses[interface])));
     Event {
         t: after.t,
         kind: transition.kind,
@@ -245,7 +231,7 @@ fn event(size: impl Size, before: &State, transition: &Transition) -> Event {
         theta: all(&after.theta),
         omega_before: all(if strikes { &before.omega } else { &after.omega }),
         omega_after: all(&after.omega),
-        energy_lost: (transition.kind == EventKind::Impact).then_some(transition.energy_lost),
+        energy_lost: (transition.kind == EventKind::Impact).then_some(transition.decision.energy_lost),
         impulses: if strikes { impulses() } else { PerBlock::new() },
     }
 }

@@ -29,41 +29,35 @@ const PLACES: (f64, f64) = (16.0, 4096.0);
 /// The column at rest, waiting for the ground to start it.
 #[derive(Default)]
 pub(crate) struct Rest {
-    /// The state with which the rest began; none before the first one and after the last one.
-    since: Option<State>,
+    /// Time and segment with which the rest began, and until when openings are not examined, after a separation.
+    since: (f64, usize),
+    held_until: f64,
     /// Time and segment at the end of the wait, seen from what follows.
     until: (f64, usize),
     /// The segment in which the wait ended.
     last: usize,
     /// Whether nothing starts the column any more.
     is_final: bool,
-    links: PerBlock<usize>,
+    blocks: usize,
     work: Work,
 }
 
-impl Rest {
-    fn since(&self) -> &State {
-        self.since.as_ref().expect("a rest is entered before it is read")
-    }
-}
-
 impl Motion for Rest {
-    fn enter(&mut self, _: &Problem, after: State) {
-        self.links = PerBlock::filled(0, after.theta.len());
-        self.since = Some(after);
+    fn enter(&mut self, _: &Problem, after: &State) {
+        self.blocks = after.theta.len();
+        self.since = (after.t, after.segment);
+        self.held_until = after.contact.hold.until;
     }
 
     /// Waits for the start, a jump of the ground acceleration that starts the column, or the end: one stretch, whatever the ground does in it.
     fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
-        let since = self.since.as_ref().expect("a rest is entered before it is read");
-        let start = since.t;
         let limit = least_uplift(&problem.scene.column);
-        let (mut t, mut index) = (start, since.segment);
+        let (mut t, mut index) = self.since;
         self.is_final = false;
         let ended = loop {
             let segment = &problem.ground[index];
-            if t < since.contact.hold.until {
-                t = since.contact.hold.until.min(segment.end);
+            if t < self.held_until {
+                t = self.held_until.min(segment.end);
             }
             self.work.waits += usize::from(problem.skips.rests);
             if let Some((start, interface, side)) = earliest_start(problem, segment, t, limit) {
@@ -93,24 +87,18 @@ impl Motion for Rest {
 
 impl Inside for Rest {
     fn state_at(&mut self, _: f64) -> (PerBlock<f64>, PerBlock<f64>) {
-        let zero = PerBlock::filled(0.0, self.links.len());
+        let zero = PerBlock::filled(0.0, self.blocks);
         (zero.clone(), zero)
     }
 
-    fn links(&self) -> &[usize] {
-        &self.links
-    }
-
-    fn peak(&mut self, _: usize, known: f64) -> f64 {
-        known
-    }
+    /// Nothing moves.
+    fn raise_peaks(&mut self, _: &mut [f64]) {}
 
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3])) {
-        let (column, since, end) = (&problem.scene.column, self.since(), self.until.0);
-        let mut t = since.t;
-        for segment in &problem.ground[since.segment..=self.last] {
-            if t < since.contact.hold.until {
-                t = since.contact.hold.until.min(segment.end);
+        let (column, end, (mut t, first)) = (&problem.scene.column, self.until.0, self.since);
+        for segment in &problem.ground[first..=self.last] {
+            if t < self.held_until {
+                t = self.held_until.min(segment.end);
             }
             let until = if segment.end < end { segment.end } else { end };
             let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - t);
@@ -126,12 +114,9 @@ impl Inside for Rest {
     }
 
     /// A column that stays at rest has been so since the rest began.
-    fn end(&mut self) -> State {
-        let mut state = self.since.take().expect("a rest is entered before it is read");
-        if !self.is_final {
-            (state.t, state.segment) = self.until;
-        }
-        state
+    fn end(&mut self, after: State) -> State {
+        let (t, segment) = if self.is_final { self.since } else { self.until };
+        State { t, segment, ..after }
     }
 }
 

@@ -88,8 +88,7 @@ impl Phase {
     /// Passes several samples of a record in one step, if nothing can happen in it.
     pub(super) fn step_over_samples(&mut self, problem: &Problem) -> bool {
         let Some(samples) = &mut self.samples else { return false };
-        let (state, segment) = (&self.state, &problem.ground[self.state.segment]);
-        if state.t != segment.start || state.contact.hold.until > state.t || self.gaps[0].start_roots > 0 {
+        if self.t != problem.ground[self.segment].start || self.held_until > self.t || self.gaps[0].start_roots > 0 {
             return false;
         }
         if samples.pause > 0 {
@@ -120,8 +119,8 @@ impl Phase {
         let x = [start[0], start[1]];
         let sign = self.gaps[0].across.sign;
         let timeline = problem.ground;
-        let (first, t) = (self.state.segment, self.state.t);
-        let known = timeline.samples(first, INTERVALS[self.state.pace.intervals]);
+        let (first, t) = (self.segment, self.t);
+        let known = timeline.samples(first, INTERVALS[self.pace.intervals]);
         let mut place = place_of(known.len() as f64 - 1.0).ok_or(INTERVALS[0])?;
         let length = |intervals: usize| timeline[first + intervals - 1].end - t;
         // Where it lands with its mean acceleration no attempt is worth its cost.
@@ -134,7 +133,7 @@ impl Phase {
             let step = sampled_step(&rocker, x, &known[..=intervals], h / intervals as f64, problem.tolerance);
             self.work.rhs_calls += NODES * step.rounds;
             let allowed = place_of(intervals as f64 * step.factor_wanted()).unwrap_or(0);
-            let tried = &mut self.state.pace.intervals;
+            let tried = &mut self.pace.intervals;
             if step.error > 1.0 {
                 place = allowed.min(place.checked_sub(1).ok_or(MOST)?);
                 *tried = place;
@@ -158,7 +157,7 @@ impl Phase {
         request: Request,
         visit: &mut dyn FnMut(&mut Stretch),
     ) {
-        let (first, last, t) = (self.state.segment, step.last_segment, self.state.t);
+        let (first, last, t) = (self.segment, step.last_segment, self.t);
         if request.is_whole {
             self.visit_samples(problem, last, visit);
         } else if let Some(crest) = step.crests.above(request.known_peak) {
@@ -166,21 +165,21 @@ impl Phase {
             self.skip_samples(problem, from);
             self.visit_samples(problem, last.min(first + until as usize), visit);
         }
-        (self.state.t, self.state.segment, self.stretch) = (t, first, Kind::Samples(step));
+        (self.t, self.segment, self.stretch) = (t, first, Kind::Samples(step));
         self.forces.forget();
     }
 
     /// Steps over most of these intervals, to visit what comes after them.
     fn skip_samples(&mut self, problem: &Problem, intervals: f64) {
         let (Some(place), Some(samples)) = (place_of(intervals), self.samples) else { return };
-        let (timeline, first, start) = (problem.ground, self.state.segment, self.integrator.start());
-        let (x, dt) = ([start[0], start[1]], timeline[first].end - self.state.t);
+        let (timeline, first, start) = (problem.ground, self.segment, self.integrator.start());
+        let (x, dt) = ([start[0], start[1]], timeline[first].end - self.t);
         let next = first + INTERVALS[place];
         let step = sampled_step(&samples.rocker, x, timeline.samples(first, INTERVALS[place]), dt, problem.tolerance);
         self.work.rhs_calls += NODES * step.rounds;
         if step.error <= 1.0 {
-            (self.state.t, self.state.segment) = (timeline[next].start, next);
-            self.integrator.restart(self.state.t, &step.end);
+            (self.t, self.segment) = (timeline[next].start, next);
+            self.integrator.restart(self.t, &step.end);
             self.integrator.enter(&timeline[next]);
         }
     }
@@ -189,7 +188,7 @@ impl Phase {
     fn visit_samples(&mut self, problem: &Problem, last: usize, visit: &mut dyn FnMut(&mut Stretch)) {
         let (mut wanted, mut longest) = (f64::INFINITY, f64::INFINITY);
         loop {
-            let (t, segment_end) = (self.state.t, problem.ground[self.state.segment].end);
+            let (t, segment_end) = (self.t, problem.ground[self.segment].end);
             let most = longest.min(segment_end - t);
             let attempt = self.integrator.attempt(t, wanted, most, problem.tolerance);
             wanted = attempt.wanted;
@@ -210,11 +209,11 @@ impl Phase {
             visit(&mut Stretch { end, ended: None, inside: self });
             self.advance(problem);
             if end == segment_end {
-                if self.state.segment == last {
+                if self.segment == last {
                     return;
                 }
-                self.state.segment += 1;
-                self.integrator.enter(&problem.ground[self.state.segment]);
+                self.segment += 1;
+                self.integrator.enter(&problem.ground[self.segment]);
             }
         }
     }

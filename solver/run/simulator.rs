@@ -127,10 +127,12 @@ fn run(
     modes.begin(problem);
     let (before, first) = transition::start(problem)?;
     let mut recorder = Recorder::new(problem, &before);
+    let mut after = before.clone();
     if let Some(first) = &first {
-        recorder.transition(problem, &before, first);
+        after = first.after(&before);
+        recorder.transition(problem, &before, first, &after);
     }
-    let mut motion = modes.enter(problem, first.map_or(before, |first| first.after));
+    let (mut mode, mut motion) = modes.enter(problem, &after);
     let mut stretches = 0;
     loop {
         let mut stretch = motion.next(problem)?;
@@ -142,19 +144,21 @@ fn run(
             }
             continue;
         };
-        let before = stretch.inside.end();
-        recorder.leave(problem, &before);
+        let before = stretch.inside.end(after);
+        recorder.leave(problem, mode, &before);
         report(progress, before.t)?;
         if let Ended::Over(over) = ended {
             return Ok(recorder.finish(problem, &before, over, modes));
         }
-        let mut next = transition(problem, &before, &ended)?;
-        recorder.transition(problem, &before, &next);
-        if let Some(forced) = break_circle(problem, &next)? {
-            recorder.transition(problem, &next.after, &forced);
-            next = forced;
+        let next = transition(problem, &before, &ended)?;
+        after = next.after(&before);
+        recorder.transition(problem, &before, &next, &after);
+        if let Some(forced) = break_circle(problem, &next, &after)? {
+            let closed = forced.after(&after);
+            recorder.transition(problem, &after, &forced, &closed);
+            after = closed;
         }
-        motion = modes.enter(problem, next.after);
+        (mode, motion) = modes.enter(problem, &after);
     }
 }
 

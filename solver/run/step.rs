@@ -54,8 +54,8 @@ type MarginSamples = SmallVec<[(f64, PerBlock<f64>); 6]>;
 impl Phase {
     /// Attempts a step and ends it at its first event. `None` if the attempt is rejected; otherwise why the phase ends with it, if it does.
     pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Option<Option<Ended>>, SolveError> {
-        let t = self.state.t;
-        let held = self.state.contact.hold.until - t;
+        let t = self.t;
+        let held = self.held_until - t;
         let most = if held > 0.0 { left.min(held) } else { left }.min(self.longest);
         let attempt = self.integrator.attempt(t, self.wanted, most, problem.tolerance);
         self.wanted = attempt.wanted;
@@ -69,7 +69,7 @@ impl Phase {
         let h = attempt.h;
         self.integrator.accept();
         self.work.steps += 1;
-        let end = if h == left { problem.ground[self.state.segment].end } else { t + h };
+        let end = if h == left { problem.ground[self.segment].end } else { t + h };
         self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
         Ok(Some(match self.first_event(problem, h, end) {
             Some((guard, s)) => self.cut_at(problem, guard, h, s),
@@ -79,12 +79,12 @@ impl Phase {
 
     #[cold]
     fn check_step(&self, rejected: Attempt) -> Result<(), SolveError> {
-        let (time, step) = (self.state.t, rejected.wanted);
+        let (time, step) = (self.t, rejected.wanted);
         // A segment or an event may leave less than the resolution of the time: only an error may not.
         if step > 2.0 * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
             return Ok(());
         }
-        let mode = ModeName::of(&self.state.pattern).to_string();
+        let mode = ModeName::of(self.pattern()).to_string();
         let ends = self.integrator.start().iter().chain(self.integrator.end());
         if rejected.error.is_nan() || !ends.into_iter().all(|value| value.is_finite()) {
             Err(SolveError::NotFinite { time, mode })
@@ -166,7 +166,7 @@ impl Phase {
         reach: f64,
         samples: &mut MarginSamples,
     ) -> Option<f64> {
-        let is_held = self.state.t < self.state.contact.hold.until;
+        let is_held = self.t < self.held_until;
         let opening = if is_held { Opening::Unclear } else { self.integrator.opening(&self.margins, index, reach * h) };
         if opening == Opening::StaysClosed {
             return None;
@@ -203,7 +203,7 @@ impl Phase {
             self.evaluate_end_forces(problem, end);
         } else {
             self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
-            self.evaluate_forces_inside(problem, self.state.t + s * h);
+            self.evaluate_forces_inside(problem, self.t + s * h);
         }
         let column = &problem.scene.column;
         let margins: PerBlock<f64> = self.closed.iter().map(|&interface| self.margin(column, interface)).collect();
@@ -223,7 +223,7 @@ impl Phase {
     /// Makes the step end where the guard is zero. `None` if the step, cut there, shows that the dense output was mistaken about a touch: the
     /// phase goes on from there.
     fn cut_at(&mut self, problem: &Problem, guard: Guard, attempted: f64, s: f64) -> Option<Ended> {
-        let t = self.state.t;
+        let t = self.t;
         let mut h = s * attempted;
         let (mut taken, mut has_touched) = (h, true);
         for _ in 0..NEWTON_ROUNDS {
@@ -251,7 +251,7 @@ impl Phase {
         // A mistake that takes no time would be made again: it is a touch.
         let is_mistaken = !has_touched && t + h > t;
         self.integrator.accept();
-        let segment_end = problem.ground[self.state.segment].end;
+        let segment_end = problem.ground[self.segment].end;
         let end = if h == segment_end - t { segment_end } else { t + h };
         self.stretch = Kind::Step(StepEnd { attempted, h, end, part: Part::UpToEvent });
         if is_mistaken {
@@ -286,7 +286,7 @@ impl Phase {
 
     /// Writes the state at a time of the step into `inside`.
     pub(super) fn state_in_step(&mut self, step: StepEnd, t: f64) {
-        let s = ((t - self.state.t) / step.attempted).clamp(0.0, 1.0);
+        let s = ((t - self.t) / step.attempted).clamp(0.0, 1.0);
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
 
@@ -320,7 +320,7 @@ impl Phase {
         let last = self.forces.last.clone();
         let rates = self.integrator.start()[self.dof..].iter().chain(&self.integrator.end()[self.dof..]);
         let turned = step.h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
-        let segment = &problem.ground[self.state.segment];
+        let segment = &problem.ground[self.segment];
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
         let panels = (PANELS_PER_TURN * turned + PANELS_PER_RADIAN * radians).ceil().clamp(1.0, MOST_PANELS) as usize;
         let at = |place: f64| place / panels as f64;
@@ -347,7 +347,7 @@ impl Phase {
     /// Evaluates contact forces at a share of the step as far as it was taken.
     fn evaluate_forces_at_share(&mut self, problem: &Problem, step: StepEnd, s: f64) {
         self.integrator.state_inside(step.part, s, &mut self.inside);
-        self.evaluate_forces_inside(problem, self.state.t + s * step.h);
+        self.evaluate_forces_inside(problem, self.t + s * step.h);
     }
 }
 

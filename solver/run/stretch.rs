@@ -51,11 +51,8 @@ pub(crate) trait Inside {
     /// Angles and rates per block at a time of the stretch `[s]`.
     fn state_at(&mut self, t: f64) -> (PerBlock<f64>, PerBlock<f64>);
 
-    /// Link of each block, base first, from one; zero where the block stands on the ground.
-    fn links(&self) -> &[usize];
-
-    /// The largest size of a link's angle in the stretch if it exceeds `known`, else `known` or less `[rad]`. Links are counted from zero.
-    fn peak(&mut self, link: usize, known: f64) -> f64;
+    /// Raises the largest angles so far, per block, to those in the stretch `[rad]`.
+    fn raise_peaks(&mut self, peaks: &mut [f64]);
 
     /// Calls `note` with contact forces at start, middle and end of panels so short that forces are parabolas over them.
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3]));
@@ -65,8 +62,8 @@ pub(crate) trait Inside {
         false
     }
 
-    /// The state at the end of the stretch: `x⁻`. The motion is over with that.
-    fn end(&mut self) -> State;
+    /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
+    fn end(&mut self, after: State) -> State;
 }
 
 /// What a recorder requests of the inside of a multi-sample step.
@@ -81,7 +78,7 @@ pub(crate) struct Request {
 /// What moves a column from one event to the next: the column at rest, or a mode.
 pub(crate) trait Motion: Send {
     /// Enters with `x⁺`.
-    fn enter(&mut self, problem: &Problem, after: State);
+    fn enter(&mut self, problem: &Problem, after: &State);
 
     /// The next stretch.
     fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError>;

@@ -34,7 +34,7 @@ impl Phase {
 
     /// Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
     fn is_critical(&mut self, column: &Column, across: Difference) -> bool {
-        let t = self.state.t;
+        let t = self.t;
         self.integrator.start_slope(t, &mut self.slope);
         let accelerations = &self.slope[self.dof..];
         across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(t))
@@ -46,11 +46,11 @@ impl Phase {
             Kind::Instant => return,
             Kind::Step(StepEnd { end, .. }) => {
                 self.integrator.advance();
-                (end, self.state.segment)
+                (end, self.segment)
             }
             Kind::Swing(Swing { until, x, .. }) => {
                 self.integrator.begin(until, &x);
-                (until, self.state.segment)
+                (until, self.segment)
             }
             Kind::Samples(step) => {
                 let end = problem.ground[step.last_segment].end;
@@ -58,7 +58,7 @@ impl Phase {
                 (end, step.last_segment)
             }
         };
-        (self.state.t, self.state.segment) = (t, segment);
+        (self.t, self.segment) = (t, segment);
         if matches!(self.stretch, Kind::Swing(_)) {
             self.gaps[0].start_roots = 0;
         } else {
@@ -76,9 +76,9 @@ impl Phase {
     /// Finds the next stretch; why it ended, if the phase ends with it.
     fn find_stretch(&mut self, problem: &Problem) -> Result<Option<Ended>, SolveError> {
         loop {
-            let segment = &problem.ground[self.state.segment];
-            let left = segment.end - self.state.t;
-            if self.state.t + left <= self.state.t {
+            let segment = &problem.ground[self.segment];
+            let left = segment.end - self.t;
+            if self.t + left <= self.t {
                 if let Some(ended) = self.next_segment(problem) {
                     return Ok(Some(ended));
                 }
@@ -105,12 +105,12 @@ impl Phase {
 
     /// Goes over to the next segment of ground motion; what ends the phase there, if anything.
     fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
-        self.state.t = problem.ground[self.state.segment].end;
-        if self.state.segment + 1 == problem.ground.len() {
+        self.t = problem.ground[self.segment].end;
+        if self.segment + 1 == problem.ground.len() {
             return Some(Ended::Over(Over::EndOfTime));
         }
-        self.state.segment += 1;
-        let segment = &problem.ground[self.state.segment];
+        self.segment += 1;
+        let segment = &problem.ground[self.segment];
         if segment.jumps {
             return Some(Ended::Jump);
         }
@@ -123,15 +123,15 @@ impl Phase {
     fn certain_outcome(&self, problem: &Problem) -> Option<Over> {
         let x = self.integrator.start();
         let sign = self.gaps[0].across.sign;
-        if self.fall.is_some_and(|fall| verdict::falls(&fall, problem, &self.state, [x[0], x[self.dof]], sign)) {
+        if self.fall.is_some_and(|fall| verdict::falls(&fall, problem, (self.segment, self.t), [x[0], x[self.dof]], sign)) {
             return Some(Over::Falls(0));
         }
-        verdict::stands(problem, &self.state, || self.per_block(x)).then_some(Over::Stands)
+        verdict::stands(problem, (self.segment, self.t), self.pattern(), || self.per_block(x)).then_some(Over::Stands)
     }
 }
 
 impl Motion for Phase {
-    fn enter(&mut self, problem: &Problem, after: State) {
+    fn enter(&mut self, problem: &Problem, after: &State) {
         self.calls = self.integrator.rhs_calls();
         self.work.phases += 1;
         self.integrator.enter(&problem.ground[after.segment]);
@@ -142,9 +142,10 @@ impl Motion for Phase {
             }
         }
         self.integrator.begin(after.t, &self.inside);
-        self.state = after;
+        (self.t, self.segment) = (after.t, after.segment);
+        (self.held_until, self.pace) = (after.contact.hold.until, after.pace);
         self.arm(&problem.scene.column);
-        self.wanted = match self.state.pace.step {
+        self.wanted = match self.pace.step {
             Some(step) => step,
             None => self.integrator.first_step(problem.tolerance),
         };
@@ -164,7 +165,7 @@ impl Motion for Phase {
         let ended = self.find_stretch(problem)?;
         let end = match &self.stretch {
             // A phase that ends at once has an inside of one instant.
-            Kind::Instant => self.state.t,
+            Kind::Instant => self.t,
             Kind::Step(step) => step.end,
             Kind::Swing(swing) => swing.until,
             Kind::Samples(step) => problem.ground[step.last_segment].end,
@@ -187,16 +188,27 @@ impl Inside for Phase {
         self.per_block(&self.inside)
     }
 
-    fn links(&self) -> &[usize] {
-        &self.links
-    }
-
-    fn peak(&mut self, link: usize, known: f64) -> f64 {
-        match self.stretch {
-            Kind::Step(step) => self.peak_of_step(step, link, known),
-            Kind::Swing(swing) => swing.peak(known),
-            Kind::Samples(step) => step.x[0].abs(),
-            Kind::Instant => known,
+    fn raise_peaks(&mut self, peaks: &mut [f64]) {
+        if let Kind::Instant = self.stretch {
+            return;
+        }
+        for link in 0..self.dof {
+            // Blocks of one link are neighbours and have one angle; the least of their peaks decides what is worth finding.
+            let mut known = f64::INFINITY;
+            for (own, peak) in self.links.iter().zip(&*peaks) {
+                known = if *own == link + 1 && *peak < known { *peak } else { known };
+            }
+            let peak = match &self.stretch {
+                Kind::Step(step) => self.peak_of_step(*step, link, known),
+                Kind::Swing(swing) => swing.peak(known),
+                Kind::Samples(step) => step.x[0].abs(),
+                Kind::Instant => known,
+            };
+            if peak > known {
+                for (own, block) in peaks.iter_mut().zip(&self.links) {
+                    *own = if *block == link + 1 { own.max(peak) } else { *own };
+                }
+            }
         }
     }
 
@@ -224,28 +236,30 @@ impl Inside for Phase {
         }
     }
 
-    fn end(&mut self) -> State {
-        let x: PerBlock<f64> = match &self.stretch {
-            Kind::Instant => PerBlock::from_slice(self.integrator.start()),
+    fn end(&mut self, mut state: State) -> State {
+        match &self.stretch {
+            Kind::Instant => self.inside.copy_from_slice(self.integrator.start()),
             Kind::Step(step) => {
-                self.state.t = step.end;
-                let mut x = PerBlock::from_slice(self.integrator.end());
+                self.t = step.end;
+                self.inside.copy_from_slice(self.integrator.end());
                 // Angles of interfaces that close are equal to the last bit.
                 for gap in self.gaps.iter().filter(|gap| self.closing.contains(&gap.interface)) {
-                    x[gap.across.upper] = gap.across.lower.map_or(0.0, |lower| x[lower]);
+                    self.inside[gap.across.upper] = gap.across.lower.map_or(0.0, |lower| self.inside[lower]);
                 }
-                x
             }
             Kind::Swing(swing) => {
-                self.state.t = swing.until;
-                PerBlock::from_slice(&swing.x)
+                self.t = swing.until;
+                self.inside.copy_from_slice(&swing.x);
             }
-            Kind::Samples(step) => PerBlock::from_slice(&step.x),
-        };
-        let (theta, omega) = self.per_block(&x);
-        self.state.pace.step = Some(self.wanted);
+            Kind::Samples(step) => self.inside.copy_from_slice(&step.x),
+        }
+        self.pace.step = Some(self.wanted);
         self.work.rhs_calls += self.integrator.rhs_calls() - self.calls;
-        let next = State::at_rest(0);
-        State { theta, omega, ..std::mem::replace(&mut self.state, next) }
+        (state.t, state.segment, state.pace) = (self.t, self.segment, self.pace);
+        for (block, &link) in self.links.iter().enumerate() {
+            let of = |offset: usize| if link == 0 { 0.0 } else { self.inside[offset + link - 1] };
+            (state.theta[block], state.omega[block]) = (of(0), of(self.dof));
+        }
+        state
     }
 }

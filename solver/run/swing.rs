@@ -45,13 +45,13 @@ impl Course {
 impl Phase {
     /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
     pub(super) fn swing(&mut self, problem: &Problem) -> Option<Option<Ended>> {
-        let segment = &problem.ground[self.state.segment];
-        if !segment.is_quiet() || self.state.contact.hold.until > self.state.t {
+        let segment = &problem.ground[self.segment];
+        if !segment.is_quiet() || self.held_until > self.t {
             return None;
         }
         let pendulum = self.pendulum?;
         let (course, mut end) = self.course(problem, pendulum)?;
-        let left = segment.end - self.state.t;
+        let left = segment.end - self.t;
         if !self.closed.is_empty() {
             let legs = course.legs(&end);
             let (waves, gravity) = (pendulum.waves(&course.swing, course.sign), problem.scene.column.gravity());
@@ -69,7 +69,7 @@ impl Phase {
         self.work.swings += 1;
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
-        let until = if is_cut { segment.end } else { self.state.t + end.time };
+        let until = if is_cut { segment.end } else { self.t + end.time };
         let is_landed = !is_cut && matches!(end.ended, Ended::Closing(_));
         let [theta, omega] = course.state([psi, v]);
         let x = [if is_landed { 0.0 } else { theta }, omega];
@@ -156,13 +156,13 @@ impl Phase {
     fn evaluate_forces_at_angle(&mut self, problem: &Problem, course: &Course, psi: f64) {
         let v = course.swing.rate_at(psi).unwrap_or(0.0);
         self.inside.copy_from_slice(&course.state([psi, v]));
-        self.evaluate_forces_inside(problem, self.state.t);
+        self.evaluate_forces_inside(problem, self.t);
     }
 
     /// Writes the state at a time of the swing into `inside`.
     pub(super) fn state_in_swing(&mut self, swing: &Swing, t: f64) {
         let course = &swing.course;
-        self.inside.copy_from_slice(&course.state(course.swing.after(t - self.state.t)));
+        self.inside.copy_from_slice(&course.state(course.swing.after(t - self.t)));
     }
 
     /// Forces from the start of the swing to its crest, if it has turned, and to its end.

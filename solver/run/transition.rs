@@ -3,10 +3,10 @@
 use super::error::SolveError;
 use super::problem::Problem;
 use super::rest;
-use super::state::State;
+use super::state::{ContactMemory, State};
 use super::stretch::Ended;
 use crate::contact::{self, Decision, ImpactLaw};
-use crate::mechanics::dynamics::{ContactForce, Ground};
+use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -18,33 +18,47 @@ const EVENTS_AT_ONCE: usize = 8;
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
 const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
 
-/// A transition of the run.
+/// A transition of the run: what the laws of contact have decided about `x⁻`.
 pub(crate) struct Transition {
-    /// `x⁺`
-    pub after: State,
     /// What happened.
     pub kind: EventKind,
     /// Whether it counts as an event: a jump of the ground that changes no pattern does not.
     pub is_event: bool,
     /// The interfaces that closed or opened, from zero.
     pub interfaces: PerBlock<usize>,
-    /// No pattern was admissible.
-    pub separation: bool,
-    /// Kinetic energy lost over that before, 0 to 1.
-    pub energy_lost: f64,
-    /// Impulses per interface; empty where rates do not jump.
-    pub impulses: PerBlock<ContactForce>,
+    /// Pattern, rates and impulses after it.
+    pub decision: Decision,
+    /// Interfaces released in this instant, with their sides.
+    released: Vec<(usize, Interface)>,
     /// Whether it is one of the events whose number in one instant is limited.
     is_counted: bool,
 }
 
 impl Transition {
-    /// Counts the events in this instant.
-    fn counted(mut self, before: &State) -> Transition {
-        let is_same_instant = before.contact.last_events[1] == before.t;
-        self.after.contact.events_at_once = if is_same_instant { before.contact.events_at_once + 1 } else { 0 };
-        self.is_counted = true;
-        self
+    /// `x⁺` of `x⁻`.
+    pub fn after(&self, before: &State) -> State {
+        let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
+        let is_same_instant = last_events[1] == before.t;
+        let mut after = State {
+            t: before.t,
+            segment: before.segment,
+            theta: before.theta.clone(),
+            omega: self.decision.omega.clone(),
+            pattern: self.decision.pattern.clone(),
+            contact: ContactMemory {
+                released: self.released.clone(),
+                hold: if self.decision.separation { hold.after_separation(before.t) } else { hold },
+                last_events: if self.is_event { [last_events[1], before.t] } else { last_events },
+                events_at_once: match (self.is_counted, is_same_instant) {
+                    (true, true) => events_at_once + 1,
+                    (true, false) => 0,
+                    (false, _) => events_at_once,
+                },
+            },
+            pace: before.pace,
+        };
+        snap(&after.pattern, &mut after.theta, &mut after.omega);
+        after
     }
 }
 
@@ -72,7 +86,9 @@ pub(crate) fn start(problem: &Problem) -> Result<(State, Option<Transition>), So
     }
     let decision = forces(problem, &state, &[])?;
     let is_event = is_at_rest && decision.pattern != state.pattern;
-    let transition = adopt(&state, decision, EventKind::Start, &[], is_event);
+    let (interfaces, released) = (PerBlock::new(), Vec::new());
+    let kind = EventKind::Start;
+    let transition = Transition { kind, is_event, interfaces, decision, released, is_counted: false };
     Ok((state, Some(transition)))
 }
 
@@ -104,28 +120,34 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
         is_recorded: problem.is_recorded(),
     };
     let column = &problem.scene.column;
-    let decision = contact::impact(column, &before.pattern, theta, omega, closing, ground(problem, before), law)
-        .map_err(|_| singular(before))?;
-    Ok(strike(before, decision, closing).counted(before))
-}
-
-/// The transition of a decision about an impact.
-fn strike(before: &State, decision: Decision, closing: &[usize]) -> Transition {
-    let mut transition = adopt(before, decision, EventKind::Impact, closing, true);
-    transition.after.contact.released.clear();
-    transition
+    Ok(Transition {
+        decision: contact::impact(column, &before.pattern, theta, omega, closing, ground(problem, before), law)
+            .map_err(|_| singular(before))?,
+        kind: EventKind::Impact,
+        is_event: true,
+        interfaces: PerBlock::from_slice(closing),
+        released: Vec::new(),
+        is_counted: true,
+    })
 }
 
 /// Interfaces that had opened while critical are driven back before they have moved: no impact, they are closed again, and those
 /// that opened in the same instant stay open.
+#[cold]
 fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let mut pattern = before.pattern.clone();
     closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
     let omega = before.omega.clone();
-    let decision = Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: PerBlock::new() };
-    let mut transition = adopt(before, decision, EventKind::Impact, closing, true);
-    transition.after.contact.released.retain(|(interface, _)| !closing.contains(interface));
-    transition.counted(before)
+    let mut released = before.contact.released.clone();
+    released.retain(|(interface, _)| !closing.contains(interface));
+    Transition {
+        decision: Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: PerBlock::new() },
+        kind: EventKind::Impact,
+        is_event: true,
+        interfaces: PerBlock::from_slice(closing),
+        released,
+        is_counted: true,
+    }
 }
 
 /// An interface opens because its resultant has reached a corner, with those that have done so in the same instant.
@@ -136,31 +158,38 @@ fn opening(
     side: Interface,
     kind: EventKind,
 ) -> Result<Transition, SolveError> {
-    let mut released = PerBlock::new();
+    let mut released = Vec::new();
     if before.contact.last_events[1] == before.t {
         released.extend(before.contact.released.iter().copied().filter(|(other, _)| *other != interface));
     }
     released.push((interface, side));
-    let decision = forces(problem, before, &released)?;
-    let opened: &[usize] = if kind == EventKind::Opening { &[interface] } else { &[] };
-    let mut transition = adopt(before, decision, kind, opened, true);
-    transition.after.contact.released = released;
-    Ok(transition.counted(before))
+    let opened = [interface];
+    let opened: &[usize] = if kind == EventKind::Opening { &opened } else { &[] };
+    Ok(Transition {
+        decision: forces(problem, before, &released)?,
+        kind,
+        is_event: true,
+        interfaces: PerBlock::from_slice(opened),
+        released,
+        is_counted: true,
+    })
 }
 
 /// The ground acceleration has jumped: every closed interface is examined anew.
 fn jump(problem: &Problem, before: &State, kind: EventKind) -> Result<Transition, SolveError> {
     let decision = forces(problem, before, &[])?;
     let is_event = decision.pattern != before.pattern;
-    let mut transition = adopt(before, decision, kind, &[], is_event);
-    transition.after.contact.released.clear();
-    Ok(transition)
+    let (interfaces, released) = (PerBlock::new(), Vec::new());
+    Ok(Transition { decision, kind, is_event, interfaces, released, is_counted: false })
 }
 
 /// The forced transition that breaks a circle of events in one instant, if one is due: what has not moved is closed, momentum conserved, as a
 /// separation.
-pub(crate) fn break_circle(problem: &Problem, last: &Transition) -> Result<Option<Transition>, SolveError> {
-    let state = &last.after;
+pub(crate) fn break_circle(
+    problem: &Problem,
+    last: &Transition,
+    state: &State,
+) -> Result<Option<Transition>, SolveError> {
     let (events, most) = (state.contact.events_at_once, EVENTS_AT_ONCE * (state.theta.len() + 1));
     if !last.is_counted || events < most {
         return Ok(None);
@@ -178,7 +207,14 @@ pub(crate) fn break_circle(problem: &Problem, last: &Transition) -> Result<Optio
     let is_closing = |interface: &usize| state.pattern.0[*interface].is_open() && is_still(*interface);
     let closing: PerBlock<usize> = (0..theta.len()).filter(is_closing).collect();
     let decision = contact::stick(&problem.scene.column, &state.pattern, theta, omega, &closing);
-    Ok(Some(strike(state, decision.map_err(|_| singular(state))?, &closing)))
+    Ok(Some(Transition {
+        decision: decision.map_err(|_| singular(state))?,
+        kind: EventKind::Impact,
+        is_event: true,
+        interfaces: closing,
+        released: Vec::new(),
+        is_counted: false,
+    }))
 }
 
 fn forces(problem: &Problem, state: &State, released: &[(usize, Interface)]) -> Result<Decision, SolveError> {
@@ -194,30 +230,6 @@ fn ground(problem: &Problem, state: &State) -> Ground {
 #[cold]
 fn singular(state: &State) -> SolveError {
     SolveError::SingularMass { time: state.t, pattern: state.pattern.to_string() }
-}
-
-/// The transition to a decision's pattern and rates. The interfaces released in this instant are the caller's to set.
-fn adopt(before: &State, decision: Decision, kind: EventKind, interfaces: &[usize], is_event: bool) -> Transition {
-    let Decision { pattern, mut omega, separation, energy_lost, impulses } = decision;
-    let mut contact = before.contact.clone();
-    if separation {
-        contact.hold = contact.hold.after_separation(before.t);
-    }
-    if is_event {
-        contact.last_events = [contact.last_events[1], before.t];
-    }
-    let mut theta = before.theta.clone();
-    snap(&pattern, &mut theta, &mut omega);
-    Transition {
-        after: State { t: before.t, segment: before.segment, theta, omega, pattern, contact, pace: before.pace },
-        kind,
-        is_event,
-        interfaces: PerBlock::from_slice(interfaces),
-        separation,
-        energy_lost,
-        impulses,
-        is_counted: false,
-    }
 }
 
 /// Makes closed interfaces, and interfaces that have only just opened, gapless and motionless to the last bit. Decided before anything is moved: a

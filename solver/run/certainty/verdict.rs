@@ -4,7 +4,7 @@ use super::falls::Fall;
 use crate::mechanics::kinematics::{Posture, Turn};
 use crate::numerics::per_block::{PerBlock, for_size};
 use crate::run::problem::Problem;
-use crate::run::state::State;
+use rocking_codegen::pattern::Pattern;
 
 /// Share of the barrier that must be missing from the energy: roundings are far less, and runs that pass so close to the top take many
 /// seconds over it.
@@ -23,9 +23,14 @@ fn slack(problem: &Problem) -> f64 {
 
 /// Whether the column, with the angles and rates that `state` gives, is in the box of its barrier, and whatever the ground still does brings
 /// less energy than it takes to leave the box.
-pub(crate) fn stands(problem: &Problem, at: &State, state: impl FnOnce() -> (PerBlock<f64>, PerBlock<f64>)) -> bool {
+pub(crate) fn stands(
+    problem: &Problem,
+    (segment, t): (usize, f64),
+    pattern: &Pattern,
+    state: impl FnOnce() -> (PerBlock<f64>, PerBlock<f64>),
+) -> bool {
     let Some(prospects) = problem.prospects.filter(|_| problem.may_stand) else { return false };
-    let Some(impulse) = problem.ground.impulse_from(at.segment, at.t, prospects.impulse) else { return false };
+    let Some(impulse) = problem.ground.impulse_from(segment, t, prospects.impulse) else { return false };
     let (theta, omega) = state();
     if theta.iter().zip(&prospects.barrier.angles).any(|(theta, most)| theta.abs() > *most) {
         return false;
@@ -33,7 +38,7 @@ pub(crate) fn stands(problem: &Problem, at: &State, state: impl FnOnce() -> (Per
     let column = &problem.scene.column;
     let energy = for_size!(column.len(), size => {
         let turns = Turn::all(size, &theta);
-        let posture = Posture::of(size, column, &at.pattern.0, &turns);
+        let posture = Posture::of(size, column, &pattern.0, &turns);
         let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(&omega)), &omega);
         kinetic + prospects.potential(&turns)
     });
@@ -41,14 +46,14 @@ pub(crate) fn stands(problem: &Problem, at: &State, state: impl FnOnce() -> (Per
 }
 
 /// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, overturns before the run ends.
-pub(crate) fn falls(fall: &Fall, problem: &Problem, at: &State, x: [f64; 2], sign: f64) -> bool {
+pub(crate) fn falls(fall: &Fall, problem: &Problem, (segment, t): (usize, f64), x: [f64; 2], sign: f64) -> bool {
     let Some(excess) = fall.excess(x, sign, slack(problem)) else { return false };
-    let has_fallen_by = |end: f64, push: f64| fall.latest(excess, push).is_some_and(|latest| at.t + latest < end);
-    if has_fallen_by(problem.scene.options.t_end, problem.ground.push_from(sign, at.segment, at.t)) {
+    let has_fallen_by = |end: f64, push: f64| fall.latest(excess, push).is_some_and(|latest| t + latest < end);
+    if has_fallen_by(problem.scene.options.t_end, problem.ground.push_from(sign, segment, t)) {
         return true;
     }
     // What comes once it lies on its side does not matter.
-    let soon = fall.latest(excess, 0.0).map_or(f64::INFINITY, |latest| at.t + LOOKAHEAD_FACTOR * latest);
-    let end = problem.ground[at.segment].end;
-    soon < end && has_fallen_by(soon, problem.ground.push_in(sign, at.segment, [at.t, soon]))
+    let soon = fall.latest(excess, 0.0).map_or(f64::INFINITY, |latest| t + LOOKAHEAD_FACTOR * latest);
+    let end = problem.ground[segment].end;
+    soon < end && has_fallen_by(soon, problem.ground.push_in(sign, segment, [t, soon]))
 }
