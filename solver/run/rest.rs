@@ -114,9 +114,9 @@ impl Inside for Rest {
     }
 
     /// A column that stays at rest has been so since the rest began.
-    fn end(&mut self, after: State) -> State {
-        let (t, segment) = if self.is_final { self.since } else { self.until };
-        State { t, segment, ..after }
+    fn end(&mut self, mut state: Box<State>) -> Box<State> {
+        (state.t, state.segment) = if self.is_final { self.since } else { self.until };
+        state
     }
 }
 

@@ -129,9 +129,10 @@ fn run(
     let mut recorder = Recorder::new(problem, &before);
     let mut after = before.clone();
     if let Some(first) = &first {
-        after = first.after(&before);
+        after = first.after(&before, after);
         recorder.transition(problem, &before, first, &after);
     }
+    let mut spare = before;
     let (mut mode, mut motion) = modes.enter(problem, &after);
     let mut stretches = 0;
     loop {
@@ -151,12 +152,13 @@ fn run(
             return Ok(recorder.finish(problem, &before, over, modes));
         }
         let next = transition(problem, &before, &ended)?;
-        after = next.after(&before);
+        after = next.after(&before, spare);
         recorder.transition(problem, &before, &next, &after);
+        spare = before;
         if let Some(forced) = break_circle(problem, &next, &after)? {
-            let closed = forced.after(&after);
+            let closed = forced.after(&after, spare);
             recorder.transition(problem, &after, &forced, &closed);
-            after = closed;
+            (spare, after) = (after, closed);
         }
         (mode, motion) = modes.enter(problem, &after);
     }

@@ -63,7 +63,7 @@ pub(crate) trait Inside {
     }
 
     /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
-    fn end(&mut self, after: State) -> State;
+    fn end(&mut self, after: Box<State>) -> Box<State>;
 }
 
 /// What a recorder requests of the inside of a multi-sample step.

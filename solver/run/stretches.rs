@@ -236,7 +236,7 @@ impl Inside for Phase {
         }
     }
 
-    fn end(&mut self, mut state: State) -> State {
+    fn end(&mut self, mut state: Box<State>) -> Box<State> {
         match &self.stretch {
             Kind::Instant => self.inside.copy_from_slice(self.integrator.start()),
             Kind::Step(step) => {

@@ -35,37 +35,32 @@ pub(crate) struct Transition {
 }
 
 impl Transition {
-    /// `x⁺` of `x⁻`.
-    pub fn after(&self, before: &State) -> State {
+    /// `x⁺` of `x⁻`, in the storage of a state that is not needed any more.
+    pub fn after(&self, before: &State, mut storage: Box<State>) -> Box<State> {
         let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
         let is_same_instant = last_events[1] == before.t;
-        let mut after = State {
-            t: before.t,
-            segment: before.segment,
-            theta: before.theta.clone(),
-            omega: self.decision.omega.clone(),
-            pattern: self.decision.pattern.clone(),
-            contact: ContactMemory {
-                released: self.released.clone(),
-                hold: if self.decision.separation { hold.after_separation(before.t) } else { hold },
-                last_events: if self.is_event { [last_events[1], before.t] } else { last_events },
-                events_at_once: match (self.is_counted, is_same_instant) {
-                    (true, true) => events_at_once + 1,
-                    (true, false) => 0,
-                    (false, _) => events_at_once,
-                },
-            },
-            pace: before.pace,
+        let after = &mut *storage;
+        (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
+        after.theta.clone_from(&before.theta);
+        after.omega.clone_from(&self.decision.omega);
+        after.pattern.clone_from(&self.decision.pattern);
+        after.contact.released.clone_from(&self.released);
+        after.contact.hold = if self.decision.separation { hold.after_separation(before.t) } else { hold };
+        after.contact.last_events = if self.is_event { [last_events[1], before.t] } else { last_events };
+        after.contact.events_at_once = match (self.is_counted, is_same_instant) {
+            (true, true) => events_at_once + 1,
+            (true, false) => 0,
+            (false, _) => events_at_once,
         };
         snap(&after.pattern, &mut after.theta, &mut after.omega);
-        after
+        storage
     }
 }
 
 /// `x⁺` at time zero: interfaces are open where there is a gap or where the rates open one; then every closed interface is examined.
-pub(crate) fn start(problem: &Problem) -> Result<(State, Option<Transition>), SolveError> {
+pub(crate) fn start(problem: &Problem) -> Result<(Box<State>, Option<Transition>), SolveError> {
     let initial = &problem.scene.initial;
-    let mut state = State::at_rest(problem.scene.column.len());
+    let mut state = Box::new(State::at_rest(problem.scene.column.len()));
     for (own, given) in [(&mut state.theta, &initial.theta), (&mut state.omega, &initial.omega)] {
         own.iter_mut().zip(given).for_each(|(own, given)| *own = *given);
     }
