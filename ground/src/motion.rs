@@ -1,15 +1,15 @@
-//! Kinds of ground motion: each with its formula and source, as smooth pieces with known ends.
+//! Kinds of ground motion, each with its formula and source, as smooth pieces with known ends.
 //!
 //! `a` is the acceleration, `τ = t - start`, and `ω` the angular frequency of the literature, `2π / T_p` for a pulse of period
-//! `T_p`. A pulse begins at `start`, also one whose formula is told from its centre.
+//! `T_p`. A pulse begins at `start`, also one whose formula has its origin at the centre.
 //!
 //! Sources: Makris & Chang (2000), *Earthquake Spectra* 16 (types A, B, C_n); Ricker (1943), *Geophysics* 8, as in Vassiliou & Makris
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
 //! (their pulse, and Gabor's wavelet beside it).
 
-use crate::overlay::{Span, Spans, overlay};
 use crate::piece::Piece;
 use crate::record::Record;
+use crate::spans::{Span, Spans, overlay};
 use serde::Serialize;
 use smallvec::smallvec;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
@@ -17,6 +17,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 /// Ground acceleration of one component.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Motion {
     /// `a = amplitude · sin ωτ` over one period: the one-sine pulse, type A of Makris & Chang. The ground stops displaced by
     /// `2π amplitude / ω²`.
@@ -170,78 +171,61 @@ const ANTISYMMETRIC_REACH: f64 = 6.5;
 /// Half-length of a Gabor wavelet in `ω(t - t_0)/γ`.
 const GABOR_REACH: f64 = 4.5;
 
-/// What a number of a ground motion must be.
-enum Range {
-    Any,
-    Above(f64),
-}
-
 impl Motion {
-    /// The smooth pieces in order of time, without overlap; nothing moves outside them.
+    /// The smooth pieces in order of time, without overlap; the acceleration is zero outside them.
     pub(crate) fn pieces(&self) -> Spans {
-        let span = |start: f64, duration: f64, piece: Piece| Span { start, end: start + duration, piece };
-        let sine = |start: f64, duration: f64, [amplitude, omega, phase]: [f64; 3]| {
-            span(start, duration, Piece::Sine { amplitude, omega, start, phase })
-        };
-        let level =
-            |start: f64, duration: f64, value: f64| span(start, duration, Piece::Linear { value, slope: 0.0, start });
-        match *self {
-            Motion::SinePulse { amplitude, omega, start } => {
-                smallvec![sine(start, TAU / omega, [amplitude, omega, 0.0])]
-            }
+        let sine = |amplitude: f64, omega: f64, start: f64, phase: f64| Piece::Sine { amplitude, omega, start, phase };
+        let (start, duration, piece) = match *self {
+            Motion::SinePulse { amplitude, omega, start } => (start, TAU / omega, sine(amplitude, omega, start, 0.0)),
             Motion::CosinePulse { amplitude, omega, start } => {
-                smallvec![span(start, TAU / omega, Piece::Cosine { amplitude, omega, start })]
+                (start, TAU / omega, Piece::Cosine { amplitude, omega, start })
             }
-            Motion::HalfSine { amplitude, omega, start } => smallvec![sine(start, PI / omega, [amplitude, omega, 0.0])],
+            Motion::HalfSine { amplitude, omega, start } => (start, PI / omega, sine(amplitude, omega, start, 0.0)),
             Motion::TypeC { amplitude, omega, start, cycles } => {
                 let phase = phase_of_type_c(cycles);
                 let duration = ((2.0 * f64::from(cycles) + 1.0) * PI - 2.0 * phase) / omega;
-                smallvec![sine(start, duration, [amplitude, omega, phase + FRAC_PI_2])]
+                (start, duration, sine(amplitude, omega, start, phase + FRAC_PI_2))
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                smallvec![sine(start, f64::INFINITY, [amplitude, omega, phase])]
+                (start, f64::INFINITY, sine(amplitude, omega, start, phase))
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                smallvec![sine(start, duration, [amplitude, omega, phase])]
+                (start, duration, sine(amplitude, omega, start, phase))
             }
             Motion::Ricker { amplitude, omega, start } => {
                 let omega = omega / SQRT_2;
                 let reach = RICKER_REACH / omega;
-                smallvec![span(start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })]
+                (start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })
             }
             Motion::AntisymmetricRicker { amplitude, omega, start } => {
                 let omega = omega / 3f64.sqrt();
                 let reach = ANTISYMMETRIC_REACH / omega;
-                smallvec![span(
-                    start,
-                    2.0 * reach,
-                    Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach }
-                )]
+                (start, 2.0 * reach, Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach })
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
                 // Twice the product of sines and cosines is a sum of them: the derivative of the velocity has three frequencies.
                 let reach = PI * gamma / omega;
-                let wave = |ratio: f64, share: f64| Piece::Sine {
-                    amplitude: -0.5 * share * velocity * omega,
-                    omega: ratio * omega,
-                    start: start + reach,
-                    phase,
-                };
+                let wave =
+                    |ratio: f64, share: f64| sine(-0.5 * share * velocity * omega, ratio * omega, start + reach, phase);
                 let (above, below) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
                 let waves = [wave(1.0, 1.0), wave(above, 0.5 * above), wave(below, 0.5 * below)];
-                smallvec![span(start, 2.0 * reach, Piece::sum(&waves))]
+                (start, 2.0 * reach, Piece::sum(&waves))
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
                 let reach = GABOR_REACH * gamma / omega;
-                let piece = Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma };
-                smallvec![span(start, 2.0 * reach, piece)]
+                (start, 2.0 * reach, Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma })
             }
-            Motion::Rectangular { amplitude, start, duration } => smallvec![level(start, duration, amplitude)],
+            Motion::Rectangular { amplitude, start, duration } => {
+                (start, duration, Piece::Linear { value: amplitude, slope: 0.0, start })
+            }
             Motion::DoubleRectangular { amplitude, start, duration } => {
-                let half = 0.5 * duration;
-                let first = level(start, half, amplitude);
-                let second = Span { start: first.end, ..level(first.end, half, -amplitude) };
-                smallvec![first, Span { end: start + duration, ..second }]
+                let (middle, end) = (start + 0.5 * duration, start + duration);
+                let level = |start: f64, end: f64, value: f64| Span {
+                    start,
+                    end,
+                    piece: Piece::Linear { value, slope: 0.0, start },
+                };
+                return smallvec![level(start, middle, amplitude), level(middle, end, -amplitude)];
             }
             Motion::Sum { ref terms } => {
                 let terms: Vec<Spans> = terms.iter().map(Motion::pieces).collect();
@@ -249,13 +233,14 @@ impl Motion {
                 overlay(&terms, f64::NEG_INFINITY, f64::INFINITY, |start, end, pieces| {
                     spans.push(Span { start, end, piece: Piece::sum(pieces) });
                 });
-                spans
+                return spans;
             }
-            Motion::Record(ref record) => record.pieces().collect(),
-        }
+            Motion::Record(ref record) => return record.pieces().collect(),
+        };
+        smallvec![Span { start, end: start + duration, piece }]
     }
 
-    /// The amplitude `[m/s²]` of a formula of which nothing else depends on it; the motion is proportional to it.
+    /// The amplitude `[m/s²]` of a formula that is proportional to it.
     pub fn amplitude_mut(&mut self) -> Option<&mut f64> {
         match self {
             Motion::SinePulse { amplitude, .. }
@@ -283,12 +268,12 @@ impl Motion {
         }
     }
 
-    /// When it ends `[s]`; `None` for what goes on for ever.
+    /// End of the motion `[s]`; none for a motion without end.
     pub fn end(&self) -> Option<f64> {
         self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
     }
 
-    /// The first parameter that is not finite, larger than `largest` in size, or not above what it must be above.
+    /// Name and value of the first parameter that is not finite, larger than `largest` in size, or not above its lower bound.
     pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let term = |(index, term): (usize, &Motion)| {
@@ -296,70 +281,59 @@ impl Motion {
             };
             return terms.iter().enumerate().find_map(term);
         }
-        let is_bad = |(_, value, range): &(&str, f64, Range)| {
-            value.is_nan() || value.abs() > largest || matches!(range, Range::Above(least) if value <= least)
-        };
+        let is_bad = |(_, value, above): &Parameter| value.is_nan() || value.abs() > largest || value <= above;
         let (name, value, _) = self.parameters().into_iter().find(is_bad)?;
         Some((name.into(), value))
     }
 
-    /// Numbers by their names in a scene.
-    fn parameters(&self) -> Vec<(&'static str, f64, Range)> {
-        use Range::{Above, Any};
-        let wave = |amplitude: f64, omega: f64, start: f64| {
-            vec![("amplitude", amplitude, Any), ("omega", omega, Above(0.0)), ("start", start, Any)]
+    fn parameters(&self) -> Vec<Parameter> {
+        const ANY: f64 = f64::NEG_INFINITY;
+        let wave = |amplitude: f64, omega: f64, start: f64, more: &[Parameter]| {
+            [&[("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)], more].concat()
         };
-        let with = |mut all: Vec<(&'static str, f64, Range)>, name: &'static str, value: f64, range: Range| {
-            all.push((name, value, range));
-            all
+        let envelope = |velocity: f64, omega: f64, start: f64, phase: f64, gamma: Parameter| {
+            let others = wave(velocity * omega, omega, start, &[("phase", phase, ANY), gamma]);
+            [&[("velocity", velocity, ANY)], others.as_slice()].concat()
         };
         match *self {
             Motion::SinePulse { amplitude, omega, start }
             | Motion::CosinePulse { amplitude, omega, start }
             | Motion::HalfSine { amplitude, omega, start }
             | Motion::Ricker { amplitude, omega, start }
-            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start),
+            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start, &[]),
             Motion::TypeC { amplitude, omega, start, cycles } => {
-                with(wave(amplitude, omega, start), "cycles", f64::from(cycles), Above(0.0))
+                wave(amplitude, omega, start, &[("cycles", f64::from(cycles), 0.0)])
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                with(wave(amplitude, omega, start), "phase", phase, Any)
+                wave(amplitude, omega, start, &[("phase", phase, ANY)])
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                let all = with(wave(amplitude, omega, start), "phase", phase, Any);
-                with(all, "duration", duration, Above(0.0))
+                wave(amplitude, omega, start, &[("phase", phase, ANY), ("duration", duration, 0.0)])
             }
-            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => vec![
-                ("velocity", velocity, Any),
-                ("amplitude", velocity * omega, Any),
-                ("omega", omega, Above(0.0)),
-                ("start", start, Any),
-                ("phase", phase, Any),
-                ("gamma", gamma, Above(1.0)),
-            ],
-            Motion::Gabor { velocity, omega, start, phase, gamma } => vec![
-                ("velocity", velocity, Any),
-                ("amplitude", velocity * omega, Any),
-                ("omega", omega, Above(0.0)),
-                ("start", start, Any),
-                ("phase", phase, Any),
-                ("gamma", gamma, Above(0.0)),
-            ],
+            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
+                envelope(velocity, omega, start, phase, ("gamma", gamma, 1.0))
+            }
+            Motion::Gabor { velocity, omega, start, phase, gamma } => {
+                envelope(velocity, omega, start, phase, ("gamma", gamma, 0.0))
+            }
             Motion::Rectangular { amplitude, start, duration }
             | Motion::DoubleRectangular { amplitude, start, duration } => {
-                vec![("amplitude", amplitude, Any), ("start", start, Any), ("duration", duration, Above(0.0))]
+                vec![("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)]
             }
             Motion::Sum { .. } => Vec::new(),
             Motion::Record(ref record) => vec![
-                ("file", record.peak(), Any),
-                ("start", record.start(), Any),
-                ("dt", record.dt(), Above(SHORTEST_INTERVAL)),
+                ("file", record.peak(), ANY),
+                ("start", record.start(), ANY),
+                ("dt", record.dt(), SHORTEST_INTERVAL),
             ],
         }
     }
 }
 
-/// Shortest sampling interval `[s]`: below, samples of a long record fall on the same time.
+/// Name in a scene, value, and lower bound, itself excluded.
+type Parameter = (&'static str, f64, f64);
+
+/// Shortest sampling interval of a motion `[s]`: below, samples of a long record have the same time.
 const SHORTEST_INTERVAL: f64 = 1e-9;
 
 /// The root of `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ = cos φ` near zero: `tan φ = 1 / ((n + 1/2)π - φ)`.
@@ -373,7 +347,7 @@ fn phase_of_type_c(cycles: u32) -> f64 {
 pub(crate) mod tests {
     use super::*;
 
-    /// One of each kind that is a formula and ends.
+    /// One of each kind that is a formula and has an end.
     pub fn kinds() -> Vec<Motion> {
         let (amplitude, omega, start) = (2.0, 4.0, 0.7);
         vec![
