@@ -15,149 +15,52 @@ use smallvec::smallvec;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Ground acceleration of one component.
+///
+/// Parameters: `amplitude [m/s²]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `duration [s]`, `phase [rad]`; `cycles` and `gamma` are
+/// dimensionless.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
 pub enum Motion {
     /// `a = amplitude · sin ωτ` over one period: the one-sine pulse, type A of Makris & Chang. The ground stops displaced by
     /// `2π amplitude / ω²`.
-    SinePulse {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    SinePulse { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude · cos ωτ` over one period: the one-cosine pulse, type B of Makris & Chang. It jumps at both ends; the
     /// ground stops where it was.
-    CosinePulse {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    CosinePulse { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude · sin ωτ` over half a period: the half-sine pulse. The ground keeps the velocity `2 amplitude / ω`.
-    HalfSine {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
-    /// `a = amplitude · cos(ωτ + φ)` over `(n + 1/2 - φ/π) T_p`, type C_n of Makris & Chang with `n` cycles: `φ` is the root of
+    HalfSine { amplitude: f64, omega: f64, start: f64 },
+    /// `a = amplitude · cos(ωτ + φ)` over `(n + 1/2 - φ/π) T_p`, type C_n of Makris & Chang with `n >= 1` cycles: `φ` is the root of
     /// `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ - cos φ = 0`, so that the ground stops where it was. It jumps at both ends.
-    TypeC {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `n >= 1`
-        cycles: u32,
-    },
+    TypeC { amplitude: f64, omega: f64, start: f64, cycles: u32 },
     /// `a = amplitude · sin(ωτ + phase)` for `τ >= 0`.
-    Harmonic {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-    },
+    Harmonic { amplitude: f64, omega: f64, start: f64, phase: f64 },
     /// `a = amplitude · sin(ωτ + phase)` for `0 <= τ < duration`: a harmonic motion that ends.
-    SineBurst {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-        /// `[s]`
-        duration: f64,
-    },
+    SineBurst { amplitude: f64, omega: f64, start: f64, phase: f64, duration: f64 },
     /// `a = amplitude · (1 - u²) exp(-u²/2)`, `u = ω (t - t_0) / √2`: the symmetric Ricker wavelet of period `T_p`, second derivative
     /// of a Gaussian. The peak is at `t_0 = start + 6√2/ω`; cut off where `|u| > 6`, below 6e-7 of the amplitude. The ground stops
     /// where it was.
-    Ricker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    Ricker { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude / β · (u² - 3) u exp(-u²/2)`, `u = ω (t - t_0) / √3`, `β = 1.3801`: the antisymmetric Ricker wavelet of period
     /// `T_p`, third derivative of a Gaussian. `t_0 = start + 6.5√3/ω`; cut off where `|u| > 6.5`, below 2e-7 of the amplitude.
     /// The ground stops where it was.
-    AntisymmetricRicker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    AntisymmetricRicker { amplitude: f64, omega: f64, start: f64 },
     /// The pulse of Mavroeidis & Papageorgiou (2003), Eq. 3: the ground's velocity is
-    /// `velocity / 2 · (1 + cos(ω(t - t_0)/γ)) cos(ω(t - t_0) + phase)` for `|t - t_0| <= πγ/ω`, `t_0 = start + πγ/ω`.
-    MavroeidisPapageorgiou {
-        /// Amplitude of the velocity, their `A` `[m/s]`.
-        velocity: f64,
-        /// Their `2π f_p` `[rad/s]`.
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// Their `ν` `[rad]`.
-        phase: f64,
-        /// Oscillations, their `γ > 1`, dimensionless.
-        gamma: f64,
-    },
+    /// `velocity / 2 · (1 + cos(ω(t - t_0)/γ)) cos(ω(t - t_0) + phase)` for `|t - t_0| <= πγ/ω`, `t_0 = start + πγ/ω`. `gamma > 1` is the
+    /// number of oscillations; their `A` is `velocity`, their `ν` is `phase`.
+    MavroeidisPapageorgiou { velocity: f64, omega: f64, start: f64, phase: f64, gamma: f64 },
     /// Gabor's wavelet: the ground's velocity is `velocity · exp(-(ω(t - t_0)/γ)²) cos(ω(t - t_0) + phase)`,
-    /// `t_0 = start + 4.5γ/ω`; cut off where `|ω(t - t_0)| > 4.5γ`, below 2e-9 of the amplitude.
-    Gabor {
-        /// Amplitude of the velocity `[m/s]`.
-        velocity: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-        /// Width of the envelope in radians of the wave, dimensionless.
-        gamma: f64,
-    },
+    /// `t_0 = start + 4.5γ/ω`; cut off where `|ω(t - t_0)| > 4.5γ`, below 2e-9 of the amplitude. `gamma` is the width of
+    /// the envelope in radians of the wave.
+    Gabor { velocity: f64, omega: f64, start: f64, phase: f64, gamma: f64 },
     /// `a = amplitude` for `0 <= τ < duration`: the rectangular pulse. The ground keeps the velocity `amplitude · duration`.
-    Rectangular {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[s]`
-        start: f64,
-        /// `[s]`
-        duration: f64,
-    },
+    Rectangular { amplitude: f64, start: f64, duration: f64 },
     /// `a = amplitude` in the first half of `duration`, `-amplitude` in the second: the double rectangular pulse. The ground stops
     /// displaced by `amplitude · duration² / 4`.
-    DoubleRectangular {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[s]`
-        start: f64,
-        /// Of both halves together `[s]`.
-        duration: f64,
-    },
-    /// All terms at the same time.
-    Sum {
-        /// What is summed.
-        terms: Vec<Motion>,
-    },
+    DoubleRectangular { amplitude: f64, start: f64, duration: f64 },
+    /// The sum of several motions.
+    Sum { terms: Vec<Motion> },
     /// Samples, linear between, zero outside.
     Record(Record),
 }

@@ -2,7 +2,7 @@
 
 use crate::unit::{AccelerationUnit, DEFAULT_GRAVITY};
 
-/// What a user says of a record file that the file may leave out, and which part of it is read.
+/// Quantities that a record file may leave out, and the part of the file that is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextOptions {
     /// Size of one g `[m/s²]`; default [`DEFAULT_GRAVITY`].

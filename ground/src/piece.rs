@@ -4,72 +4,28 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// A formula of the acceleration between two break points.
+///
+/// Parameters: `value` and `amplitude [m/s²]`, `slope [m/s³]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `centre [s]`, `phase [rad]`;
+/// `gamma` is dimensionless.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
 pub enum Piece {
     /// No acceleration.
     Zero,
     /// `value + slope (t - start)`
-    Linear {
-        /// `[m/s²]`
-        value: f64,
-        /// `[m/s³]`
-        slope: f64,
-        /// `[s]`
-        start: f64,
-    },
+    Linear { value: f64, slope: f64, start: f64 },
     /// `amplitude · sin(omega (t - start) + phase)`
-    Sine {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-    },
+    Sine { amplitude: f64, omega: f64, start: f64, phase: f64 },
     /// `amplitude · cos(omega (t - start))`
-    Cosine {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    Cosine { amplitude: f64, omega: f64, start: f64 },
     /// `amplitude · (1 - u²) exp(-u²/2)`, `u = omega (t - centre)`
-    Ricker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        centre: f64,
-    },
+    Ricker { amplitude: f64, omega: f64, centre: f64 },
     /// `amplitude / β · (u² - 3) u exp(-u²/2)`, `u = omega (t - centre)`, with `β` such that the peak is the amplitude
-    AntisymmetricRicker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        centre: f64,
-    },
+    AntisymmetricRicker { amplitude: f64, omega: f64, centre: f64 },
     /// The derivative of `velocity · exp(-(u/gamma)²) cos(u + phase)`, `u = omega (t - centre)`
-    Gabor {
-        /// `[m/s]`
-        velocity: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        centre: f64,
-        /// `[rad]`
-        phase: f64,
-        /// Dimensionless.
-        gamma: f64,
-    },
-    /// Several at the same time; none of them zero, linear only one, no sum.
+    Gabor { velocity: f64, omega: f64, centre: f64, phase: f64, gamma: f64 },
+    /// A sum of pieces: none is zero, at most one is linear, none is a sum.
     Sum(Arc<[Piece]>),
 }
 
@@ -77,7 +33,7 @@ pub enum Piece {
 const BETA: f64 = 1.380_119_046_160_749_3;
 
 impl Piece {
-    /// Several pieces at the same time as one.
+    /// The sum of several pieces.
     pub fn sum(pieces: &[Piece]) -> Piece {
         let mut linear: Option<(f64, f64, f64)> = None;
         let mut terms: Vec<Piece> = Vec::new();

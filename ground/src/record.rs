@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Serialised it is a description without the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    accel: Samples,
+    accel: Accelerations,
     /// Sampling interval `[s]`.
     dt: f64,
     /// Time of the first sample `[s]`.
@@ -27,20 +27,20 @@ pub struct Record {
 
 /// Accelerations `[m/s²]`, shared by all copies of a record.
 #[derive(Clone, Debug)]
-struct Samples {
+struct Accelerations {
     values: Arc<[f64]>,
     /// Largest size.
     peak: f64,
 }
 
-impl From<Vec<f64>> for Samples {
-    fn from(values: Vec<f64>) -> Samples {
+impl From<Vec<f64>> for Accelerations {
+    fn from(values: Vec<f64>) -> Accelerations {
         let peak = values.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
-        Samples { values: values.into(), peak }
+        Accelerations { values: values.into(), peak }
     }
 }
 
-impl Deref for Samples {
+impl Deref for Accelerations {
     type Target = [f64];
 
     fn deref(&self) -> &[f64] {
@@ -49,8 +49,8 @@ impl Deref for Samples {
 }
 
 /// Copies that share their samples are equal without a comparison of all samples.
-impl PartialEq for Samples {
-    fn eq(&self, other: &Samples) -> bool {
+impl PartialEq for Accelerations {
+    fn eq(&self, other: &Accelerations) -> bool {
         Arc::ptr_eq(&self.values, &other.values) || self.values == other.values
     }
 }

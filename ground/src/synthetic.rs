@@ -122,7 +122,7 @@ struct Noise {
 
 impl Noise {
     fn new(seed: u64) -> Noise {
-        // Neighbouring seeds begin far apart: the seed in both halves, and a few numbers thrown away.
+        // Neighbouring seeds begin far apart: the seed in both halves, and eight numbers skipped.
         let mut generator = Pcg64Mcg::new(u128::from(seed) << 64 | u128::from(!seed));
         (0..8).for_each(|_| {
             generator.next_u64();
@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// Crossings of zero tell the frequency of filtered noise.
+    /// The number of zero crossings grows with the frequency of filtered noise.
     #[test]
     fn softer_ground_shakes_more_slowly() {
         let crossings = |frequency: f64| {

@@ -43,7 +43,7 @@ impl TimelineCache {
     }
 }
 
-/// Segments in order of time, without gaps, with what a run asks of them.
+/// Segments in order of time, without gaps, with bounds of the motion after each.
 #[derive(Clone, Debug, Default)]
 pub struct Timeline {
     segments: Vec<Segment>,

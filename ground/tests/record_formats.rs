@@ -106,8 +106,20 @@ fn the_same_motion_reads_from_every_format() {
 }
 
 #[test]
+fn errors_of_files_name_them() {
+    let open = |path: &Path| Record::open(path, &options());
+    let path = folder().join("peer/RSN9001_HOLLOW_MIL090.AT2");
+    assert_eq!(open(&path).expect("readable").source().file, path.display().to_string());
+    for (path, part) in [(folder(), "this is a folder"), (folder().join("peer/velocity.VT2"), "line 3: this is no acc")]
+    {
+        let error = open(&path).expect_err("it must be refused").to_string();
+        assert!(error.starts_with(&path.display().to_string()) && error.contains(part), "{error}");
+    }
+}
+
+#[test]
 fn files_say_where_they_come_from() {
-    let told = |name: &str, options: &TextOptions| {
+    let described = |name: &str, options: &TextOptions| {
         let file = read(name, options);
         (file.title, file.station, file.component, file.unit.to_string())
     };
@@ -115,25 +127,25 @@ fn files_say_where_they_come_from() {
         (title.to_string(), station.to_string(), component.to_string(), unit.to_string())
     };
     assert_eq!(
-        told("peer/RSN9001_HOLLOW_MIL090.AT2", &options()),
+        described("peer/RSN9001_HOLLOW_MIL090.AT2", &options()),
         own("Hollow Creek-01, 3/4/2001", "Mill Bridge", "090", "g")
     );
     assert_eq!(
-        told("peer/dos-latin1-d-exponents.AT2", &options()),
+        described("peer/dos-latin1-d-exponents.AT2", &options()),
         own("Arroyo Seco, 3/4/2001", "Estación Peña", "090", "cm/s²")
     );
     assert_eq!(
-        told("dyna/any-order-lower-case.asc", &options()),
+        described("dyna/any-order-lower-case.asc", &options()),
         own("HOLLOW CREEK XX-2001-0007 20010304", "XX.MIB (MILL_BRIDGE)", "HNE", "cm/s²")
     );
-    assert_eq!(told("knet/XXX0010103040506.EW", &options()), own("2001/03/04 05:06:07", "XXX001", "E-W", "cm/s²"));
-    assert_eq!(told("knet/XXXH020103040506.UD2", &options()).2, "U-D surface (6)");
+    assert_eq!(described("knet/XXX0010103040506.EW", &options()), own("2001/03/04 05:06:07", "XXX001", "E-W", "cm/s²"));
+    assert_eq!(described("knet/XXXH020103040506.UD2", &options()).2, "U-D surface (6)");
     assert_eq!(
-        told("csmip/three-channels.V2", &channel(2)),
+        described("csmip/three-channels.V2", &channel(2)),
         own("HOLLOW CREEK EARTHQUAKE", "99123 MILL BRIDGE - NORTH ABUTMENT", "UP", "cm/s²")
     );
     assert_eq!(
-        told("cosmos/two-channels.V2", &channel(2)),
+        described("cosmos/two-channels.V2", &channel(2)),
         own("HOLLOW CREEK Earthquake of Sun Mar 4, 2001 05:06 UTC", "XX-MIB Mill Bridge", "Up", "cm/s²")
     );
     assert_eq!(read("csmip/three-channels.V2", &channel(2)).channels, ["1: 90 DEG", "2: UP", "3: 360 DEG"]);
@@ -245,8 +257,8 @@ fn the_duration_of_a_knet_header_is_no_count_of_samples() {
         let other = text(name).replace("Duration Time(s)  0.42", &format!("Duration Time(s)  {duration}"));
         let file = RecordFile::read(other.as_bytes(), &options()).expect("nominal");
         assert_eq!(file.accel, plain.accel, "{duration}");
-        let told = |warning: &String| warning.contains("42 samples at 0.01 s are 0.420000 s, and line 12 says");
-        assert!(file.warnings.iter().any(told), "{duration}: {:?}", file.warnings);
+        let says_so = |warning: &String| warning.contains("42 samples at 0.01 s are 0.420000 s, and line 12 says");
+        assert!(file.warnings.iter().any(says_so), "{duration}: {:?}", file.warnings);
     }
     let silent = text(name).replace("Duration Time(s)  0.42", "Duration Time(s)  ");
     assert_eq!(RecordFile::read(silent.as_bytes(), &options()), Ok(plain));
@@ -262,7 +274,7 @@ fn the_duration_of_a_knet_header_is_no_count_of_samples() {
 }
 
 #[test]
-fn a_unit_that_somebody_counted_from_one_is_found_by_the_line_before_the_samples() {
+fn a_unit_whose_place_is_counted_from_one_is_found_by_the_line_before_the_samples() {
     let cm = read("cosmos/cm.V2", &options());
     for integers in ["       2       4    -999", "       2       4       2"] {
         let text = text("cosmos/cm.V2").replace("       2       1       4", integers);
@@ -282,8 +294,8 @@ fn the_unit_of_a_cosmos_file_is_that_of_its_integer_header() {
         let text = text("cosmos/cm.V2").replace("       2       1       4", &format!("       2       1{code:8}"));
         let file = RecordFile::read(text.as_bytes(), &options()).expect("a unit of acceleration");
         assert!((file.accel[13] / cm.accel[13] * 0.01 / size - 1.0).abs() < 1e-12, "{code}");
-        let told = file.warnings.iter().any(|warning| warning.contains("integer header"));
-        assert_eq!(told, size != 0.01, "{code}: {:?}", file.warnings);
+        let has_warning = file.warnings.iter().any(|warning| warning.contains("integer header"));
+        assert_eq!(has_warning, size != 0.01, "{code}: {:?}", file.warnings);
     }
     // Where the header is silent, the line before the samples says it.
     let silent = text("cosmos/cm.V2").replace("       2       1       4", "       2       1    -999");

@@ -129,7 +129,7 @@ pub fn is_text(row: &str) -> bool {
     }
     for word in words(row) {
         any = true;
-        // What somebody printed for a number that is none is not text: it must be refused, not skipped.
+        // A printed `nan`, `inf` or `****` is not text: it must be refused, not skipped.
         let lower = word.text.trim_start_matches(['+', '-']).to_ascii_lowercase();
         let undefined = ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*');
         if undefined || glued(word.text, &mut Vec::new()).is_some() {

@@ -105,11 +105,11 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
 
 /// The lines of a text that ends them with LF, CRLF, or CR alone.
 fn lines(text: &str) -> Vec<&str> {
-    if text.contains('\n') {
-        text.lines().map(|line| line.trim_end_matches('\r')).collect()
-    } else {
-        text.split('\r').collect()
-    }
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    // Short lines take more memory than their text: no more than needed.
+    let mut lines = Vec::with_capacity(text.matches(end).count() + 1);
+    lines.extend(text.strip_suffix('\n').unwrap_or(text).split(end).map(|line| line.trim_end_matches('\r')));
+    lines
 }
 
 #[cfg(test)]

@@ -197,7 +197,7 @@ fn unreadable(error: RecordError) -> RecordError {
     }
 }
 
-/// Names: no cell is a number, nor what somebody printed for one that is none.
+/// Whether a line has headings: no cell is a number, nor a printed `nan` or `inf`.
 fn is_header(text: &str) -> bool {
     is_text(text) && text.contains(char::is_alphabetic)
 }
