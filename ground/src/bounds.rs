@@ -4,7 +4,7 @@
 pub const LARGEST_ACCELERATION: f64 = 1e12;
 
 /// Shortest sampling interval of a record `[s]`. Slopes between samples stay far within doubles.
-pub const SHORTEST_INTERVAL: f64 = 1e-12;
+pub const SHORTEST_INTERVAL: f64 = 1e-100;
 
 /// Longest sampling interval of a record `[s]`: ten days. Displacements stay far within doubles.
 pub const LONGEST_INTERVAL: f64 = 1e6;

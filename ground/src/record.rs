@@ -90,7 +90,7 @@ impl Record {
     /// A record of `accel [m/s²]` every `dt [s]` from `start [s]`.
     ///
     /// # Errors
-    /// [`RecordError`] for fewer than two samples, a sample above 1e12 m/s², an interval outside 1e-12 to 1e6 s, or a start that is not
+    /// [`RecordError`] for fewer than two samples, a sample above 1e12 m/s², an interval outside 1e-100 to 1e6 s, or a start that is not
     /// finite. Within these bounds all [`Measures`](crate::Measures) are finite.
     pub fn new(accel: Vec<f64>, dt: f64, start: f64) -> Result<Record, RecordError> {
         if accel.len() < 2 {

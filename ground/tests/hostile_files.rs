@@ -67,6 +67,10 @@ fn survives(bytes: &[u8], seed: u64) {
         assert!(most as usize <= MEMORY_ANYHOW + MEMORY_PER_BYTE * bytes.len(), "seed {seed}: {most} bytes");
         match read {
             Ok(file) => {
+                let mut texts =
+                    file.channels.iter().chain(&file.warnings).chain([&file.title, &file.station, &file.component]);
+                assert!(texts.all(|text| !text.contains(char::is_control)), "seed {seed}: {file:?}");
+                drop(texts);
                 assert!(file.accel.iter().chain(&file.stated_peak).all(|a| a.is_finite()), "seed {seed}: {file:?}");
                 assert!(file.dt > 0.0 && file.dt.is_finite(), "seed {seed}: {file:?}");
                 let Ok(record) = file.into_record() else { continue };
@@ -77,13 +81,17 @@ fn survives(bytes: &[u8], seed: u64) {
                 let peaks = Motion::Record(record).peaks(end);
                 assert!(peaks.iter().all(|peak| peak.is_finite()), "seed {seed}: {peaks:?}");
             }
-            Err(error) => assert!(error.to_string().len() < 5000, "seed {seed}: {error}"),
+            Err(error) => {
+                let text = error.to_string();
+                assert!(text.len() < 5000 && !text.contains(char::is_control), "seed {seed}: {text:?}");
+            }
         }
     }
 }
 
 /// Parts of headers and rows, sound and absurd.
-const SCRAPS: [&str; 52] = [
+const SCRAPS: [&str; 53] = [
+    "\u{1b}[31m",
     "-",
     ".",
     "E",

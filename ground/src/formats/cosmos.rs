@@ -165,7 +165,7 @@ impl<'t> Channel<'t> {
         let header = &self.lines[self.begin..self.announced];
         let first = header.first().copied().unwrap_or("");
         let stated = after(first, "with").and_then(leading_number).filter(|count| (1.0..=99.0).contains(count));
-        // Columns 47 and 48, where the words around are others.
+        // Columns 47 and 48, where the words around the number are others.
         let by_column = || number(first.get(46..48)?.trim());
         let end = self.find("integer-header").map(|index| index - self.begin);
         let length = end.or(stated.or_else(by_column).map(|count| count as usize)).unwrap_or(0);
@@ -183,7 +183,7 @@ impl<'t> Channel<'t> {
         let line = self.lines[index];
         let count = words(line).next().and_then(|word| leading_number(word.text)).unwrap_or(0.0) as usize;
         let columns = FixedWidth::find(after(line, "format").unwrap_or(line));
-        // The number of lines is stated too, but the begin of the next part cannot be wrong.
+        // The header states its number of lines too, but the start of the next part cannot be wrong.
         let next = (index + 1..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains("follow"));
         let (span, declared) = ((index + 1, next.unwrap_or(self.announced)), Some(count.clamp(1, 1000)));
         let block = Block { lines: self.lines, span, declared, header: (index + 1, "header"), columns, lenient: true };
@@ -208,8 +208,8 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: of the integer header's candidates the first that goes with the line before the samples, else the one in its
-    /// place; that of the line where nothing stands there.
+    /// The unit: the first of the integer header's candidates that agrees with the line before the samples, else the candidate in the
+    /// format's place; without candidates the unit of that line.
     fn unit(
         &self,
         integers: &[f64],
@@ -249,8 +249,8 @@ impl<'t> Channel<'t> {
         }
     }
 
-    /// The sampling interval: of the real header's candidates the first that goes with the duration of the line before the
-    /// samples, which is rounded to seconds.
+    /// The sampling interval: the first of the real header's candidates that agrees with the duration in the line before the samples,
+    /// which is rounded to seconds.
     fn interval(
         &self,
         reals: &[f64],
@@ -300,7 +300,7 @@ impl<'t> Channel<'t> {
     }
 }
 
-/// Share of the stated duration by which it may be off.
+/// Share of the stated duration by which the samples' own may differ.
 const DURATION_ROUNDING: f64 = 0.02;
 
 /// The units of acceleration by their codes (table 2 of the format).

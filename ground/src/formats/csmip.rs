@@ -9,7 +9,7 @@
 //! /&  ---------- End of data for channel  1 ----------
 //! ```
 //!
-//! The line before the samples says all that is needed of the numbers; it is sought, since headers of some years have a line
+//! The line before the samples says all that is needed of the numbers. It is found by its words, for headers of some years have a line
 //! more or less. Velocity and displacement are not read.
 
 use super::header::{ChannelName, Entry, after, choose, leading_number, number_after, tidy};

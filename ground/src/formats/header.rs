@@ -1,6 +1,6 @@
 //! Rules for the headers of all formats: counts, intervals and units, on which the user may not contradict the file; channels.
 
-use super::numbers::{number, words};
+use super::numbers::{number, quote, words};
 use crate::bounds::{LONGEST_INTERVAL, SHORTEST_INTERVAL};
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -70,12 +70,12 @@ const MOST_SAMPLES: f64 = 1e9;
 
 /// A line as an error quotes it.
 pub fn brief(line: &str) -> String {
-    line.trim().chars().take(80).collect()
+    tidy(line).chars().take(80).collect()
 }
 
-/// Text without blanks at its ends and with single ones inside.
+/// Text without blanks at its ends and control characters, and with single blanks inside.
 pub fn tidy(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    quote(&text.split_whitespace().collect::<Vec<_>>().join(" "), usize::MAX)
 }
 
 /// Text after a word, of any case.

@@ -101,7 +101,7 @@ impl<'t> Header<'t> {
         self.find(place).map(|(_, value)| tidy(value)).unwrap_or_default()
     }
 
-    /// An entry without which no file is read.
+    /// An entry that a file must have.
     fn required(&self, place: Place, remedy: &'static str) -> Result<Entry<'t>, RecordError> {
         let (number, names) = place;
         let found = self.find(place).filter(|(_, value)| !value.is_empty());
@@ -132,12 +132,12 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     while start < lines.len() && if start < memo { !is_row(lines[start]) } else { is_remark(lines[start]) } {
         start += 1;
     }
-    let (duration_line, duration) = header.find(DURATION).unwrap_or_default();
+    let (duration_line, text) = header.find(DURATION).unwrap_or_default();
     let (span, header_entry) = ((start, lines.len()), (duration_line, "Duration Time"));
     let (columns, lenient) = (Some(COLUMNS), options.lenient);
     let mut samples = Block { lines, span, declared: None, header: header_entry, columns, lenient }.read()?;
     let count = samples.values.len();
-    if let Some(duration) = leading_number(duration) {
+    if let Some(duration) = leading_number(text) {
         let nominal = (duration / dt).round() as usize;
         if samples.cut && count < nominal && !lenient {
             let (line, key) = header_entry;

@@ -114,15 +114,20 @@ pub fn split(row: &str, line: usize) -> Result<Vec<f64>, RecordError> {
 
 /// The error that a word is no number.
 pub fn refused(line: usize, word: Word) -> RecordError {
-    RecordError::NotANumber { line, column: word.column, text: word.text.chars().take(LONGEST_QUOTE).collect() }
+    RecordError::NotANumber { line, column: word.column, text: quote(word.text, LONGEST_QUOTE) }
 }
 
-/// Characters of the file that an error repeats at most: a binary file has words of any length.
+/// The first characters of a text. Control characters are replaced: a terminal would obey them.
+pub fn quote(text: &str, most: usize) -> String {
+    text.chars().take(most).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+/// Most characters of the file that an error quotes: a binary file has words of any length.
 const LONGEST_QUOTE: usize = 40;
 
-/// Whether a row has nothing of a number: a heading, a remark, the line that ends a block.
+/// Whether no word of a row is a number: a heading, a remark, the line that ends a block.
 pub fn is_text(row: &str) -> bool {
-    // Columns that touch are no words that read as numbers, but they are not text either.
+    // Numbers that touch are not words of numbers, but they are no text either.
     let mut any = false;
     if !row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c)) {
         return false;
@@ -198,12 +203,12 @@ impl FixedWidth {
 /// Widest field and most fields of a row: beyond is a misread header.
 const LARGEST_FIELD: usize = 200;
 
-/// Samples of a block, and where they stand.
+/// Samples of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// As printed, in the unit of the file.
+    /// Numbers as printed, in the unit of the file.
     pub values: Vec<f64>,
-    /// Whether the last row ended within a number, which is left out.
+    /// Whether the last row ends within a number, which is left out.
     pub cut: bool,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
@@ -238,26 +243,20 @@ impl Block<'_> {
             return at_blanks;
         }
         let by_columns = self.columns.map(|columns| self.rows(|row, line| columns.row(row, line)));
-        let found = match (at_blanks, by_columns) {
+        let mut found = match (at_blanks, by_columns) {
             (_, Some(Ok(columns))) if enough(&columns) => return Ok(columns),
             (Ok(blanks), _) => blanks,
             (Err(_), Some(Ok(columns))) => columns,
             (Err(error), _) => return Err(error),
         };
-        match self.declared {
-            Some(declared) => self.fewer(found, declared),
-            None => Ok(found),
-        }
-    }
-
-    fn fewer(&self, mut found: Samples, declared: usize) -> Result<Samples, RecordError> {
-        let ((line, key), count) = (self.header, found.values.len());
+        let (Some(declared), (line, key), count) = (self.declared, self.header, found.values.len()) else {
+            return Ok(found);
+        };
         if !self.lenient {
             return Err(RecordError::Fewer { line, key, declared, found: count });
         }
-        found
-            .warnings
-            .push(format!("{count} samples where line {line} ({key}) declares {declared}; all of them are used"));
+        let warning = format!("{count} samples where line {line} ({key}) declares {declared}; all of them are used");
+        found.warnings.push(warning);
         Ok(found)
     }
 

@@ -11,7 +11,7 @@
 //! above the names are titles. Without names the time is the column before the accelerations that runs evenly, else the first.
 //! Equal intervals are required: nothing is resampled here.
 
-use super::header::{Entry, listed, tidy};
+use super::header::{Entry, brief, listed, tidy};
 use super::numbers::{Samples, Word, is_text, refused, split, words};
 use super::record_file::{Format, RecordFile};
 use crate::error::RecordError;
@@ -116,6 +116,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
             let entry = entry("choose another column, or write [g], [m/s2] or [cm/s2]");
             let unknown = || {
                 let Heading { name, unit } = heading;
+                let (unit, name) = (brief(unit), brief(name));
                 entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
             };
             entry.agreed(heading.acceleration().ok_or_else(unknown)?, options)?
@@ -129,7 +130,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let values = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
     let samples = Samples { values, cut: false, warnings: Vec::new() };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
-    let component = headings.get(chosen).map(|heading| heading.name.clone()).unwrap_or_default();
+    let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
     Ok(RecordFile { title: title(lines), component, ..file })
 }
 
