@@ -66,7 +66,7 @@ pub enum Motion {
 }
 
 /// Half-length of a symmetric Ricker wavelet in `u`.
-pub(crate) const RICKER_REACH: f64 = 6.0;
+const RICKER_REACH: f64 = 6.0;
 
 /// Half-length of an antisymmetric Ricker wavelet in `u`.
 const ANTISYMMETRIC_REACH: f64 = 6.5;

@@ -89,62 +89,15 @@ fn survives(bytes: &[u8], seed: u64) {
     }
 }
 
-/// Parts of headers and rows, sound and absurd.
-const SCRAPS: [&str; 53] = [
-    "\u{1b}[31m",
-    "-",
-    ".",
-    "E",
-    "NaN",
-    "9e999",
-    "1e308",
-    "-1e-320",
-    "0",
-    "\u{fc}",
-    "\0",
-    ":",
-    "/&",
-    "\n",
-    "\n",
-    "\r\n",
-    " ",
-    "\t",
-    ",",
-    ";",
-    "#",
-    "|",
-    "(",
-    "[",
-    "7",
-    "0.01",
-    "-1.5E-2",
-    "NPTS= 9999999999999, DT= 1e-300",
-    "NPTS=",
-    "DT=",
-    "NDATA: 3",
-    "NDATA: 999999999",
-    "SAMPLING_INTERVAL_S: 0.01",
-    "UNITS: cm/s^2",
-    "PGA_CM/S^2: 1e308",
-    "STREAM:",
-    "(8F10.5)",
-    "(Format v01.20 with 13 text lines)",
-    "100 Integer-header values follow on 10 lines, Format= (10I8)",
-    "999999999 Real-header values follow",
-    "4 acceleration pts, approx 2 secs, units=g (02), Format=(8F10.5)",
-    "End-of-data",
-    "CORRECTED ACCELEROGRAM",
-    "Chan 1: Up",
-    "3 points of accel data equally spaced at .01 sec, in cm/sec2. (8f10.6)",
-    "Origin Time",
-    "Sampling Freq(Hz) 1e-300Hz",
-    "Sampling Freq(Hz) 100Hz",
-    "Scale Factor      3920(gal)/6182761",
-    "Duration Time(s)  1e300",
-    "Max. Acc. (gal) 1e300",
-    "t [s]",
-    "a [g]",
-];
+/// Parts of headers and rows, sound and absurd, separated by broken bars.
+const SCRAPS: &str = "\u{1b}[31m¦-¦.¦E¦NaN¦9e999¦1e308¦-1e-320¦0¦\u{fc}¦\0¦:¦/&¦\n¦\n¦\r\n¦\x20¦\t¦,¦;¦#¦|¦(¦[¦7¦0.01¦-1.5E-2¦\
+    NPTS= 9999999999999, DT= 1e-300¦NPTS=¦DT=¦NDATA: 3¦NDATA: 999999999¦SAMPLING_INTERVAL_S: 0.01¦UNITS: cm/s^2¦\
+    PGA_CM/S^2: 1e308¦STREAM:¦(8F10.5)¦(Format v01.20 with 13 text lines)¦\
+    100 Integer-header values follow on 10 lines, Format= (10I8)¦999999999 Real-header values follow¦\
+    4 acceleration pts, approx 2 secs, units=g (02), Format=(8F10.5)¦End-of-data¦CORRECTED ACCELEROGRAM¦Chan 1: Up¦\
+    3 points of accel data equally spaced at .01 sec, in cm/sec2. (8f10.6)¦Origin Time¦Sampling Freq(Hz) 1e-300Hz¦\
+    Sampling Freq(Hz) 100Hz¦Scale Factor      3920(gal)/6182761¦Duration Time(s)  1e300¦Max. Acc. (gal) 1e300¦t [s]¦\
+    a [g]";
 
 /// Random choices from a seed.
 struct Dice(Pcg64Mcg);
@@ -155,7 +108,8 @@ impl Dice {
     }
 
     fn scrap(&mut self) -> &'static [u8] {
-        SCRAPS[self.below(SCRAPS.len())].as_bytes()
+        let place = self.below(SCRAPS.split('¦').count());
+        SCRAPS.split('¦').nth(place).expect("there are so many").as_bytes()
     }
 
     /// The place of a line of a file.
