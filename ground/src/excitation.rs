@@ -1,9 +1,9 @@
 //! Both components of a ground motion, and their division into smooth segments.
 
 use crate::motion::Motion;
-use crate::overlay::{lay_out, overlay};
 use crate::piece::Piece;
 use crate::segment::Segment;
+use crate::spans::{divide, overlay};
 use serde::Serialize;
 
 /// Ground motion in both directions.
@@ -16,7 +16,7 @@ pub struct Excitation {
 }
 
 impl Excitation {
-    /// What the files of its records make the user know, a sentence each.
+    /// Warnings about the files of its records, a sentence each.
     pub fn warnings(&self) -> Vec<String> {
         fn of(motion: &Motion) -> Vec<String> {
             match motion {
@@ -34,12 +34,12 @@ impl Excitation {
     /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.
     pub fn segments(&self, t_end: f64) -> Vec<Segment> {
         let mut segments = Vec::new();
-        self.lay_out(t_end, &mut segments);
+        self.divide(t_end, &mut segments);
         segments
     }
 
-    /// The same, in place of what was there.
-    pub(crate) fn lay_out(&self, t_end: f64, segments: &mut Vec<Segment>) {
+    /// The same into an existing vector.
+    pub(crate) fn divide(&self, t_end: f64, segments: &mut Vec<Segment>) {
         let room = |motion: &Option<Motion>| match motion {
             Some(Motion::Record(record)) => record.accel().len(),
             _ => 2,
@@ -56,9 +56,9 @@ impl Excitation {
         let pieces = |motion: &Option<Motion>| motion.as_ref().map(Motion::pieces).unwrap_or_default();
         let mut alone = |start: f64, end: f64, piece: Piece| push(start, end, piece, Piece::Zero);
         match (&self.horizontal, &self.vertical) {
-            // Of a record there are many: they are not written down twice.
-            (Some(Motion::Record(record)), None) => lay_out(record.pieces(), 0.0, t_end, &mut alone),
-            (horizontal, None) => lay_out(pieces(horizontal).into_iter(), 0.0, t_end, &mut alone),
+            // A record has many pieces: no vector of them is made.
+            (Some(Motion::Record(record)), None) => divide(record.pieces(), 0.0, t_end, &mut alone),
+            (horizontal, None) => divide(pieces(horizontal).into_iter(), 0.0, t_end, &mut alone),
             (horizontal, vertical) => {
                 overlay(&[pieces(horizontal), pieces(vertical)], 0.0, t_end, |start, end, both| {
                     let [horizontal, vertical] =

@@ -4,21 +4,21 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-/// Largest file that is read as a record `[bytes]`: two hours of three components at 200 Hz are 40 MiB of text. A larger file is no record,
-/// and would fill the memory.
+/// Largest file that is read as a record `[bytes]`. Two hours of three components at 200 Hz are 40 MiB of text; a larger file would fill the
+/// memory.
 pub const LARGEST_FILE: u64 = 64 << 20;
 
 /// The content of a record file.
 ///
 /// # Errors
-/// What the system says of a file that cannot be read. [`ErrorKind::InvalidInput`] for what is no regular file: a folder; a device or a
-/// pipe, which may never end. [`ErrorKind::FileTooLarge`] above [`LARGEST_FILE`].
+/// The system's own for a file that cannot be read. [`ErrorKind::InvalidInput`] for a folder, and for a device or a pipe, which may never
+/// end. [`ErrorKind::FileTooLarge`] above [`LARGEST_FILE`].
 pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
     // Before it is opened: to open a pipe waits for its writer.
     let metadata = std::fs::metadata(&path)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "a device or a pipe" };
-        let text = format!("this is {kind}; a record is a regular file, write what it gives into one");
+        let text = format!("this is {kind}; a record is a regular file: name one, or write the samples into one");
         return Err(Error::new(ErrorKind::InvalidInput, text));
     }
     let mut bytes = Vec::new();

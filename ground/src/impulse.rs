@@ -1,32 +1,32 @@
-//! How hard the ground pushes: what its acceleration comes to over a time, where the motion itself does not matter.
+//! Bounds of the impulse of a ground acceleration over a time, and of its part to one side.
 
 use crate::piece::Piece;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
 
-/// An upper bound of `exp(-x)`, `x >= 0`, that is close: a quotient where that is short.
+/// A close upper bound of `exp(-x)`, `x >= 0`: cheaper than the exponential below 0.1.
 pub(crate) fn decayed(x: f64) -> f64 {
     if x < 0.1 { 1.0 / (1.0 + x * (1.0 + 0.5 * x)) } else { libm::exp(-x) }
 }
 
 impl Piece {
-    /// A bound of what the acceleration towards a side, one or minus one, comes to over `from .. to` `[s]`, in order, what comes later
-    /// counting for less `[m/s]`:
+    /// A bound of the push to a side, 1 or -1, over `from .. to` `[s]`, in order: the integral of the acceleration to that side, later
+    /// parts discounted `[m/s]`.
     ///
     /// ```text
     ///     ∫ max(side · a(t), 0) exp(-decay (t - from)) dt
     /// ```
     ///
-    /// Of a wave it is that itself, of a straight line where there is no decay; of wavelets it is close then.
+    /// Exact for sines and cosines; for straight lines without decay; close for wavelets without decay.
     pub fn push(&self, side: f64, [from, to]: [f64; 2], decay: f64) -> f64 {
         if self.is_short(to - from) {
-            let weighed = if decay > 0.0 { -libm::expm1(-decay * (to - from)) / decay } else { to - from };
-            return weighed * self.most_of_short(|a| side * a, [from, to]);
+            let discounted_time = if decay > 0.0 { -libm::expm1(-decay * (to - from)) / decay } else { to - from };
+            return discounted_time * self.largest_of_short(|a| side * a, [from, to]);
         }
         let wave = |amplitude: f64, omega: f64, start: f64, phase: f64| {
             let turned = if side * amplitude < 0.0 { phase + PI } else { phase };
             amplitude.abs() / omega * half_waves(omega * (from - start) + turned, omega * (to - from), decay / omega)
         };
-        // Between the places, in `u = omega (t - centre)`, where a wavelet changes its sign, the velocity goes one way.
+        // Between the zeros of a wavelet, in `u = omega (t - centre)`, the velocity is monotonic.
         let wavelet = |omega: f64, centre: f64, zeros: &[f64]| {
             let ends = zeros.iter().map(|u| (centre + u / omega).clamp(from, to)).chain([to]);
             let gain = |last: &mut f64, end: f64| Some(self.integrals(std::mem::replace(last, end), end)[0]);
@@ -48,7 +48,7 @@ impl Piece {
             Piece::AntisymmetricRicker { omega, centre, .. } => {
                 wavelet(omega, centre, &[-3f64.sqrt(), 0.0, 3f64.sqrt()])
             }
-            // Below velocity · omega · exp(-w²) (1 + 2 |w| / γ), w = u/γ: of exp(-w²) no more is left than √π/2 of it.
+            // |a| < velocity · omega · exp(-w²) (1 + 2 |w| / γ), w = u/γ, and the integral of exp(-w²) from w on is at most √π/2 exp(-w²).
             Piece::Gabor { velocity, omega, centre, gamma, .. } => {
                 let [first, last] = [from, to].map(|t| omega * (t - centre) / gamma);
                 let beyond = |w: f64| libm::exp(-w * w) * (1.0 + 0.5 * PI.sqrt() * gamma);
@@ -65,15 +65,15 @@ impl Piece {
         }
     }
 
-    /// A bound of what the size of the acceleration comes to over `from .. to` `[s]`, in order, if that is less than `limit` `[m/s]`.
+    /// A bound of `∫ |a| dt` over `from .. to` `[s]`, in order, if it is less than `limit` `[m/s]`.
     pub fn impulse(&self, [from, to]: [f64; 2], limit: f64) -> Option<f64> {
         if self.is_short(to - from) {
-            let impulse = (to - from) * self.most_of_short(f64::abs, [from, to]);
+            let impulse = (to - from) * self.largest_of_short(f64::abs, [from, to]);
             return (impulse < limit).then_some(impulse);
         }
         let wave = |amplitude: f64, omega: f64, start: f64, phase: f64| {
             let radians = omega * (to - from);
-            // Each half-wave counts for two.
+            // The integral over a half-wave is two.
             if 2.0 * floor(radians * FRAC_1_PI) * amplitude.abs() >= limit * omega {
                 return f64::INFINITY;
             }
@@ -88,7 +88,7 @@ impl Piece {
             Piece::Zero => 0.0,
             Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
             Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
-            // Of its size already.
+            // The bound of the push is one of the size.
             Piece::Gabor { .. } => self.push(1.0, [from, to], 0.0),
             Piece::Sum(ref terms) => terms.iter().map(|term| term.impulse([from, to], limit)).sum::<Option<f64>>()?,
             _ => self.push(1.0, [from, to], 0.0) + self.push(-1.0, [from, to], 0.0),
@@ -96,13 +96,13 @@ impl Piece {
         (impulse < limit).then_some(impulse)
     }
 
-    /// Whether integrals over so short a time `[s]` are told from values: differences of sines and cosines would be rounding.
+    /// Whether a time `[s]` is so short that integrals follow from values: differences of sines and cosines would be rounding.
     fn is_short(&self, time: f64) -> bool {
         !matches!(self, Piece::Zero | Piece::Linear { .. } | Piece::Sum(_)) && self.omega() * time < 1e-3
     }
 
-    /// A bound of what is `measured` over a short time: between its ends the acceleration bends away from their chord by little.
-    fn most_of_short(&self, measured: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
+    /// Largest measure of the acceleration over a short time, from its ends and the bound of its curvature.
+    fn largest_of_short(&self, measured: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
         let at_ends = measured(self.value(from)).max(measured(self.value(to)));
         at_ends.max(0.0) + 0.125 * self.curvature_bound() * (to - from) * (to - from)
     }
@@ -124,7 +124,7 @@ fn half_waves(from: f64, radians: f64, decay: f64) -> f64 {
         sum += at(from) - left_after(to.min(PI) - from) * end;
     }
     if to > TAU {
-        // Those that begin at τ, 2 τ, ...: whole ones, and what there is of the last.
+        // Half-waves that begin at τ, 2 τ, ...: whole ones, then a part of the last.
         let whole = floor((to - PI) / TAU);
         if whole > 0.0 {
             let count = if whole > 1.0 && decay > 0.0 { lost(whole * TAU) / lost(TAU) } else { whole };
@@ -138,7 +138,7 @@ fn half_waves(from: f64, radians: f64, decay: f64) -> f64 {
     sum / (1.0 + decay * decay)
 }
 
-/// The next whole number below, of numbers that have one in 64 bits: in place of a call.
+/// The next whole number below, for numbers within 64 bits: cheaper than a call.
 fn floor(x: f64) -> f64 {
     let whole = x as i64 as f64;
     if whole > x { whole - 1.0 } else { whole }
@@ -176,7 +176,7 @@ mod tests {
             let h = length / f64::from(count);
             // The midpoint rule errs by the kinks where a sign changes, h² times the slope each, and by h² a'' over the length.
             let slack = 1e-12 + 40.0 * h * h * (1.0 + length) * (1.0 + omega * omega * omega);
-            // Over a short time all counts as much as the most of it.
+            // Over a short time the bound is the largest value times the time.
             let loose = slack + if omega * length < 1e-3 { 2e-3 * length } else { 0.0 };
             for (index, piece) in waves.iter().chain(&others).enumerate() {
                 let sum = |of: &dyn Fn(f64) -> f64| -> f64 {
@@ -186,7 +186,7 @@ mod tests {
                     let (exact, bound) = (sum(&|a| (side * a).max(0.0)), piece.push(side, span, decay));
                     prop_assert!(exact <= bound + slack, "{piece:?} {side}: {exact} {bound}");
                     prop_assert!(index >= waves.len() || bound <= exact + loose, "{piece:?} {side}: {exact} {bound}");
-                    // What waits for a long time counts for nothing, wavelets end.
+                    // A push long after the end of a wavelet is nothing.
                     let late = [1.0, 2.0].map(|u| start + 40.0 * u * (0.5 + phase) / omega);
                     let is_over = matches!(index, 4..=6) && omega > 1e-3;
                     prop_assert!(!is_over || piece.push(side, late, decay) < 1e-12, "{piece:?}");
@@ -202,7 +202,7 @@ mod tests {
         }
 
         #[test]
-        fn what_is_left_is_no_more_than_its_bound(x in 0.0f64..1.0) {
+        fn the_bound_of_an_exponential_is_close(x in 0.0f64..1.0) {
             prop_assert!(decayed(x) >= libm::exp(-x) * (1.0 - 1e-15) && decayed(x) < libm::exp(-x) * (1.0 + 2e-4));
         }
     }

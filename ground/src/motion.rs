@@ -1,168 +1,72 @@
-//! Kinds of ground motion: each with its formula and source, as smooth pieces with known ends.
+//! Kinds of ground motion, each with its formula and source, as smooth pieces with known ends.
 //!
 //! `a` is the acceleration, `τ = t - start`, and `ω` the angular frequency of the literature, `2π / T_p` for a pulse of period
-//! `T_p`. A pulse begins at `start`, also one whose formula is told from its centre.
+//! `T_p`. A pulse begins at `start`, also one whose formula has its origin at the centre.
 //!
 //! Sources: Makris & Chang (2000), *Earthquake Spectra* 16 (types A, B, C_n); Ricker (1943), *Geophysics* 8, as in Vassiliou & Makris
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
 //! (their pulse, and Gabor's wavelet beside it).
 
-use crate::overlay::{Span, Spans, overlay};
 use crate::piece::Piece;
 use crate::record::Record;
+use crate::spans::{Span, Spans, overlay};
 use serde::Serialize;
 use smallvec::smallvec;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Ground acceleration of one component.
+///
+/// Parameters: `amplitude [m/s²]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `duration [s]`, `phase [rad]`; `cycles` and `gamma` are
+/// dimensionless.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
 pub enum Motion {
     /// `a = amplitude · sin ωτ` over one period: the one-sine pulse, type A of Makris & Chang. The ground stops displaced by
     /// `2π amplitude / ω²`.
-    SinePulse {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    SinePulse { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude · cos ωτ` over one period: the one-cosine pulse, type B of Makris & Chang. It jumps at both ends; the
     /// ground stops where it was.
-    CosinePulse {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    CosinePulse { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude · sin ωτ` over half a period: the half-sine pulse. The ground keeps the velocity `2 amplitude / ω`.
-    HalfSine {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
-    /// `a = amplitude · cos(ωτ + φ)` over `(n + 1/2 - φ/π) T_p`, type C_n of Makris & Chang with `n` cycles: `φ` is the root of
+    HalfSine { amplitude: f64, omega: f64, start: f64 },
+    /// `a = amplitude · cos(ωτ + φ)` over `(n + 1/2 - φ/π) T_p`, type C_n of Makris & Chang with `n >= 1` cycles: `φ` is the root of
     /// `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ - cos φ = 0`, so that the ground stops where it was. It jumps at both ends.
-    TypeC {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `n >= 1`
-        cycles: u32,
-    },
+    TypeC { amplitude: f64, omega: f64, start: f64, cycles: u32 },
     /// `a = amplitude · sin(ωτ + phase)` for `τ >= 0`.
-    Harmonic {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-    },
+    Harmonic { amplitude: f64, omega: f64, start: f64, phase: f64 },
     /// `a = amplitude · sin(ωτ + phase)` for `0 <= τ < duration`: a harmonic motion that ends.
-    SineBurst {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-        /// `[s]`
-        duration: f64,
-    },
+    SineBurst { amplitude: f64, omega: f64, start: f64, phase: f64, duration: f64 },
     /// `a = amplitude · (1 - u²) exp(-u²/2)`, `u = ω (t - t_0) / √2`: the symmetric Ricker wavelet of period `T_p`, second derivative
     /// of a Gaussian. The peak is at `t_0 = start + 6√2/ω`; cut off where `|u| > 6`, below 6e-7 of the amplitude. The ground stops
     /// where it was.
-    Ricker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    Ricker { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude / β · (u² - 3) u exp(-u²/2)`, `u = ω (t - t_0) / √3`, `β = 1.3801`: the antisymmetric Ricker wavelet of period
     /// `T_p`, third derivative of a Gaussian. `t_0 = start + 6.5√3/ω`; cut off where `|u| > 6.5`, below 2e-7 of the amplitude.
     /// The ground stops where it was.
-    AntisymmetricRicker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    AntisymmetricRicker { amplitude: f64, omega: f64, start: f64 },
     /// The pulse of Mavroeidis & Papageorgiou (2003), Eq. 3: the ground's velocity is
-    /// `velocity / 2 · (1 + cos(ω(t - t_0)/γ)) cos(ω(t - t_0) + phase)` for `|t - t_0| <= πγ/ω`, `t_0 = start + πγ/ω`.
-    MavroeidisPapageorgiou {
-        /// Amplitude of the velocity, their `A` `[m/s]`.
-        velocity: f64,
-        /// Their `2π f_p` `[rad/s]`.
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// Their `ν` `[rad]`.
-        phase: f64,
-        /// Oscillations, their `γ > 1`, dimensionless.
-        gamma: f64,
-    },
+    /// `velocity / 2 · (1 + cos(ω(t - t_0)/γ)) cos(ω(t - t_0) + phase)` for `|t - t_0| <= πγ/ω`, `t_0 = start + πγ/ω`. `gamma > 1` is the
+    /// number of oscillations; their `A` is `velocity`, their `ν` is `phase`.
+    MavroeidisPapageorgiou { velocity: f64, omega: f64, start: f64, phase: f64, gamma: f64 },
     /// Gabor's wavelet: the ground's velocity is `velocity · exp(-(ω(t - t_0)/γ)²) cos(ω(t - t_0) + phase)`,
-    /// `t_0 = start + 4.5γ/ω`; cut off where `|ω(t - t_0)| > 4.5γ`, below 2e-9 of the amplitude.
-    Gabor {
-        /// Amplitude of the velocity `[m/s]`.
-        velocity: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-        /// Width of the envelope in radians of the wave, dimensionless.
-        gamma: f64,
-    },
+    /// `t_0 = start + 4.5γ/ω`; cut off where `|ω(t - t_0)| > 4.5γ`, below 2e-9 of the amplitude. `gamma` is the width of
+    /// the envelope in radians of the wave.
+    Gabor { velocity: f64, omega: f64, start: f64, phase: f64, gamma: f64 },
     /// `a = amplitude` for `0 <= τ < duration`: the rectangular pulse. The ground keeps the velocity `amplitude · duration`.
-    Rectangular {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[s]`
-        start: f64,
-        /// `[s]`
-        duration: f64,
-    },
+    Rectangular { amplitude: f64, start: f64, duration: f64 },
     /// `a = amplitude` in the first half of `duration`, `-amplitude` in the second: the double rectangular pulse. The ground stops
     /// displaced by `amplitude · duration² / 4`.
-    DoubleRectangular {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[s]`
-        start: f64,
-        /// Of both halves together `[s]`.
-        duration: f64,
-    },
-    /// All terms at the same time.
-    Sum {
-        /// What is summed.
-        terms: Vec<Motion>,
-    },
+    DoubleRectangular { amplitude: f64, start: f64, duration: f64 },
+    /// The sum of several motions.
+    Sum { terms: Vec<Motion> },
     /// Samples, linear between, zero outside.
     Record(Record),
 }
 
 /// Half-length of a symmetric Ricker wavelet in `u`.
-pub(crate) const RICKER_REACH: f64 = 6.0;
+const RICKER_REACH: f64 = 6.0;
 
 /// Half-length of an antisymmetric Ricker wavelet in `u`.
 const ANTISYMMETRIC_REACH: f64 = 6.5;
@@ -170,78 +74,61 @@ const ANTISYMMETRIC_REACH: f64 = 6.5;
 /// Half-length of a Gabor wavelet in `ω(t - t_0)/γ`.
 const GABOR_REACH: f64 = 4.5;
 
-/// What a number of a ground motion must be.
-enum Range {
-    Any,
-    Above(f64),
-}
-
 impl Motion {
-    /// The smooth pieces in order of time, without overlap; nothing moves outside them.
+    /// The smooth pieces in order of time, without overlap; the acceleration is zero outside them.
     pub(crate) fn pieces(&self) -> Spans {
-        let span = |start: f64, duration: f64, piece: Piece| Span { start, end: start + duration, piece };
-        let sine = |start: f64, duration: f64, [amplitude, omega, phase]: [f64; 3]| {
-            span(start, duration, Piece::Sine { amplitude, omega, start, phase })
-        };
-        let level =
-            |start: f64, duration: f64, value: f64| span(start, duration, Piece::Linear { value, slope: 0.0, start });
-        match *self {
-            Motion::SinePulse { amplitude, omega, start } => {
-                smallvec![sine(start, TAU / omega, [amplitude, omega, 0.0])]
-            }
+        let sine = |amplitude: f64, omega: f64, start: f64, phase: f64| Piece::Sine { amplitude, omega, start, phase };
+        let (start, duration, piece) = match *self {
+            Motion::SinePulse { amplitude, omega, start } => (start, TAU / omega, sine(amplitude, omega, start, 0.0)),
             Motion::CosinePulse { amplitude, omega, start } => {
-                smallvec![span(start, TAU / omega, Piece::Cosine { amplitude, omega, start })]
+                (start, TAU / omega, Piece::Cosine { amplitude, omega, start })
             }
-            Motion::HalfSine { amplitude, omega, start } => smallvec![sine(start, PI / omega, [amplitude, omega, 0.0])],
+            Motion::HalfSine { amplitude, omega, start } => (start, PI / omega, sine(amplitude, omega, start, 0.0)),
             Motion::TypeC { amplitude, omega, start, cycles } => {
                 let phase = phase_of_type_c(cycles);
                 let duration = ((2.0 * f64::from(cycles) + 1.0) * PI - 2.0 * phase) / omega;
-                smallvec![sine(start, duration, [amplitude, omega, phase + FRAC_PI_2])]
+                (start, duration, sine(amplitude, omega, start, phase + FRAC_PI_2))
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                smallvec![sine(start, f64::INFINITY, [amplitude, omega, phase])]
+                (start, f64::INFINITY, sine(amplitude, omega, start, phase))
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                smallvec![sine(start, duration, [amplitude, omega, phase])]
+                (start, duration, sine(amplitude, omega, start, phase))
             }
             Motion::Ricker { amplitude, omega, start } => {
                 let omega = omega / SQRT_2;
                 let reach = RICKER_REACH / omega;
-                smallvec![span(start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })]
+                (start, 2.0 * reach, Piece::Ricker { amplitude, omega, centre: start + reach })
             }
             Motion::AntisymmetricRicker { amplitude, omega, start } => {
                 let omega = omega / 3f64.sqrt();
                 let reach = ANTISYMMETRIC_REACH / omega;
-                smallvec![span(
-                    start,
-                    2.0 * reach,
-                    Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach }
-                )]
+                (start, 2.0 * reach, Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach })
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
                 // Twice the product of sines and cosines is a sum of them: the derivative of the velocity has three frequencies.
                 let reach = PI * gamma / omega;
-                let wave = |ratio: f64, share: f64| Piece::Sine {
-                    amplitude: -0.5 * share * velocity * omega,
-                    omega: ratio * omega,
-                    start: start + reach,
-                    phase,
-                };
+                let wave =
+                    |ratio: f64, share: f64| sine(-0.5 * share * velocity * omega, ratio * omega, start + reach, phase);
                 let (above, below) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
                 let waves = [wave(1.0, 1.0), wave(above, 0.5 * above), wave(below, 0.5 * below)];
-                smallvec![span(start, 2.0 * reach, Piece::sum(&waves))]
+                (start, 2.0 * reach, Piece::sum(&waves))
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
                 let reach = GABOR_REACH * gamma / omega;
-                let piece = Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma };
-                smallvec![span(start, 2.0 * reach, piece)]
+                (start, 2.0 * reach, Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma })
             }
-            Motion::Rectangular { amplitude, start, duration } => smallvec![level(start, duration, amplitude)],
+            Motion::Rectangular { amplitude, start, duration } => {
+                (start, duration, Piece::Linear { value: amplitude, slope: 0.0, start })
+            }
             Motion::DoubleRectangular { amplitude, start, duration } => {
-                let half = 0.5 * duration;
-                let first = level(start, half, amplitude);
-                let second = Span { start: first.end, ..level(first.end, half, -amplitude) };
-                smallvec![first, Span { end: start + duration, ..second }]
+                let (middle, end) = (start + 0.5 * duration, start + duration);
+                let level = |start: f64, end: f64, value: f64| Span {
+                    start,
+                    end,
+                    piece: Piece::Linear { value, slope: 0.0, start },
+                };
+                return smallvec![level(start, middle, amplitude), level(middle, end, -amplitude)];
             }
             Motion::Sum { ref terms } => {
                 let terms: Vec<Spans> = terms.iter().map(Motion::pieces).collect();
@@ -249,13 +136,14 @@ impl Motion {
                 overlay(&terms, f64::NEG_INFINITY, f64::INFINITY, |start, end, pieces| {
                     spans.push(Span { start, end, piece: Piece::sum(pieces) });
                 });
-                spans
+                return spans;
             }
-            Motion::Record(ref record) => record.pieces().collect(),
-        }
+            Motion::Record(ref record) => return record.pieces().collect(),
+        };
+        smallvec![Span { start, end: start + duration, piece }]
     }
 
-    /// The amplitude `[m/s²]` of a formula of which nothing else depends on it; the motion is proportional to it.
+    /// The amplitude `[m/s²]` of a formula that is proportional to it.
     pub fn amplitude_mut(&mut self) -> Option<&mut f64> {
         match self {
             Motion::SinePulse { amplitude, .. }
@@ -283,12 +171,12 @@ impl Motion {
         }
     }
 
-    /// When it ends `[s]`; `None` for what goes on for ever.
+    /// End of the motion `[s]`; none for a motion without end.
     pub fn end(&self) -> Option<f64> {
         self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
     }
 
-    /// The first parameter that is not finite, larger than `largest` in size, or not above what it must be above.
+    /// Name and value of the first parameter that is not finite, larger than `largest` in size, or not above its lower bound.
     pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let term = |(index, term): (usize, &Motion)| {
@@ -296,70 +184,59 @@ impl Motion {
             };
             return terms.iter().enumerate().find_map(term);
         }
-        let is_bad = |(_, value, range): &(&str, f64, Range)| {
-            value.is_nan() || value.abs() > largest || matches!(range, Range::Above(least) if value <= least)
-        };
+        let is_bad = |(_, value, above): &Parameter| value.is_nan() || value.abs() > largest || value <= above;
         let (name, value, _) = self.parameters().into_iter().find(is_bad)?;
         Some((name.into(), value))
     }
 
-    /// Numbers by their names in a scene.
-    fn parameters(&self) -> Vec<(&'static str, f64, Range)> {
-        use Range::{Above, Any};
-        let wave = |amplitude: f64, omega: f64, start: f64| {
-            vec![("amplitude", amplitude, Any), ("omega", omega, Above(0.0)), ("start", start, Any)]
+    fn parameters(&self) -> Vec<Parameter> {
+        const ANY: f64 = f64::NEG_INFINITY;
+        let wave = |amplitude: f64, omega: f64, start: f64, more: &[Parameter]| {
+            [&[("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)], more].concat()
         };
-        let with = |mut all: Vec<(&'static str, f64, Range)>, name: &'static str, value: f64, range: Range| {
-            all.push((name, value, range));
-            all
+        let envelope = |velocity: f64, omega: f64, start: f64, phase: f64, gamma: Parameter| {
+            let others = wave(velocity * omega, omega, start, &[("phase", phase, ANY), gamma]);
+            [&[("velocity", velocity, ANY)], others.as_slice()].concat()
         };
         match *self {
             Motion::SinePulse { amplitude, omega, start }
             | Motion::CosinePulse { amplitude, omega, start }
             | Motion::HalfSine { amplitude, omega, start }
             | Motion::Ricker { amplitude, omega, start }
-            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start),
+            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start, &[]),
             Motion::TypeC { amplitude, omega, start, cycles } => {
-                with(wave(amplitude, omega, start), "cycles", f64::from(cycles), Above(0.0))
+                wave(amplitude, omega, start, &[("cycles", f64::from(cycles), 0.0)])
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                with(wave(amplitude, omega, start), "phase", phase, Any)
+                wave(amplitude, omega, start, &[("phase", phase, ANY)])
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                let all = with(wave(amplitude, omega, start), "phase", phase, Any);
-                with(all, "duration", duration, Above(0.0))
+                wave(amplitude, omega, start, &[("phase", phase, ANY), ("duration", duration, 0.0)])
             }
-            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => vec![
-                ("velocity", velocity, Any),
-                ("amplitude", velocity * omega, Any),
-                ("omega", omega, Above(0.0)),
-                ("start", start, Any),
-                ("phase", phase, Any),
-                ("gamma", gamma, Above(1.0)),
-            ],
-            Motion::Gabor { velocity, omega, start, phase, gamma } => vec![
-                ("velocity", velocity, Any),
-                ("amplitude", velocity * omega, Any),
-                ("omega", omega, Above(0.0)),
-                ("start", start, Any),
-                ("phase", phase, Any),
-                ("gamma", gamma, Above(0.0)),
-            ],
+            Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
+                envelope(velocity, omega, start, phase, ("gamma", gamma, 1.0))
+            }
+            Motion::Gabor { velocity, omega, start, phase, gamma } => {
+                envelope(velocity, omega, start, phase, ("gamma", gamma, 0.0))
+            }
             Motion::Rectangular { amplitude, start, duration }
             | Motion::DoubleRectangular { amplitude, start, duration } => {
-                vec![("amplitude", amplitude, Any), ("start", start, Any), ("duration", duration, Above(0.0))]
+                vec![("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)]
             }
             Motion::Sum { .. } => Vec::new(),
             Motion::Record(ref record) => vec![
-                ("file", record.peak(), Any),
-                ("start", record.start(), Any),
-                ("dt", record.dt(), Above(SHORTEST_INTERVAL)),
+                ("file", record.peak(), ANY),
+                ("start", record.start(), ANY),
+                ("dt", record.dt(), SHORTEST_INTERVAL),
             ],
         }
     }
 }
 
-/// Shortest sampling interval `[s]`: below, samples of a long record fall on the same time.
+/// Name in a scene, value, and lower bound, itself excluded.
+type Parameter = (&'static str, f64, f64);
+
+/// Shortest sampling interval of a motion `[s]`: below, samples of a long record have the same time.
 const SHORTEST_INTERVAL: f64 = 1e-9;
 
 /// The root of `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ = cos φ` near zero: `tan φ = 1 / ((n + 1/2)π - φ)`.
@@ -373,7 +250,7 @@ fn phase_of_type_c(cycles: u32) -> f64 {
 pub(crate) mod tests {
     use super::*;
 
-    /// One of each kind that is a formula and ends.
+    /// One of each kind that is a formula and has an end.
     pub fn kinds() -> Vec<Motion> {
         let (amplitude, omega, start) = (2.0, 4.0, 0.7);
         vec![

@@ -1,74 +1,31 @@
-//! One smooth stretch of ground acceleration.
+//! One smooth piece of ground acceleration.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// A formula that holds between two break points.
+/// A formula of the acceleration between two break points.
+///
+/// Parameters: `value` and `amplitude [m/s²]`, `slope [m/s³]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `centre [s]`, `phase [rad]`;
+/// `gamma` is dimensionless.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
 pub enum Piece {
-    /// Nothing moves.
+    /// No acceleration.
     Zero,
     /// `value + slope (t - start)`
-    Linear {
-        /// `[m/s²]`
-        value: f64,
-        /// `[m/s³]`
-        slope: f64,
-        /// `[s]`
-        start: f64,
-    },
+    Linear { value: f64, slope: f64, start: f64 },
     /// `amplitude · sin(omega (t - start) + phase)`
-    Sine {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-        /// `[rad]`
-        phase: f64,
-    },
+    Sine { amplitude: f64, omega: f64, start: f64, phase: f64 },
     /// `amplitude · cos(omega (t - start))`
-    Cosine {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        start: f64,
-    },
+    Cosine { amplitude: f64, omega: f64, start: f64 },
     /// `amplitude · (1 - u²) exp(-u²/2)`, `u = omega (t - centre)`
-    Ricker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        centre: f64,
-    },
+    Ricker { amplitude: f64, omega: f64, centre: f64 },
     /// `amplitude / β · (u² - 3) u exp(-u²/2)`, `u = omega (t - centre)`, with `β` such that the peak is the amplitude
-    AntisymmetricRicker {
-        /// `[m/s²]`
-        amplitude: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        centre: f64,
-    },
+    AntisymmetricRicker { amplitude: f64, omega: f64, centre: f64 },
     /// The derivative of `velocity · exp(-(u/gamma)²) cos(u + phase)`, `u = omega (t - centre)`
-    Gabor {
-        /// `[m/s]`
-        velocity: f64,
-        /// `[rad/s]`
-        omega: f64,
-        /// `[s]`
-        centre: f64,
-        /// `[rad]`
-        phase: f64,
-        /// Dimensionless.
-        gamma: f64,
-    },
-    /// Several at the same time; none of them zero, linear only one, no sum.
+    Gabor { velocity: f64, omega: f64, centre: f64, phase: f64, gamma: f64 },
+    /// A sum of pieces: none is zero, at most one is linear, none is a sum.
     Sum(Arc<[Piece]>),
 }
 
@@ -76,7 +33,7 @@ pub enum Piece {
 const BETA: f64 = 1.380_119_046_160_749_3;
 
 impl Piece {
-    /// Several pieces at the same time as one.
+    /// The sum of several pieces.
     pub fn sum(pieces: &[Piece]) -> Piece {
         let mut linear: Option<(f64, f64, f64)> = None;
         let mut terms: Vec<Piece> = Vec::new();
@@ -271,7 +228,7 @@ impl Piece {
         }
     }
 
-    /// How fast it changes `[rad/s]`: the angular frequency where there is one, zero where nothing oscillates.
+    /// Angular frequency `[rad/s]`, the largest of several; zero for straight lines.
     #[inline]
     pub fn omega(&self) -> f64 {
         match *self {
@@ -309,7 +266,7 @@ impl Piece {
     pub fn jumps_from(&self, before: &Piece, t: f64) -> bool {
         match (before, self) {
             (Piece::Zero, Piece::Zero) => false,
-            // Of a record, whose pieces are many.
+            // The pieces of a record are many: a shortcut.
             (
                 &Piece::Linear { value: old, slope: before, start: since },
                 &Piece::Linear { value: new, slope, start },
@@ -330,7 +287,7 @@ impl Piece {
             Piece::Zero => 0.0,
             Piece::Linear { value, .. } => value.abs(),
             Piece::Sine { amplitude, .. } | Piece::Cosine { amplitude, .. } => amplitude.abs(),
-            // Cut off where they are below 1e-6 of the amplitude: that is no jump to speak of.
+            // Cut off below 1e-6 of the amplitude, which counts as no jump.
             Piece::Ricker { amplitude, .. } | Piece::AntisymmetricRicker { amplitude, .. } => amplitude.abs() * 1e6,
             Piece::Gabor { velocity, omega, .. } => (velocity * omega).abs() * 1e6,
             Piece::Sum(ref terms) => terms.iter().map(Piece::size).sum(),
@@ -341,17 +298,18 @@ impl Piece {
 /// Whether accelerations differ by more than rounding at this scale.
 #[inline]
 fn is_jump(old: f64, new: f64, size: f64) -> bool {
-    (new - old).abs() > SAME_ACCELERATION * size
+    (new - old).abs() > JUMP_TOLERANCE * size
 }
 
-/// Out of line: a sum of sums does not end for the compiler.
+/// Out of line: inlined, a sum of sums would not end.
 fn total(terms: &[Piece], t: f64) -> f64 {
     terms.iter().map(|term| term.value(t)).sum()
 }
 
-/// Radians of a step, and order, of the series that integrate where no closed form does: `0.5^24 / 24!` is far below rounding also
-/// where the coefficients grow as a Gaussian's.
+/// Longest step of the series that integrate a Gabor wavelet `[rad]`.
 const SERIES_REACH: f64 = 0.5;
+
+/// Their order: `0.5^24 / 24!` is far below rounding, also where the coefficients grow as a Gaussian's.
 const SERIES_ORDER: usize = 24;
 
 /// `1 / n`, from a table where series of steps need it.
@@ -390,9 +348,9 @@ fn expand_gaussian(amplitude: f64, polynomial: [f64; 4], u: f64, omega: f64, coe
     }
 }
 
-/// Relative change that counts as a jump. A pulse's end is a few roundings of `omega t` off zero: 1e-12 covers thousands of
-/// periods; a true jump below it moves nothing that a double could tell.
-const SAME_ACCELERATION: f64 = 1e-12;
+/// Relative change above which the acceleration jumps. A pulse's end is a few roundings of `omega t` off zero: 1e-12 covers thousands of
+/// periods; a true jump below it has no effect in double precision.
+const JUMP_TOLERANCE: f64 = 1e-12;
 
 #[cfg(test)]
 mod tests {

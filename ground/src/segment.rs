@@ -18,7 +18,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// A ground that does not move, at no particular time.
+    /// A ground at rest, of no time.
     pub const QUIET: Segment =
         Segment { start: 0.0, end: 0.0, horizontal: Piece::Zero, vertical: Piece::Zero, jumps: false };
 
@@ -28,7 +28,7 @@ impl Segment {
         [self.horizontal.value(t), self.vertical.value(t)]
     }
 
-    /// Whether nothing moves in it.
+    /// Whether both accelerations are zero.
     #[inline]
     pub fn is_quiet(&self) -> bool {
         self.horizontal == Piece::Zero && self.vertical == Piece::Zero

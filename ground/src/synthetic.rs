@@ -11,12 +11,13 @@
 //!
 //! Both are stepped by Newmark's method with constant average acceleration. The same seed gives the same record on every machine.
 
-use crate::record::{Record, RecordError, Source};
+use crate::error::RecordError;
+use crate::record::{Record, Source};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 use std::f64::consts::TAU;
 
-/// What is known of a synthetic record.
+/// Parameters of a synthetic record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Synthetic {
     /// Peak acceleration `[m/s²]`.
@@ -25,7 +26,7 @@ pub struct Synthetic {
     pub duration: f64,
     /// `[s]`
     pub dt: f64,
-    /// Which record of its kind.
+    /// Seed of the noise: one record for each.
     pub seed: u64,
     /// Dominant frequency of the ground filter, `ω / 2π` `[Hz]`: 1 for soft soil, 2.5 for firm ground, 4 for rock.
     pub frequency: f64,
@@ -40,13 +41,15 @@ impl Default for Synthetic {
     }
 }
 
-/// End of the rise and begin of the decay as shares of the duration, and the envelope at the end: that of a moderate earthquake.
-const RISE: f64 = 0.1;
-const DECAY: f64 = 0.4;
-const LAST: f64 = 0.01;
+/// End of the envelope's rise, as a share of the duration. This and the next two are those of a moderate earthquake.
+const RISE_END: f64 = 0.1;
+/// Begin of its decay, as a share of the duration.
+const DECAY_START: f64 = 0.4;
+/// Envelope at the end.
+const LAST_ENVELOPE: f64 = 0.01;
 
 /// Frequency of the second filter over that of the first.
-const SECOND_FILTER: f64 = 0.1;
+const SECOND_FILTER_RATIO: f64 = 0.1;
 
 /// Samples beyond which a duration and an interval are taken for a mistake.
 const MOST_SAMPLES: f64 = 1e7;
@@ -73,17 +76,18 @@ impl Synthetic {
             ("damping", self.damping),
         ];
         if let Some((name, value)) = numbers.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
-            return Err(RecordError::OutOfRange { name, value });
+            return Err(RecordError::OutOfRange { name, value, wanted: "a finite number above zero" });
         }
         let intervals = self.duration / self.dt;
         if !(1.0..MOST_SAMPLES).contains(&intervals) {
-            return Err(RecordError::OutOfRange { name: "duration", value: self.duration });
+            let wanted = "1 to 1e7 sampling intervals";
+            return Err(RecordError::OutOfRange { name: "duration", value: self.duration, wanted });
         }
         let count = intervals.round() as usize + 1;
         let mut noise = Noise::new(self.seed);
         let omega = TAU * self.frequency;
         let mut ground = Oscillator::new(omega, self.damping, self.dt);
-        let mut second = Oscillator::new(SECOND_FILTER * omega, self.damping, self.dt);
+        let mut second = Oscillator::new(SECOND_FILTER_RATIO * omega, self.damping, self.dt);
         let mut accel = Vec::with_capacity(count);
         for index in 0..count {
             let share = index as f64 / (count - 1) as f64;
@@ -93,20 +97,20 @@ impl Synthetic {
         }
         let title = format!("synthetic, seed {}, {} Hz, damping {}", self.seed, self.frequency, self.damping);
         let source = Source { title, ..Source::default() };
-        // The factor is of the noise, and tells nobody anything.
+        // A new record: the factor of the noise is no scale of a record.
         let scaled = Record::new(accel, self.dt, 0.0)?.scaled_to_peak(self.pga)?;
         Ok(Record::new(scaled.accel().to_vec(), self.dt, 0.0)?.with_source(source, Vec::new()))
     }
 }
 
-/// At a share of the duration, 0 to 1.
+/// Envelope at a share of the duration, 0 to 1.
 fn envelope(share: f64) -> f64 {
-    if share < RISE {
-        (share / RISE) * (share / RISE)
-    } else if share < DECAY {
+    if share < RISE_END {
+        (share / RISE_END) * (share / RISE_END)
+    } else if share < DECAY_START {
         1.0
     } else {
-        libm::exp(libm::log(LAST) * (share - DECAY) / (1.0 - DECAY))
+        libm::exp(libm::log(LAST_ENVELOPE) * (share - DECAY_START) / (1.0 - DECAY_START))
     }
 }
 
@@ -118,7 +122,7 @@ struct Noise {
 
 impl Noise {
     fn new(seed: u64) -> Noise {
-        // Neighbouring seeds begin far apart: the seed in both halves, and a few numbers thrown away.
+        // Neighbouring seeds begin far apart: the seed in both halves, and eight numbers skipped.
         let mut generator = Pcg64Mcg::new(u128::from(seed) << 64 | u128::from(!seed));
         (0..8).for_each(|_| {
             generator.next_u64();
@@ -126,7 +130,7 @@ impl Noise {
         Noise { generator, second: None }
     }
 
-    /// In `0 .. 1`, without 0.
+    /// A number evenly distributed in `0 .. 1`, without 0.
     fn uniform(&mut self) -> f64 {
         ((self.generator.next_u64() >> 11) as f64 + 0.5) / (1u64 << 53) as f64
     }
@@ -155,7 +159,7 @@ impl Oscillator {
         Oscillator { stiffness: omega * omega, damping: 2.0 * ratio * omega, dt, state: [0.0; 3] }
     }
 
-    /// One interval further: `ÿ`, and `-(2 ζ ω ẏ + ω² y)`.
+    /// Goes one interval further. Returns `ÿ` and `-(2 ζ ω ẏ + ω² y)`.
     fn driven_by(&mut self, force: f64) -> [f64; 2] {
         let ([y, rate, accel], h) = (self.state, self.dt);
         let (rate_guess, guess) = (rate + 0.5 * h * accel, y + h * rate + 0.25 * h * h * accel);
@@ -192,7 +196,7 @@ mod tests {
         }
     }
 
-    /// Crossings of zero tell the frequency of filtered noise.
+    /// The number of zero crossings grows with the frequency of filtered noise.
     #[test]
     fn softer_ground_shakes_more_slowly() {
         let crossings = |frequency: f64| {

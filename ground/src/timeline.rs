@@ -1,4 +1,4 @@
-//! A ground motion divided in time, with bounds of what is to come, kept from one run to the next.
+//! A ground motion divided in time, with bounds of the motion to come, kept from one run to the next.
 
 use crate::excitation::Excitation;
 use crate::impulse::decayed;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// The timeline of the last ground motion, kept for the next run: a record is divided into segments once for many runs.
 #[derive(Default)]
 pub struct TimelineCache {
-    /// What it is of, and until when `[s]`, where it has many segments.
+    /// Motion and end `[s]` of the timeline, where it has many segments.
     of: Option<(Excitation, f64)>,
     timeline: Arc<Timeline>,
 }
@@ -24,7 +24,7 @@ pub struct Lookahead {
     pub decay: Option<f64>,
 }
 
-/// Segments from which on it is seen whether they are the same: fewer are laid out anew in less time.
+/// Segments from which on a timeline is kept: fewer are divided anew in less time than two motions are compared.
 const MANY_SEGMENTS: usize = 16;
 
 impl TimelineCache {
@@ -32,10 +32,10 @@ impl TimelineCache {
     pub fn timeline(&mut self, excitation: &Excitation, t_end: f64, lookahead: Lookahead) -> Arc<Timeline> {
         if !self.of.as_ref().is_some_and(|(own, until)| *until == t_end && own == excitation) {
             let timeline = Arc::make_mut(&mut self.timeline);
-            excitation.lay_out(t_end, &mut timeline.segments);
+            excitation.divide(t_end, &mut timeline.segments);
             timeline.impulses.clear();
             timeline.pushes.clear();
-            timeline.note_samples();
+            timeline.find_samples();
             self.of = (timeline.segments.len() >= MANY_SEGMENTS).then(|| (excitation.clone(), t_end));
         }
         Arc::make_mut(&mut self.timeline).look_ahead(lookahead);
@@ -43,21 +43,20 @@ impl TimelineCache {
     }
 }
 
-/// Segments in order of time, without gaps.
+/// Segments in order of time, without gaps, with bounds of the motion after each.
 #[derive(Clone, Debug, Default)]
 pub struct Timeline {
     segments: Vec<Segment>,
-    /// Horizontal accelerations where segments begin, and where the last one ends `[m/s²]`; beside each other, not strewn over the
-    /// segments.
+    /// Horizontal accelerations at the starts of the segments and at the end of the last one `[m/s²]`; contiguous in memory.
     accelerations: Vec<f64>,
-    /// For each segment the first one from it on, maybe itself, that does not go on as a record of equal intervals.
-    goes_on_until: Vec<usize>,
-    /// Bounds of what the sizes of both accelerations come to after each segment, if they are wanted `[m/s]`.
+    /// For each segment the first one from it on, maybe itself, that does not continue a record of equal intervals.
+    uninterrupted_until: Vec<usize>,
+    /// Bounds of the impulse of both components after each segment `[m/s]`; empty unless requested.
     impulses: Vec<f64>,
-    /// Bounds of the pushes to the left and to the right after each segment, weighed at its end, if they are wanted; infinite where
-    /// there is a vertical acceleration beside them `[m/s]`.
+    /// Bounds of the pushes to the left and to the right after each segment, discounted to its end `[m/s]`; infinite before a vertical
+    /// acceleration; empty unless requested.
     pushes: Vec<[f64; 2]>,
-    /// How fast those lose weight `[1/s]`.
+    /// Discount rate of the pushes `[1/s]`.
     decay: f64,
 }
 
@@ -70,20 +69,22 @@ impl Deref for Timeline {
     }
 }
 
-/// Intervals may differ by this share: times are rounded. A step over several of them takes them for equal.
-const UNEVEN: f64 = 1e-9;
+/// Share by which intervals of a record may differ, for times are rounded. A step over several takes them for equal.
+const INTERVAL_TOLERANCE: f64 = 1e-9;
 
 impl Timeline {
-    /// Horizontal accelerations from the start of a segment on, at the bounds of up to so many, as long as they are a record of equal
-    /// intervals with nothing vertical beside it; one at most, if it is none.
+    /// Horizontal accelerations `[m/s²]` at the bounds of up to `most` segments from `first` on, as long as they are intervals of one
+    /// record with nothing vertical beside it. At most one value where `first` is no such interval.
     #[inline]
     pub fn samples(&self, first: usize, most: usize) -> &[f64] {
-        let until = self.goes_on_until.get(first).map_or(first, |until| (*until).min(first + most));
+        let until = self.uninterrupted_until.get(first).map_or(first, |until| (*until).min(first + most));
         self.accelerations.get(first..=until).unwrap_or_default()
     }
 
-    /// A bound of what the sizes of both accelerations come to from a time in a segment on, if it is less than `limit` `[m/s]`. That
-    /// impulses are wanted must have been said.
+    /// A bound of the impulse `∫ |a| dt` of both components from `t` in a segment on, if it is less than `limit` `[m/s]`.
+    ///
+    /// # Panics
+    /// Unless [`Lookahead::impulses`] was requested.
     pub fn impulse_from(&self, segment: usize, t: f64, limit: f64) -> Option<f64> {
         let Segment { end, horizontal, vertical, .. } = &self.segments[segment];
         let mut sum = self.impulses[segment];
@@ -93,27 +94,30 @@ impl Timeline {
         Some(sum)
     }
 
-    /// A bound of the pushes to a side, one or minus one, from a time in a segment on, those to come losing weight ([`Piece::push`]);
-    /// infinite where the ground moves upwards or downwards as well `[m/s]`. That pushes are wanted must have been said.
+    /// A bound of the push to a side, 1 or -1, from `t` in a segment on, later parts discounted ([`Piece::push`]) `[m/s]`; infinite
+    /// where the ground also moves vertically.
+    ///
+    /// # Panics
+    /// Unless [`Lookahead::decay`] was requested.
     pub fn push_from(&self, side: f64, segment: usize, t: f64) -> f64 {
         let [left, right] = self.pushes[segment];
         let later = if side < 0.0 { left } else { right };
         let end = self.segments[segment].end;
-        self.push_in(side, segment, [t, end]) + self.weighed(later, end - t)
+        self.push_in(side, segment, [t, end]) + self.discounted(later, end - t)
     }
 
-    /// The same within a segment.
+    /// A bound of the push to a side within a span of a segment, discounted to its start `[m/s]`.
     pub fn push_in(&self, side: f64, segment: usize, span: [f64; 2]) -> f64 {
         let Segment { horizontal, vertical, .. } = &self.segments[segment];
         if *vertical == Piece::Zero { horizontal.push(side, span, self.decay) } else { f64::INFINITY }
     }
 
-    /// What a push counts for so much earlier.
-    fn weighed(&self, push: f64, earlier: f64) -> f64 {
-        if push > 0.0 && push.is_finite() { push * decayed(self.decay * earlier) } else { push }
+    /// A push discounted over a time `[s]`.
+    fn discounted(&self, push: f64, time: f64) -> f64 {
+        if push > 0.0 && push.is_finite() { push * decayed(self.decay * time) } else { push }
     }
 
-    /// Notes what is to come after each segment, unless that is known.
+    /// Fills the bounds that are requested, unless they are known.
     fn look_ahead(&mut self, Lookahead { impulses, decay }: Lookahead) {
         if impulses && self.impulses.is_empty() {
             self.impulses.resize(self.segments.len(), 0.0);
@@ -135,10 +139,10 @@ impl Timeline {
         }
     }
 
-    /// Notes samples, where there are any.
-    fn note_samples(&mut self) {
+    /// Fills the accelerations at the bounds of segments, where some of them are intervals of records.
+    fn find_samples(&mut self) {
         self.accelerations.clear();
-        self.goes_on_until.clear();
+        self.uninterrupted_until.clear();
         let segments = &self.segments;
         let is_sampled =
             |own: &Segment| matches!((&own.horizontal, &own.vertical), (Piece::Linear { .. }, Piece::Zero));
@@ -148,14 +152,14 @@ impl Timeline {
         let mut first = 0;
         while let [own, later @ ..] = &segments[first..] {
             let dt = own.end - own.start;
-            let is_even = |next: &Segment| ((next.end - next.start) - dt).abs() <= UNEVEN * dt;
+            let is_even = |next: &Segment| ((next.end - next.start) - dt).abs() <= INTERVAL_TOLERANCE * dt;
             let goes_on = |next: &&Segment| is_sampled(own) && is_sampled(next) && !next.jumps && is_even(next);
             let end = first + 1 + later.iter().take_while(goes_on).count();
-            // What is no sample, or jumps, need not begin as the last one ends.
+            // The next segment need not begin with the value at which this one ends if it jumps or is no interval of a record.
             let next = segments.get(end);
             let breaks_off = !is_sampled(own) || next.is_some_and(|next| next.jumps || !is_sampled(next));
             let until = end - usize::from(breaks_off);
-            self.goes_on_until.extend((first..end).map(|own| until.max(own)));
+            self.uninterrupted_until.extend((first..end).map(|own| until.max(own)));
             first = end;
         }
     }
@@ -167,7 +171,7 @@ mod tests {
     use crate::{Motion, Record};
 
     #[test]
-    fn what_is_to_come_is_bounded_and_the_bound_is_met() {
+    fn bounds_of_the_motion_to_come_are_met() {
         let values: Vec<f64> = (0..40).map(|i| libm::sin(f64::from(i * i)) * f64::from(40 - i)).collect();
         let record = Motion::Record(Record::new(values, 0.1, 0.0).expect("valid"));
         let pulse = Motion::SinePulse { amplitude: 7.0, omega: 3.0, start: 3.95 };

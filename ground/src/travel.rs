@@ -1,5 +1,6 @@
-//! Where the ground goes: velocity and displacement of a ground motion, piece by piece in closed form.
+//! Velocity and displacement of the ground, piece by piece in closed form.
 
+use crate::linear::LinearInterval;
 use crate::motion::Motion;
 use crate::piece::Piece;
 
@@ -23,14 +24,20 @@ impl Motion {
         [state.velocity, state.displacement]
     }
 
-    /// Largest sizes of acceleration, velocity and displacement up to `until [s]` (PGA, PGV, PGD), at places dense enough to meet
-    /// each crest to some millionths; a record's at its samples.
+    /// Largest sizes of acceleration, velocity and displacement up to `until [s]`: PGA, PGV, PGD. Exact for records and other linear
+    /// pieces, to some millionths for formulas.
     pub fn peaks(&self, until: f64) -> [f64; 3] {
         let (mut state, mut peaks) = (Travel::default(), [0.0f64; 3]);
         let mut note = |values: [f64; 3]| peaks.iter_mut().zip(values).for_each(|(peak, v)| *peak = peak.max(v.abs()));
         for span in self.pieces().iter().take_while(|span| span.start < until) {
             state.wait_until(span.start);
             let end = span.end.min(until);
+            if let Piece::Linear { .. } = span.piece {
+                let [a, b] = [span.start, end].map(|t| span.piece.value(t));
+                let interval = LinearInterval { a, b, h: end - span.start, v: state.velocity, d: state.displacement };
+                let [velocity, displacement] = interval.peaks();
+                note([a, velocity, displacement]);
+            }
             let count = (PLACES_PER_RADIAN * span.piece.omega() * (end - span.start)).clamp(1.0, MOST_PLACES) as usize;
             for place in 0..=count {
                 let t = span.start + (end - span.start) * place as f64 / count as f64;
@@ -44,11 +51,13 @@ impl Motion {
     }
 }
 
-/// Places per radian at which peaks are sought, and the most per piece.
+/// Places per radian at which the peaks of a formula are sought. Between two of them a crest rises by `1/(8 · 256²)` of itself at most.
 const PLACES_PER_RADIAN: f64 = 256.0;
+
+/// Most places per piece: a bound of the time that a harmonic motion without end takes.
 const MOST_PLACES: f64 = 1e5;
 
-/// The ground under way.
+/// State of the ground.
 #[derive(Default)]
 struct Travel {
     t: Option<f64>,
@@ -57,12 +66,13 @@ struct Travel {
 }
 
 impl Travel {
-    /// Without acceleration.
+    /// Goes on to `t` without acceleration.
     fn wait_until(&mut self, t: f64) {
         self.displacement += self.velocity * (t - self.t.unwrap_or(t));
         self.t = Some(t);
     }
 
+    /// Goes on to `t` under the acceleration of a piece.
     fn move_with(&mut self, piece: &Piece, t: f64) {
         let from = self.t.unwrap_or(t);
         let [velocity, displacement] = piece.integrals(from, t);
@@ -76,6 +86,7 @@ impl Travel {
 mod tests {
     use super::*;
     use crate::motion::tests::kinds;
+    use crate::{Record, Synthetic};
     use std::f64::consts::{PI, TAU};
 
     /// Velocity and displacement are integrals: Gauss's rule with three places on small panels between break points.
@@ -139,5 +150,17 @@ mod tests {
         );
         let wavelet = Motion::AntisymmetricRicker { amplitude: 2.0, omega: 4.0, start: 0.0 };
         assert!((wavelet.peaks(100.0)[0] - 2.0).abs() < 2e-5);
+    }
+
+    #[test]
+    fn peaks_of_a_record_are_its_measures() {
+        // v = h/2 at the first crest, h/2 + h/4 in the middle of the fall.
+        let record = Record::new(vec![0.0, 1.0, -1.0, 0.0], 0.02, 0.0).expect("valid");
+        assert!((Motion::Record(record).peaks(1.0)[1] - 0.75 * 0.02).abs() < 1e-16);
+        let noise = Synthetic { seed: 3, duration: 5.0, ..Synthetic::default() }.record().expect("valid");
+        let (measures, motion) = (noise.measures(9.81), Motion::Record(noise.starting_at(0.3)));
+        for (peak, measure) in motion.peaks(5.3).iter().zip([measures.pga, measures.pgv, measures.pgd]) {
+            assert!((peak / measure - 1.0).abs() < 1e-11, "{peak} {measure}");
+        }
     }
 }

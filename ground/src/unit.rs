@@ -1,18 +1,22 @@
-//! Units of acceleration: their names in files and scenes, and their size.
+//! Units of acceleration: their names in files, and their size.
 
 use serde::Serialize;
 use std::fmt;
 
+/// Gravity where nothing else is given `[m/s²]`.
+pub const DEFAULT_GRAVITY: f64 = 9.81;
+
 /// Unit of accelerations in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub enum AccelerationUnit {
-    /// The gravity of the scene: what counts in rocking is the ratio of the two.
+    /// g: the gravity of the model, so that ratios of the two stay those of the record
     #[serde(rename = "g")]
     G,
-    /// Thousandth of it.
+    /// g/1000
     #[serde(rename = "mg")]
     MilliG,
-    /// Millionth of it.
+    /// g/1000000
     #[serde(rename = "microg")]
     MicroG,
     /// m/s²
@@ -33,7 +37,7 @@ pub enum AccelerationUnit {
 }
 
 impl AccelerationUnit {
-    /// The unit of this name, if there is such a one: `g`, `m/s2`, `CM/SEC**2`, `cm/s/s`, `gal`, `in/sec^2`, ...
+    /// The unit of this name: `g`, `m/s2`, `CM/SEC**2`, `cm/s/s`, `gal`, `in/sec^2`, ...
     ///
     /// ```
     /// use rocking_ground::AccelerationUnit;
@@ -63,34 +67,31 @@ impl AccelerationUnit {
         }
     }
 
-    /// Its size `[m/s²]` in a scene of this gravity `[m/s²]`.
+    /// Size of the unit `[m/s²]`, with this size of one g `[m/s²]`.
     pub fn in_si(self, gravity: f64) -> f64 {
+        let (_, of_gravity, size) = self.definition();
+        if of_gravity { gravity * size } else { size }
+    }
+
+    /// Symbol, whether the unit is a share of g, and its size, in g or m/s².
+    fn definition(self) -> (&'static str, bool, f64) {
         match self {
-            AccelerationUnit::G => gravity,
-            AccelerationUnit::MilliG => gravity * 1e-3,
-            AccelerationUnit::MicroG => gravity * 1e-6,
-            AccelerationUnit::MetrePerSecondSquared => 1.0,
-            AccelerationUnit::CentimetrePerSecondSquared => 0.01,
-            AccelerationUnit::MillimetrePerSecondSquared => 0.001,
+            AccelerationUnit::G => ("g", true, 1.0),
+            AccelerationUnit::MilliG => ("mg", true, 1e-3),
+            AccelerationUnit::MicroG => ("micro-g", true, 1e-6),
+            AccelerationUnit::MetrePerSecondSquared => ("m/s²", false, 1.0),
+            AccelerationUnit::CentimetrePerSecondSquared => ("cm/s²", false, 0.01),
+            AccelerationUnit::MillimetrePerSecondSquared => ("mm/s²", false, 0.001),
             // By definition of the inch and the foot (1959).
-            AccelerationUnit::InchPerSecondSquared => 0.0254,
-            AccelerationUnit::FootPerSecondSquared => 0.3048,
+            AccelerationUnit::InchPerSecondSquared => ("in/s²", false, 0.0254),
+            AccelerationUnit::FootPerSecondSquared => ("ft/s²", false, 0.3048),
         }
     }
 }
 
 impl fmt::Display for AccelerationUnit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            AccelerationUnit::G => "g",
-            AccelerationUnit::MilliG => "mg",
-            AccelerationUnit::MicroG => "micro-g",
-            AccelerationUnit::MetrePerSecondSquared => "m/s²",
-            AccelerationUnit::CentimetrePerSecondSquared => "cm/s²",
-            AccelerationUnit::MillimetrePerSecondSquared => "mm/s²",
-            AccelerationUnit::InchPerSecondSquared => "in/s²",
-            AccelerationUnit::FootPerSecondSquared => "ft/s²",
-        })
+        f.write_str(self.definition().0)
     }
 }
 

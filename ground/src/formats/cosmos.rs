@@ -1,4 +1,4 @@
-//! COSMOS V1.20: one channel after the other, each with headers that tell their own length.
+//! COSMOS V1.20: one channel after the other, each with headers that state their own length.
 //!
 //! ```text
 //! Corrected acceleration    (Format v01.20 with 13 text lines)  Src: ...
@@ -14,37 +14,40 @@
 //! End-of-data for Chan  1 acceleration
 //! ```
 //!
-//! Values of the headers are counted from 0 here, as the tables of the format's readers do: integer 1 is the physical quantity,
-//! integer 2 the unit, real 61 the sampling interval. -999 stands for what is not known.
+//! Values of the headers count from 0 here, as in the tables of the format's readers: integer 1 is the physical quantity,
+//! integer 2 the unit, real 61 the sampling interval. -999 stands for an unknown value.
 
-use super::numbers::{Block, Layout, number, words};
-use super::{
-    Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
-    peak_warning, positive_dt, tidy, whole_count,
-};
-use crate::{AccelerationUnit, RecordError, TextOptions};
+use super::header::{ChannelName, Entry, after, brief, choose, leading_number, number_after, tidy};
+use super::numbers::{Block, FixedWidth, number, words};
+use super::record_file::{Format, RecordFile};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
 
-/// The unit among the integers: its place in the format's table, and one less where somebody counted from 1. What stands there
-/// otherwise, 1 for accelerations, is no unit of theirs.
+/// The unit among the integers: its place in the format's table, and one less in files that count from 1. Another value there, 1 for
+/// accelerations, is the code of no unit of acceleration.
 const UNITS: [usize; 2] = [2, 1];
 
 /// The azimuth among the integers `[°]`; 400 is up, 401 down.
 const AZIMUTH: usize = 53;
 
-/// The sampling interval among the reals `[ms]`: its place in the format's table; one less where somebody counted from 1; and
+/// The sampling interval among the reals `[ms]`: its place in the format's table; one less in files that count from 1; and
 /// that of the recorder, which processing may have changed.
 const INTERVALS: [usize; 3] = [61, 60, 33];
 
-/// Size and unit of the peak: real 63.
+/// The peak among the reals, in the unit of the samples.
 const PEAK: usize = 63;
 
-/// What stands for an unknown value.
+/// Value that stands for an unknown one.
 const UNKNOWN: f64 = -999.0;
 
-/// Columns of samples where the line before them does not say.
-const LAYOUT: Layout = Layout { per_row: 8, width: 10 };
+/// Relative difference of the samples' peak and the stated one that is allowed: headers round to three digits.
+const PEAK_ROUNDING: f64 = 5e-3;
 
-/// Whether these are the lines of such a file.
+/// Columns of samples where the line before them does not say.
+const COLUMNS: FixedWidth = FixedWidth(10);
+
+/// Whether these are the lines of a COSMOS file.
 pub fn is_one(lines: &[&str]) -> bool {
     let mut first = lines.iter().filter(|line| !line.trim().is_empty()).take(2);
     first.any(|line| title(line))
@@ -56,14 +59,14 @@ fn title(line: &str) -> bool {
     line.to_ascii_lowercase().contains("(format v")
 }
 
-/// The quantity of a line that announces samples: `4000 acceleration pts, ...`.
-fn series(line: &str) -> Option<String> {
+/// The quantity of a line before samples: `4000 acceleration pts, ...`.
+fn announces(line: &str) -> Option<String> {
     let lower = line.to_ascii_lowercase();
     let mut words = words(&lower).map(|word| word.text);
     number(words.next()?)?;
     let quantity = words.next()?.to_string();
-    let is_series = words.next()?.starts_with("p") && (lower.contains("format") || lower.contains("unit"));
-    is_series.then_some(quantity)
+    let is_announced = words.next()?.starts_with("p") && (lower.contains("format") || lower.contains("unit"));
+    is_announced.then_some(quantity)
 }
 
 /// `End-of-data for Chan  1 acceleration`
@@ -82,21 +85,19 @@ struct Channel<'t> {
     end: usize,
 }
 
-/// Reads it.
+/// Reads a COSMOS file.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let (channels, others) = channels(lines);
     if channels.is_empty() {
         let line = others.first().copied().unwrap_or(0);
-        return Err(RecordError::Header {
-            line: line + 1,
-            problem: match others.first() {
-                Some(line) => format!("this is no acceleration: `{}`", brief(lines[*line])),
-                None => "there is no line `... acceleration pts, ..., units=..., Format=(...)`".into(),
-            },
-            remedy: "use the volume 2 file with the acceleration of the same record",
+        let remedy = "use the volume 2 file with the acceleration of the same record";
+        let entry = Entry { line: line + 1, text: lines[line], remedy };
+        return Err(match others.first() {
+            Some(_) => entry.quoted("this is no acceleration:"),
+            None => entry.wrong("there is no line `... acceleration pts, ..., units=..., Format=(...)`"),
         });
     }
-    let names: Vec<(Option<usize>, String)> = channels.iter().map(Channel::name).collect();
+    let names: Vec<ChannelName> = channels.iter().map(Channel::name).collect();
     let mut warnings = Vec::new();
     let (chosen, labels) = choose(&names, options, &mut warnings)?;
     let channel = &channels[chosen];
@@ -104,51 +105,37 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         warnings.push("the file is one of volume 1: the acceleration is not corrected".into());
     }
 
-    let (line, announced) = (channel.announced + 1, lines[channel.announced]);
     let remedy = "write it as `4000 acceleration pts, approx 20 secs, units=cm/sec2 (04), Format=(8F10.5)`";
-    let count = words(announced).next().and_then(|word| number(word.text));
-    let declared = whole_count(count, line, announced, remedy)?;
+    let entry = Entry { line: channel.announced + 1, text: lines[channel.announced], remedy };
+    let count = entry.count(words(entry.text).next().and_then(|word| number(word.text)))?;
     let integers = channel.header("integer-header");
     let reals = channel.header("real-header");
     let unit = channel.unit(&integers, options, &mut warnings)?;
-    let dt = channel.interval(&reals, declared, options, &mut warnings)?;
-    let block = Block {
-        lines,
-        span: (channel.announced + 1, channel.end),
-        declared: Some(declared),
-        header: (line, "acceleration pts"),
-        layout: Layout::find(after(announced, "format").unwrap_or(announced)).or(Some(LAYOUT)),
-        lenient: options.lenient,
-    };
-    let samples = block.read()?;
+    let dt = channel.interval(&reals, count, options, &mut warnings)?;
+    let (span, header) = ((channel.announced + 1, channel.end), (entry.line, "acceleration pts"));
+    let columns = FixedWidth::find(after(entry.text, "format").unwrap_or(entry.text)).or(Some(COLUMNS));
+    let declared = Some(count);
+    let mut samples = Block { lines, span, declared, header, columns, lenient: options.lenient }.read()?;
+    warnings.append(&mut samples.warnings);
+    samples.warnings = warnings;
     let scale = unit.in_si(options.gravity);
-    let accel: Vec<f64> = samples.values.iter().map(|value| value * scale).collect();
-    warnings.extend(samples.warnings);
-    let peak = reals.get(PEAK).map(|peak| peak.abs() * scale).filter(|_| reals[PEAK] != UNKNOWN && reals[PEAK] != 0.0);
-    let peak_line = channel.find("real-header").map_or(0, |index| index + 1);
-    warnings.extend(peak_warning(&accel, peak, peak_line, PEAK_ROUNDING));
-    let direction = match (names[chosen].1.as_str(), integers.get(AZIMUTH)) {
+    let mut file = RecordFile::of(Format::Cosmos, unit, scale, dt, samples);
+    let peak = reals.get(PEAK).filter(|peak| **peak != UNKNOWN);
+    file.compare_peak(
+        channel.find("real-header").map(|index| index + 1).zip(peak.map(|peak| peak * scale)),
+        PEAK_ROUNDING,
+    );
+    let component = match (names[chosen].1.as_str(), integers.get(AZIMUTH)) {
         ("", Some(400.0)) => "Up".into(),
         ("", Some(401.0)) => "Down".into(),
         ("", Some(azimuth)) if (0.0..=360.0).contains(azimuth) => format!("{azimuth} deg"),
         (name, _) => name.into(),
     };
-    Ok(RecordFile {
-        format: Format::Cosmos,
-        title: channel.text().get(1).map(|line| tidy(line)).unwrap_or_default(),
-        station: channel.station(),
-        component: direction,
-        unit,
-        declared: Some(declared),
-        dt,
-        accel,
-        stated_peak: peak,
-        channels: labels,
-        warnings,
-    })
+    let title = channel.text().get(1).map(|line| tidy(line)).unwrap_or_default();
+    Ok(RecordFile { title, station: channel.station(), component, declared, channels: labels, ..file })
 }
 
-/// The channels with accelerations, and the lines that announce other things.
+/// The channels with accelerations, and the lines before samples of other quantities.
 fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
     let (mut channels, mut others) = (Vec::new(), Vec::new());
     let mut begin = 0;
@@ -159,22 +146,17 @@ fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
             begin = index + 1;
             continue;
         }
-        let Some(quantity) = series(line) else { continue };
+        let Some(quantity) = announces(line) else { continue };
         if quantity.starts_with("acc") {
-            let ends = |line: &&str| is_end(line) || title(line) || series(line).is_some();
+            let ends = |line: &&str| is_end(line) || title(line) || announces(line).is_some();
             let end = lines[index + 1..].iter().position(ends).map_or(lines.len(), |after| index + 1 + after);
             channels.push(Channel { lines, begin, announced: index, end });
+            begin = index + 1;
         } else {
             others.push(index);
         }
     }
     (channels, others)
-}
-
-/// What follows a word, whatever its case.
-fn after<'t>(line: &'t str, word: &str) -> Option<&'t str> {
-    let at = line.to_ascii_lowercase().find(word)?;
-    Some(&line[at + word.len()..])
 }
 
 impl<'t> Channel<'t> {
@@ -183,7 +165,7 @@ impl<'t> Channel<'t> {
         let header = &self.lines[self.begin..self.announced];
         let first = header.first().copied().unwrap_or("");
         let stated = after(first, "with").and_then(leading_number).filter(|count| (1.0..=99.0).contains(count));
-        // Columns 47 and 48, where the words around are others.
+        // Columns 47 and 48, where the words around the number are others.
         let by_column = || number(first.get(46..48)?.trim());
         let end = self.find("integer-header").map(|index| index - self.begin);
         let length = end.or(stated.or_else(by_column).map(|count| count as usize)).unwrap_or(0);
@@ -195,28 +177,21 @@ impl<'t> Channel<'t> {
         (self.begin..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains(word))
     }
 
-    /// The values of a header that tells its lines and columns; as many as can be read.
+    /// The values of a header, as many as can be read.
     fn header(&self, word: &str) -> Vec<f64> {
         let Some(index) = self.find(word) else { return Vec::new() };
         let line = self.lines[index];
         let count = words(line).next().and_then(|word| leading_number(word.text)).unwrap_or(0.0) as usize;
-        let layout = Layout::find(after(line, "format").unwrap_or(line));
-        // The number of lines is stated too, but where the next part begins cannot be wrong.
+        let columns = FixedWidth::find(after(line, "format").unwrap_or(line));
+        // The header states its number of lines too, but the start of the next part cannot be wrong.
         let next = (index + 1..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains("follow"));
-        let end = next.unwrap_or(self.announced);
-        let block = Block {
-            lines: self.lines,
-            span: (index + 1, end),
-            declared: Some(count.clamp(1, 1000)),
-            header: (index + 1, "header"),
-            layout,
-            lenient: true,
-        };
+        let (span, declared) = ((index + 1, next.unwrap_or(self.announced)), Some(count.clamp(1, 1000)));
+        let block = Block { lines: self.lines, span, declared, header: (index + 1, "header"), columns, lenient: true };
         block.read().map(|found| found.values).unwrap_or_default()
     }
 
     /// `Sta Chan   1: 90 deg (Rcrdr Chan  1) Location:`: number and direction.
-    fn name(&self) -> (Option<usize>, String) {
+    fn name(&self) -> ChannelName {
         let channel = self.text().iter().find_map(|line| {
             let (number, rest) = after(line, "sta chan").or_else(|| after(line, "chan"))?.split_once(':')?;
             let number = number.trim().parse().ok()?;
@@ -233,8 +208,8 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: of the integer header's candidates the first that goes with the line before the samples, else the one in its
-    /// place; that of the line where nothing stands there.
+    /// The unit: the first of the integer header's candidates that agrees with the line before the samples, else the candidate in the
+    /// format's place; without candidates the unit of that line.
     fn unit(
         &self,
         integers: &[f64],
@@ -242,6 +217,8 @@ impl<'t> Channel<'t> {
         warnings: &mut Vec<String>,
     ) -> Result<AccelerationUnit, RecordError> {
         let (line, announced) = (self.announced + 1, self.lines[self.announced]);
+        let remedy = "use the volume 2 file, in cm/sec2 or g, of the same record";
+        let entry = |line: usize| Entry { line, text: announced, remedy };
         let rest = after(announced, "unit").unwrap_or("").trim_start_matches(['s', 'S', '=', ':', ' ']);
         let name = rest.split([',', '(']).next().unwrap_or("").trim();
         let code = rest.split_once('(').and_then(|(_, rest)| leading_number(rest.split(')').next()?));
@@ -252,7 +229,7 @@ impl<'t> Channel<'t> {
         let found = candidates.iter().find(|(_, unit)| goes(*unit));
         let found = found.or(candidates.iter().find(|(place, _)| *place == UNITS[0]));
         if let Some(((place, unit), index)) = found.zip(self.find("integer-header")) {
-            let unit = agreed_unit(*unit, index + 1, options)?;
+            let unit = entry(index + 1).agreed(*unit, options)?;
             if *place != UNITS[0] {
                 warnings
                     .push(format!("the unit {unit} is value {place} (from 0) of the integer header, not {}", UNITS[0]));
@@ -265,19 +242,15 @@ impl<'t> Channel<'t> {
             return Ok(unit);
         }
         match (stated, options.units) {
-            (Some(unit), _) => agreed_unit(unit, line, options),
-            (None, _) if !name.is_empty() => Err(RecordError::Header {
-                line,
-                problem: format!("`{name}` is no unit of acceleration that is known"),
-                remedy: "use the volume 2 file, in cm/sec2 or g, of the same record",
-            }),
+            (Some(unit), _) => entry(line).agreed(unit, options),
+            (None, _) if !name.is_empty() => entry(line).unit(name, options),
             (None, Some(own)) => Ok(own),
             (None, None) => Err(RecordError::Missing { quantity: "unit", key: "units" }),
         }
     }
 
-    /// The sampling interval: of the real header's candidates the first that goes with the duration of the line before the
-    /// samples, which is rounded to seconds.
+    /// The sampling interval: the first of the real header's candidates that agrees with the duration in the line before the samples,
+    /// which is rounded to seconds.
     fn interval(
         &self,
         reals: &[f64],
@@ -321,14 +294,13 @@ impl<'t> Channel<'t> {
             (None, Some(dt)) => Ok(dt),
             (found, _) => {
                 let remedy = "give the sampling interval in ms as value 61 (from 0) of the real header, or with `dt`";
-                let dt = positive_dt(found.map(|(_, dt)| *dt), line, self.lines[line - 1], remedy)?;
-                agreed_dt(dt, line, options)
+                Entry { line, text: self.lines[line - 1], remedy }.interval(found.map(|(_, dt)| *dt), options)
             }
         }
     }
 }
 
-/// Share of the stated duration by which it may be off.
+/// Share of the stated duration by which the samples' own may differ.
 const DURATION_ROUNDING: f64 = 0.02;
 
 /// The units of acceleration by their codes (table 2 of the format).

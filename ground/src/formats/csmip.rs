@@ -9,29 +9,32 @@
 //! /&  ---------- End of data for channel  1 ----------
 //! ```
 //!
-//! The line before the samples says all that is needed of the numbers; it is sought, since headers of some years have a line
+//! The line before the samples says all that is needed of the numbers. It is found by its words, for headers of some years have a line
 //! more or less. Velocity and displacement are not read.
 
-use super::numbers::{Block, Layout, number};
-use super::{
-    Format, PEAK_ROUNDING, RecordFile, agreed_dt, agreed_unit, brief, choose, leading_number, number_after,
-    peak_warning, positive_dt, tidy, whole_count,
-};
-use crate::{AccelerationUnit, RecordError, TextOptions};
+use super::header::{ChannelName, Entry, after, choose, leading_number, number_after, tidy};
+use super::numbers::{Block, FixedWidth, number};
+use super::record_file::{Format, RecordFile};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
 
-/// Lines of reals before the samples, and their columns.
-const REALS: (usize, Layout) = (13, Layout { per_row: 8, width: 10 });
+/// Lines of reals before the samples.
+const REAL_LINES: usize = 13;
+
+/// Columns of the reals, and of samples where the line before them does not say.
+const COLUMNS: FixedWidth = FixedWidth(10);
+
+/// Relative difference of the samples' peak and the stated one that is allowed: headers round to three digits.
+const PEAK_ROUNDING: f64 = 5e-3;
 
 /// Place of the sampling interval among the reals, from 0.
 const REAL_DT: usize = 60;
 
-/// Columns of samples where the line before them does not say.
-const LAYOUT: Layout = Layout { per_row: 8, width: 10 };
-
-/// Whether these are the lines of such a file.
+/// Whether these are the lines of a CSMIP file.
 pub fn is_one(lines: &[&str]) -> bool {
     let mut first = lines.iter().filter(|line| !line.trim().is_empty()).take(3);
-    first.any(|line| volume(line).is_some()) || lines.iter().any(|line| series(line) == Some(Series::Acceleration))
+    first.any(|line| volume(line).is_some()) || lines.iter().any(|line| announces(line) == Some(Quantity::Acceleration))
 }
 
 /// What a title says of the file: 1 uncorrected, 2 corrected, 3 spectra.
@@ -49,19 +52,19 @@ fn volume(line: &str) -> Option<u8> {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Series {
+enum Quantity {
     Acceleration,
     Other,
 }
 
-/// What a line announces: `4000 points of accel data equally spaced at ...`.
-fn series(line: &str) -> Option<Series> {
+/// The quantity of a line before samples: `4000 points of accel data equally spaced at ...`.
+fn announces(line: &str) -> Option<Quantity> {
     let lower = line.to_ascii_lowercase();
     let (_, kind) = lower.split_once("points of ")?;
     if !(kind.contains("spaced") || kind.contains("data")) {
         return None;
     }
-    Some(if kind.trim_start().starts_with("acc") { Series::Acceleration } else { Series::Other })
+    Some(if kind.trim_start().starts_with("acc") { Quantity::Acceleration } else { Quantity::Other })
 }
 
 /// A channel of the file, lines from 0.
@@ -88,44 +91,30 @@ impl<'t> Channel<'t> {
                 // The line that ends a channel is missing, and the next header begins.
                 begin = index;
             }
-            if series(line).is_some() {
-                last_series = Some(index);
-            }
-            if series(line) == Some(Series::Acceleration) {
+            let Some(quantity) = announces(line) else { continue };
+            last_series = Some(index);
+            if quantity == Quantity::Acceleration {
                 let ends = |line: &&str| {
-                    series(line).is_some() || line.trim_start().starts_with("/&") || volume(line).is_some()
+                    announces(line).is_some() || line.trim_start().starts_with("/&") || volume(line).is_some()
                 };
                 let end = lines[index + 1..].iter().position(ends).map_or(lines.len(), |after| index + 1 + after);
                 channels.push(Channel { text: &lines[begin..index], announced: index, end });
+                begin = index + 1;
             }
         }
         channels
     }
 
-    /// The line of the header in which a word stands, and what follows it.
-    fn after(&self, words: &str) -> Option<(&'t str, &'t str)> {
-        self.text.iter().find_map(|line| {
-            // ASCII capitals keep the places of all bytes.
-            let at = line.to_ascii_lowercase().find(words)?;
-            Some((*line, &line[at + words.len()..]))
-        })
-    }
-
     /// `Chan  1:  90 Deg`: number and direction.
-    fn name(&self) -> (Option<usize>, String) {
-        let after = |(_, rest): (&str, &'t str)| {
-            let rest = rest.trim_start_matches(['n', 'N', 'e', 'E', 'l', 'L', '.', ' ']);
+    fn name(&self) -> ChannelName {
+        let name = self.text.iter().find_map(|line| {
+            let rest = after(line, "chan")?.trim_start_matches(['n', 'N', 'e', 'E', 'l', 'L', '.', ' ']);
             let (number, direction) = rest.split_once(':')?;
-            let number = number.trim().parse().ok()?;
-            // Further entries of the line are parted by several blanks.
+            // Several blanks separate further entries of the line.
             let direction = direction.trim_start().split("   ").next().unwrap_or("");
-            Some((number, tidy(direction)))
-        };
-        let lines = self.text.iter().filter_map(|line| {
-            let at = line.to_ascii_lowercase().find("chan")?;
-            after((line, &line[at + "chan".len()..]))
+            Some((Some(number.trim().parse().ok()?), tidy(direction)))
         });
-        lines.map(|(number, direction)| (Some(number), direction)).next().unwrap_or_default()
+        name.unwrap_or_default()
     }
 
     /// `Loma Prieta Earthquake`.
@@ -139,126 +128,79 @@ impl<'t> Channel<'t> {
 
     /// `Station No. 24436   34.160N, 118.534W` and, in the line below, its name.
     fn station(&self) -> String {
-        let Some(at) = self.text.iter().position(|line| line.to_ascii_lowercase().contains("station no")) else {
-            return String::new();
-        };
-        let lower = self.text[at].to_ascii_lowercase();
-        let place = lower.find("station no").map_or(0, |place| place + "station no".len());
-        let number = self.text[at][place..].trim_start_matches(['.', ':', ' ']).split_whitespace().next().unwrap_or("");
-        let below = self.text.get(at + 1).map_or("", |line| line.trim());
-        let name = below.split("   ").next().unwrap_or("");
+        let mut lines = self.text.iter();
+        let Some(rest) = lines.find_map(|line| after(line, "station no")) else { return String::new() };
+        let number = rest.trim_start_matches(['.', ':', ' ']).split_whitespace().next().unwrap_or("");
+        let name = lines.next().and_then(|below| below.trim().split("   ").next()).unwrap_or("");
         tidy(&format!("{number} {name}"))
     }
 
     /// The sampling interval of the real header `[s]`.
     fn header_dt(&self) -> Option<f64> {
-        let from = self.text.len().checked_sub(REALS.0)?;
-        let reals = self.text[from..].iter().map(|line| REALS.1.row(line, 0).ok()).collect::<Option<Vec<_>>>()?;
+        let from = self.text.len().checked_sub(REAL_LINES)?;
+        let reals = self.text[from..].iter().map(|line| COLUMNS.row(line, 0).ok()).collect::<Option<Vec<_>>>()?;
         reals.concat().get(REAL_DT).copied()
     }
 }
 
-/// Reads it.
+/// Reads a CSMIP file.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let title = lines.iter().position(|line| !line.trim().is_empty()).unwrap_or(0);
-    let refuse = |problem: &str, remedy: &'static str| RecordError::Header {
-        line: title + 1,
-        problem: format!("{problem}: `{}`", brief(lines.get(title).copied().unwrap_or(""))),
-        remedy,
-    };
-    // Only volume 2 has velocities, whatever its first line says.
-    let corrected = lines.iter().any(|line| series(line) == Some(Series::Other));
-    match lines.get(title).and_then(|line| volume(line)) {
-        Some(1) if !corrected => {
-            return Err(refuse(
-                "a volume 1 file holds the uncorrected accelerogram",
-                "use the volume 2 file (.V2) of the same record",
-            ));
+    let text = lines.get(title).copied().unwrap_or("");
+    let entry = |remedy: &'static str| Entry { line: title + 1, text, remedy };
+    let remedy = "use the volume 2 file (.V2) of the same record";
+    match volume(text) {
+        // Only volume 2 has velocities, whatever its first line says.
+        Some(1) if !lines.iter().any(|line| announces(line) == Some(Quantity::Other)) => {
+            return Err(entry(remedy).quoted("a volume 1 file holds the uncorrected accelerogram:"));
         }
-        Some(3) => {
-            return Err(refuse("a volume 3 file holds spectra", "use the volume 2 file (.V2) of the same record"));
-        }
+        Some(3) => return Err(entry(remedy).quoted("a volume 3 file holds spectra:")),
         _ => {}
     }
     let channels = Channel::all(lines);
     if channels.is_empty() {
-        return Err(refuse(
-            "there is no line `... points of accel data equally spaced at ... sec`",
-            "use a volume 2 file (.V2) with accelerations",
-        ));
+        let problem = "there is no line `... points of accel data equally spaced at ... sec`:";
+        return Err(entry("use a volume 2 file (.V2) with accelerations").quoted(problem));
     }
-    let names: Vec<(Option<usize>, String)> = channels.iter().map(Channel::name).collect();
+    let names: Vec<ChannelName> = channels.iter().map(Channel::name).collect();
     let mut warnings = Vec::new();
     let (chosen, labels) = choose(&names, options, &mut warnings)?;
     let channel = &channels[chosen];
 
-    let (line, announced) = (channel.announced + 1, lines[channel.announced]);
+    let announced = lines[channel.announced];
     let remedy = "write it as `4000 points of accel data equally spaced at .005 sec, in cm/sec2. (8f10.6)`";
-    let declared = whole_count(announced.split_whitespace().next().and_then(number), line, announced, remedy)?;
-    let dt = number_after(announced, "SPACED AT").or_else(|| channel.header_dt());
-    let dt = agreed_dt(positive_dt(dt, line, announced, remedy)?, line, options)?;
-    let unit = match unit(announced) {
-        Unit::Silent => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
-        Unit::Known(unit) => agreed_unit(unit, line, options)?,
-        Unit::Unknown(name) => {
-            let problem = format!("`{name}` is no unit of acceleration that is known");
-            return Err(RecordError::Header { line, problem, remedy: "convert the samples to cm/sec2 or g" });
-        }
+    let entry = Entry { line: channel.announced + 1, text: announced, remedy };
+    let declared = Some(entry.count(announced.split_whitespace().next().and_then(number))?);
+    let dt = entry.interval(number_after(announced, "SPACED AT").or_else(|| channel.header_dt()), options)?;
+    let unit = match unit_name(announced) {
+        None => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
+        Some(name) => Entry { remedy: "convert the samples to cm/sec2 or g", ..entry }.unit(name, options)?,
     };
-    let block = Block {
-        lines,
-        span: (channel.announced + 1, channel.end),
-        declared: Some(declared),
-        header: (line, "points of accel data"),
-        layout: Layout::find(announced).or(Some(LAYOUT)),
-        lenient: options.lenient,
-    };
-    let samples = block.read()?;
-    let scale = unit.in_si(options.gravity);
-    let accel: Vec<f64> = samples.values.iter().map(|value| value * scale).collect();
-    warnings.extend(samples.warnings);
-    let stated = channel.after("peak acceleration").and_then(|(line, rest)| {
-        let rest = rest.trim_start().trim_start_matches('=');
-        let value = leading_number(rest)?.abs();
+    let (span, header) = ((channel.announced + 1, channel.end), (entry.line, "points of accel data"));
+    let columns = FixedWidth::find(announced).or(Some(COLUMNS));
+    let mut samples = Block { lines, span, declared, header, columns, lenient: options.lenient }.read()?;
+    warnings.append(&mut samples.warnings);
+    samples.warnings = warnings;
+    let mut file = RecordFile::of(Format::Csmip, unit, unit.in_si(options.gravity), dt, samples);
+    let header = channel.announced - channel.text.len();
+    let peak = channel.text.iter().enumerate().find_map(|(index, line)| {
+        let rest = after(line, "peak acceleration")?.trim_start().trim_start_matches('=');
         let unit = rest.split_whitespace().nth(1).and_then(AccelerationUnit::parse)?;
-        let place = lines.iter().position(|other| std::ptr::eq(*other, line)).map_or(0, |index| index + 1);
-        Some((place, value * unit.in_si(options.gravity)))
+        Some((header + index + 1, leading_number(rest)? * unit.in_si(options.gravity)))
     });
-    let peak = stated.map(|(_, peak)| peak).filter(|peak| *peak > 0.0);
-    warnings.extend(peak_warning(&accel, peak, stated.map_or(0, |(line, _)| line), PEAK_ROUNDING));
-    Ok(RecordFile {
-        format: Format::Csmip,
-        title: channel.event(),
-        station: channel.station(),
-        component: names[chosen].1.clone(),
-        unit,
-        declared: Some(declared),
-        dt,
-        accel,
-        stated_peak: peak,
-        channels: labels,
-        warnings,
-    })
-}
-
-enum Unit<'t> {
-    Silent,
-    Known(AccelerationUnit),
-    Unknown(&'t str),
+    file.compare_peak(peak, PEAK_ROUNDING);
+    let (station, component) = (channel.station(), names[chosen].1.clone());
+    Ok(RecordFile { title: channel.event(), station, component, declared, channels: labels, ..file })
 }
 
 /// The unit after the last `in`: `.005 sec, in cm/sec2. (8f10.6)`.
-fn unit(announced: &str) -> Unit<'_> {
+fn unit_name(announced: &str) -> Option<&str> {
     let lower = announced.to_ascii_lowercase();
-    let Some(at) = lower.rfind(" in ").or_else(|| lower.rfind(",in ")) else { return Unit::Silent };
-    let rest = &announced[at + " in ".len()..];
-    let rest = rest.trim_start().strip_prefix("units of").unwrap_or(rest).trim_start();
+    let at = lower.rfind(" in ").or_else(|| lower.rfind(",in "))?;
+    let rest = announced[at + " in ".len()..].trim_start();
+    let rest = rest.strip_prefix("units of").unwrap_or(rest).trim_start();
     let name = rest.split(['(', ',', ';']).next().unwrap_or("").trim();
     // A descriptor may follow without brackets: `in cm/sec2. 8F10.3`.
-    let word = name.split_whitespace().next().unwrap_or("").trim_end_matches('.');
-    match AccelerationUnit::parse(name).or_else(|| AccelerationUnit::parse(word)) {
-        Some(unit) => Unit::Known(unit),
-        None if name.is_empty() => Unit::Silent,
-        None => Unit::Unknown(name),
-    }
+    let word = name.split_whitespace().next()?.trim_end_matches('.');
+    Some(if AccelerationUnit::parse(word).is_some() { word } else { name })
 }

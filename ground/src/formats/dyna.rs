@@ -10,28 +10,31 @@
 //! ```
 //!
 //! Versions have 43, 55 or 64 lines of `KEY: value`; keys are read in any order, up to the first row of numbers. Only the first
-//! colon parts key and value.
+//! colon separates key and value.
 
+use super::header::{Entry, leading_number, tidy};
 use super::numbers::{Block, is_text, words};
-use super::{
-    Format, RecordFile, agreed_dt, agreed_unit, brief, largest, leading_number, positive_dt, tidy, whole_count,
-};
-use crate::{AccelerationUnit, RecordError, TextOptions};
+use super::record_file::{Format, RecordFile};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
 
 /// Lines among which the keys are sought.
 const HEADER_LINES: usize = 200;
 
-/// Relative difference of the samples' peak and the stated one: up to the first both are rounded alike, up to the second
-/// something small was done to the samples, beyond it the file is damaged or its unit is not the one stated.
-const PEAK_DIFFERENCE: [f64; 2] = [1e-3, 1e-2];
+/// Relative difference of the samples' peak and the stated one up to which both are rounded alike.
+const PEAK_ROUNDING: f64 = 1e-3;
 
-/// Whether these are the lines of such a file.
+/// Relative difference beyond which the file is damaged or its unit is not the stated one. Between the two it is processed slightly.
+const PEAK_DAMAGE: f64 = 1e-2;
+
+/// Whether these are the lines of a DYNA file.
 pub fn is_one(lines: &[&str]) -> bool {
     let header = Header::of(lines);
     KEYS.iter().filter(|key| header.find(key).is_some()).count() >= 2
 }
 
-/// Keys of which a header has two at least, whatever it has lost.
+/// Keys of which a header has two at least, also a damaged one.
 const KEYS: [&str; 7] =
     ["SAMPLING_INTERVAL_S", "NDATA", "STREAM", "HEADER_FORMAT", "DATA_TYPE", "EVENT_ID", "STATION_CODE"];
 
@@ -66,94 +69,61 @@ impl<'t> Header<'t> {
         entry.map(|(line, _, value)| (*line, *value))
     }
 
-    fn text(&self, keys: &[&str]) -> String {
-        keys.iter().find_map(|key| self.find(key)).map(|(_, value)| tidy(value)).unwrap_or_default()
+    fn text(&self, key: &str) -> String {
+        self.find(key).map(|(_, value)| tidy(value)).unwrap_or_default()
     }
 }
 
-/// Reads it.
+/// Reads a DYNA file.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let header = Header::of(lines);
-    let wrong = |line: usize, problem: String, remedy: &'static str| RecordError::Header { line, problem, remedy };
-    if let Some((line, kind)) = header.find("DATA_TYPE") {
-        let upper = kind.to_ascii_uppercase();
-        if upper.contains("SPECTR") || upper.contains("VELOCITY") || upper.contains("DISPLACEMENT") {
-            let problem = format!("this is no acceleration history: `{}`", brief(kind));
-            return Err(wrong(line, problem, "use the acceleration file (.ACC) of the same record"));
+    if let Some((line, text)) = header.find("DATA_TYPE") {
+        let upper = text.to_ascii_uppercase();
+        if ["SPECTR", "VELOCITY", "DISPLACEMENT"].iter().any(|other| upper.contains(other)) {
+            let remedy = "use the acceleration file (.ACC) of the same record";
+            return Err(Entry { line, text, remedy }.quoted("this is no acceleration history:"));
         }
     }
     refuse_spectrum(lines, header.end)?;
     let remedy = "give it as `SAMPLING_INTERVAL_S: 0.005` and `NDATA: 4000`";
-    let place = header.end.max(1);
-    let (dt_line, dt) = header
-        .find("SAMPLING_INTERVAL_S")
-        .ok_or_else(|| wrong(place, "SAMPLING_INTERVAL_S is missing".into(), remedy))?;
-    let dt = agreed_dt(positive_dt(leading_number(dt), dt_line, lines[dt_line - 1], remedy)?, dt_line, options)?;
-    let (count_line, count) = header.find("NDATA").ok_or_else(|| wrong(place, "NDATA is missing".into(), remedy))?;
-    let declared = whole_count(leading_number(count), count_line, lines[count_line - 1], remedy)?;
+    let number = |key: &'static str| {
+        let missing = Entry { line: header.end.max(1), text: "", remedy };
+        let (line, value) = header.find(key).ok_or_else(|| missing.wrong(format!("{key} is missing")))?;
+        Ok((Entry { line, text: lines[line - 1], remedy }, leading_number(value)))
+    };
+    let (entry, dt) = number("SAMPLING_INTERVAL_S")?;
+    let dt = entry.interval(dt, options)?;
+    let (entry, count) = number("NDATA")?;
+    let declared = Some(entry.count(count)?);
+    let remedy = "use the acceleration file (.ACC), in cm/s^2, of the same record";
     let unit = match header.find("UNITS").or_else(|| header.find("UNIT")) {
         None => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
-        Some((line, name)) => match AccelerationUnit::parse(name) {
-            Some(unit) => agreed_unit(unit, line, options)?,
-            None => {
-                let problem = format!("`{}` is no unit of acceleration that is known", brief(name));
-                return Err(wrong(line, problem, "use the acceleration file (.ACC), in cm/s^2, of the same record"));
-            }
-        },
+        Some((line, text)) => Entry { line, text, remedy }.unit(text, options)?,
     };
-    let block = Block {
-        lines,
-        span: (header.end, lines.len()),
-        declared: Some(declared),
-        header: (count_line, "NDATA"),
-        layout: None,
-        lenient: options.lenient,
-    };
-    let samples = block.read()?;
-    let mut warnings = samples.warnings;
-    let scale = unit.in_si(options.gravity);
-    let accel: Vec<f64> = samples.values.iter().map(|value| value * scale).collect();
-    let stated = header.entries.iter().find(|(_, key, _)| key.starts_with("PGA_"));
-    let stated = stated.and_then(|(line, key, value)| {
-        let unit = AccelerationUnit::parse(&key["PGA_".len()..])?;
-        let stated = leading_number(value)?.abs();
-        let (scale, rounding) = (unit.in_si(options.gravity), rounding(value));
-        (stated > 0.0).then_some((*line, stated * scale, rounding * scale))
+    let (span, header_entry) = ((header.end, lines.len()), (entry.line, "NDATA"));
+    let block = Block { lines, span, declared, header: header_entry, columns: None, lenient: options.lenient };
+    let mut file = RecordFile::of(Format::Dyna, unit, unit.in_si(options.gravity), dt, block.read()?);
+    let stated = header.entries.iter().find(|(_, key, _)| key.starts_with("PGA_")).and_then(|(line, key, value)| {
+        let scale = AccelerationUnit::parse(&key["PGA_".len()..])?.in_si(options.gravity);
+        Some((*line, leading_number(value)?.abs() * scale, rounding(value) * scale))
     });
-    if let Some((line, stated, rounding)) = stated {
-        let found = largest(&accel);
+    if let Some((line, stated, rounding)) = stated.filter(|(_, stated, _)| *stated > 0.0 && stated.is_finite()) {
+        let found = file.peak();
         let difference = ((found - stated).abs() - rounding) / found.max(stated);
-        if difference > PEAK_DIFFERENCE[1] && !options.lenient {
+        if difference > PEAK_DAMAGE && !options.lenient {
             return Err(RecordError::Peak { line, stated, found });
         }
-        if difference > PEAK_DIFFERENCE[0] {
-            warnings.push(format!("the samples' peak is {found:.6} m/s² and line {line} states {stated:.6} m/s²"));
+        if difference > PEAK_ROUNDING {
+            file.warnings.push(format!("the samples' peak is {found:.6} m/s² and line {line} states {stated:.6} m/s²"));
         }
+        file.stated_peak = Some(stated);
     }
-    let network = header.text(&["NETWORK"]);
-    let code = header.text(&["STATION_CODE", "STATION_ID"]);
-    let name = header.text(&["STATION_NAME"]);
-    let code = if network.is_empty() || code.is_empty() { code } else { format!("{network}.{code}") };
+    let code = header.find("STATION_CODE").or_else(|| header.find("STATION_ID")).map_or("", |(_, code)| code);
+    let (network, name) = (header.text("NETWORK"), header.text("STATION_NAME"));
+    let code = if network.is_empty() || code.is_empty() { tidy(code) } else { tidy(&format!("{network}.{code}")) };
     let station = if name.is_empty() || code.is_empty() { format!("{code}{name}") } else { format!("{code} ({name})") };
-    let component = header.text(&["STREAM"]);
-    Ok(RecordFile {
-        format: Format::Dyna,
-        title: tidy(&format!(
-            "{} {} {}",
-            header.text(&["EVENT_NAME"]),
-            header.text(&["EVENT_ID"]),
-            header.text(&["EVENT_DATE_YYYYMMDD"])
-        )),
-        station,
-        component: component.clone(),
-        unit,
-        declared: Some(declared),
-        dt,
-        accel,
-        stated_peak: stated.map(|(_, peak, _)| peak),
-        channels: vec![if component.is_empty() { "1".into() } else { format!("1: {component}") }],
-        warnings,
-    })
+    let title = ["EVENT_NAME", "EVENT_ID", "EVENT_DATE_YYYYMMDD"].map(|key| header.text(key)).join(" ");
+    Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, ..file })
 }
 
 /// Half of the last printed digit's place.
@@ -166,11 +136,9 @@ fn rounding(value: &str) -> f64 {
 fn refuse_spectrum(lines: &[&str], first: usize) -> Result<(), RecordError> {
     let mut rows = lines[first..].iter().map(|line| words(line).count()).filter(|columns| *columns > 0).peekable();
     if rows.peek().is_some() && rows.all(|columns| columns == 2) {
-        return Err(RecordError::Header {
-            line: first + 1,
-            problem: "rows of two columns: a response spectrum, not an acceleration history".into(),
-            remedy: "use the acceleration file (.ACC) of the same record",
-        });
+        let remedy = "use the acceleration file (.ACC) of the same record";
+        let problem = "rows of two columns: a response spectrum, not an acceleration history";
+        return Err(Entry { line: first + 1, text: "", remedy }.wrong(problem));
     }
     Ok(())
 }

@@ -14,37 +14,40 @@
 //! ```
 //!
 //! The acceleration is the integer times the scale factor; the instrument's zero is the mean of the record, which is removed.
-//! The duration is a nominal one and no count of samples: all of them are read, and the user is told where it differs. Only a
-//! file that is too short and ends within a number is taken for cut off.
+//! The duration is a nominal one and no count of samples: all of them are read, with a warning where it differs. A file is cut off
+//! if it is too short and ends within a number.
 
-use super::numbers::{Block, Layout, is_text, number, split};
-use super::{Format, RecordFile, agreed_dt, agreed_unit, brief, leading_number, peak_warning, positive_dt, tidy};
-use crate::{AccelerationUnit, RecordError, TextOptions};
+use super::header::{Entry, leading_number, tidy};
+use super::numbers::{Block, FixedWidth, is_text, number, split};
+use super::record_file::{Format, RecordFile};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
 
-/// Lines of the header.
+/// Lines of a header.
 const HEADER_LINES: usize = 17;
 
 /// Characters before the value.
 const VALUE: usize = 18;
 
-/// Relative difference of the samples' peak and the stated one that is told: the zero may be that of another stretch.
+/// Relative difference of the samples' peak and the stated one that is allowed: the zero may be the mean of another stretch.
 const PEAK_DIFFERENCE: f64 = 0.05;
 
 /// Rows of eight integers of nine characters.
-const LAYOUT: Layout = Layout { per_row: 8, width: 9 };
+const COLUMNS: FixedWidth = FixedWidth(9);
 
 /// Place of a line in the header, from 1, and the beginnings of the names that it goes by.
-type Entry = (usize, &'static [&'static str]);
+type Place = (usize, &'static [&'static str]);
 
-const ORIGIN: Entry = (1, &["origin time"]);
-const STATION: Entry = (6, &["station code"]);
-const FREQUENCY: Entry = (11, &["sampling freq", "sampling"]);
-const DURATION: Entry = (12, &["duration time", "duration"]);
-const DIRECTION: Entry = (13, &["dir"]);
-const SCALE: Entry = (14, &["scale factor", "scale"]);
-const PEAK: Entry = (15, &["max. acc.", "max acc."]);
+const ORIGIN: Place = (1, &["origin time"]);
+const STATION: Place = (6, &["station code"]);
+const FREQUENCY: Place = (11, &["sampling freq", "sampling"]);
+const DURATION: Place = (12, &["duration time", "duration"]);
+const DIRECTION: Place = (13, &["dir"]);
+const SCALE: Place = (14, &["scale factor", "scale"]);
+const PEAK: Place = (15, &["max. acc.", "max acc."]);
 
-/// Whether these are the lines of such a file.
+/// Whether these are the lines of a K-NET file.
 pub fn is_one(lines: &[&str]) -> bool {
     let first = lines.iter().find(|line| !line.trim().is_empty());
     let begins = first.is_some_and(|line| has_name(line, ORIGIN));
@@ -52,13 +55,12 @@ pub fn is_one(lines: &[&str]) -> bool {
     begins || (head.iter().any(|line| has_name(line, SCALE)) && head.iter().any(|line| has_name(line, FREQUENCY)))
 }
 
-fn has_name(line: &str, (_, names): Entry) -> bool {
+fn has_name(line: &str, (_, names): Place) -> bool {
     let lower = line.trim_start().to_ascii_lowercase();
     names.iter().any(|name| lower.starts_with(name))
 }
 
-/// The value from its column on. The names are shorter, so the character before is blank; where it is not, somebody has moved
-/// the columns.
+/// The value from its column on. The character before it is blank, for the names are shorter; otherwise the columns were moved.
 fn by_column(line: &str) -> Option<&str> {
     let mut places = line.char_indices().skip(VALUE - 1);
     let (_, before) = places.next()?;
@@ -66,10 +68,10 @@ fn by_column(line: &str) -> Option<&str> {
     before.is_whitespace().then_some(&line[at..])
 }
 
-/// What follows the name and the unit that belongs to it.
-fn by_name(line: &str, entry: Entry) -> Option<&str> {
+/// The value after the name and its unit.
+fn by_name(line: &str, (_, names): Place) -> Option<&str> {
     let line = line.trim_start();
-    let name = entry.1.iter().find(|name| line.to_ascii_lowercase().starts_with(**name))?;
+    let name = names.iter().find(|name| line.to_ascii_lowercase().starts_with(**name))?;
     let rest = line[name.len()..].trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '.').trim_start();
     let after_unit = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
     Some(after_unit.map_or(rest, |(_, value)| value).trim_start_matches([' ', ':', '=']))
@@ -83,101 +85,78 @@ struct Header<'t> {
 
 impl<'t> Header<'t> {
     /// Line, from 1, and value of an entry: by its place, or by its name where another stands there.
-    fn find(&self, entry: Entry) -> Option<(usize, &'t str)> {
+    fn find(&self, place: Place) -> Option<(usize, &'t str)> {
         let end = self.lines.len().min(self.first + 2 * HEADER_LINES);
-        let named = (self.first..end).find(|index| has_name(self.lines[*index], entry));
-        let index = named.unwrap_or(self.first + entry.0 - 1);
+        let named = (self.first..end).find(|index| has_name(self.lines[*index], place));
+        let index = named.unwrap_or(self.first + place.0 - 1);
         let line = self.lines.get(index)?;
         let value = match line.split_once('\t') {
             Some((_, value)) => value,
-            None => by_column(line).or_else(|| by_name(line, entry)).unwrap_or(""),
+            None => by_column(line).or_else(|| by_name(line, place)).unwrap_or(""),
         };
         Some((index + 1, value.trim()))
     }
 
-    fn wanted(&self, entry: Entry, remedy: &'static str) -> Result<(usize, &'t str), RecordError> {
-        self.find(entry).filter(|(_, value)| !value.is_empty()).ok_or_else(|| RecordError::Header {
-            line: (self.first + entry.0).min(self.lines.len().max(1)),
-            problem: format!(
-                "`{}` is missing in line {} of the header, or its value in column 19",
-                entry.1[0], entry.0
-            ),
-            remedy,
+    fn text(&self, place: Place) -> String {
+        self.find(place).map(|(_, value)| tidy(value)).unwrap_or_default()
+    }
+
+    /// An entry that a file must have.
+    fn required(&self, place: Place, remedy: &'static str) -> Result<Entry<'t>, RecordError> {
+        let (number, names) = place;
+        let found = self.find(place).filter(|(_, value)| !value.is_empty());
+        found.map(|(line, text)| Entry { line, text, remedy }).ok_or_else(|| {
+            let line = (self.first + number).min(self.lines.len().max(1));
+            let problem =
+                format!("`{}` is missing in line {number} of the header, or its value in column 19", names[0]);
+            RecordError::Header { line, problem, remedy }
         })
     }
 }
 
-/// Reads it.
+/// Reads a K-NET file.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let first = lines.iter().position(|line| has_name(line, ORIGIN)).unwrap_or(0);
     let header = Header { lines, first };
-    let remedy = "write it as `Sampling Freq(Hz) 100Hz`";
-    let (line, frequency) = header.wanted(FREQUENCY, remedy)?;
-    let frequency_value = leading_number(frequency).filter(|frequency| *frequency > 0.0);
-    let dt = frequency_value.map(|frequency| 1.0 / frequency);
-    let dt = agreed_dt(positive_dt(dt, line, lines[line - 1], remedy)?, line, options)?;
+    let entry = header.required(FREQUENCY, "write it as `Sampling Freq(Hz) 100Hz`")?;
+    let frequency = leading_number(entry.text).filter(|frequency| *frequency > 0.0);
+    let dt = Entry { text: lines[entry.line - 1], ..entry }.interval(frequency.map(f64::recip), options)?;
+    let entry = header.required(SCALE, "write it as `Scale Factor      3920(gal)/6182761`")?;
+    let (unit, scale) = factor(entry.text).ok_or_else(|| entry.quoted("no scale factor in"))?;
+    let unit = entry.agreed(unit, options)?;
 
-    let remedy = "write it as `Scale Factor      3920(gal)/6182761`";
-    let (scale_line, scale) = header.wanted(SCALE, remedy)?;
-    let (unit, scale) = factor(scale).ok_or_else(|| RecordError::Header {
-        line: scale_line,
-        problem: format!("no scale factor in `{}`", brief(scale)),
-        remedy,
-    })?;
-    let unit = agreed_unit(unit, scale_line, options)?;
-
-    // Somebody may have removed the memo, and remarks may need more than its line.
+    // The memo may be missing, and remarks may need more than its line.
     let is_row = |line: &str| split(line, 1).is_ok_and(|row| !row.is_empty());
     let memo = first + HEADER_LINES;
-    let mut start = scale_line;
+    let mut start = entry.line;
     while start < lines.len() && if start < memo { !is_row(lines[start]) } else { is_remark(lines[start]) } {
         start += 1;
     }
-    let (duration_line, duration) = header.find(DURATION).unwrap_or_default();
-    let block = Block {
-        lines,
-        span: (start, lines.len()),
-        declared: None,
-        header: (duration_line, "Duration Time"),
-        layout: Some(LAYOUT),
-        lenient: options.lenient,
-    };
-    let samples = block.read()?;
+    let (duration_line, text) = header.find(DURATION).unwrap_or_default();
+    let (span, header_entry) = ((start, lines.len()), (duration_line, "Duration Time"));
+    let (columns, lenient) = (Some(COLUMNS), options.lenient);
+    let mut samples = Block { lines, span, declared: None, header: header_entry, columns, lenient }.read()?;
     let count = samples.values.len();
-    let mut warnings = samples.warnings;
-    if let Some(duration) = leading_number(duration) {
+    if let Some(duration) = leading_number(text) {
         let nominal = (duration / dt).round() as usize;
-        if samples.cut && count < nominal && !options.lenient {
-            let (line, key) = block.header;
+        if samples.cut && count < nominal && !lenient {
+            let (line, key) = header_entry;
             return Err(RecordError::Fewer { line, key, declared: nominal, found: count });
         }
         if count != nominal {
-            warnings.push(format!(
+            samples.warnings.push(format!(
                 "{count} samples at {dt} s are {:.6} s, and line {duration_line} says {duration} s; is the file whole?",
                 count as f64 * dt
             ));
         }
     }
-    let scale = scale * unit.in_si(options.gravity);
     let mean = samples.values.iter().sum::<f64>() / count.max(1) as f64;
-    let accel: Vec<f64> = samples.values.iter().map(|value| (value - mean) * scale).collect();
-    let peak = header.find(PEAK).and_then(|(line, value)| Some((line, leading_number(value)?.abs())));
-    let stated = peak.map(|(_, peak)| peak * unit.in_si(options.gravity)).filter(|peak| *peak > 0.0);
-    warnings.extend(peak_warning(&accel, stated, peak.map_or(0, |(line, _)| line), PEAK_DIFFERENCE));
+    samples.values.iter_mut().for_each(|value| *value -= mean);
+    let mut file = RecordFile::of(Format::KNet, unit, scale * unit.in_si(options.gravity), dt, samples);
+    let peak = header.find(PEAK).and_then(|(line, value)| Some((line, leading_number(value)?)));
+    file.compare_peak(peak.map(|(line, peak)| (line, peak * unit.in_si(options.gravity))), PEAK_DIFFERENCE);
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
-    Ok(RecordFile {
-        format: Format::KNet,
-        title: header.find(ORIGIN).map(|(_, value)| tidy(value)).unwrap_or_default(),
-        station: header.find(STATION).map(|(_, value)| tidy(value)).unwrap_or_default(),
-        component: component.clone(),
-        unit,
-        declared: None,
-        dt,
-        accel,
-        stated_peak: stated,
-        channels: vec![if component.is_empty() { "1".into() } else { format!("1: {component}") }],
-        warnings,
-    })
+    Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, ..file })
 }
 
 /// A line without samples.

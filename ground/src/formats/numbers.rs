@@ -1,12 +1,12 @@
 //! Numbers in record files: as Fortran and spreadsheets print them, between blanks, glued together, or in columns of fixed width.
 //!
-//! Rows are read at blanks first. Where that fails or yields fewer samples than the header declares, they are read by the width
-//! of their columns, which a Fortran format in the file or the format's description gives. The columns also tell where a file
-//! that is cut off ends within a number: what is left of it may read as another one. Nothing here knows a file format.
+//! Rows are divided at blanks first. Where that fails or yields fewer samples than the header declares, they are divided by the width
+//! of their columns, which an edit descriptor in the file or the format's description gives. The columns also show where a file
+//! that is cut off ends within a number: its remainder may read as another number. Nothing here knows a file format.
 
-use crate::RecordError;
+use crate::error::RecordError;
 
-/// What stands between two numbers of a row.
+/// Whether a character separates two numbers of a row.
 pub fn separator(c: char) -> bool {
     c.is_whitespace() || c == ',' || c == ';'
 }
@@ -48,7 +48,7 @@ fn is_decimal(text: &str) -> bool {
 pub struct Word<'t> {
     /// Characters before it, plus one.
     pub column: usize,
-    /// What stands there.
+    /// Its characters.
     pub text: &'t str,
 }
 
@@ -114,22 +114,27 @@ pub fn split(row: &str, line: usize) -> Result<Vec<f64>, RecordError> {
 
 /// The error that a word is no number.
 pub fn refused(line: usize, word: Word) -> RecordError {
-    RecordError::NotANumber { line, column: word.column, text: word.text.chars().take(LONGEST_QUOTE).collect() }
+    RecordError::NotANumber { line, column: word.column, text: quote(word.text, LONGEST_QUOTE) }
 }
 
-/// Characters of the file that an error repeats at most: a binary file has words of any length.
+/// The first characters of a text. Control characters are replaced: a terminal would obey them.
+pub fn quote(text: &str, most: usize) -> String {
+    text.chars().take(most).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+/// Most characters of the file that an error quotes: a binary file has words of any length.
 const LONGEST_QUOTE: usize = 40;
 
-/// Whether a row has nothing of a number: a heading, a remark, the line that ends a block.
+/// Whether no word of a row is a number: a heading, a remark, the line that ends a block.
 pub fn is_text(row: &str) -> bool {
-    // Columns that touch are no words that read as numbers, but they are not text either.
+    // Numbers that touch are not words of numbers, but they are no text either.
     let mut any = false;
     if !row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c)) {
         return false;
     }
     for word in words(row) {
         any = true;
-        // What somebody printed for a number that is none is not text: it must be refused, not skipped.
+        // A printed `nan`, `inf` or `****` is not text: it must be refused, not skipped.
         let lower = word.text.trim_start_matches(['+', '-']).to_ascii_lowercase();
         let undefined = ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*');
         if undefined || glued(word.text, &mut Vec::new()).is_some() {
@@ -139,32 +144,24 @@ pub fn is_text(row: &str) -> bool {
     any
 }
 
-/// A Fortran edit descriptor such as `8F10.5`: columns of fixed width.
+/// Columns of so many characters each, as a Fortran edit descriptor such as `8F10.5` gives them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
-    /// Numbers in a full row.
-    pub per_row: usize,
-    /// Characters of each.
-    pub width: usize,
-}
+pub struct FixedWidth(pub usize);
 
-impl Layout {
-    /// The first descriptor of numbers in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, `(6(1X,F9.4))` is not one;
-    /// without brackets a word that can be nothing else, `8F10.3`.
-    pub fn find(text: &str) -> Option<Layout> {
-        let in_brackets = text.match_indices('(').find_map(|(at, _)| {
-            let (inside, _) = text[at + 1..].split_once(')')?;
-            Layout::parse(inside)
-        });
+impl FixedWidth {
+    /// Columns of the first descriptor in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, but not `(6(1X,F9.4))`; without
+    /// brackets of a word that can be nothing else, `8F10.3`.
+    pub fn find(text: &str) -> Option<FixedWidth> {
+        let in_brackets = text.split('(').skip(1).find_map(|rest| FixedWidth::parse(rest.split_once(')')?.0));
         let alone = |word: &str| word.starts_with(|c: char| c.is_ascii_digit()) && number(word).is_none();
         let bare =
-            || text.split([' ', ',', '=']).filter(|word| alone(word) && word.contains('.')).find_map(Layout::parse);
+            || text.split([' ', ',', '=']).filter(|word| alone(word) && word.contains('.')).find_map(FixedWidth::parse);
         in_brackets.or_else(bare)
     }
 
-    fn parse(descriptor: &str) -> Option<Layout> {
+    fn parse(descriptor: &str) -> Option<FixedWidth> {
         let descriptor = descriptor.trim().to_ascii_uppercase();
-        // A scale factor (`1P`) moves the point of what is printed, not the columns.
+        // A scale factor (`1P`) moves the decimal point, not the columns.
         let descriptor = match descriptor.split_once('P') {
             Some((factor, rest)) if factor.bytes().all(|b| b.is_ascii_digit() || b == b'-') => {
                 rest.trim_start_matches(',').to_string()
@@ -172,7 +169,7 @@ impl Layout {
             _ => descriptor,
         };
         let letter = descriptor.find(['F', 'E', 'D', 'G', 'I'])?;
-        let per_row = match &descriptor[..letter] {
+        let per_row: usize = match &descriptor[..letter] {
             "" => 1,
             repeat => repeat.trim().parse().ok()?,
         };
@@ -181,7 +178,7 @@ impl Layout {
         let digits = rest.split(|c: char| !c.is_ascii_digit()).next()?;
         let width = digits.parse().ok()?;
         let sound = (1..=LARGEST_FIELD).contains(&width) && (1..=LARGEST_FIELD).contains(&per_row);
-        sound.then_some(Layout { per_row, width })
+        sound.then_some(FixedWidth(width))
     }
 
     /// The numbers of a row, by columns.
@@ -190,30 +187,30 @@ impl Layout {
         let mut rest = row.trim_end();
         let mut column = 1;
         while !rest.is_empty() {
-            let end = rest.char_indices().nth(self.width).map_or(rest.len(), |(at, _)| at);
+            let end = rest.char_indices().nth(self.0).map_or(rest.len(), |(at, _)| at);
             let (field, after) = rest.split_at(end);
             let text = field.trim_matches(separator);
             let lead = field.chars().take_while(|c| separator(*c)).count();
             let value = number(text).ok_or_else(|| refused(line, Word { column: column + lead, text }))?;
             found.push(value);
-            column += self.width;
+            column += self.0;
             rest = after;
         }
         Ok(found)
     }
 }
 
-/// Widest field and fullest row that a format is believed to have: what is beyond is a misread header.
+/// Widest field and most fields of a row: beyond is a misread header.
 const LARGEST_FIELD: usize = 200;
 
-/// Samples of a block, and where they stand.
+/// Samples of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// As printed, in the unit of the file.
+    /// Numbers as printed, in the unit of the file.
     pub values: Vec<f64>,
-    /// Whether the last row ended within a number, which is left out.
+    /// Whether the last row ends within a number, which is left out.
     pub cut: bool,
-    /// What the user should know of them.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -224,18 +221,18 @@ pub struct Block<'t> {
     pub lines: &'t [&'t str],
     /// Its first line and the one after its last, counted from 0.
     pub span: (usize, usize),
-    /// How many samples the header declares; where it does not, all are read.
+    /// Number of samples that the header declares; all are read where it declares none.
     pub declared: Option<usize>,
-    /// Where it does so: the line, from 1, and the name of the entry.
+    /// Entry of the header with that number: line, from 1, and name.
     pub header: (usize, &'static str),
-    /// Columns to read by where blanks do not part the numbers.
-    pub layout: Option<Layout>,
-    /// Whether what is missing is accepted.
+    /// Columns of the rows where blanks do not separate the numbers.
+    pub columns: Option<FixedWidth>,
+    /// Whether missing samples are accepted.
     pub lenient: bool,
 }
 
 impl Block<'_> {
-    /// Reads it: at blanks, else by columns.
+    /// Reads the block: at blanks, else by columns.
     ///
     /// # Errors
     /// [`RecordError::NotANumber`], [`RecordError::Fewer`]
@@ -245,34 +242,28 @@ impl Block<'_> {
         if at_blanks.as_ref().is_ok_and(enough) {
             return at_blanks;
         }
-        let by_columns = self.layout.map(|layout| self.rows(|row, line| layout.row(row, line)));
-        let found = match (at_blanks, by_columns) {
+        let by_columns = self.columns.map(|columns| self.rows(|row, line| columns.row(row, line)));
+        let mut found = match (at_blanks, by_columns) {
             (_, Some(Ok(columns))) if enough(&columns) => return Ok(columns),
             (Ok(blanks), _) => blanks,
             (Err(_), Some(Ok(columns))) => columns,
             (Err(error), _) => return Err(error),
         };
-        match self.declared {
-            Some(declared) => self.fewer(found, declared),
-            None => Ok(found),
-        }
-    }
-
-    fn fewer(&self, mut found: Samples, declared: usize) -> Result<Samples, RecordError> {
-        let ((line, key), count) = (self.header, found.values.len());
+        let (Some(declared), (line, key), count) = (self.declared, self.header, found.values.len()) else {
+            return Ok(found);
+        };
         if !self.lenient {
             return Err(RecordError::Fewer { line, key, declared, found: count });
         }
-        found
-            .warnings
-            .push(format!("{count} samples where line {line} ({key}) declares {declared}; all of them are used"));
+        let warning = format!("{count} samples where line {line} ({key}) declares {declared}; all of them are used");
+        found.warnings.push(warning);
         Ok(found)
     }
 
-    /// All rows; what follows the declared number is dropped, and told.
+    /// All rows; samples beyond the declared number are dropped with a warning.
     fn rows(&self, read: impl Fn(&str, usize) -> Result<Vec<f64>, RecordError>) -> Result<Samples, RecordError> {
         let declared = self.declared.unwrap_or(usize::MAX);
-        let mut values = Vec::with_capacity(self.declared.unwrap_or(0).min(MOST_RESERVED));
+        let mut values = Vec::new();
         let mut warnings = Vec::new();
         let end = self.span.1.min(self.lines.len());
         let cut = self.cut();
@@ -306,10 +297,10 @@ impl Block<'_> {
         Ok(Samples { values, cut: cut.is_some(), warnings })
     }
 
-    /// The last row and what is whole of it, where it ends within a number: the rows above end all their numbers with their
-    /// columns, or a blank before, and the last row does not.
+    /// The last row and its whole numbers, where it ends within a number: the numbers of the rows above end with their columns, or a
+    /// blank before, and the last row does not.
     fn cut(&self) -> Option<(usize, &str)> {
-        let width = self.layout?.width;
+        let width = self.columns?.0;
         let after = self.span.1.min(self.lines.len());
         let mut rows = (self.span.0..after).rev().filter(|index| !self.lines[*index].trim().is_empty());
         let last = rows.next()?;
@@ -335,9 +326,6 @@ const ROWS_ABOVE: usize = 3;
 fn ends(row: &str) -> impl Iterator<Item = usize> {
     words(row).map(|word| word.column - 1 + word.text.chars().count())
 }
-
-/// Memory asked for ahead of reading, in numbers: a header may declare anything.
-const MOST_RESERVED: usize = 1 << 20;
 
 #[cfg(test)]
 mod tests {
@@ -384,32 +372,32 @@ mod tests {
     }
 
     #[test]
-    fn descriptors_tell_width_and_row() {
-        for (text, per_row, width) in [
-            ("in cm/sec2. (8f10.6)", 8, 10),
-            ("units=cm/sec2 (04), Format=(5E15.7)", 5, 15),
-            ("Format= (10I8)", 10, 8),
-            ("(1P5E15.7)", 5, 15),
-            ("(1F15.6E)", 1, 15),
-            ("(F12.4)", 1, 12),
-            ("(6ES14.5)", 6, 14),
-            ("at 0.005 sec, in cm/sec2. 8F10.3", 8, 10),
+    fn descriptors_give_the_width() {
+        for (text, width) in [
+            ("in cm/sec2. (8f10.6)", 10),
+            ("units=cm/sec2 (04), Format=(5E15.7)", 15),
+            ("Format= (10I8)", 8),
+            ("(1P5E15.7)", 15),
+            ("(1F15.6E)", 15),
+            ("(F12.4)", 12),
+            ("(6ES14.5)", 14),
+            ("at 0.005 sec, in cm/sec2. 8F10.3", 10),
         ] {
-            assert_eq!(Layout::find(text), Some(Layout { per_row, width }), "{text}");
+            assert_eq!(FixedWidth::find(text), Some(FixedWidth(width)), "{text}");
         }
         for text in ["", "(04)", "(cm)", "(8f)", "(0F10.5)", "(9F999.5)", "2 F10", "1.5E10", "(99999999999999999999F3)"]
         {
-            assert_eq!(Layout::find(text), None, "{text}");
+            assert_eq!(FixedWidth::find(text), None, "{text}");
         }
     }
 
     #[test]
     fn columns_of_fixed_width_need_no_blanks() {
-        let layout = Layout { per_row: 3, width: 5 };
-        assert_eq!(layout.row("12.3445.67 -8.9", 1), Ok(vec![12.34, 45.67, -8.9]));
-        assert_eq!(layout.row("  1.0  2.0   ", 1), Ok(vec![1.0, 2.0]));
+        let columns = FixedWidth(5);
+        assert_eq!(columns.row("12.3445.67 -8.9", 1), Ok(vec![12.34, 45.67, -8.9]));
+        assert_eq!(columns.row("  1.0  2.0   ", 1), Ok(vec![1.0, 2.0]));
         assert_eq!(
-            layout.row("  1.0  2,x", 4),
+            columns.row("  1.0  2,x", 4),
             Err(RecordError::NotANumber { line: 4, column: 8, text: "2,x".into() })
         );
     }
@@ -417,9 +405,9 @@ mod tests {
     #[test]
     fn a_block_is_read_by_columns_where_blanks_do_not_part_it() {
         let lines = ["head", "12.3445.67 -8.9", "  1.0"];
-        let layout = Some(Layout { per_row: 3, width: 5 });
+        let columns = Some(FixedWidth(5));
         let block =
-            Block { lines: &lines, span: (1, 3), declared: Some(4), header: (1, "NPTS"), layout, lenient: false };
+            Block { lines: &lines, span: (1, 3), declared: Some(4), header: (1, "NPTS"), columns, lenient: false };
         assert_eq!(block.read().expect("four").values, [12.34, 45.67, -8.9, 1.0]);
         let longer = Block { declared: Some(9), ..block };
         assert_eq!(longer.read(), Err(RecordError::Fewer { line: 1, key: "NPTS", declared: 9, found: 4 }));
@@ -434,10 +422,16 @@ mod tests {
 
     #[test]
     fn what_is_left_of_a_number_is_none() {
-        let layout = Some(Layout { per_row: 2, width: 10 });
+        let columns = Some(FixedWidth(10));
         let block = |lines: &[&str]| {
-            let block =
-                Block { lines, span: (0, lines.len()), declared: Some(4), header: (1, "NPTS"), layout, lenient: false };
+            let block = Block {
+                lines,
+                span: (0, lines.len()),
+                declared: Some(4),
+                header: (1, "NPTS"),
+                columns,
+                lenient: false,
+            };
             block.read()
         };
         let fewer = |found| Err(RecordError::Fewer { line: 1, key: "NPTS", declared: 4, found });

@@ -11,19 +11,20 @@
 //! Records processed for the Nuclear Regulatory Commission have seven lines: the old headers, then one with the count. So the
 //! count is sought by pattern, the last one among the first ten lines, and the unit in the lines above it.
 
-use super::numbers::{Block, Layout, is_text, number, words};
-use super::{Format, RecordFile, agreed_dt, agreed_unit, brief, largest, number_after, positive_dt, tidy, whole_count};
-use crate::{AccelerationUnit, RecordError, TextOptions};
+use super::header::{Entry, number_after, tidy};
+use super::numbers::{Block, FixedWidth, is_text, number, words};
+use super::record_file::{Format, RecordFile};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
 
-/// The line with count and interval is sought among the first ones only.
+/// Lines among which the count and the interval are sought.
 const HEADER_LINES: usize = 10;
 
-/// Columns of a row where blanks do not part them.
-const LAYOUT: Layout = Layout { per_row: 5, width: 15 };
+/// Columns of a row where blanks do not separate them.
+const COLUMNS: FixedWidth = FixedWidth(15);
 
-const REMEDY: &str = "write it as `NPTS= 4000, DT= .01000 SEC` or `4000 .01000 NPTS, DT`";
-
-/// Whether these are the lines of such a file.
+/// Whether these are the lines of a PEER file.
 pub fn is_one(lines: &[&str]) -> bool {
     header(lines).is_some()
 }
@@ -37,68 +38,39 @@ fn header(lines: &[&str]) -> Option<usize> {
     lines[..lines.len().min(HEADER_LINES)].iter().rposition(names)
 }
 
-/// Reads it.
+/// Reads a PEER file.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let header = header(lines).expect("`is_one` found it");
-    let line = header + 1;
-    let (count, dt) = count_and_interval(lines[header]);
-    let broken = |problem: &str| RecordError::Header {
-        line,
-        problem: format!("{problem} in `{}`", brief(lines[header])),
-        remedy: REMEDY,
-    };
-    if count.is_none() {
-        return Err(broken("no number of samples (NPTS)"));
-    }
-    if dt.is_none() {
-        return Err(broken("no sampling interval (DT)"));
-    }
-    let declared = whole_count(count, line, lines[header], REMEDY)?;
-    let dt = agreed_dt(positive_dt(dt, line, lines[header], REMEDY)?, line, options)?;
-    let unit = match unit(&lines[..header])? {
-        Some((line, unit)) => agreed_unit(unit, line, options)?,
-        None => options.units.unwrap_or(AccelerationUnit::G),
-    };
+    let remedy = "write it as `NPTS= 4000, DT= .01000 SEC` or `4000 .01000 NPTS, DT`";
+    let entry = Entry { line: header + 1, text: lines[header], remedy };
+    let (count, dt) = count_and_interval(entry.text);
+    let count = count.ok_or_else(|| entry.quoted("no number of samples (NPTS) in"))?;
+    let dt = dt.ok_or_else(|| entry.quoted("no sampling interval (DT) in"))?;
+    let declared = Some(entry.count(Some(count))?);
+    let dt = entry.interval(Some(dt), options)?;
+    let unit = unit(&lines[..header], options)?;
+    let unit = unit.unwrap_or(options.units.unwrap_or(AccelerationUnit::G));
     // Remarks may stand between the header and the numbers.
     let mut first = header + 1;
     while first < lines.len().min(HEADER_LINES + 1) && (lines[first].trim().is_empty() || is_text(lines[first])) {
         first += 1;
     }
-    let block = Block {
-        lines,
-        span: (first, lines.len()),
-        declared: Some(declared),
-        header: (line, "NPTS"),
-        layout: Some(LAYOUT),
-        lenient: options.lenient,
-    };
-    let mut samples = block.read()?;
-    let scale = unit.in_si(options.gravity);
-    let accel: Vec<f64> = samples.values.iter().map(|value| value * scale).collect();
-    if unit == AccelerationUnit::G && largest(&accel) > UNBELIEVABLE * options.gravity {
-        samples.warnings.push(format!(
+    let (span, header_entry) = ((first, lines.len()), (entry.line, "NPTS"));
+    let block = Block { lines, span, declared, header: header_entry, columns: Some(COLUMNS), lenient: options.lenient };
+    let file = RecordFile::of(Format::PeerAt2, unit, unit.in_si(options.gravity), dt, block.read()?);
+    let mut warnings = file.warnings.clone();
+    if unit == AccelerationUnit::G && file.peak() > LARGEST_PEAK_IN_G * options.gravity {
+        warnings.push(format!(
             "a peak of {:.1} g is hardly one; are the samples in another unit than the header says?",
-            largest(&accel) / options.gravity
+            file.peak() / options.gravity
         ));
     }
-    let (title, station, component) = event(&lines[..header]);
-    Ok(RecordFile {
-        format: Format::PeerAt2,
-        title,
-        station,
-        component: component.clone(),
-        unit,
-        declared: Some(declared),
-        dt,
-        accel,
-        stated_peak: None,
-        channels: vec![if component.is_empty() { "1".into() } else { format!("1: {component}") }],
-        warnings: samples.warnings,
-    })
+    let [title, station, component] = event(&lines[..header]);
+    Ok(RecordFile { title, station, component, declared, warnings, ..file })
 }
 
-/// A peak in g that no instrument has recorded on the ground; more is a file in other units.
-const UNBELIEVABLE: f64 = 20.0;
+/// Peak in g that no instrument has recorded on the ground; more is a file in other units.
+const LARGEST_PEAK_IN_G: f64 = 20.0;
 
 /// `NPTS= 4000, DT= .01 SEC`, or numbers in the order of the names before or after them: `4000 .01 NPTS, DT`.
 fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
@@ -114,23 +86,20 @@ fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
 }
 
 /// The unit that the lines above the header name, nearest line first: `... IN UNITS OF G`, `... TIME HISTORY (G'S): ...`.
-fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
+fn unit(above: &[&str], options: &TextOptions) -> Result<Option<AccelerationUnit>, RecordError> {
     for (index, text) in above.iter().enumerate().rev() {
+        let entry = |remedy: &'static str| Entry { line: index + 1, text, remedy };
         let upper = tidy(text).to_ascii_uppercase().replace("UNITS=", "UNITS =");
         let after_units =
             ["UNITS OF", "UNITS IN", "UNITS:", "UNITS ="].iter().find_map(|words| upper.split_once(words));
         let series = ["TIME SERIES", "TIME HISTORY", "TIME-SERIES", "TIME-HISTORY", "TIME HISTORIES"];
         let quantity = ["ACCEL", "VELOC", "DISPL"].iter().any(|begin| upper.trim_start().starts_with(begin));
-        let describes = quantity || after_units.is_some() || series.iter().any(|words| upper.contains(words));
-        if !describes {
+        if !(quantity || after_units.is_some() || series.iter().any(|words| upper.contains(words))) {
             continue;
         }
         if upper.contains("VELOCITY") || upper.contains("DISPLACEMENT") {
-            return Err(RecordError::Header {
-                line: index + 1,
-                problem: format!("this is no acceleration: `{}`", brief(text)),
-                remedy: "use the acceleration file (.AT2) of the same record",
-            });
+            let remedy = "use the acceleration file (.AT2) of the same record";
+            return Err(entry(remedy).quoted("this is no acceleration:"));
         }
         let name = match after_units {
             // Old headers go on after the unit: `UNITS OF G. FILTER POINTS: ...`.
@@ -142,35 +111,29 @@ fn unit(above: &[&str]) -> Result<Option<(usize, AccelerationUnit)>, RecordError
                 bracket.filter(|name| AccelerationUnit::parse(name).is_some()).or(last)
             }
         };
-        let Some(name) = name.map(|name| name.trim().trim_end_matches('.')) else { continue };
-        match AccelerationUnit::parse(name.trim_matches(['(', ')', '[', ']'])) {
-            Some(unit) => return Ok(Some((index + 1, unit))),
-            // Brackets and sentences may hold anything; what follows `UNITS OF` is a unit.
-            None if after_units.is_none() => {}
-            None => {
-                return Err(RecordError::Header {
-                    line: index + 1,
-                    problem: format!("`{name}` is no unit of acceleration that is known"),
-                    remedy: "convert the record to g, m/s/s or cm/s/s and name that unit",
-                });
-            }
+        let Some(name) = name.map(|name| name.trim().trim_end_matches('.').trim_matches(['(', ')', '[', ']'])) else {
+            continue;
+        };
+        // Brackets and sentences may hold anything; what follows `UNITS OF` is a unit.
+        if after_units.is_some() || AccelerationUnit::parse(name).is_some() {
+            let remedy = "convert the record to g, m/s/s or cm/s/s and name that unit";
+            return entry(remedy).unit(name, options).map(Some);
         }
     }
     Ok(None)
 }
 
 /// Event, station and component of the second line, or of the one below the mark of old headers: `event, date, station,
-/// component`, parted by commas.
-fn event(above: &[&str]) -> (String, String, String) {
+/// component`, separated by commas.
+fn event(above: &[&str]) -> [String; 3] {
     let old = above.iter().position(|line| line.to_ascii_uppercase().contains("OLD HEADERS FOLLOW"));
     let line = above.get(old.map_or(1, |old| old + 1)).map(|line| tidy(line)).unwrap_or_default();
     let parts: Vec<&str> = line.split(',').map(str::trim).collect();
     // A place may stand in brackets after the component: `140 (CDMG STATION 955)`.
     match parts.as_slice() {
-        [event @ .., station, component] if event.len() >= 2 => {
-            (event.join(", "), (*station).into(), (*component).into())
+        [event @ .., station, component] if !event.is_empty() => {
+            [event.join(", "), (*station).into(), (*component).into()]
         }
-        [event, station, component] => ((*event).into(), (*station).into(), (*component).into()),
-        _ => (line, String::new(), String::new()),
+        _ => [line, String::new(), String::new()],
     }
 }

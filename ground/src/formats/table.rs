@@ -7,33 +7,36 @@
 //! 0.01, 0.034
 //! ```
 //!
-//! Blanks, tabs, commas and semicolons part the columns; where another than the comma does, commas may be decimal. Lines of text
+//! Blanks, tabs, commas and semicolons separate the columns; where another than the comma does, commas may be decimal. Lines of text
 //! above the names are titles. Without names the time is the column before the accelerations that runs evenly, else the first.
 //! Equal intervals are required: nothing is resampled here.
 
-use super::numbers::{Word, refused, split, words};
-use super::{Format, RecordFile, agreed_unit, tidy};
-use crate::{AccelerationUnit, RecordError, TextOptions};
+use super::header::{Entry, brief, listed, tidy};
+use super::numbers::{Samples, Word, is_text, refused, split, words};
+use super::record_file::{Format, RecordFile};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
 
-/// A time column may be rounded to its last printed digit: a row may be off the grid by this share of `dt`.
+/// Share of `dt` by which a row may be off the grid: a time column may be rounded to its last printed digit.
 const GRID_TOLERANCE: f64 = 0.05;
 
-/// Times that are multiples of the first interval to this relative accuracy were computed as such.
-const EXACT: f64 = 1e-12;
+/// Relative accuracy of times that were computed as multiples of the first interval.
+const EXACT_TOLERANCE: f64 = 1e-12;
 
-/// A named column: `a [m/s2]`.
+/// Name of a column: `a [m/s2]`.
 #[derive(Clone, Debug, PartialEq)]
-struct Column {
+struct Heading {
     name: String,
     unit: String,
 }
 
-impl Column {
-    fn parse(text: &str) -> Column {
+impl Heading {
+    fn parse(text: &str) -> Heading {
         let text = text.trim().trim_matches('"').trim();
         let open = text.find(['[', '(']).unwrap_or(text.len());
         let unit = text[open..].trim_start_matches(['[', '(']).split([']', ')']).next().unwrap_or("");
-        Column { name: text[..open].trim().trim_end_matches([',', '_']).to_string(), unit: unit.trim().to_string() }
+        Heading { name: text[..open].trim().trim_end_matches([',', '_']).to_string(), unit: unit.trim().to_string() }
     }
 
     fn is_time(&self) -> bool {
@@ -62,68 +65,73 @@ impl Column {
     }
 }
 
-/// The rows of a table, each with its line from 1.
+/// The rows of a table.
 struct Rows {
-    header: Option<(usize, Vec<Column>)>,
-    values: Vec<(usize, Vec<f64>)>,
+    /// Line of the headings, from 1, and one for each column; none in a table without.
+    headings: (usize, Vec<Heading>),
+    /// Line of each row, from 1.
+    lines: Vec<usize>,
+    /// Numbers, row by row.
+    values: Vec<f64>,
+    /// Numbers of a row.
+    columns: usize,
 }
 
-/// Reads it.
+impl Rows {
+    fn at(&self, row: usize, column: usize) -> f64 {
+        self.values[row * self.columns + column]
+    }
+
+    /// The first row from which a column leaves the grid of a step by more than a tolerance; `scale` is the size of its unit.
+    fn off_grid(&self, column: usize, scale: f64, step: f64, tolerance: f64) -> Option<usize> {
+        let at = |row: usize| self.at(row, column) * scale;
+        (0..self.lines.len()).find(|row| {
+            let off = (at(*row) - at(0) - *row as f64 * step).abs();
+            off.is_nan() || off > tolerance
+        })
+    }
+
+    /// The mean step of a column; `scale` is the size of its unit.
+    fn mean_step(&self, column: usize, scale: f64) -> f64 {
+        let last = self.lines.len() - 1;
+        (self.at(last, column) * scale - self.at(0, column) * scale) / last as f64
+    }
+}
+
+/// Reads a table.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let rows = rows(lines, options)?;
-    if rows.values.len() < 2 {
-        return Err(RecordError::TooShort { count: rows.values.len() });
+    if rows.lines.len() < 2 {
+        return Err(RecordError::TooShort { count: rows.lines.len() });
     }
-    let columns = rows.values[0].1.len();
-    if let Some((line, names)) = rows.header.as_ref().filter(|(_, names)| names.len() != columns) {
-        let (found, expected) = (columns, names.len());
-        let problem = format!("{expected} name(s) above {found} column(s)");
-        return Err(RecordError::Header {
-            line: *line,
-            problem,
-            remedy: "name every column, or skip the line (`skip_rows`)",
-        });
+    let (line, headings) = (rows.headings.0, &rows.headings.1);
+    let entry = |remedy: &'static str| Entry { line, text: "", remedy };
+    if !headings.is_empty() && headings.len() != rows.columns {
+        let problem = format!("{} name(s) above {} column(s)", headings.len(), rows.columns);
+        return Err(entry("name every column, or skip the line (`skip_rows`)").wrong(problem));
     }
-    let chosen = acceleration_column(&rows, columns, options)?;
-    let time = time_column(&rows, columns, chosen);
-    let named = rows.header.as_ref().map(|(line, names)| (*line, &names[chosen]));
-    let unit = match named.filter(|(_, column)| !column.unit.is_empty()) {
-        Some((line, column)) => match column.acceleration() {
-            Some(unit) => agreed_unit(unit, line, options)?,
-            None => {
-                let problem =
-                    format!("`{}` of column `{}` is no unit of acceleration that is known", column.unit, column.name);
-                return Err(RecordError::Header {
-                    line,
-                    problem,
-                    remedy: "choose another column, or write [g], [m/s2] or [cm/s2]",
-                });
-            }
-        },
+    let chosen = acceleration_column(&rows, options)?;
+    let unit = match headings.get(chosen).filter(|heading| !heading.unit.is_empty()) {
+        Some(heading) => {
+            let entry = entry("choose another column, or write [g], [m/s2] or [cm/s2]");
+            let unknown = || {
+                let Heading { name, unit } = heading;
+                let (unit, name) = (brief(unit), brief(name));
+                entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
+            };
+            entry.agreed(heading.acceleration().ok_or_else(unknown)?, options)?
+        }
         None => options.units.ok_or(RecordError::Missing { quantity: "unit", key: "units" })?,
     };
-    let dt = match time {
+    let dt = match time_column(&rows, chosen) {
         None => options.dt.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?,
-        Some(time) => {
-            let second = rows.header.as_ref().and_then(|(_, names)| names[time].second()).unwrap_or(1.0);
-            interval(&rows.values, time, second, options)?
-        }
+        Some(time) => interval(&rows, time, headings.get(time).and_then(Heading::second).unwrap_or(1.0), options)?,
     };
-    let scale = unit.in_si(options.gravity);
-    let component = named.map(|(_, column)| column.name.clone()).unwrap_or_default();
-    Ok(RecordFile {
-        format: Format::Table,
-        title: title(lines),
-        station: String::new(),
-        component: component.clone(),
-        unit,
-        declared: None,
-        dt,
-        accel: rows.values.iter().map(|(_, row)| row[chosen] * scale).collect(),
-        stated_peak: None,
-        channels: vec![if component.is_empty() { "1".into() } else { format!("1: {component}") }],
-        warnings: Vec::new(),
-    })
+    let values = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
+    let samples = Samples { values, cut: false, warnings: Vec::new() };
+    let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
+    let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
+    Ok(RecordFile { title: title(lines), component, ..file })
 }
 
 /// The first remark.
@@ -146,38 +154,40 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .filter(|(_, line)| words(line).next().is_some())
         .collect();
     let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
-    // The last line of text above the numbers names the columns; those before it are titles.
+    // The last line of text above the numbers has the headings; those before it are titles.
     let first = body.iter().take_while(|(_, text)| is_header(text)).count();
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
         return Err(unreadable(refused(*first_line, word)));
     }
-    let mut header = first.checked_sub(1).map(|last| (body[last].0, names(body[last].1)));
+    let headings = first.checked_sub(1).map(|last| (body[last].0, headings(body[last].1)));
     let decimal_comma = has_decimal_commas(&body[first..]);
-    let mut values: Vec<(usize, Vec<f64>)> = Vec::with_capacity(body.len());
+    let mut rows = Rows { headings: headings.unwrap_or_default(), lines: Vec::new(), values: Vec::new(), columns: 0 };
     for (line, text) in &body[first..] {
         // Spreadsheets may put every cell between quotes.
         let text = text.replace('"', " ");
         let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(&text, *line) };
-        let row = row.map_err(|error| if values.is_empty() { unreadable(error) } else { error })?;
-        let expected = values.first().map_or(row.len(), |(_, first)| first.len());
+        let row = row.map_err(|error| if rows.lines.is_empty() { unreadable(error) } else { error })?;
+        let expected = if rows.lines.is_empty() { row.len() } else { rows.columns };
         if row.len() != expected {
             return Err(RecordError::Columns { line: *line, found: row.len(), expected });
         }
-        values.push((*line, row));
+        rows.columns = expected;
+        rows.lines.push(*line);
+        rows.values.extend(row);
     }
-    if header.is_none() {
+    if rows.headings.1.is_empty() {
         // Some programs put the names into the last remark before the numbers.
-        let columns = values.first().map_or(0, |(_, row)| row.len());
-        let before = values.first().map_or(0, |(line, _)| line - 1);
+        let before = rows.lines.first().map_or(0, |line| line - 1);
         let last = (options.skip_rows..before).rev().map(|index| (index, lines[index])).find(|(_, line)| remark(line));
         if let Some((index, line)) = last {
-            let names = names(line.trim_start().trim_start_matches(['#', '%']));
-            let is_one = names.len() == columns && names.iter().any(|column| column.acceleration().is_some());
-            header = is_one.then_some((index + 1, names));
+            let names = self::headings(line.trim_start().trim_start_matches(['#', '%']));
+            if names.len() == rows.columns && names.iter().any(|heading| heading.acceleration().is_some()) {
+                rows.headings = (index + 1, names);
+            }
         }
     }
-    Ok(Rows { header, values })
+    Ok(rows)
 }
 
 /// The first line is neither numbers nor names: the file may be of no known format.
@@ -188,32 +198,35 @@ fn unreadable(error: RecordError) -> RecordError {
     }
 }
 
-/// Names: no cell is a number, nor what somebody printed for one that is none.
+/// Whether a line has headings: no cell is a number, nor a printed `nan` or `inf`.
 fn is_header(text: &str) -> bool {
-    super::numbers::is_text(text) && text.contains(char::is_alphabetic)
+    is_text(text) && text.contains(char::is_alphabetic)
 }
 
-/// The cells of a header: parted as its numbers are, blanks within brackets and before them belonging to the name.
-fn names(text: &str) -> Vec<Column> {
+/// The headings of a line: separated as its numbers are; blanks within brackets and before them belong to the name.
+fn headings(text: &str) -> Vec<Heading> {
     for delimiter in [';', ',', '\t'] {
         if text.contains(delimiter) {
-            return text.trim().trim_end_matches(delimiter).split(delimiter).map(Column::parse).collect();
+            return text.trim().trim_end_matches(delimiter).split(delimiter).map(Heading::parse).collect();
         }
     }
     let mut cells: Vec<String> = Vec::new();
     let mut open = false;
     for word in text.split_whitespace() {
         match cells.last_mut() {
-            Some(cell) if open || word.starts_with(['[', '(']) => *cell = format!("{cell} {word}"),
+            Some(cell) if open || word.starts_with(['[', '(']) => {
+                cell.push(' ');
+                cell.push_str(word);
+            }
             _ => cells.push(word.into()),
         }
         open = (open || word.contains(['[', '('])) && !word.ends_with([']', ')']);
     }
-    cells.iter().map(|cell| Column::parse(cell)).collect()
+    cells.iter().map(|cell| Heading::parse(cell)).collect()
 }
 
-/// Whether commas stand for decimal points: something else parts the columns, no point occurs, and every cell has one at most;
-/// where blanks part them, within its digits, for blanks may stand beside any delimiter.
+/// Whether commas stand for decimal points: something else separates the columns, no point occurs, and every cell has one at most;
+/// where blanks separate them, within its digits, for blanks may stand beside any delimiter.
 fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
     let cells = |text: &str| {
         let delimited = text.contains([';', '\t']);
@@ -242,94 +255,72 @@ fn full_row(text: &str, line: usize) -> Result<Vec<f64>, RecordError> {
 }
 
 /// The column of the accelerations.
-fn acceleration_column(rows: &Rows, columns: usize, options: &TextOptions) -> Result<usize, RecordError> {
-    let names: &[Column] = rows.header.as_ref().map_or(&[], |(_, names)| names);
-    let known = || {
-        if names.is_empty() {
-            format!("1 to {columns}")
-        } else {
-            names.iter().map(|column| column.name.as_str()).collect::<Vec<_>>().join(", ")
-        }
+fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, RecordError> {
+    let (headings, columns) = (rows.headings.1.as_slice(), rows.columns);
+    let unclear = |column: &str| {
+        let names: Vec<&str> = headings.iter().map(|heading| heading.name.as_str()).collect();
+        let known = if names.is_empty() { format!("1 to {columns}") } else { listed(&names) };
+        RecordError::NoColumn { column: column.into(), known }
     };
-    if let Some(wanted) = &options.column {
+    if let Some(name) = &options.column {
         // By its name, or by all of its heading.
-        let heading = Column::parse(wanted);
-        let named = names.iter().position(|column| column.name.eq_ignore_ascii_case(wanted.trim()));
-        let named = named.or_else(|| names.iter().position(|column| *column == heading));
-        let numbered = || wanted.trim().parse::<usize>().ok()?.checked_sub(1).filter(|place| *place < columns);
-        return named.or_else(numbered).ok_or_else(|| RecordError::NoColumn { column: wanted.clone(), known: known() });
+        let whole = Heading::parse(name);
+        let named = headings.iter().position(|heading| heading.name.eq_ignore_ascii_case(name.trim()));
+        let named = named.or_else(|| headings.iter().position(|heading| *heading == whole));
+        let numbered = || name.trim().parse::<usize>().ok()?.checked_sub(1).filter(|place| *place < columns);
+        return named.or_else(numbered).ok_or_else(|| unclear(name));
     }
-    let without_time: Vec<usize> =
-        (0..columns).filter(|place| names.get(*place).is_none_or(|column| !column.is_time())).collect();
-    match (columns, names.is_empty()) {
-        (1, _) => return Ok(0),
-        (2, true) => return Ok(1),
-        (2, false) if names[1].is_time() && !names[0].is_time() => return Ok(0),
-        (2, false) if names[0].is_time() => return Ok(1),
+    match headings {
+        _ if columns == 1 => return Ok(0),
+        [] if columns == 2 => return Ok(1),
+        [first, second] if second.is_time() && !first.is_time() => return Ok(0),
+        [first, _] if first.is_time() => return Ok(1),
         _ => {}
     }
-    let sure: Vec<usize> =
-        without_time.iter().copied().filter(|place| names.get(*place).is_some_and(Column::is_acceleration)).collect();
+    let is_sure = |place: &usize| headings.get(*place).is_some_and(|name| !name.is_time() && name.is_acceleration());
+    let sure: Vec<usize> = (0..columns).filter(is_sure).collect();
     match (sure.as_slice(), columns) {
         ([only], _) => Ok(*only),
         ([], 2) => Ok(1),
-        _ => Err(RecordError::NoColumn { column: String::new(), known: known() }),
+        _ => Err(unclear("")),
     }
 }
 
 /// The column of the times: by its name; else the nearest before the accelerations that runs evenly, for numbers of rows or
 /// other components may stand there too; else the first of several.
-fn time_column(rows: &Rows, columns: usize, chosen: usize) -> Option<usize> {
-    let named = rows.header.as_ref().and_then(|(_, names)| names.iter().position(Column::is_time));
-    let named_otherwise = rows.header.as_ref().is_some_and(|(_, names)| names[0].is_acceleration());
-    let nearest = || (1..chosen).rev().find(|column| runs_evenly(&rows.values, *column)).unwrap_or(0);
-    named.or_else(|| (columns > 1 && chosen != 0 && !named_otherwise).then(nearest)).filter(|time| *time != chosen)
-}
-
-/// Whether the values of a column grow by equal steps.
-fn runs_evenly(rows: &[(usize, Vec<f64>)], column: usize) -> bool {
-    let at = |index: usize| rows[index].1[column];
-    let last = rows.len() - 1;
-    let step = (at(last) - at(0)) / last as f64;
-    step > 0.0
-        && rows.iter().enumerate().all(|(index, _)| off_grid(at(index) - at(0), index, step) <= GRID_TOLERANCE * step)
-}
-
-/// How far a value is from the grid of a step.
-fn off_grid(value: f64, index: usize, step: f64) -> f64 {
-    (value - index as f64 * step).abs()
+fn time_column(rows: &Rows, chosen: usize) -> Option<usize> {
+    let headings = &rows.headings.1;
+    let named = headings.iter().position(Heading::is_time);
+    let runs_evenly = |column: &usize| {
+        let step = rows.mean_step(*column, 1.0);
+        step > 0.0 && rows.off_grid(*column, 1.0, step, GRID_TOLERANCE * step).is_none()
+    };
+    let nearest = || (1..chosen).rev().find(runs_evenly).unwrap_or(0);
+    let has_times = chosen != 0 && !headings.first().is_some_and(Heading::is_acceleration);
+    named.or_else(|| has_times.then(nearest)).filter(|time| *time != chosen)
 }
 
 /// The sampling interval `[s]` of a column of times, of which `second` is the unit.
-fn interval(rows: &[(usize, Vec<f64>)], time: usize, second: f64, options: &TextOptions) -> Result<f64, RecordError> {
-    let at = |index: usize| rows[index].1[time] * second;
-    let last = rows.len() - 1;
-    let on_grid = |dt: f64, tolerance: f64| {
-        (0..rows.len()).find(|index| {
-            let off = off_grid(at(*index) - at(0), *index, dt);
-            off.is_nan() || off > tolerance
-        })
-    };
-    let mean = (at(last) - at(0)) / last as f64;
+fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Result<f64, RecordError> {
+    let at = |row: usize| rows.at(row, time) * second;
+    let last = rows.lines.len() - 1;
+    let off_grid = |dt: f64, tolerance: f64| rows.off_grid(time, second, dt, tolerance);
     // Times that were computed as multiples give their interval to the last bit.
     let first = at(1) - at(0);
-    let dt = if on_grid(first, EXACT * at(last).abs()).is_none() { first } else { mean };
+    let is_exact = off_grid(first, EXACT_TOLERANCE * at(last).abs()).is_none();
+    let dt = if is_exact { first } else { rows.mean_step(time, second) };
     if let Some(own) = options.dt {
-        if on_grid(own, GRID_TOLERANCE * own).is_some() && (own - dt).abs() > 1e-6 * dt.abs() {
-            return Err(RecordError::Contradiction {
-                key: "dt",
-                given: format!("{own} s"),
-                line: rows[last].0,
-                file: format!("{dt} s"),
-            });
+        if off_grid(own, GRID_TOLERANCE * own).is_some() && (own - dt).abs() > 1e-6 * dt.abs() {
+            let (given, file) = (format!("{own} s"), format!("{dt} s"));
+            return Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file });
         }
         return Ok(own);
     }
     if dt.is_nan() || dt <= 0.0 {
-        return Err(RecordError::Uneven { line: rows[1].0, time: at(1), dt });
+        return Err(RecordError::Uneven { line: rows.lines[1], time: at(1), dt });
     }
-    match on_grid(dt, GRID_TOLERANCE * dt) {
-        Some(index) => Err(RecordError::Uneven { line: rows[index].0, time: at(index), dt }),
+    match off_grid(dt, GRID_TOLERANCE * dt) {
+        Some(row) => Err(RecordError::Uneven { line: rows.lines[row], time: at(row), dt }),
         None => Ok(dt),
     }
 }

@@ -1,4 +1,4 @@
-//! Pieces of several motions side by side: the spans of time in which each of them has one formula.
+//! The spans of time in which each of several motions has one formula.
 
 use crate::piece::Piece;
 use smallvec::{SmallVec, smallvec};
@@ -8,29 +8,29 @@ use smallvec::{SmallVec, smallvec};
 pub struct Span {
     /// `[s]`
     pub start: f64,
-    /// `[s]`, infinite for what goes on for ever.
+    /// `[s]`, infinite for a motion without end.
     pub end: f64,
-    /// What holds in it.
+    /// Formula of the span.
     pub piece: Piece,
 }
 
-/// The spans of a motion, in order of time, without overlap: most have one.
+/// The spans of a motion, in order of time, without overlap. Most motions have one.
 pub type Spans = SmallVec<[Span; 1]>;
 
-/// Break points closer than this, relative to the time, are one: the sum of start and period of two components that end
-/// together rounds differently. A step across such a gap would be shorter than the resolution of time.
-const SAME_TIME: f64 = 1e-13;
+/// Distance of break points, relative to the time, below which they are one: the ends of two components that end together are rounded
+/// differently. A step across such a gap would be shorter than the resolution of time.
+const TIME_TOLERANCE: f64 = 1e-13;
 
 /// Calls `visit(start, end, pieces)` for each span between break points of `motions` in `from .. to` `[s]`, in order of time, with the
-/// piece of each motion there, which it may take. The spans of each motion are in order. Finite bounds are break points as well; between infinite ones
-/// there are spans from the first to the last break point of the motions.
+/// piece of each motion, which `visit` may take. The spans of each motion are in order. Finite bounds are break points too; infinite ones
+/// stand for the first and the last break point.
 pub fn overlay(motions: &[Spans], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &mut [Piece])) {
     let first = motions.iter().filter_map(|motion| motion.first()).map(|span| span.start).fold(f64::INFINITY, f64::min);
     let mut t = if from.is_finite() { from } else { first };
     let mut rests: SmallVec<[&[Span]; 4]> = motions.iter().map(SmallVec::as_slice).collect();
     let mut pieces: SmallVec<[Piece; 4]> = smallvec![Piece::Zero; motions.len()];
     while t < to {
-        let now = t + SAME_TIME * t.abs().max(1.0);
+        let now = t + TIME_TOLERANCE * t.abs().max(1.0);
         let mut end = to.is_finite().then_some(to);
         for (rest, piece) in rests.iter_mut().zip(&mut pieces) {
             while let [span, later @ ..] = *rest
@@ -60,10 +60,10 @@ pub fn overlay(motions: &[Spans], from: f64, to: f64, mut visit: impl FnMut(f64,
     }
 }
 
-/// The same for one motion, whose pieces it gives away, between finite bounds.
+/// The same for one motion between finite bounds; its pieces are moved, not copied.
 #[inline(always)]
-pub fn lay_out(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
-    let same = |t: f64| t + SAME_TIME * t.abs().max(1.0);
+pub fn divide(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
+    let same = |t: f64| t + TIME_TOLERANCE * t.abs().max(1.0);
     let (mut t, mut now) = (from, same(from));
     for Span { start, end, piece } in spans {
         if end <= now {
@@ -108,7 +108,7 @@ mod tests {
     }
 
     /// Start, end and the two values of each span.
-    fn laid_out(motions: [&[(f64, f64, f64)]; 2], from: f64, to: f64) -> Vec<[f64; 4]> {
+    fn divided(motions: [&[(f64, f64, f64)]; 2], from: f64, to: f64) -> Vec<[f64; 4]> {
         let mut found = Vec::new();
         overlay(&motions.map(spans), from, to, |start, end, pieces| {
             found.push([start, end, pieces[0].value(0.0), pieces[1].value(0.0)]);
@@ -121,13 +121,13 @@ mod tests {
         let (a, b) = ([(0.5, 1.0, 1.0), (1.0, 3.0, 2.0)], [(0.0, 2.0, 5.0)]);
         let both = [[0.5, 1.0, 1.0, 5.0], [1.0, 2.0, 2.0, 5.0], [2.0, 3.0, 2.0, 0.0]];
         let from_zero = [&[[0.0, 0.5, 0.0, 5.0]][..], &both, &[[3.0, 4.0, 0.0, 0.0]]].concat();
-        assert_eq!(laid_out([&a, &b], 0.0, 4.0), from_zero);
-        assert_eq!(laid_out([&a, &b], 0.5, 3.0), both);
-        assert_eq!(laid_out([&a, &b], f64::NEG_INFINITY, f64::INFINITY), from_zero[..4]);
+        assert_eq!(divided([&a, &b], 0.0, 4.0), from_zero);
+        assert_eq!(divided([&a, &b], 0.5, 3.0), both);
+        assert_eq!(divided([&a, &b], f64::NEG_INFINITY, f64::INFINITY), from_zero[..4]);
     }
 
     #[test]
-    fn one_motion_alone_is_laid_out_as_beside_none() {
+    fn one_motion_alone_has_the_spans_of_one_beside_none() {
         let cases: [&[(f64, f64, f64)]; 6] = [
             &[],
             &[(0.5, 1.0, 1.0), (1.0, 3.0, 2.0)],
@@ -139,27 +139,27 @@ mod tests {
         for case in cases {
             for to in [4.0, 0.6, 1.0, 1.0 + 1e-15, 1e-15] {
                 let mut found = Vec::new();
-                lay_out(spans(case).into_iter(), 0.0, to, |start, end, piece| {
+                divide(spans(case).into_iter(), 0.0, to, |start, end, piece| {
                     found.push([start, end, piece.value(0.0), 0.0])
                 });
-                assert_eq!(found, laid_out([case, &[]], 0.0, to), "{case:?} {to}");
+                assert_eq!(found, divided([case, &[]], 0.0, to), "{case:?} {to}");
             }
         }
     }
 
     #[test]
-    fn gaps_and_what_never_ends_are_spans() {
+    fn gaps_and_motions_without_end_are_spans() {
         let (a, b) = ([(1.0, 2.0, 1.0), (3.0, f64::INFINITY, 2.0)], []);
         let spans = [[1.0, 2.0, 1.0, 0.0], [2.0, 3.0, 0.0, 0.0], [3.0, f64::INFINITY, 2.0, 0.0]];
-        assert_eq!(laid_out([&a, &b], f64::NEG_INFINITY, f64::INFINITY), spans);
-        assert_eq!(laid_out([&b, &b], f64::NEG_INFINITY, f64::INFINITY), [[0.0; 4]; 0]);
-        assert_eq!(laid_out([&b, &b], 0.0, 2.0), [[0.0, 2.0, 0.0, 0.0]]);
+        assert_eq!(divided([&a, &b], f64::NEG_INFINITY, f64::INFINITY), spans);
+        assert_eq!(divided([&b, &b], f64::NEG_INFINITY, f64::INFINITY), [[0.0; 4]; 0]);
+        assert_eq!(divided([&b, &b], 0.0, 2.0), [[0.0, 2.0, 0.0, 0.0]]);
     }
 
     #[test]
     fn ends_that_differ_by_rounding_are_one() {
         let (a, b) = ([(0.0, 1.0, 1.0)], [(0.0, 1.0 + 1e-15, 5.0), (1.0 + 1e-15, 2.0, 6.0)]);
-        assert_eq!(laid_out([&a, &b], 0.0, 1.0 + 1e-14), [[0.0, 1.0, 1.0, 5.0]]);
-        assert_eq!(laid_out([&a, &b], 0.0, 2.0), [[0.0, 1.0, 1.0, 5.0], [1.0, 2.0, 0.0, 6.0]]);
+        assert_eq!(divided([&a, &b], 0.0, 1.0 + 1e-14), [[0.0, 1.0, 1.0, 5.0]]);
+        assert_eq!(divided([&a, &b], 0.0, 2.0), [[0.0, 1.0, 1.0, 5.0], [1.0, 2.0, 0.0, 6.0]]);
     }
 }

@@ -1,0 +1,98 @@
+//! Why a record is refused, with the place in the file and the remedy.
+
+use crate::bounds::{LARGEST_ACCELERATION, LONGEST_INTERVAL, SHORTEST_INTERVAL};
+
+/// Why a record is refused.
+///
+/// Fields: `line`, `column` and `sample` are places, from 1; `text` is the word there. `found` is what the file has; `declared`, `stated`
+/// and `expected` are what its header or first row says. Times in s, accelerations in m/s². `key` is an entry of the header, or an option.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "fields are described above, with one meaning in all variants")]
+pub enum RecordError {
+    /// A record needs two samples to have a duration.
+    #[error("{count} sample(s): a record needs at least two")]
+    TooShort { count: usize },
+    /// The file is empty or has remarks only.
+    #[error("the file is empty, or has nothing but remarks; fetch or write it again")]
+    Empty,
+    /// The file is no text.
+    #[error("the file is no text: it is {kind}; unpack it, or save it as text or CSV")]
+    NoText { kind: &'static str },
+    /// The sampling interval is out of range.
+    #[error(
+        "dt = {dt:e}: the sampling interval must be a number from {SHORTEST_INTERVAL:e} to {LONGEST_INTERVAL:e} (s)"
+    )]
+    Interval { dt: f64 },
+    /// A sample is not finite, or beyond what sums of squares can hold.
+    #[error(
+        "sample {sample} is {value:e}: accelerations must be finite numbers of at most {LARGEST_ACCELERATION:e} m/s²"
+    )]
+    Acceleration { sample: usize, value: f64 },
+    /// A word among the numbers is no number.
+    #[error("line {line}, column {column}: `{text}` is not a finite number; mend or remove it")]
+    NotANumber { line: usize, column: usize, text: String },
+    /// The file ends before the count in its header is reached.
+    #[error(
+        "line {line}: the header declares {declared} samples and the file has {found}; is it cut off? \
+         Fetch it again, correct {key}, or use what is there with `lenient`"
+    )]
+    Fewer { line: usize, key: &'static str, declared: usize, found: usize },
+    /// An entry of the header is missing or wrong.
+    #[error("line {line}: {problem}; {remedy}")]
+    Header { line: usize, problem: String, remedy: &'static str },
+    /// The largest sample is not the peak of the header.
+    #[error(
+        "line {line} states a peak of {stated:.6} m/s² and the largest sample is {found:.6} m/s²: the file is damaged or \
+         in another unit than it says; fetch it again, or use it as it is with `lenient`"
+    )]
+    Peak { line: usize, stated: f64, found: f64 },
+    /// The file has no such channel.
+    #[error("channel {channel} is not in the file; it has {known}")]
+    NoChannel { channel: usize, known: String },
+    /// Several columns may be the acceleration, or the requested one does not exist.
+    #[error("{}; choose one of {known} with `column`", no_column(column))]
+    NoColumn { column: String, known: String },
+    /// The file begins with neither a known header nor numbers.
+    #[error(
+        "line {line}, column {column}: `{text}` is no number, and the file begins like none of the known formats; skip the \
+         lines before the numbers with `skip_rows`, or give a file of PEER (AT2), ESM, K-NET, CSMIP, COSMOS or a table"
+    )]
+    NoTable { line: usize, column: usize, text: String },
+    /// A row has another number of columns than the first row.
+    #[error(
+        "line {line}: {found} column(s) where the first row has {expected}; use one column, or time and acceleration"
+    )]
+    Columns { line: usize, found: usize, expected: usize },
+    /// The times of a table are not equally spaced.
+    #[error("line {line}: time {time} s is not on the grid of {dt} s; resample the record to a constant interval")]
+    Uneven { line: usize, time: f64, dt: f64 },
+    /// The file lacks a quantity that the user must give.
+    #[error("the file does not say its {quantity}; give it with `{key}`{}", example(key))]
+    Missing { quantity: &'static str, key: &'static str },
+    /// An option contradicts the file.
+    #[error("`{key}` is given as {given} and line {line} of the file says {file}; leave `{key}` out or correct it")]
+    Contradiction { key: &'static str, given: String, line: usize, file: String },
+    /// A parameter of a record is out of range.
+    #[error("{name} = {value} is out of range: give {wanted}")]
+    OutOfRange { name: &'static str, value: f64, wanted: &'static str },
+    /// A record of zeros cannot be scaled to a peak.
+    #[error("all samples are zero: such a record cannot be scaled to a peak acceleration")]
+    Silent,
+}
+
+fn no_column(column: &str) -> String {
+    if column.is_empty() {
+        "the file has several columns that may be the acceleration".into()
+    } else {
+        format!("there is no column `{column}`")
+    }
+}
+
+fn example(key: &str) -> &'static str {
+    match key {
+        "units" => " (g, m/s2, cm/s2, gal, mg, ...)",
+        "dt" => " (s)",
+        _ => "",
+    }
+}

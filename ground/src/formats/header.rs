@@ -1,0 +1,163 @@
+//! Rules for the headers of all formats: counts, intervals and units, on which the user may not contradict the file; channels.
+
+use super::numbers::{number, quote, words};
+use crate::bounds::{LONGEST_INTERVAL, SHORTEST_INTERVAL};
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
+
+/// A line of a header that is read, or should be there.
+#[derive(Clone, Copy)]
+pub struct Entry<'t> {
+    /// Place in the file, from 1.
+    pub line: usize,
+    /// The line, or the part that is read.
+    pub text: &'t str,
+    /// Remedy where it cannot be read.
+    pub remedy: &'static str,
+}
+
+impl Entry<'_> {
+    /// The error that something is wrong with the entry.
+    pub fn wrong(&self, problem: impl Into<String>) -> RecordError {
+        RecordError::Header { line: self.line, problem: problem.into(), remedy: self.remedy }
+    }
+
+    /// The same, with the entry's text quoted.
+    pub fn quoted(&self, problem: &str) -> RecordError {
+        self.wrong(format!("{problem} `{}`", brief(self.text)))
+    }
+
+    /// Number of samples.
+    pub fn count(&self, count: Option<f64>) -> Result<usize, RecordError> {
+        let sound = count.filter(|count| *count >= 1.0 && count.fract() == 0.0 && *count <= MOST_SAMPLES);
+        sound.map(|count| count as usize).ok_or_else(|| self.quoted("no whole number of samples in"))
+    }
+
+    /// Sampling interval `[s]`.
+    pub fn interval(&self, dt: Option<f64>, options: &TextOptions) -> Result<f64, RecordError> {
+        let sound = dt.filter(|dt| (SHORTEST_INTERVAL..=LONGEST_INTERVAL).contains(dt));
+        let dt = sound.ok_or_else(|| self.quoted("no sampling interval above zero, of at most 1e6 s, in"))?;
+        match options.dt {
+            Some(own) if (own - dt).abs() > 1e-9 * dt => {
+                Err(self.contradiction("dt", format!("{own} s"), format!("{dt} s")))
+            }
+            _ => Ok(dt),
+        }
+    }
+
+    /// Unit of this name.
+    pub fn unit(&self, name: &str, options: &TextOptions) -> Result<AccelerationUnit, RecordError> {
+        let unknown = || self.wrong(format!("`{}` is no unit of acceleration that is known", brief(name)));
+        self.agreed(AccelerationUnit::parse(name).ok_or_else(unknown)?, options)
+    }
+
+    /// A unit of the file, unless the user gives another.
+    pub fn agreed(&self, unit: AccelerationUnit, options: &TextOptions) -> Result<AccelerationUnit, RecordError> {
+        match options.units {
+            Some(own) if own != unit => Err(self.contradiction("units", own.to_string(), unit.to_string())),
+            _ => Ok(unit),
+        }
+    }
+
+    fn contradiction(&self, key: &'static str, given: String, file: String) -> RecordError {
+        RecordError::Contradiction { key, given, line: self.line, file }
+    }
+}
+
+/// Most samples that a header declares: four months at 100 Hz. More is a misread header.
+const MOST_SAMPLES: f64 = 1e9;
+
+/// A line as an error quotes it.
+pub fn brief(line: &str) -> String {
+    tidy(line).chars().take(80).collect()
+}
+
+/// Text without blanks at its ends and control characters, and with single blanks inside.
+pub fn tidy(text: &str) -> String {
+    quote(&text.split_whitespace().collect::<Vec<_>>().join(" "), usize::MAX)
+}
+
+/// Text after a word, of any case.
+pub fn after<'t>(line: &'t str, word: &str) -> Option<&'t str> {
+    // ASCII capitals keep the places of all bytes.
+    let at = line.to_ascii_lowercase().find(word)?;
+    Some(&line[at + word.len()..])
+}
+
+/// The number after `key`, in capitals, with `=`, `:` or blanks between; a unit may touch it (`.01SEC`, `100Hz`).
+pub fn number_after(line: &str, key: &str) -> Option<f64> {
+    let upper = line.to_ascii_uppercase();
+    let at = upper.match_indices(key).find(|(at, _)| !upper[..*at].ends_with(|c: char| c.is_ascii_alphanumeric()))?.0;
+    let rest = upper[at + key.len()..].trim_start().trim_start_matches(['=', ':']).trim_start();
+    leading_number(rest)
+}
+
+/// The number that a text begins with; a unit may touch it.
+pub fn leading_number(text: &str) -> Option<f64> {
+    let word = words(text).next()?.text;
+    number(word).or_else(|| {
+        let end = word.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(word.len());
+        number(&word[..end])
+    })
+}
+
+/// Number, where the file gives one, and direction of a channel.
+pub type ChannelName = (Option<usize>, String);
+
+/// The place of the requested channel, by the number that the file gives it or else by its place, and the labels of all channels. The
+/// first one where none is requested, with a warning where there are several.
+pub fn choose(
+    channels: &[ChannelName],
+    options: &TextOptions,
+    warnings: &mut Vec<String>,
+) -> Result<(usize, Vec<String>), RecordError> {
+    let label = |(place, (number, direction)): (usize, &ChannelName)| {
+        tidy(&format!("{}: {direction}", number.unwrap_or(place + 1))).trim_end_matches(':').to_string()
+    };
+    let labels: Vec<String> = channels.iter().enumerate().map(label).collect();
+    let chosen = match options.channel {
+        None => {
+            if labels.len() > 1 {
+                warnings.push(format!(
+                    "the file has {} channels ({}) and the first one is read; choose another with `channel`",
+                    labels.len(),
+                    listed(&labels)
+                ));
+            }
+            0
+        }
+        Some(channel) => channels
+            .iter()
+            .position(|(number, _)| *number == Some(channel))
+            .or_else(|| channel.checked_sub(1).filter(|place| *place < labels.len()))
+            .ok_or_else(|| RecordError::NoChannel { channel, known: listed(&labels) })?,
+    };
+    Ok((chosen, labels))
+}
+
+/// Names in a sentence, of many the first ones.
+pub fn listed(names: &[impl AsRef<str>]) -> String {
+    let mut text = names.iter().take(MOST_LISTED).map(|name| brief(name.as_ref())).collect::<Vec<_>>().join(", ");
+    if names.len() > MOST_LISTED {
+        text += &format!(", ... ({} in all)", names.len());
+    }
+    text
+}
+
+/// Most names of a sentence.
+const MOST_LISTED: usize = 40;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_after_their_keys() {
+        assert_eq!(number_after("NPTS=  4000, DT= .01000 SEC", "NPTS"), Some(4000.0));
+        assert_eq!(number_after("BANDWIDTH=3 DT=.01SEC", "DT"), Some(0.01));
+        assert_eq!(number_after("dt : 5e-3", "DT"), Some(0.005));
+        assert_eq!(number_after("NPTS", "NPTS"), None);
+        assert_eq!(leading_number("100Hz"), Some(100.0));
+    }
+}
