@@ -1,6 +1,5 @@
-//! Counting what a program costs.
+//! Operation counts of expressions.
 
-use super::program::Routine;
 use crate::symbolic::{Arena, Expr, Level, Node, Rational};
 use std::collections::HashSet;
 use std::fmt;
@@ -36,13 +35,7 @@ impl fmt::Display for Operations {
     }
 }
 
-/// Counts one call of a routine; shared nodes count once, sines and cosines are its input, changes of sign are free.
-pub fn operations(arena: &Arena, routine: &Routine) -> Operations {
-    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
-    count_expressions(arena, values)
-}
-
-/// Counts the evaluation of some expressions together.
+/// Counts one evaluation of some expressions together; shared nodes count once, sines and cosines are inputs, changes of sign are free.
 pub fn count_expressions(arena: &Arena, values: impl IntoIterator<Item = Expr>) -> Operations {
     let mut count = Operations::default();
     let mut seen = HashSet::new();
@@ -52,7 +45,7 @@ pub fn count_expressions(arena: &Arena, values: impl IntoIterator<Item = Expr>) 
     count
 }
 
-/// As [`count_expressions`], whatever a scene fixes being one constant.
+/// As [`count_expressions`], every scene expression counted as one constant.
 pub fn count_hoisted(arena: &Arena, values: impl IntoIterator<Item = Expr>) -> Operations {
     let mut count = Operations::default();
     let mut seen = HashSet::new();

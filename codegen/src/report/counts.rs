@@ -1,10 +1,11 @@
 //! What `rocking derive --counts` prints: operations of the accelerations before and after each pass.
 
 use super::text::title;
+use crate::derivation::{Derivation, Plan, derive_in_form};
+use crate::ground::GroundMotion;
 use crate::optimise::{Operations, count_expressions, count_hoisted};
 use crate::pattern::Pattern;
 use crate::symbolic::Expr;
-use crate::{Derivation, GroundMotion, Plan, derive_in_form};
 use std::fmt::Write;
 
 /// The operations of a mode's equations as derived, condensed, hoisted, and of all forms of its step programs.

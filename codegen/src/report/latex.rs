@@ -6,12 +6,12 @@
 
 use super::compact::{Compact, Definition, Position};
 use super::listing::Listing;
+use crate::derivation::{Derivation, derive};
 use crate::mechanics::{Symbols, Vector};
 use crate::optimise::Form;
 use crate::pattern::{Interface, Pattern};
 use crate::symbolic::latex::{Formula, Notation, Place, width};
 use crate::symbolic::{Arena, Expr};
-use crate::{Derivation, derive};
 use std::fmt::Write;
 
 /// Room for a line of a display [pt]: A4 less margins of 25 mm leaves 455, the equation's number and its gap take 35.

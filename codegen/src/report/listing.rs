@@ -113,9 +113,9 @@ fn carry(from: &Arena, expr: Expr, to: &mut Arena, symbols: &HashMap<Expr, Expr>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derivation::{Derivation, derive};
     use crate::pattern::linkages;
     use crate::symbolic::Environment;
-    use crate::{Derivation, derive};
 
     #[test]
     fn the_listed_statements_solve_the_printed_equations_of_motion() {

@@ -4,7 +4,8 @@
 //! linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and by the factor that most
 //! terms share. What a computer would rather do is the duty of [`crate::optimise`]; this is for readers.
 
-use super::{Arena, Expr, Node, Rational};
+use super::arena::{Arena, Expr, Node};
+use super::rational::Rational;
 
 impl Arena {
     /// The shortest of the forms named above; equal to `expr`.
@@ -110,7 +111,7 @@ impl Arena {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Level, Unit};
+    use super::super::arena::{Level, Unit};
     use super::*;
 
     #[test]

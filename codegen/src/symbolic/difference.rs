@@ -10,7 +10,8 @@
 //! so four products collapse to two if their coefficients agree in pairs. They are compared multiplied out: what is
 //! returned is equal to what was given, or nothing is returned.
 
-use super::{Arena, Expr, Level, Rational};
+use super::arena::{Arena, Expr, Level};
+use super::rational::Rational;
 use std::collections::HashMap;
 
 impl Arena {
@@ -79,7 +80,7 @@ impl Arena {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
+    use super::super::arena::Unit;
     use super::*;
 
     #[test]

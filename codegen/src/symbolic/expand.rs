@@ -1,6 +1,7 @@
 //! Multiplying out: what makes two expressions of the state comparable term by term.
 
-use super::{Arena, Expr, Level, Node, Rational};
+use super::arena::{Arena, Expr, Level, Node};
+use super::rational::Rational;
 
 /// How deep [`Arena::expand`] goes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -106,7 +107,7 @@ impl Arena {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
+    use super::super::arena::Unit;
     use super::*;
 
     #[test]

@@ -4,7 +4,8 @@
 //! estimated from the glyphs, so nothing of TeX is needed to know that a line fits. How a symbol is set is the caller's
 //! knowledge ([`Notation`]): the engine knows no mechanics.
 
-use super::{Arena, Expr, Level, Node, Rational};
+use super::arena::{Arena, Expr, Level, Node};
+use super::rational::Rational;
 use std::collections::HashMap;
 
 /// Where a symbol stands in a product: drivers lead, what varies fastest ends it.
@@ -474,7 +475,7 @@ fn argument(tex: &str) -> (&str, &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
+    use super::super::arena::Unit;
     use super::*;
 
     struct World {

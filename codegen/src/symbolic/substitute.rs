@@ -1,6 +1,6 @@
 //! Replacing sub-expressions.
 
-use super::{Arena, Expr, Node};
+use super::arena::{Arena, Expr, Node};
 use std::collections::HashMap;
 
 impl Arena {
