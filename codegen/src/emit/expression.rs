@@ -71,7 +71,7 @@ impl<'a, Names: Style> Writer<'a, Names> {
         self.names.insert(symbol, ident);
     }
 
-    /// A comment of its own before what is bound next.
+    /// A comment before the next `let`.
     pub fn heading(&mut self, text: &str) {
         self.lets.push(remark(text));
     }
@@ -105,8 +105,8 @@ impl<'a, Names: Style> Writer<'a, Names> {
     }
 
     fn tokens(&mut self, expr: Expr, outermost: bool) -> TokenStream {
-        if let Node::Symbol(rank) = self.arena.node(expr) {
-            return self.style.symbol(&self.arena.symbol_data(*rank).name);
+        if let Some(name) = self.arena.symbol_name(expr) {
+            return self.style.symbol(name);
         }
         if let Some(name) = self.names.get(&expr) {
             return quote! { #name };
@@ -166,10 +166,10 @@ impl<'a, Names: Style> Writer<'a, Names> {
     fn reciprocal(&mut self, divisor: Expr) -> TokenStream {
         if !self.reciprocals.contains_key(&divisor) {
             let tokens = self.factor(divisor);
-            let of = match (self.names.get(&divisor), self.arena.node(divisor)) {
+            let of = match (self.names.get(&divisor), self.arena.symbol_name(divisor)) {
                 (Some(name), _) => name.to_string(),
-                (None, Node::Symbol(rank)) => self.arena.symbol_data(*rank).name.clone(),
-                _ => self.name_shared(divisor).to_string(),
+                (None, Some(name)) => name.into(),
+                (None, None) => self.name_shared(divisor).to_string(),
             };
             let name = format_ident!("inverse_{of}");
             self.lets.push(quote! { let #name = #tokens.recip(); });
@@ -234,17 +234,12 @@ fn count_uses(arena: &Arena, expr: Expr, uses: &mut HashMap<Expr, usize>) {
     if *seen > 1 {
         return;
     }
-    match arena.node(expr) {
-        Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {}
-        Node::Sum(terms) => terms.iter().for_each(|(_, term)| count_uses(arena, *term, uses)),
-        Node::Product(factors) => {
-            for (factor, power) in factors {
-                count_uses(arena, *factor, uses);
-                // A power reads its base several times.
-                if power.unsigned_abs() > 1 {
-                    count_uses(arena, *factor, uses);
-                }
-            }
-        }
+    arena.operands(expr).for_each(|part| count_uses(arena, part, uses));
+    // A power reads its base several times.
+    if let Node::Product(factors) = arena.node(expr) {
+        factors
+            .iter()
+            .filter(|(_, power)| power.unsigned_abs() > 1)
+            .for_each(|(base, _)| count_uses(arena, *base, uses));
     }
 }

@@ -117,19 +117,16 @@ impl Style for SceneNames<'_> {
             return Some(known.name.clone());
         }
         if let Node::Product(factors) = arena.node(part) {
-            let of_block = |&(factor, power): &(Expr, i32)| match arena.node(factor) {
-                Node::Symbol(rank) if power == 1 => arena.symbol_data(*rank).name.rsplit_once('_'),
-                _ => None,
-            };
-            let factors = factors.iter().map(of_block).collect::<Option<Vec<_>>>()?;
+            let is_plain = factors.iter().all(|(_, power)| *power == 1);
+            let of_block = |(factor, _): &(Expr, i32)| arena.symbol_name(*factor)?.rsplit_once('_');
+            let factors = factors.iter().filter(|_| is_plain).map(of_block).collect::<Option<Vec<_>>>()?;
             let words = factors.iter().map(|(family, block)| format!("{family}_of_block_{block}"));
             return Some(words.collect::<Vec<_>>().join("_times_"));
         }
         let terms = arena.terms(part);
         let mut heights = Vec::new();
         for (coefficient, term) in &terms {
-            let Node::Symbol(rank) = arena.node(*term) else { return None };
-            let (family, block) = split(&arena.symbol_data(*rank).name);
+            let (family, block) = split(arena.symbol_name(*term)?);
             if family != "half_height" || coefficient.denominator != 1 {
                 return None;
             }
@@ -144,17 +141,12 @@ impl Style for SceneNames<'_> {
 
     /// Unit and formula, in the letters of the notation and earlier names.
     fn remark(&self, arena: &Arena, value: Expr, names: &HashMap<Expr, Ident>) -> Option<String> {
-        let letter = |expr: Expr| match (names.get(&expr), arena.node(expr)) {
-            (_, Node::Symbol(rank)) => {
-                let name = &arena.symbol_data(*rank).name;
-                Some(match name.as_str() {
-                    "gravity" => "g".into(),
-                    _ => match split(name) {
-                        ("inertia", block) => format!("I_{block}"),
-                        (family, block) => format!("{}_{block}", &family[..1]),
-                    },
-                })
-            }
+        let letter = |expr: Expr| match (names.get(&expr), arena.symbol_name(expr)) {
+            (_, Some("gravity")) => Some("g".into()),
+            (_, Some(name)) => Some(match split(name) {
+                ("inertia", block) => format!("I_{block}"),
+                (family, block) => format!("{}_{block}", &family[..1]),
+            }),
             (Some(name), _) if expr != value => Some(name.to_string()),
             _ => None,
         };

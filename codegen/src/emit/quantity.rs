@@ -1,4 +1,4 @@
-//! What the names of emitted constants and statements mean.
+//! Meanings of the names of emitted constants and statements.
 
 /// Notation of the emitted modules, for their heads.
 pub const NOTATION: &str = "
@@ -16,7 +16,7 @@ pub const PROGRAM_UNITS: &str = "
 Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is an axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too.
 ";
 
-/// What the statements of a step program compute that begins with this one; `None` where a group goes on.
+/// Comment before the first statement of a group; `None` within a group.
 pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
     let of = |name: &str| {
         let stem = stem(name).0.trim_end_matches("_x").trim_end_matches("_y");
@@ -47,7 +47,7 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
     (previous.and_then(of) != Some(own)).then_some(own)
 }
 
-/// What a constant is.
+/// Meaning of a constant.
 pub fn meaning(name: &str) -> String {
     let (stem, numbers) = stem(name);
     let link = numbers.first().copied().unwrap_or_default();

@@ -253,10 +253,7 @@ struct StateNames;
 
 impl Style for StateNames {
     fn shared(&self, arena: &Arena, part: Expr) -> Option<String> {
-        let name = |expr: Expr| match arena.node(expr) {
-            Node::Symbol(rank) => Some(arena.symbol_data(*rank).name.as_str()),
-            _ => None,
-        };
+        let name = |expr: Expr| arena.symbol_name(expr);
         match arena.node(part) {
             Node::Product(factors) if factors.iter().all(|(_, power)| *power == 1) => {
                 Some(factors.iter().map(|(factor, _)| name(*factor)).collect::<Option<Vec<_>>>()?.join("_times_"))

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! where the weights `C_a, S_a` are linear in `(cos θ_b)¨, (sin θ_b)¨` of the other links and in the ground's acceleration. Two
-//! products per link are all that is not linear. The form is proved against Euler-Lagrange by [`WeightForm::is_proved`].
+//! products per link are all that is not linear. `tests/derivation.rs` proves the form against Euler-Lagrange.
 
 use super::kinematics::{Symbols, jacobian};
 use super::lagrange::Equations;
@@ -27,7 +27,7 @@ pub struct WeightForm {
 /// Derives the weights from the centroids by d'Alembert's principle.
 ///
 /// # Panics
-/// If an equation is not of the form above: the links are rigid, so it is.
+/// If an equation does not have the form above, which all rigid links give.
 pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equations: &Equations) -> WeightForm {
     let dof = linkage.dof();
     let mut form = WeightForm { cos: Vec::with_capacity(dof), sin: Vec::with_capacity(dof) };
@@ -84,40 +84,4 @@ fn second_derivative(arena: &mut Arena, symbols: &Symbols, position: Expr) -> Ex
         }
     }
     arena.sum(terms)
-}
-
-impl WeightForm {
-    /// Whether the form is the equations of motion: with the second derivatives written out, `(cos θ)¨ = -sin θ θ̈ - cos θ θ̇²`
-    /// and `(sin θ)¨ = cos θ θ̈ - sin θ θ̇²`, it differs from Euler-Lagrange by nothing, multiplied out.
-    pub fn is_proved(&self, arena: &mut Arena, symbols: &Symbols, equations: &Equations) -> bool {
-        let dof = self.cos.len();
-        let mut written_out = std::collections::HashMap::new();
-        for link in 0..dof {
-            let [cos, sin] = [arena.cos(symbols.theta[link]), arena.sin(symbols.theta[link])];
-            let square = arena.square(symbols.omega[link]);
-            let alpha = symbols.alpha[link];
-            let (a, b) = (arena.mul(sin, alpha), arena.mul(cos, square));
-            let sum = arena.add(a, b);
-            written_out.insert(symbols.cos_ddot[link], arena.neg(sum));
-            let (a, b) = (arena.mul(cos, alpha), arena.mul(sin, square));
-            written_out.insert(symbols.sin_ddot[link], arena.sub(a, b));
-        }
-        (0..dof).all(|row| {
-            let mut terms = vec![arena.mul(equations.mass[row][row], symbols.alpha[row])];
-            for (angle, weight) in
-                [(arena.cos(symbols.theta[row]), self.cos[row]), (arena.sin(symbols.theta[row]), self.sin[row])]
-            {
-                let weight = arena.substitute(weight, &written_out);
-                terms.push(arena.mul(angle, weight));
-            }
-            for column in 0..dof {
-                let inertia = arena.mul(equations.mass[row][column], symbols.alpha[column]);
-                terms.push(arena.neg(inertia));
-            }
-            terms.push(arena.neg(equations.bias[row]));
-            terms.push(arena.neg(equations.forcing[row]));
-            let residual = arena.total(terms);
-            arena.is_identically_zero(residual)
-        })
-    }
 }

@@ -3,7 +3,7 @@
 use super::condense::collect;
 use super::program::{Program, ProgramBuilder};
 use crate::mechanics::{InterfaceForces, Symbols, normal_and_tangent};
-use crate::symbolic::{Arena, Expr, Level, Node, Unit};
+use crate::symbolic::{Arena, Expr, Level, Unit};
 
 /// Builds the program of the contact forces at one interface.
 pub fn force_program(arena: &mut Arena, symbols: &Symbols, forces: &InterfaceForces) -> Program {
@@ -53,7 +53,7 @@ fn contact_constant(own: &str, factors: &[String], arena: &Arena, constant: Expr
     let angles = factors.iter().filter_map(|factor| factor.strip_prefix("cos_").or(factor.strip_prefix("sin_")));
     let angles: Vec<&str> = angles.collect();
     let other = angles.iter().copied().find(|link| *link != own);
-    let is_lateral = mentions(arena, constant, "pivot");
+    let is_lateral = arena.any(constant, &|part| arena.symbol_name(part).is_some_and(|name| name.starts_with("pivot")));
     let axis = if is_lateral { "lateral" } else { "axial" };
     let is_negative = arena.terms(constant).first()?.0.is_negative();
     // The next pivot is at the right of the contact where its offset is positive, and lateral is to the left.
@@ -70,15 +70,5 @@ fn contact_constant(own: &str, factors: &[String], arena: &Arena, constant: Expr
         (_, Some(link)) => signed(is_negative, format!("contact_moment_times_lever_{axis}_{link}")),
         _ if factors.iter().any(|factor| factor.starts_with("alpha")) => Some("contact_inertia".into()),
         _ => Some("contact_cross".into()),
-    }
-}
-
-/// Whether a formula has a symbol whose name begins so.
-fn mentions(arena: &Arena, expr: Expr, name: &str) -> bool {
-    match arena.node(expr) {
-        Node::Symbol(rank) => arena.symbol_data(*rank).name.starts_with(name),
-        Node::Sum(terms) => terms.iter().any(|(_, term)| mentions(arena, *term, name)),
-        Node::Product(factors) => factors.iter().any(|(factor, _)| mentions(arena, *factor, name)),
-        Node::Number(_) | Node::Sin(_) | Node::Cos(_) => false,
     }
 }

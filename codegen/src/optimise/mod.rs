@@ -1,7 +1,7 @@
 //! Optimisation by what a term depends on: condense, hoist what is constant over a scene, share what is used twice, count.
 //!
 //! The three times of evaluation are number (build), scene (once per mode that a run enters) and state (every step).
-//! What is left for the step is compared between linkages: equal programs are emitted once.
+//! Step programs are compared between linkages: equal programs are emitted once.
 
 mod condense;
 mod count;

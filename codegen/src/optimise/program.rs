@@ -1,9 +1,9 @@
 //! Programs: scene constants pulled out, the rest as named statements over the state.
 //!
 //! A [`ProgramBuilder`] carries expressions of the derivation over into an arena of its own. Every scene expression becomes one
-//! constant, however large; what remains names no length or mass, so that programs of different linkages can be compared.
-//! A constant that the builder meets on its way is named by the state factors that it multiplies and by what its formula is made
-//! of, so that equal programs have equal names. Order of first use is order of the constants.
+//! constant, however large; programs name no length or mass, so that those of different linkages can be compared.
+//! A constant that the builder meets on its way is named by the state factors that it multiplies and by the
+//! quantities in its formula, so that equal programs have equal names. Order of first use is order of the constants.
 
 use super::count::{Operations, count_expressions};
 use crate::mechanics::{Symbols, Vector};
@@ -22,7 +22,7 @@ pub struct Constant {
     pub symbol: Expr,
     /// Unit of the constant.
     pub unit: Unit,
-    /// What it is, in the arena of the derivation.
+    /// Its formula, in the arena of the derivation.
     pub source: Expr,
 }
 
@@ -99,7 +99,7 @@ impl Program {
         text
     }
 
-    /// Replaces symbols by values throughout; names of what has become a symbol or a number vanish.
+    /// Replaces symbols by values throughout; a statement that has become a symbol or a number vanishes.
     pub fn rewrite(&mut self, mut replacement: HashMap<Expr, Expr>) {
         for routine in &mut self.routines {
             let mut kept = Vec::with_capacity(routine.statements.len());
@@ -280,10 +280,7 @@ impl<'a> ProgramBuilder<'a> {
 
     /// Name of the input or statement that a factor of the derivation is.
     fn name_of(&self, factor: Expr) -> Option<String> {
-        match self.program.arena.node(*self.known.get(&factor)?) {
-            Node::Symbol(rank) => Some(self.program.arena.symbol_data(*rank).name.clone()),
-            _ => None,
-        }
+        Some(self.program.arena.symbol_name(*self.known.get(&factor)?)?.into())
     }
 
     /// Names a value: later uses of it, or of its opposite, read the name. A name, the opposite of a name, and a number get no other name.
@@ -331,7 +328,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Closes a routine: the statements since the last one, those that the outputs do not need left out.
+    /// Closes a routine: the statements since the last routine that the outputs need.
     pub fn finish_routine(&mut self, name: &'static str, outputs: Vec<Expr>) {
         let statements = std::mem::take(&mut self.statements);
         for statement in &statements {
@@ -363,11 +360,5 @@ fn is_plain(arena: &Arena, expr: Expr) -> bool {
 
 /// Whether `symbol` occurs in `expr`.
 fn occurs(arena: &Arena, expr: Expr, symbol: Expr) -> bool {
-    expr == symbol
-        || match arena.node(expr) {
-            Node::Number(_) | Node::Symbol(_) => false,
-            Node::Sin(angle) | Node::Cos(angle) => occurs(arena, *angle, symbol),
-            Node::Sum(terms) => terms.iter().any(|(_, term)| occurs(arena, *term, symbol)),
-            Node::Product(factors) => factors.iter().any(|(factor, _)| occurs(arena, *factor, symbol)),
-        }
+    arena.any(expr, &|part| part == symbol)
 }

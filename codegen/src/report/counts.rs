@@ -1,4 +1,4 @@
-//! What `rocking derive --counts` prints: operations of the accelerations before and after each pass.
+//! The output of `rocking derive --counts`: operations of the accelerations before and after each pass.
 
 use super::text::title;
 use crate::derivation::{Derivation, Plan, derive_in_form};
@@ -53,14 +53,14 @@ pub fn counts(pattern: &Pattern) -> String {
     )
 }
 
-/// What Euler-Lagrange gave, nothing done to it.
+/// The terms as Euler-Lagrange gives them.
 fn as_derived(derivation: &Derivation) -> Vec<Expr> {
     let equations = &derivation.equations;
     let rows = (0..equations.mass.len()).flat_map(|row| equations.mass[row][..=row].to_vec());
     rows.chain(equations.bias.iter().copied()).chain(equations.forcing.iter().copied()).collect()
 }
 
-/// The same terms as the programs are made of.
+/// The terms of which programs are made.
 fn condensed(derivation: &Derivation) -> Vec<Expr> {
     let parts = &derivation.parts;
     let pairs = parts.mass.iter().chain(&parts.bias).flatten().copied();

@@ -81,6 +81,57 @@ impl Arena {
         &self.symbols[rank as usize]
     }
 
+    /// The name of a symbol; `None` for other expressions.
+    pub fn symbol_name(&self, expr: Expr) -> Option<&str> {
+        match self.node(expr) {
+            Node::Symbol(rank) => Some(&self.symbol_data(*rank).name),
+            _ => None,
+        }
+    }
+
+    /// Terms, factors or the angle of an expression.
+    pub fn operands(&self, expr: Expr) -> impl Iterator<Item = Expr> {
+        let (terms, factors, angle): (&[_], &[_], _) = match self.node(expr) {
+            Node::Sum(terms) => (terms, &[], None),
+            Node::Product(factors) => (&[], factors, None),
+            Node::Sin(angle) | Node::Cos(angle) => (&[], &[], Some(*angle)),
+            Node::Number(_) | Node::Symbol(_) => (&[], &[], None),
+        };
+        terms
+            .iter()
+            .map(|term: &(Rational, Expr)| term.1)
+            .chain(factors.iter().map(|factor: &(Expr, i32)| factor.0))
+            .chain(angle)
+    }
+
+    /// Whether an expression or a part of it has a property.
+    pub fn any(&self, expr: Expr, holds: &dyn Fn(Expr) -> bool) -> bool {
+        holds(expr) || self.operands(expr).any(|part| self.any(part, holds))
+    }
+
+    /// The expression of a node whose operands are replaced; the node may be of another arena if it is no symbol.
+    pub fn rebuild(&mut self, node: Node, mut replace: impl FnMut(&mut Arena, Expr) -> Expr) -> Expr {
+        match node {
+            Node::Number(_) | Node::Symbol(_) => self.intern(node),
+            Node::Sin(angle) => {
+                let angle = replace(self, angle);
+                self.sin(angle)
+            }
+            Node::Cos(angle) => {
+                let angle = replace(self, angle);
+                self.cos(angle)
+            }
+            Node::Sum(terms) => {
+                let terms: Vec<_> = terms.into_iter().map(|(c, term)| (c, replace(self, term))).collect();
+                self.sum(terms)
+            }
+            Node::Product(factors) => {
+                let factors: Vec<_> = factors.into_iter().map(|(f, power)| (replace(self, f), power)).collect();
+                self.product(factors)
+            }
+        }
+    }
+
     /// All symbols with their names, in order of declaration.
     pub fn symbols(&self) -> impl Iterator<Item = (Expr, &str)> {
         let names = self.symbols.iter().enumerate();
@@ -230,7 +281,7 @@ impl Arena {
         if coefficient == Rational::ONE { product } else { self.sum([(coefficient, product)]) }
     }
 
-    /// Appends `factor^exponent` to `flat` and returns the numeric coefficient that it sheds.
+    /// Appends `factor^exponent` to `flat` without its numeric coefficient, which is returned.
     fn push_factor(&mut self, factor: Expr, exponent: i32, flat: &mut Vec<(Expr, i32)>) -> Rational {
         match self.node(factor).clone() {
             Node::Number(value) => value.pow(exponent),
@@ -345,7 +396,7 @@ impl Arena {
 mod tests {
     use super::*;
 
-    /// One line per rule: what is built, and how it reads.
+    /// One line per rule: name, expression, text.
     #[test]
     fn rewrite_rules() {
         let mut arena = Arena::new();

@@ -1,8 +1,8 @@
-//! Sums of scene quantities in the form that takes the fewest marks on paper.
+//! Sums of scene quantities in the form with the fewest characters on paper, for readers.
 //!
 //! Two ways of taking factors out are tried, alone and one inside the other: by a family of symbols in which the sum is
 //! linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and by the factor that most
-//! terms share. What a computer would rather do is the duty of [`crate::optimise`]; this is for readers.
+//! terms share. Forms with the fewest operations are in [`crate::optimise`].
 
 use super::arena::{Arena, Expr, Node};
 use super::rational::Rational;
@@ -87,7 +87,7 @@ impl Arena {
         (self.sum(inner), self.sum(rest))
     }
 
-    /// Marks on paper: symbols with their index count two, numbers, exponents and pairs of brackets one.
+    /// Length on paper: symbols with their index count two, numbers, exponents and pairs of brackets one.
     fn marks(&self, expr: Expr) -> usize {
         match self.node(expr) {
             Node::Number(_) => 1,

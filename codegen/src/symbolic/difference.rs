@@ -7,8 +7,8 @@
 //! A cos δ + B sin δ = A (cos a cos b + sin a sin b) + B (cos a sin b - sin a cos b)
 //! ```
 //!
-//! so four products collapse to two if their coefficients agree in pairs. They are compared multiplied out: what is
-//! returned is equal to what was given, or nothing is returned.
+//! so four products collapse to two if their coefficients agree in pairs. Coefficients are compared
+//! multiplied out, so a result is equal to the input.
 
 use super::arena::{Arena, Expr, Level};
 use super::rational::Rational;
@@ -59,7 +59,7 @@ impl Arena {
         [self.cos(difference), self.sin(difference)]
     }
 
-    /// What [`Arena::turn`] makes, by the addition theorems: for [`Arena::substitute`].
+    /// Sine and cosine of [`Arena::turn`] with their values by the addition theorems, for [`Arena::substitute`].
     pub fn addition_theorems(&mut self, a: Expr, b: Expr) -> [(Expr, Expr); 2] {
         let [cos_a, sin_a, cos_b, sin_b] = [self.cos(a), self.sin(a), self.cos(b), self.sin(b)];
         let [cc, ss, cs, sc] =

@@ -98,7 +98,7 @@ impl Writer<'_, '_> {
                 for column in 0..row {
                     let [entry, opposite] = [self.parts.bias[row][column], self.parts.bias[column][row]];
                     let bias = self.builder.define_translated(pair("bias", row, column), entry);
-                    // The upper link pushes the lower one with the opposite of what it is pushed with.
+                    // Centripetal moments of two links on each other are opposite.
                     let sum = self.builder.source.add(entry, opposite);
                     result.bias[row][column] = bias;
                     result.bias[column][row] = match self.builder.source.is_zero(sum) {

@@ -1,7 +1,7 @@
 //! `θ̈` from `M θ̈ = load`: a block `L D Lᵀ` factorisation, unrolled.
 //!
-//! A division takes as long as several other operations, and each waits for the one before. So the last two angles, which nothing is
-//! eliminated with, go together by Cramer's rule: of two equations that is as accurate as elimination (forward stable: Higham, *Accuracy and
+//! A division takes as long as several other operations, and each division waits for the one before. So the last two angles, which
+//! eliminate no other, are solved together by Cramer's rule: of two equations that is as accurate as elimination (forward stable: Higham, *Accuracy and
 //! Stability of Numerical Algorithms*, on Cramer's rule), if not of as small a residual. Pairs before the last would hand their residuals on
 //! to all that follow: with masses a million times as large as others, five angles lose four digits.
 
@@ -39,7 +39,7 @@ pub fn solve(builder: &mut ProgramBuilder, system: &System) -> Vec<Expr> {
 struct Elimination {
     /// The angles of each block, base first.
     blocks: Vec<Range<usize>>,
-    /// `D`, as far as it is known.
+    /// The blocks of `D` found so far.
     pivots: Vec<Pivot>,
     /// `L D` below the blocks, `[row][column]`.
     scaled: Vec<Vec<Expr>>,
@@ -98,7 +98,7 @@ impl Elimination {
         Pivot::Two { diagonal: [lower, upper], coupling, inverse_of_determinant }
     }
 
-    /// What the blocks before leave of an entry of the mass matrix.
+    /// An entry of the mass matrix less the share of the blocks before.
     fn remaining(&self, builder: &mut ProgramBuilder, entry: Expr, row: usize, column: usize) -> Expr {
         less(builder, entry, &self.scaled[row], &self.factor[column])
     }

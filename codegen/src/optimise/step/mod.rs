@@ -32,7 +32,7 @@ pub fn acceleration_program(
     in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
 }
 
-/// The forms in which these equations can be written, with what one evaluation costs, in order of preference among equals.
+/// The forms in which these equations can be written, with the cost of one evaluation, in order of preference among equals.
 pub fn admitted(arena: &mut Arena, symbols: &Symbols, parts: &Parts, ground: GroundMotion) -> Vec<(Form, Operations)> {
     let mut result = Vec::new();
     for form in Form::all() {

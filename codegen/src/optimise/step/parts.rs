@@ -69,7 +69,7 @@ impl Parts {
 
     /// Whether a sum over rates gives these equations of motion: proved by multiplying out.
     pub fn admit(&self, arena: &mut Arena, symbols: &Symbols, rates: Rates) -> bool {
-        // No form has a place for the square of a link's own rate: a rigid link does not feel it.
+        // No form has a term with the square of a link's own rate: that of a rigid link is zero.
         let is_chain = (0..self.mass.len()).all(|link| arena.is_zero(self.bias[link][link]));
         is_chain && (rates == Rates::Pairs || self.shared_sums_hold(arena, symbols))
     }
