@@ -13,7 +13,7 @@ Angles are absolute and clockwise positive. `axial` is the component along the a
 
 /// Notation of step programs.
 pub const PROGRAM_UNITS: &str = "
-Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is an axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too.
+Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too.
 ";
 
 /// Comment before the first statement of a group; `None` within a group.
@@ -36,7 +36,7 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
             "pull" => "Centripetal forces of the links above, from the top down.",
             "load" => "Loads in M theta_ddot = load: gravity, ground motion and squared rates.",
             "reduced" | "scaled" | "factor" | "diagonal" | "inverse" | "determinant" => {
-                "Elimination M = L D L^T with D_1 = 1: diagonal is D, scaled is L D, factor is L, reduced is L^-1 load."
+                "Elimination M = L D L^T with D_1 = 1: diagonal and inverse are D and 1 / D, scaled is L D, factor is L, reduced is L^-1 load. The last two of three or more links are one block of D."
             }
             "force" => "Force on the stack, the sum of mass times (acceleration + gravity), in the axes of the ground.",
             "theta_ddot" | "rest" => "Back substitution.",

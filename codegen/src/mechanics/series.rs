@@ -48,19 +48,11 @@ pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equa
         let angle = symbols.theta[link];
         let atoms = [arena.cos(angle), arena.sin(angle)];
         let own = [symbols.cos_ddot[link], symbols.sin_ddot[link]];
-        let mut weights = [Vec::new(), Vec::new()];
-        for (coefficient, term) in arena.terms(moment) {
-            let factors = arena.factors(term);
-            // cos θ (sin θ)¨ - sin θ (cos θ)¨ = θ̈: the link's own share, which belongs to J_a.
-            if factors.iter().any(|(factor, _)| own.contains(factor)) {
-                continue;
-            }
-            let atom = factors.iter().find_map(|(factor, _)| atoms.iter().position(|atom| atom == factor));
-            let atom = atom.expect("a moment about a pivot turns with its link");
-            let rest = arena.product([(term, 1), (atoms[atom], -1)]);
-            weights[atom].push((coefficient, rest));
-        }
-        let [cos, sin] = weights.map(|weight| arena.sum(weight));
+        // cos θ (sin θ)¨ - sin θ (cos θ)¨ = θ̈: the link's own share belongs to J_a.
+        let moment = own.into_iter().fold(moment, |moment, derivative| arena.split_off(moment, derivative)[1]);
+        let [cos, rest] = arena.split_off(moment, atoms[0]);
+        let [sin, rest] = arena.split_off(rest, atoms[1]);
+        assert!(arena.is_zero(rest), "a moment about a pivot turns with its link");
         form.cos.push(cos);
         form.sin.push(sin);
     }
@@ -76,12 +68,9 @@ fn second_derivative(arena: &mut Arena, symbols: &Symbols, position: Expr) -> Ex
         for (atom, derivative) in
             [(arena.cos(angle), symbols.cos_ddot[link]), (arena.sin(angle), symbols.sin_ddot[link])]
         {
-            for (coefficient, term) in arena.terms(expanded) {
-                if arena.factors(term).contains(&(atom, 1)) {
-                    terms.push((coefficient, arena.product([(term, 1), (atom, -1), (derivative, 1)])));
-                }
-            }
+            let [slope, _] = arena.split_off(expanded, atom);
+            terms.push(arena.mul(slope, derivative));
         }
     }
-    arena.sum(terms)
+    arena.total(terms)
 }

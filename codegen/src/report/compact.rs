@@ -329,7 +329,7 @@ impl Compact {
         let mut terms = Vec::new();
         for (link, &rate) in symbols.omega.iter().enumerate().filter(|(link, _)| *link != row) {
             let square = arena.square(rate);
-            let coefficient = coefficient_of(arena, derived, square);
+            let [coefficient, _] = arena.split_off(derived, square);
             let (lower, upper) = (row.min(link), row.max(link));
             let read = arena.as_difference(coefficient, symbols.theta[lower], symbols.theta[upper]).expect(CHAIN);
             let form = self.function_of_difference(arena, symbols, (lower, upper), read);
@@ -347,7 +347,7 @@ impl Compact {
         let atoms = [arena.cos(angle), arena.sin(angle)];
         let mut terms = Vec::new();
         for driver in [symbols.ground_x, symbols.gravity] {
-            let coefficient = coefficient_of(arena, derived, driver);
+            let [coefficient, _] = arena.split_off(derived, driver);
             let read = arena.as_turned(coefficient, angle).expect(CHAIN);
             let form = self.combination(arena, atoms, read);
             terms.push(arena.mul(driver, form));
@@ -373,7 +373,7 @@ fn position(arena: &mut Arena, symbols: &Symbols, centroid: Vector) -> Position 
     let mut turned = Vec::new();
     for (link, &angle) in symbols.theta.iter().enumerate() {
         let (cosine, sine) = (arena.cos(angle), arena.sin(angle));
-        let vector = [coefficient_of(arena, rest[0], cosine), coefficient_of(arena, rest[0], sine)];
+        let vector = [cosine, sine].map(|atom| arena.split_off(rest[0], atom)[0]);
         if vector.iter().all(|&component| arena.is_zero(component)) {
             continue;
         }
@@ -385,18 +385,4 @@ fn position(arena: &mut Arena, symbols: &Symbols, centroid: Vector) -> Position 
     }
     assert!(rest.iter().all(|&component| arena.level(component) < Level::State), "{CHAIN}");
     Position { fixed: rest, turned }
-}
-
-/// The coefficient of a power in an expanded expression.
-fn coefficient_of(arena: &mut Arena, expr: Expr, power: Expr) -> Expr {
-    let wanted = arena.factors(power);
-    let mut sum = Vec::new();
-    for (coefficient, term) in arena.terms(expr) {
-        let factors = arena.factors(term);
-        if wanted.iter().all(|power| factors.contains(power)) {
-            let inverse = wanted.iter().map(|&(factor, exponent)| (factor, -exponent));
-            sum.push((coefficient, arena.product(factors.into_iter().chain(inverse))));
-        }
-    }
-    arena.sum(sum)
 }

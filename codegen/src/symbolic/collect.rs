@@ -26,7 +26,7 @@ impl Arena {
         let mut rest = expr;
         let mut groups: Vec<(Expr, Vec<Expr>)> = Vec::new();
         for &member in family {
-            let (coefficient, remainder) = self.split_off(rest, (member, 1));
+            let [coefficient, remainder] = self.split_off(rest, member);
             rest = remainder;
             if self.is_zero(coefficient) {
                 continue;
@@ -49,9 +49,10 @@ impl Arena {
     /// Takes out the factor that most terms share, again and again.
     fn take_out_factors(&mut self, expr: Expr) -> Expr {
         let Some(factor) = self.most_shared_power(expr) else { return expr };
-        let (inner, rest) = self.split_off(expr, factor);
+        let factor = self.product([factor]);
+        let [inner, rest] = self.split_off(expr, factor);
         let (inner, rest) = (self.take_out_factors(inner), self.take_out_factors(rest));
-        let product = self.product([factor, (inner, 1)]);
+        let product = self.mul(factor, inner);
         self.add(product, rest)
     }
 
@@ -71,20 +72,6 @@ impl Arena {
         counts.retain(|(_, count)| *count > 1);
         counts.sort_by(|(a, m), (b, n)| n.cmp(m).then(b.1.cmp(&a.1)).then(self.order(a.0, b.0)));
         counts.first().map(|(power, _)| *power)
-    }
-
-    /// Splits `expr = power · inner + rest`.
-    fn split_off(&mut self, expr: Expr, (factor, power): (Expr, i32)) -> (Expr, Expr) {
-        let (mut inner, mut rest) = (Vec::new(), Vec::new());
-        for (coefficient, term) in self.terms(expr) {
-            let holds = self.factors(term).iter().any(|&(known, exponent)| known == factor && exponent >= power);
-            if holds {
-                inner.push((coefficient, self.product([(term, 1), (factor, -power)])));
-            } else {
-                rest.push((coefficient, term));
-            }
-        }
-        (self.sum(inner), self.sum(rest))
     }
 
     /// Length on paper: symbols with their index count two, numbers, exponents and pairs of brackets one.

@@ -38,6 +38,22 @@ impl Arena {
         order.into_iter().map(|state| (state, self.sum(scene.remove(&state).unwrap_or_default()))).collect()
     }
 
+    /// `[inner, rest]` with `expr = factor · inner + rest`; terms that hold every power of the factor go to `inner`.
+    pub fn split_off(&mut self, expr: Expr, factor: Expr) -> [Expr; 2] {
+        let wanted = self.factors(factor);
+        let (mut inner, mut rest) = (Vec::new(), Vec::new());
+        for (coefficient, term) in self.terms(expr) {
+            let factors = self.factors(term);
+            if wanted.iter().all(|(f, power)| factors.iter().any(|(g, exponent)| g == f && exponent >= power)) {
+                let quotient = factors.into_iter().chain(wanted.iter().map(|&(f, power)| (f, -power)));
+                inner.push((coefficient, self.product(quotient)));
+            } else {
+                rest.push((coefficient, term));
+            }
+        }
+        [self.sum(inner), self.sum(rest)]
+    }
+
     /// `[A, B]` with `expr = A cos(angle) + B sin(angle)` and `A`, `B` free of the state; `None` if it is not of this form.
     pub fn as_turned(&mut self, expr: Expr, angle: Expr) -> Option<[Expr; 2]> {
         let atoms = [self.cos(angle), self.sin(angle)];

@@ -3,6 +3,7 @@
 use super::elimination::{self, System, pair};
 use super::form::{Form, Rates, Weight};
 use super::parts::Parts;
+use super::units::in_units;
 use crate::ground::GroundMotion;
 use crate::mechanics::Symbols;
 use crate::optimise::condense::collect;
@@ -11,7 +12,7 @@ use crate::symbolic::{Arena, Expr, Rational, Unit};
 
 const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
 
-/// The program with one routine, `acceleration`, in SI units; the form must have been admitted by the parts.
+/// The program with one routine, `acceleration`, in a form that gives these equations ([`Parts::admit`]).
 pub fn acceleration_program(
     arena: &mut Arena,
     symbols: &Symbols,
@@ -32,7 +33,8 @@ pub fn acceleration_program(
     let load = writer.loads(&couplings, &weight);
     let outputs = writer.solve(&couplings, &load);
     writer.builder.finish_routine("acceleration", outputs);
-    writer.builder.finish()
+    let program = writer.builder.finish();
+    in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
 }
 
 /// Names of the constants that gravity makes: of the weight in the first equation, per angle, and gravity itself.

@@ -9,6 +9,7 @@ mod form;
 mod parts;
 mod units;
 
+pub use acceleration::acceleration_program;
 pub use form::{Form, Rates, Units, Weight};
 pub use parts::Parts;
 
@@ -18,19 +19,6 @@ use super::program::{Program, ProgramBuilder};
 use crate::ground::GroundMotion;
 use crate::mechanics::Symbols;
 use crate::symbolic::{Arena, Expr, Level, Rational};
-use units::in_units;
-
-/// The accelerations in a form that [`admitted`] has let through.
-pub fn acceleration_program(
-    arena: &mut Arena,
-    symbols: &Symbols,
-    parts: &Parts,
-    ground: GroundMotion,
-    form: Form,
-) -> Program {
-    let program = acceleration::acceleration_program(arena, symbols, parts, ground, form);
-    in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
-}
 
 /// The forms in which these equations can be written, with the cost of one evaluation, in order of preference among equals.
 pub fn admitted(arena: &mut Arena, symbols: &Symbols, parts: &Parts, ground: GroundMotion) -> Vec<(Form, Operations)> {
