@@ -34,6 +34,8 @@ pub struct Writer<'a, Names: Style> {
     /// Names of reciprocals, by divisor.
     reciprocals: HashMap<Expr, Ident>,
     uses: HashMap<Expr, usize>,
+    /// Names of values that are bound sooner or later: no other part may have them.
+    reserved: HashMap<&'a str, Expr>,
     numbers: BTreeSet<usize>,
     lets: Vec<TokenStream>,
     unnamed: usize,
@@ -43,10 +45,16 @@ pub struct Writer<'a, Names: Style> {
 const WORDS: [(usize, &str); 5] = [(1, "half"), (4, "two"), (6, "three"), (8, "four"), (16, "eight")];
 
 impl<'a, Names: Style> Writer<'a, Names> {
-    /// A writer for these values.
-    pub fn new(arena: &'a Arena, values: impl IntoIterator<Item = Expr>, style: &'a Names) -> Writer<'a, Names> {
+    /// A writer for these values: some that are to be bound to names, and others that are to be read.
+    pub fn new(
+        arena: &'a Arena,
+        named: impl IntoIterator<Item = (&'a str, Expr)>,
+        others: &[Expr],
+        style: &'a Names,
+    ) -> Writer<'a, Names> {
+        let reserved: Vec<(&str, Expr)> = named.into_iter().collect();
         let mut uses = HashMap::new();
-        for value in values {
+        for &value in reserved.iter().map(|(_, value)| value).chain(others) {
             count_uses(arena, value, &mut uses);
         }
         Writer {
@@ -55,6 +63,7 @@ impl<'a, Names: Style> Writer<'a, Names> {
             names: HashMap::new(),
             reciprocals: HashMap::new(),
             uses,
+            reserved: reserved.into_iter().collect(),
             numbers: BTreeSet::new(),
             lets: Vec::new(),
             unnamed: 0,
@@ -129,7 +138,10 @@ impl<'a, Names: Style> Writer<'a, Names> {
 
     fn name_shared(&mut self, expr: Expr) -> Ident {
         let name = self.style.shared(self.arena, expr);
-        let is_free = |name: &String| !self.names.values().any(|known| known == name);
+        let is_free = |name: &String| {
+            !self.names.values().any(|known| known == name)
+                && self.reserved.get(name.as_str()).is_none_or(|value| *value == expr)
+        };
         let name = name.filter(is_free).unwrap_or_else(|| {
             self.unnamed += 1;
             format!("shared_{}", self.unnamed)

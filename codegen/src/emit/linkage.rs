@@ -80,7 +80,8 @@ pub fn scene_constants(
 ) -> TokenStream {
     let doc = doc(title);
     let style = SceneNames { energies };
-    let mut writer = Writer::new(arena, constants.iter().map(|constant| constant.source), &style);
+    let named = constants.iter().map(|constant| (constant.name.as_str(), constant.source));
+    let mut writer = Writer::new(arena, named, &[], &style);
     for constant in constants {
         writer.bind(&constant.name, constant.source, constant.source);
     }

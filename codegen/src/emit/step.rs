@@ -187,7 +187,8 @@ fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> Token
     let Some(routine) = program.routines.iter().find(|routine| routine.name == name) else {
         return TokenStream::new();
     };
-    let mut writer = Writer::new(&program.arena, routine.values(), &StateNames);
+    let statements = routine.statements.iter().map(|statement| (statement.name.as_str(), statement.value));
+    let mut writer = Writer::new(&program.arena, statements, &routine.outputs, &StateNames);
     let mut previous: Option<&str> = None;
     for statement in &routine.statements {
         if let Some(text) = group(&statement.name, previous) {
