@@ -1,17 +1,18 @@
-//! A column of given sizes: scene constants become literals, and what vanishes with them leaves the code.
+//! A column of given sizes: scene constants become literals, and terms that vanish with them leave the code.
 //!
-//! Each independent mode gets accelerations of its own, since its constants are its own; mirrored patterns run the twin's.
-//! Meant for columns of a few blocks: the code grows with the number of modes.
+//! Each independent mode has accelerations of its own, since its constants are its own; a mirrored pattern runs the program of its
+//! twin. Meant for columns of a few blocks: the code grows with the number of modes.
 
-use crate::mechanics::Symbols;
-use crate::optimise::{Form, Program};
-use crate::pattern::{Linkage, ModeLabel, Pattern, linkages, modes};
+use crate::catalogue::{Catalogue, catalogue_of};
+use crate::derivation::Plan;
+use crate::error::GenerateError;
+pub use crate::error::LARGEST_BAKED;
+use crate::ground::GroundMotion;
+use crate::mechanics::{Symbols, equations_of_motion};
+use crate::optimise::{Form, Parts, Program, acceleration_program};
+use crate::pattern::{ModeLabel, Pattern, linkages, modes};
 use crate::symbolic::{Arena, Environment, Expr};
-use crate::{GenerateError, GroundMotion, LinkageRecord, Plan};
 use std::collections::HashMap;
-
-/// The largest column that is baked: 1093 modes are more than a build bears.
-pub const LARGEST_BAKED: usize = 6;
 
 /// Sizes of a column, base first.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +46,14 @@ impl BakedBlock {
 }
 
 impl BakedColumn {
+    /// A digest of all sizes, bit by bit: FNV-1a over 64 bits (Fowler, Noll & Vo). Columns that differ in a size differ in it.
+    pub fn digest(&self) -> u64 {
+        let of_block = |block: &BakedBlock| [block.half_width, block.half_height, block.mass, block.inertia];
+        let sizes = std::iter::once(self.gravity).chain(self.blocks.iter().flat_map(of_block));
+        let bytes = sizes.flat_map(|size| size.to_bits().to_le_bytes());
+        bytes.fold(0xcbf2_9ce4_8422_2325, |digest, byte| (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    }
+
     fn check(&self) -> Result<(), GenerateError> {
         let blocks = self.blocks.len();
         if !(1..=LARGEST_BAKED).contains(&blocks) {
@@ -95,27 +104,21 @@ impl BakedColumn {
 pub struct BakedMode {
     /// The mode's label.
     pub label: ModeLabel,
-    /// Its pattern.
+    /// The pattern that the label names.
     pub pattern: Pattern,
-    /// Per ground motion as in [`GroundMotion::ALL`]: the program without what vanishes, and its constants' values by name.
+    /// Per ground motion as in [`GroundMotion::ALL`]: the program without vanishing terms, and values of its constants by name.
     pub accelerations: [(Program, HashMap<String, f64>); 2],
 }
 
-/// All that a baked column's module is made of.
+/// The contents of the module of a baked column.
 #[derive(Debug)]
 pub struct BakedCatalogue {
     /// The column.
     pub column: BakedColumn,
     /// The independent modes.
     pub modes: Vec<BakedMode>,
-    /// The column's linkages, for energies and contact forces.
-    pub linkages: Vec<LinkageRecord>,
-    /// Programs of mass matrix and energies, by degrees of freedom.
-    pub energies: Vec<Program>,
-    /// Programs of the weights, by degrees of freedom.
-    pub series: Vec<Program>,
-    /// Distinct contact-force programs.
-    pub forces: Vec<Program>,
+    /// Linkages of the column with their programs: those of energies, weights and contact forces serve every column.
+    pub shared: Catalogue,
 }
 
 /// Derives the modes of a column of given sizes.
@@ -126,29 +129,23 @@ pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateE
     column.check()?;
     let blocks = column.blocks.len();
     let plans: Vec<Plan> = (1..=blocks).map(Plan::new).collect();
-    let shared = crate::catalogue_of(linkages(blocks), &plans);
-    let energies = shared.energies.by_degrees_of_freedom(blocks)?;
-    let series = shared.series.by_degrees_of_freedom(blocks)?;
+    let shared = catalogue_of(blocks, linkages(blocks), &plans)?;
     let modes = modes(blocks).map(|(label, pattern)| {
-        let accelerations = GroundMotion::ALL.map(|ground| {
-            let form = plans[pattern.dof() - 1].form(ground);
-            bake(column, &pattern, ground, form)
-        });
+        let plan = &plans[pattern.dof() - 1];
+        let accelerations = GroundMotion::ALL.map(|ground| bake(column, &pattern, ground, plan.form(ground)));
         BakedMode { label, pattern, accelerations }
     });
-    let modes = modes.collect();
-    let forces = shared.forces.programs;
-    Ok(BakedCatalogue { column: column.clone(), modes, linkages: shared.linkages, energies, series, forces })
+    Ok(BakedCatalogue { column: column.clone(), modes: modes.collect(), shared })
 }
 
-/// The accelerations of a pattern with the constants' values put in: zeros and ones vanish, equal values share a name.
+/// The accelerations of a pattern with values for the constants: zeros and ones vanish, equal values share a name.
 fn bake(column: &BakedColumn, pattern: &Pattern, ground: GroundMotion, form: Form) -> (Program, HashMap<String, f64>) {
-    let linkage: Linkage = pattern.linkage();
+    let linkage = pattern.linkage();
     let mut arena = Arena::new();
     let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof());
-    let equations = crate::mechanics::equations_of_motion(&mut arena, &symbols, &linkage);
-    let parts = crate::optimise::Parts::new(&mut arena, &symbols, &equations);
-    let mut program = crate::optimise::acceleration_program(&mut arena, &symbols, &parts, ground, form);
+    let equations = equations_of_motion(&mut arena, &symbols, &linkage);
+    let parts = Parts::new(&mut arena, &symbols, &equations);
+    let mut program = acceleration_program(&mut arena, &symbols, &parts, ground, form);
     let environment = column.values(&symbols, pattern);
 
     let mut known: Vec<(f64, Expr)> = vec![(1.0, program.arena.one())];

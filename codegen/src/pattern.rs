@@ -59,11 +59,11 @@ impl Interface {
     }
 }
 
-/// States of all interfaces of a column, base first; length `N`. Patterns change with every impact: short ones need no allocation.
+/// States of all interfaces of a column, base first; length `N`. Patterns of up to 16 blocks need no allocation: they change with every impact.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Pattern(pub SmallVec<[Interface; 16]>);
 
-// As one piece: the list's own goes entry by entry.
+// Copies the states as one slice; the `Clone` of the list copies them one by one.
 impl Clone for Pattern {
     #[inline]
     fn clone(&self) -> Pattern {
@@ -121,7 +121,7 @@ impl Pattern {
         self.0.iter().position(|interface| interface.is_open())
     }
 
-    /// Whether it is the mirror image of the pattern that its mode is labelled by: the lowest open interface is open on its left.
+    /// Whether the pattern is the mirror image of the one that labels the mode: the lowest open interface is open on its left.
     #[inline]
     pub fn is_mirrored(&self) -> bool {
         self.lowest_open().is_some_and(|lowest| self.0[lowest] == Interface::Left)

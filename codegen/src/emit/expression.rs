@@ -1,103 +1,194 @@
 //! Expressions as Rust tokens, shared parts as `let`s.
 
-use super::number;
+use super::layout::remark;
+use super::number::number;
 use crate::symbolic::{Arena, Expr, Node, Rational};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
-/// Writes a sequence of named values; what is used more than once and has no name gets one.
-pub struct Writer<'a> {
-    arena: &'a Arena,
-    names: HashMap<Expr, Ident>,
-    reads: Box<dyn Fn(&str) -> TokenStream + 'a>,
-    uses: HashMap<Expr, usize>,
-    lets: Vec<TokenStream>,
-    shared: usize,
+/// Names and comments of a [`Writer`].
+pub trait Style {
+    /// How a symbol is read.
+    fn symbol(&self, name: &str) -> TokenStream {
+        let name = format_ident!("{name}");
+        quote! { #name }
+    }
+
+    /// Name of a part that is used more than once; `None` gives a number.
+    fn shared(&self, _arena: &Arena, _part: Expr) -> Option<String> {
+        None
+    }
+
+    /// Comment before the `let` of a value; parts that have a name already are in `names`.
+    fn remark(&self, _arena: &Arena, _value: Expr, _names: &HashMap<Expr, Ident>) -> Option<String> {
+        None
+    }
 }
 
-impl<'a> Writer<'a> {
-    /// A writer for these values; `reads` says how a symbol is read.
+/// Writes a sequence of named values; a part that is used more than once, and every divisor, gets a name.
+pub struct Writer<'a, Names: Style> {
+    arena: &'a Arena,
+    style: &'a Names,
+    names: HashMap<Expr, Ident>,
+    /// Names of reciprocals, by divisor.
+    reciprocals: HashMap<Expr, Ident>,
+    uses: HashMap<Expr, usize>,
+    /// Names of values that are bound sooner or later: no other part may have them.
+    reserved: HashMap<&'a str, Expr>,
+    numbers: BTreeSet<usize>,
+    lets: Vec<TokenStream>,
+    unnamed: usize,
+}
+
+/// Numbers that are written as words, in units of a half.
+const WORDS: [(usize, &str); 5] = [(1, "half"), (4, "two"), (6, "three"), (8, "four"), (16, "eight")];
+
+impl<'a, Names: Style> Writer<'a, Names> {
+    /// A writer for these values: some that are to be bound to names, and others that are to be read.
     pub fn new(
         arena: &'a Arena,
-        values: impl IntoIterator<Item = Expr>,
-        reads: impl Fn(&str) -> TokenStream + 'a,
-    ) -> Writer<'a> {
+        named: impl IntoIterator<Item = (&'a str, Expr)>,
+        others: &[Expr],
+        style: &'a Names,
+    ) -> Writer<'a, Names> {
+        let reserved: Vec<(&str, Expr)> = named.into_iter().collect();
         let mut uses = HashMap::new();
-        for value in values {
+        for &value in reserved.iter().map(|(_, value)| value).chain(others) {
             count_uses(arena, value, &mut uses);
         }
-        Writer { arena, names: HashMap::new(), reads: Box::new(reads), uses, lets: Vec::new(), shared: 0 }
+        Writer {
+            arena,
+            style,
+            names: HashMap::new(),
+            reciprocals: HashMap::new(),
+            uses,
+            reserved: reserved.into_iter().collect(),
+            numbers: BTreeSet::new(),
+            lets: Vec::new(),
+            unnamed: 0,
+        }
     }
 
     /// `let name = value;`
     pub fn bind(&mut self, name: &str, symbol: Expr, value: Expr) {
         let tokens = self.read(value);
         let ident = format_ident!("{name}");
-        self.lets.push(quote! { let #ident = #tokens; });
+        if tokens.to_string() != name {
+            self.add_let(&ident, value, tokens);
+        }
         self.names.insert(symbol, ident);
+    }
+
+    /// A comment before the next `let`.
+    pub fn heading(&mut self, text: &str) {
+        self.lets.push(remark(text));
     }
 
     /// The tokens of a value; `let`s that it needs are written before.
     pub fn read(&mut self, expr: Expr) -> TokenStream {
-        self.tokens(expr, true)
+        match self.arena.node(expr).clone() {
+            // A reciprocal by itself is about to get a name.
+            Node::Product(factors) if matches!(factors[..], [(_, -1)]) && !self.names.contains_key(&expr) => {
+                let divisor = self.tokens(factors[0].0, false);
+                let known = self.reciprocals.get(&factors[0].0);
+                known.map_or_else(|| quote! { #divisor.recip() }, |name| quote! { #name })
+            }
+            _ => self.tokens(expr, true),
+        }
     }
 
-    /// The `let`s so far.
+    /// The `let`s so far, after those of the numbers that they read.
     pub fn finish(self) -> Vec<TokenStream> {
-        self.lets
+        let numbers = self.numbers.iter().map(|&index| {
+            let (halves, word) = WORDS[index];
+            let (name, value) = (format_ident!("{word}"), number(halves as f64 / 2.0));
+            quote! { let #name = S::from_f64(#value); }
+        });
+        numbers.chain(self.lets).collect()
+    }
+
+    fn add_let(&mut self, name: &Ident, value: Expr, tokens: TokenStream) {
+        let remark = self.style.remark(self.arena, value, &self.names).map(|text| remark(&text));
+        self.lets.push(quote! { #remark let #name = #tokens; });
     }
 
     fn tokens(&mut self, expr: Expr, outermost: bool) -> TokenStream {
+        if let Some(name) = self.arena.symbol_name(expr) {
+            return self.style.symbol(name);
+        }
         if let Some(name) = self.names.get(&expr) {
             return quote! { #name };
         }
         let tokens = match self.arena.node(expr).clone() {
-            Node::Number(value) => constant(value),
-            Node::Symbol(rank) => return (self.reads)(&self.arena.symbol_data(rank).name),
+            Node::Number(value) => return self.number(value),
+            Node::Symbol(_) => unreachable!("symbols are read above"),
             Node::Sin(_) | Node::Cos(_) => unreachable!("sines and cosines are inputs of a program"),
             Node::Product(factors) => self.product(&factors),
             Node::Sum(terms) => self.sum(&terms),
         };
-        let is_shared =
-            self.uses.get(&expr).is_some_and(|uses| *uses > 1) && !matches!(self.arena.node(expr), Node::Number(_));
-        if is_shared && !outermost {
-            self.shared += 1;
-            let name = format_ident!("shared_{}", self.shared);
-            self.lets.push(quote! { let #name = #tokens; });
-            self.names.insert(expr, name.clone());
-            return quote! { #name };
+        if outermost || self.uses.get(&expr).is_none_or(|uses| *uses < 2) {
+            return tokens;
         }
-        tokens
+        let name = self.name_shared(expr);
+        self.add_let(&name, expr, tokens);
+        self.names.insert(expr, name.clone());
+        quote! { #name }
+    }
+
+    fn name_shared(&mut self, expr: Expr) -> Ident {
+        let name = self.style.shared(self.arena, expr);
+        let is_free = |name: &String| {
+            !self.names.values().any(|known| known == name)
+                && self.reserved.get(name.as_str()).is_none_or(|value| *value == expr)
+        };
+        let name = name.filter(is_free).unwrap_or_else(|| {
+            self.unnamed += 1;
+            format!("shared_{}", self.unnamed)
+        });
+        format_ident!("{name}")
     }
 
     fn product(&mut self, factors: &[(Expr, i32)]) -> TokenStream {
-        let mut parts = Vec::new();
+        let mut product = TokenStream::new();
         for &(factor, power) in factors {
-            let base = self.tokens(factor, false);
-            let is_compound = !self.names.contains_key(&factor) && matches!(self.arena.node(factor), Node::Sum(_));
-            let base = if is_compound {
-                quote! { (#base) }
-            } else {
-                base
-            };
+            let part = if power < 0 { self.reciprocal(factor) } else { self.factor(factor) };
             for _ in 0..power.unsigned_abs() {
-                parts.push(if power < 0 {
-                    quote! { #base.recip() }
+                product = if product.is_empty() {
+                    part.clone()
                 } else {
-                    base.clone()
-                });
+                    quote! { #product * #part }
+                };
             }
         }
-        let mut product = TokenStream::new();
-        for (position, part) in parts.iter().enumerate() {
-            product.extend(if position == 0 {
-                quote! { #part }
-            } else {
-                quote! { * #part }
-            });
-        }
         product
+    }
+
+    fn factor(&mut self, factor: Expr) -> TokenStream {
+        let tokens = self.tokens(factor, false);
+        let is_compound = !self.names.contains_key(&factor) && matches!(self.arena.node(factor), Node::Sum(_));
+        if is_compound {
+            quote! { (#tokens) }
+        } else {
+            tokens
+        }
+    }
+
+    /// The name of `1 / divisor`, which is computed once.
+    fn reciprocal(&mut self, divisor: Expr) -> TokenStream {
+        if !self.reciprocals.contains_key(&divisor) {
+            let tokens = self.factor(divisor);
+            let of = match (self.names.get(&divisor), self.arena.symbol_name(divisor)) {
+                (Some(name), _) => name.to_string(),
+                (None, Some(name)) => name.into(),
+                (None, None) => self.name_shared(divisor).to_string(),
+            };
+            let name = format_ident!("inverse_{of}");
+            self.lets.push(quote! { let #name = #tokens.recip(); });
+            self.reciprocals.insert(divisor, name);
+        }
+        let name = &self.reciprocals[&divisor];
+        quote! { #name }
     }
 
     fn sum(&mut self, terms: &[(Rational, Expr)]) -> TokenStream {
@@ -109,19 +200,20 @@ impl<'a> Writer<'a> {
             let (coefficient, term) = terms[index];
             let size = if coefficient.is_negative() { -coefficient } else { coefficient };
             let body = match self.arena.node(term) {
-                Node::Number(_) => constant(size),
+                Node::Number(_) => self.number(size),
                 _ => {
                     let term = self.tokens(term, false);
                     if size == Rational::ONE {
                         term
                     } else {
-                        let size = constant(size);
+                        let size = self.number(size);
                         quote! { #size * #term }
                     }
                 }
             };
             tokens = match (position, coefficient.is_negative()) {
                 (0, false) => body,
+                (0, true) if body.clone().into_iter().count() == 1 => quote! { -#body },
                 (0, true) => quote! { -(#body) },
                 (_, false) => quote! { #tokens + #body },
                 (_, true) => quote! { #tokens - #body },
@@ -129,11 +221,22 @@ impl<'a> Writer<'a> {
         }
         tokens
     }
-}
 
-fn constant(value: Rational) -> TokenStream {
-    let value = number(value.to_f64());
-    quote! { S::from_f64(#value) }
+    fn number(&mut self, value: Rational) -> TokenStream {
+        let halves = value.numerator * 2 / value.denominator;
+        let is_exact = halves * value.denominator == value.numerator * 2;
+        match WORDS.iter().position(|(known, _)| is_exact && i64::try_from(*known) == Ok(halves)) {
+            Some(index) => {
+                self.numbers.insert(index);
+                let name = format_ident!("{}", WORDS[index].1);
+                quote! { #name }
+            }
+            None => {
+                let value = number(value.to_f64());
+                quote! { S::from_f64(#value) }
+            }
+        }
+    }
 }
 
 /// Counts how often each compound node is read, its children once per distinct node.
@@ -143,17 +246,12 @@ fn count_uses(arena: &Arena, expr: Expr, uses: &mut HashMap<Expr, usize>) {
     if *seen > 1 {
         return;
     }
-    match arena.node(expr) {
-        Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {}
-        Node::Sum(terms) => terms.iter().for_each(|(_, term)| count_uses(arena, *term, uses)),
-        Node::Product(factors) => {
-            for (factor, power) in factors {
-                count_uses(arena, *factor, uses);
-                // A power reads its base several times.
-                if power.unsigned_abs() > 1 {
-                    count_uses(arena, *factor, uses);
-                }
-            }
-        }
+    arena.operands(expr).for_each(|part| count_uses(arena, part, uses));
+    // A power reads its base several times.
+    if let Node::Product(factors) = arena.node(expr) {
+        factors
+            .iter()
+            .filter(|(_, power)| power.unsigned_abs() > 1)
+            .for_each(|(base, _)| count_uses(arena, *base, uses));
     }
 }

@@ -1,14 +1,16 @@
 //! Per linkage: the functions that turn a column into scene constants, and the table that finds them.
 
-use super::doc;
-use super::expression::Writer;
-use super::step::{force_name, step_type};
+use super::expression::{Style, Writer};
+use super::layout::{count, doc};
+use super::step::{force_name, step_type, words};
+use crate::catalogue::{Catalogue, LinkageRecord};
+use crate::ground::GroundMotion;
 use crate::optimise::Constant;
 use crate::pattern::Linkage;
-use crate::symbolic::Arena;
-use crate::{Catalogue, GroundMotion, LinkageRecord};
+use crate::symbolic::{Arena, Expr, Node};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::HashMap;
 
 /// `open_1_3_of_5`: the linkage's name in generated code.
 fn stem(linkage: &Linkage) -> String {
@@ -16,48 +18,46 @@ fn stem(linkage: &Linkage) -> String {
     format!("open_{}_of_{}", open.join("_"), linkage.blocks())
 }
 
-/// All functions of one linkage.
-pub fn functions(record: &LinkageRecord) -> TokenStream {
-    let (accelerations, others) = (acceleration_functions(record), force_and_energy_functions(record));
-    quote! { #accelerations #others }
+/// `link 1: blocks 1 and 2; link 2: block 3`
+fn links(linkage: &Linkage) -> String {
+    let of_block = linkage.link_of_block();
+    let names = (0..=linkage.dof()).filter(|link| of_block.contains(link)).map(|link| {
+        let blocks: Vec<String> =
+            (1..=of_block.len()).filter(|i| of_block[i - 1] == link).map(|i| i.to_string()).collect();
+        let name = if link == 0 { "with the ground".into() } else { format!("link {link}") };
+        format!("{name}: block{} {}", if blocks.len() == 1 { "" } else { "s" }, blocks.join(", "))
+    });
+    names.collect::<Vec<_>>().join("; ")
 }
 
-fn acceleration_functions(record: &LinkageRecord) -> TokenStream {
+/// All functions of one linkage.
+pub fn functions(record: &LinkageRecord) -> TokenStream {
     let stem = stem(&record.linkage);
     let accelerations = GroundMotion::ALL.map(|ground| {
         scene_constants(
             &accelerations_name(&stem, ground),
-            &format!("Scene constants of the accelerations where {} move(s){}.", stem.replace('_', " "), words(ground)),
+            &format!("Scene constants of the accelerations{}; {}.", words(ground), links(&record.linkage)),
             &record.arena,
             &record.accelerations[ground as usize],
+            &record.energies,
         )
     });
-    quote! { #(#accelerations)* }
+    let others = force_and_energy_functions(record);
+    quote! { #(#accelerations)* #others }
 }
 
 /// The functions of one linkage but those of the accelerations, which a baked column has as literals.
 pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
-    let stem = stem(&record.linkage);
-    let energies = scene_constants(
-        &format_ident!("energies_{stem}"),
-        "Scene constants of mass matrix and energies.",
-        &record.arena,
-        &record.energies,
-    );
-    let series = scene_constants(
-        &format_ident!("series_{stem}"),
-        "Scene constants of the weights.",
-        &record.arena,
-        &record.series,
-    );
+    let (stem, links) = (stem(&record.linkage), links(&record.linkage));
+    let function = |kind: &str, of: &str, constants: &[Constant]| {
+        let title = format!("Scene constants of {of}; {links}.");
+        scene_constants(&format_ident!("{kind}_{stem}"), &title, &record.arena, constants, &record.energies)
+    };
+    let energies = function("energies", "mass matrix and energies", &record.energies);
+    let series = function("series", "the weights", &record.series);
     let interfaces = record.interfaces.iter().enumerate().map(|(interface, (_, constants))| {
         let number = interface + 1;
-        scene_constants(
-            &format_ident!("forces_{number}_{stem}"),
-            &format!("Scene constants of the contact forces at interface {number}."),
-            &record.arena,
-            constants,
-        )
+        function(&format!("forces_{number}"), &format!("the contact forces at interface {number}"), constants)
     });
     quote! { #energies #series #(#interfaces)* }
 }
@@ -70,22 +70,18 @@ pub fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
     }
 }
 
-/// What is said of a ground motion in a doc line.
-pub fn words(ground: GroundMotion) -> &'static str {
-    match ground {
-        GroundMotion::Horizontal => ", the ground moving horizontally only",
-        GroundMotion::WithVertical => "",
-    }
-}
-
-/// A function from the column's sizes to scene constants, each with its formula and unit in the doc.
-pub fn scene_constants(name: &Ident, title: &str, arena: &Arena, constants: &[Constant]) -> TokenStream {
-    let mut text = format!("{title}\n");
-    for constant in constants {
-        text.push_str(&format!("\n- `{}` ({}) = `{}`", constant.name, constant.unit, arena.text(constant.source)));
-    }
-    let doc = doc(&text);
-    let mut writer = Writer::new(arena, constants.iter().map(|constant| constant.source), column_field);
+/// A function from the sizes of a column to scene constants, each with unit and formula; `energies` name quantities of the links.
+pub fn scene_constants(
+    name: &Ident,
+    title: &str,
+    arena: &Arena,
+    constants: &[Constant],
+    energies: &[Constant],
+) -> TokenStream {
+    let doc = doc(title);
+    let style = SceneNames { energies };
+    let named = constants.iter().map(|constant| (constant.name.as_str(), constant.source));
+    let mut writer = Writer::new(arena, named, &[], &style);
     for constant in constants {
         writer.bind(&constant.name, constant.source, constant.source);
     }
@@ -100,39 +96,99 @@ pub fn scene_constants(name: &Ident, title: &str, arena: &Arena, constants: &[Co
     }
 }
 
-/// How a symbol of the column is read: `half_height_2` is `column.half_height[1]`.
-fn column_field(symbol: &str) -> TokenStream {
-    if symbol == "gravity" {
-        return quote! { column.gravity };
+/// Names and formulas of scene expressions.
+struct SceneNames<'a> {
+    energies: &'a [Constant],
+}
+
+impl Style for SceneNames<'_> {
+    /// `half_height_2` is `column.half_height[1]`.
+    fn symbol(&self, name: &str) -> TokenStream {
+        if name == "gravity" {
+            return quote! { column.gravity };
+        }
+        let (family, block) = split(name);
+        let (family, index) = (format_ident!("{family}"), count(block - 1));
+        quote! { column.#family[#index] }
     }
-    let (family, index) = symbol.rsplit_once('_').expect("block symbols are named family_index");
-    let family = format_ident!("{family}");
-    let index = index.parse::<usize>().expect("block symbols are numbered from one") - 1;
-    let index = proc_macro2::Literal::usize_unsuffixed(index);
-    quote! { column.#family[#index] }
+
+    /// Quantities of links by the names that they have in the energies; heights by the blocks that they span.
+    fn shared(&self, arena: &Arena, part: Expr) -> Option<String> {
+        if let Some(known) = self.energies.iter().find(|constant| constant.source == part) {
+            return Some(known.name.clone());
+        }
+        if let Node::Product(factors) = arena.node(part) {
+            let is_plain = factors.iter().all(|(_, power)| *power == 1);
+            let of_block = |(factor, _): &(Expr, i32)| arena.symbol_name(*factor)?.rsplit_once('_');
+            let factors = factors.iter().filter(|_| is_plain).map(of_block).collect::<Option<Vec<_>>>()?;
+            let words = factors.iter().map(|(family, block)| format!("{family}_of_block_{block}"));
+            return Some(words.collect::<Vec<_>>().join("_times_"));
+        }
+        let terms = arena.terms(part);
+        let mut heights = Vec::new();
+        for (coefficient, term) in &terms {
+            let (family, block) = split(arena.symbol_name(*term)?);
+            if family != "half_height" || coefficient.denominator != 1 {
+                return None;
+            }
+            heights.push((block, coefficient.numerator));
+        }
+        match heights[..] {
+            [(first, 2), .., (last, 2)] => Some(format!("height_blocks_{first}_to_{last}")),
+            [(first, 2), .., (last, 1)] => Some(format!("centroid_height_blocks_{first}_to_{last}")),
+            _ => None,
+        }
+    }
+
+    /// Unit and formula, in the letters of the notation and earlier names.
+    fn remark(&self, arena: &Arena, value: Expr, names: &HashMap<Expr, Ident>) -> Option<String> {
+        let letter = |expr: Expr| match (names.get(&expr), arena.symbol_name(expr)) {
+            (_, Some("gravity")) => Some("g".into()),
+            (_, Some(name)) => Some(match split(name) {
+                ("inertia", block) => format!("I_{block}"),
+                (family, block) => format!("{}_{block}", &family[..1]),
+            }),
+            (Some(name), _) if expr != value => Some(name.to_string()),
+            _ => None,
+        };
+        if arena.is_zero(value) {
+            return Some("0".into());
+        }
+        Some(format!("[{}] {}", arena.unit(value), arena.text_with(value, &letter)))
+    }
+}
+
+/// `half_height_2` in its parts.
+fn split(symbol: &str) -> (&str, usize) {
+    let (family, block) = symbol.rsplit_once('_').expect("block symbols are named family_block");
+    (family, block.parse().expect("block symbols are numbered from one"))
 }
 
 /// `fn linkage(blocks, mask)`: the equations of a linkage by the bits of its open interfaces.
 pub fn table(linkages: &[LinkageRecord], accelerations: impl Fn(&str, GroundMotion) -> Ident) -> TokenStream {
     let arms = linkages.iter().map(|record| {
-        let blocks = record.linkage.blocks();
         let mask = record.linkage.open.iter().rev().fold(0usize, |mask, &open| 2 * mask + usize::from(open));
         let stem = stem(&record.linkage);
         let accelerations = GroundMotion::ALL.map(|ground| accelerations(&stem, ground));
-        let energies = format_ident!("energies_{stem}");
-        let series = format_ident!("series_{stem}");
-        let dof = record.linkage.dof();
+        let (energies, series) = (format_ident!("energies_{stem}"), format_ident!("series_{stem}"));
+        let [blocks, mask, dof] = [record.linkage.blocks(), mask, record.linkage.dof()].map(count);
         let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {
             let constants = format_ident!("forces_{}_{stem}", interface + 1);
             let forces = force_name(*program);
             quote! { InterfaceEquations { constants: #constants, forces: #forces } }
         });
         quote! {
-            (#blocks, #mask) => LinkageEquations { dof: #dof, accelerations: [#(#accelerations),*], energies: #energies, series: #series, interfaces: vec![#(#interfaces),*] },
+            (#blocks, #mask) => LinkageEquations {
+                dof: #dof,
+                accelerations: [#(#accelerations),*],
+                energies: #energies,
+                series: #series,
+                interfaces: Vec::from([#(#interfaces),*]),
+            },
         }
     });
     let doc = doc(
-        "The equations of a linkage: `blocks` of the column, bit `i` of `mask` set where interface `i + 1` is open.\nWhat the build has not got is `None`.",
+        "The equations of a linkage: `blocks` of the column, bit `i` of `mask` set where interface `i + 1` is open; `None` for linkages that this module does not cover.",
     );
     quote! {
         #doc
@@ -147,8 +203,7 @@ pub fn modes(catalogue: &Catalogue) -> TokenStream {
     let max_blocks = catalogue.max_blocks;
     let arms = (1..=max_blocks).flat_map(|dof| {
         GroundMotion::ALL.map(|ground| {
-            let program = step_type(dof, ground);
-            let ground = ground_name(ground);
+            let (program, dof, ground) = (step_type(dof, ground), count(dof), ground_name(ground));
             quote! { (#dof, GroundMotion::#ground) => generated_mode::<#program>(column, pattern, ground, linkage), }
         })
     });
@@ -164,10 +219,7 @@ pub fn modes(catalogue: &Catalogue) -> TokenStream {
     }
 }
 
-/// The variant's name.
+/// The name of the variant.
 pub fn ground_name(ground: GroundMotion) -> Ident {
-    match ground {
-        GroundMotion::Horizontal => format_ident!("Horizontal"),
-        GroundMotion::WithVertical => format_ident!("WithVertical"),
-    }
+    format_ident!("{}", format!("{ground:?}"))
 }

@@ -1,14 +1,17 @@
 //! Step programs and contact-force programs as Rust items.
 
-use super::expression::Writer;
-use super::{doc, number};
-use crate::GroundMotion;
+use super::expression::{Style, Writer};
+use super::layout::{count, doc};
+use super::number::number;
+use super::quantity::{group, meaning};
+use crate::ground::GroundMotion;
 use crate::optimise::{Program, Routine};
+use crate::symbolic::{Arena, Expr, Node};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-/// The type that stands for the accelerations of this many degrees of freedom.
+/// The type of the accelerations of this many degrees of freedom.
 pub fn step_type(dof: usize, ground: GroundMotion) -> Ident {
     match ground {
         GroundMotion::Horizontal => format_ident!("HorizontalDof{dof}"),
@@ -16,12 +19,12 @@ pub fn step_type(dof: usize, ground: GroundMotion) -> Ident {
     }
 }
 
-/// The type that stands for mass matrix and energies of this many degrees of freedom.
+/// The type of mass matrix and energies of this many degrees of freedom.
 pub fn energy_type(dof: usize) -> Ident {
     format_ident!("EnergiesDof{dof}")
 }
 
-/// The type that stands for the weights of this many degrees of freedom.
+/// The type of the weights of this many degrees of freedom.
 pub fn series_type(dof: usize) -> Ident {
     format_ident!("SeriesDof{dof}")
 }
@@ -31,30 +34,42 @@ pub fn force_name(index: usize) -> Ident {
     format_ident!("contact_forces_{}", index + 1)
 }
 
-/// What of a program a reader wants to know: costs and constants.
+/// A ground motion in a doc line.
+pub fn words(ground: GroundMotion) -> &'static str {
+    match ground {
+        GroundMotion::Horizontal => ", the ground moving horizontally only",
+        GroundMotion::WithVertical => "",
+    }
+}
+
+/// Title, cost and constants of a program.
 fn describe(title: &str, program: &Program) -> TokenStream {
     let mut text = format!("{title}\n");
     for routine in &program.routines {
-        if let Some(operations) = program.operations(routine.name) {
-            text.push_str(&format!("\n- `{}`: {operations}", routine.name));
-        }
+        text.push_str(&format!("\n- `{}`: {}", routine.name, program.operations(routine.name).unwrap_or_default()));
     }
     if !program.constants.is_empty() {
         text.push_str("\n\nScene constants, in order:\n");
     }
     for constant in &program.constants {
-        text.push_str(&format!("\n- `{}` ({})", constant.name, constant.unit));
+        text.push_str(&format!("\n- `{}` [{}]: {}", constant.name, constant.unit, meaning(&constant.name)));
     }
     doc(&text)
 }
 
-/// A `struct` and its `StepProgram`. `literals` are the values of the constants of a baked column.
-pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Literals) -> TokenStream {
+/// A step program that all modes with its degrees of freedom share.
+pub fn shared_step_program(program: &Program, ground: GroundMotion) -> TokenStream {
     let dof = program.dof;
-    let count = literals.remaining(program);
-    let (energies, series) = (energy_type(dof), series_type(dof));
+    let title = format!("Accelerations shared by all modes with {dof} free angle(s){}.", words(ground));
+    step_program(&step_type(dof, ground), &title, program, &HashMap::new())
+}
+
+/// A `struct` and its `StepProgram`; `literals` are values of constants that are known when the code is written, by name.
+pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &HashMap<String, f64>) -> TokenStream {
+    let (energies, series) = (energy_type(program.dof), series_type(program.dof));
     let doc = describe(title, program);
-    let state = 2 * dof;
+    let given = program.constants.iter().filter(|constant| !literals.contains_key(&constant.name)).count();
+    let [dof, state, given] = [program.dof, 2 * program.dof, given].map(count);
     let acceleration = body(program, "acceleration", literals);
     quote! {
         #doc
@@ -65,7 +80,7 @@ pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Lit
             const DOF: usize = #dof;
             type Vector = [S; #dof];
             type State = [S; #state];
-            type Constants = [S; #count];
+            type Constants = [S; #given];
             type Energies = #energies;
             type Series = #series;
 
@@ -80,7 +95,7 @@ pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Lit
             }
 
             #[inline(always)]
-            fn acceleration(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], ground_x: S, gravity: S) -> [S; #dof] {
+            fn acceleration(constants: &[S; #given], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], ground_x: S, gravity: S) -> [S; #dof] {
                 #acceleration
             }
         }
@@ -89,13 +104,11 @@ pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &Lit
 
 /// A `struct` and its `EnergyProgram`.
 pub fn energy_program(program: &Program) -> TokenStream {
-    let dof = program.dof;
-    let name = energy_type(dof);
-    let count = program.constants.len();
-    let title = format!("Mass matrix and energies shared by all modes with {dof} free angle(s).");
+    let name = energy_type(program.dof);
+    let title = format!("Mass matrix and energies shared by all modes with {} free angle(s).", program.dof);
     let doc = describe(&title, program);
-    let literals = Literals::default();
-    let (mass_matrix, energies) = (body(program, "mass_matrix", &literals), body(program, "energies", &literals));
+    let [dof, given] = [program.dof, program.constants.len()].map(count);
+    let [mass_matrix, energies] = ["mass_matrix", "energies"].map(|routine| body(program, routine, &HashMap::new()));
     quote! {
         #doc
         #[derive(Clone, Copy, Debug)]
@@ -104,13 +117,13 @@ pub fn energy_program(program: &Program) -> TokenStream {
         impl<S: Scalar> EnergyProgram<S> for #name {
             type Vector = [S; #dof];
             type Matrix = [[S; #dof]; #dof];
-            type Constants = [S; #count];
+            type Constants = [S; #given];
 
-            fn mass_matrix(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof]) -> [[S; #dof]; #dof] {
+            fn mass_matrix(constants: &[S; #given], cos: &[S; #dof], sin: &[S; #dof]) -> [[S; #dof]; #dof] {
                 #mass_matrix
             }
 
-            fn energies(constants: &[S; #count], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], gravity: S) -> [S; 2] {
+            fn energies(constants: &[S; #given], cos: &[S; #dof], sin: &[S; #dof], omega: &[S; #dof], gravity: S) -> [S; 2] {
                 #energies
             }
         }
@@ -119,12 +132,14 @@ pub fn energy_program(program: &Program) -> TokenStream {
 
 /// A `struct` and its `SeriesProgram`.
 pub fn series_program(program: &Program) -> TokenStream {
-    let dof = program.dof;
-    let name = series_type(dof);
-    let count = program.constants.len();
-    let title = format!("Weights of the equations of all modes with {dof} free angle(s), for Taylor coefficients.");
+    let name = series_type(program.dof);
+    let title = format!(
+        "Weights C_a and S_a in J_a theta_ddot_a + cos_a C_a + sin_a S_a = 0, of all modes with {} free angle(s), for Taylor coefficients.",
+        program.dof
+    );
     let doc = describe(&title, program);
-    let weights = body(program, "weights", &Literals::default());
+    let [dof, given] = [program.dof, program.constants.len()].map(count);
+    let weights = body(program, "weights", &HashMap::new());
     quote! {
         #doc
         #[derive(Clone, Copy, Debug)]
@@ -132,122 +147,134 @@ pub fn series_program(program: &Program) -> TokenStream {
 
         impl<S: Scalar> SeriesProgram<S> for #name {
             type Vector = [S; #dof];
-            type Constants = [S; #count];
+            type Constants = [S; #given];
 
             #[inline(always)]
-            fn weights(constants: &[S; #count], cos_ddot: &[S; #dof], sin_ddot: &[S; #dof], ground_x: S, gravity: S) -> [[S; #dof]; 2] {
+            fn weights(constants: &[S; #given], cos_ddot: &[S; #dof], sin_ddot: &[S; #dof], ground_x: S, gravity: S) -> [[S; #dof]; 2] {
                 #weights
             }
         }
     }
 }
 
-fn body(program: &Program, name: &str, literals: &Literals) -> TokenStream {
-    routine_body(program, program.routines.iter().find(|routine| routine.name == name), literals)
-}
-
-/// Values of scene constants that are known when the code is written, by name.
-#[derive(Clone, Debug, Default)]
-pub struct Literals(pub HashMap<String, f64>);
-
-impl Literals {
-    /// How many constants a program is still to be given.
-    fn remaining(&self, program: &Program) -> usize {
-        program.constants.iter().filter(|constant| !self.0.contains_key(&constant.name)).count()
+/// One contact-force program: `[N, T]` or `[N, T, M]`.
+pub fn force_program(index: usize, program: &Program) -> TokenStream {
+    let name = force_name(index);
+    let Some(routine) = program.routines.first() else { return TokenStream::new() };
+    let what = if routine.outputs.len() == 3 { "closed interface: `[N, T, M]`" } else { "open interface: `[N, T, 0]`" };
+    let doc = describe(&format!("Contact forces at one {what}, {} free angle(s).", program.dof), program);
+    let body = body(program, routine.name, &HashMap::new());
+    quote! {
+        #doc
+        pub fn #name<S: Scalar>(constants: &[S], cos: &[S], sin: &[S], omega: &[S], alpha: &[S], ground_x: S, gravity: S) -> [S; 3] {
+            #body
+        }
     }
 }
 
-fn routine_body(program: &Program, routine: Option<&Routine>, literals: &Literals) -> TokenStream {
-    let Some(routine) = routine else { return TokenStream::new() };
-    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
-    let mut writer = Writer::new(&program.arena, values, |symbol| {
-        if let Some(value) = literals.0.get(symbol) {
-            let value = number(*value);
-            return quote! { ground_x.like(#value) };
+/// The function by which contact-force programs take their arguments apart.
+pub fn sized() -> TokenStream {
+    quote! {
+        /// A slice as an array of the length that its program expects.
+        fn sized<T, const LENGTH: usize>(values: &[T]) -> &[T; LENGTH] {
+            values.try_into().expect("the caller passes as many angles and constants as the linkage has")
         }
-        let name = format_ident!("{symbol}");
-        quote! { #name }
-    });
+    }
+}
+
+/// Body of a routine: inputs, statements, results.
+fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> TokenStream {
+    let Some(routine) = program.routines.iter().find(|routine| routine.name == name) else {
+        return TokenStream::new();
+    };
+    let statements = routine.statements.iter().map(|statement| (statement.name.as_str(), statement.value));
+    let mut writer = Writer::new(&program.arena, statements, &routine.outputs, &StateNames);
+    let mut previous: Option<&str> = None;
     for statement in &routine.statements {
+        if let Some(text) = group(&statement.name, previous) {
+            writer.heading(text);
+        }
         writer.bind(&statement.name, statement.symbol, statement.value);
+        previous = Some(&statement.name);
     }
     let outputs: Vec<TokenStream> = routine.outputs.iter().map(|output| writer.read(*output)).collect();
     let lets = writer.finish();
-    let result = if routine.name == "mass_matrix" || routine.name == "weights" {
-        let rows = outputs.chunks(program.dof).map(|row| quote! { [#(#row),*] });
-        quote! { [#(#rows),*] }
-    } else {
-        quote! { [#(#outputs),*] }
+    let result = match routine.name {
+        "mass_matrix" | "weights" => {
+            let rows = outputs.chunks(program.dof).map(|row| quote! { [#(#row),*] });
+            quote! { [#(#rows),*] }
+        }
+        "contact_forces" if outputs.len() == 2 => quote! { [#(#outputs,)* S::from_f64(0.0)] },
+        _ => quote! { [#(#outputs),*] },
     };
-    let used = quote! { #(#lets)* #result }.to_string();
-    let inputs = inputs(program, routine, &used, literals);
+    let inputs = inputs(program, routine, &quote! { #(#lets)* #result }.to_string(), literals);
     quote! { #inputs #(#lets)* #result }
 }
 
-/// `let [cos_1, …] = *cos;`, names that the body does not read left out.
-fn inputs(program: &Program, routine: &Routine, used: &str, literals: &Literals) -> TokenStream {
-    let words: std::collections::HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
-    let mut lets = TokenStream::new();
+/// `let [cos_1, …] = *cos;` and the literals; names that the body does not read are left out.
+fn inputs(program: &Program, routine: &Routine, used: &str, literals: &HashMap<String, f64>) -> TokenStream {
+    let words: HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     let families: &[&str] = match routine.name {
         "mass_matrix" => &["cos", "sin"],
         "weights" => &["cos_ddot", "sin_ddot"],
         "contact_forces" => &["cos", "sin", "omega", "alpha"],
         _ => &["cos", "sin", "omega"],
     };
-    for family in families {
-        let names: Vec<String> = (1..=program.dof).map(|index| format!("{family}_{index}")).collect();
-        lets.extend(destructure(family, &names, &words));
+    let is_slice = routine.name == "contact_forces";
+    let of_family = |family: &&str| (1..=program.dof).map(|link| format!("{family}_{link}")).collect::<Vec<_>>();
+    let mut lets: TokenStream =
+        families.iter().map(|family| destructure(family, &of_family(family), &words, is_slice)).collect();
+    let names = program.constants.iter().map(|constant| constant.name.clone());
+    let (known, given): (Vec<String>, Vec<String>) = names.partition(|name| literals.contains_key(name));
+    lets.extend(destructure("constants", &given, &words, is_slice));
+    for name in known.iter().filter(|name| words.contains(name.as_str())) {
+        let (name, value) = (format_ident!("{name}"), number(literals[name]));
+        lets.extend(quote! { let #name = ground_x.like(#value); });
     }
-    let given = program.constants.iter().filter(|constant| !literals.0.contains_key(&constant.name));
-    let names: Vec<String> = given.map(|constant| constant.name.clone()).collect();
-    lets.extend(destructure("constants", &names, &words));
     lets
 }
 
-fn destructure(array: &str, names: &[String], words: &std::collections::HashSet<&str>) -> TokenStream {
+fn destructure(array: &str, names: &[String], words: &HashSet<&str>, is_slice: bool) -> TokenStream {
     let array = format_ident!("{array}");
-    if names.iter().all(|name| !words.contains(name.as_str())) {
+    let is_read = |name: &String| words.contains(name.as_str());
+    if !names.iter().any(is_read) {
         return quote! { let _ = #array; };
     }
-    let names = names.iter().map(|name| {
-        let ident = format_ident!("{name}");
-        if words.contains(name.as_str()) {
-            quote! { #ident }
-        } else {
-            quote! { _ }
-        }
-    });
-    quote! { let [#(#names),*] = *#array; }
+    let length = count(names.len());
+    let names = names.iter().map(|name| format_ident!("{}", if is_read(name) { name } else { "_" }));
+    if is_slice {
+        quote! { let [#(#names),*] = *sized::<S, #length>(#array); }
+    } else {
+        quote! { let [#(#names),*] = *#array; }
+    }
 }
 
-/// One contact-force program: `[N, T]` or `[N, T, M]`.
-pub fn force_program(index: usize, program: &Program) -> TokenStream {
-    let name = force_name(index);
-    let (dof, count) = (program.dof, program.constants.len());
-    let Some(routine) = program.routines.first() else { return TokenStream::new() };
-    let body = routine_body(program, Some(routine), &Literals::default());
-    let results = routine.outputs.len();
-    let operations = program.operations("contact_forces").unwrap_or_default();
-    let what = if results == 3 { "closed interface: `[N, T, M]`" } else { "open interface: `[N, T]`" };
-    let doc = doc(&format!("Contact forces at one {what}, {dof} free angle(s); {operations}."));
-    let values = (0..3).map(|index| {
-        if index < results {
-            quote! { forces[#index] }
-        } else {
-            quote! { S::from_f64(0.0) }
-        }
-    });
-    let mismatch = "the caller passes as many angles and constants as the linkage has";
-    quote! {
-        #doc
-        pub fn #name<S: Scalar>(constants: &[S], cos: &[S], sin: &[S], omega: &[S], alpha: &[S], ground_x: S, gravity: S) -> [S; 3] {
-            let constants: &[S; #count] = constants.try_into().expect(#mismatch);
-            let cos: &[S; #dof] = cos.try_into().expect(#mismatch);
-            let sin: &[S; #dof] = sin.try_into().expect(#mismatch);
-            let omega: &[S; #dof] = omega.try_into().expect(#mismatch);
-            let alpha: &[S; #dof] = alpha.try_into().expect(#mismatch);
-            let forces: [S; #results] = { #body };
-            [#(#values),*]
+/// Names of parts that statements share: turned vectors and products.
+struct StateNames;
+
+impl Style for StateNames {
+    fn shared(&self, arena: &Arena, part: Expr) -> Option<String> {
+        let name = |expr: Expr| arena.symbol_name(expr);
+        match arena.node(part) {
+            Node::Product(factors) if factors.iter().all(|(_, power)| *power == 1) => {
+                Some(factors.iter().map(|(factor, _)| name(*factor)).collect::<Option<Vec<_>>>()?.join("_times_"))
+            }
+            // x = cos axial + sin lateral, y = cos lateral - sin axial: `stack_y_2`.
+            Node::Sum(terms) if terms.len() == 2 => terms.iter().find_map(|(coefficient, term)| {
+                let [(angle, 1), (constant, 1)] = arena.factors(*term)[..] else { return None };
+                let ((function, link), constant) = (name(angle)?.split_once('_')?, name(constant)?);
+                let (of, axis) = constant.split_once("_axial").or(constant.split_once("_lateral"))?;
+                let is_axial = constant.contains("_axial");
+                let component = if (function == "cos") == is_axial { "x" } else { "y" };
+                let is_opposite = coefficient.is_negative() != (function == "sin" && is_axial);
+                let (of, is_opposite) = match of.strip_prefix("minus_") {
+                    Some(of) => (of, !is_opposite),
+                    None => (of, is_opposite),
+                };
+                let sign = if is_opposite { "minus_" } else { "" };
+                (axis.is_empty() || axis == format!("_{link}")).then(|| format!("{sign}{of}_{component}_{link}"))
+            }),
+            _ => None,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Contact forces at an interface by d'Alembert's principle (MODEL.md section 4).
 //!
 //! The force on the stack above is `F = Σ m_j A_j` with `A_j` the centroid's acceleration less gravity. The moment about
-//! the contact's centre is what a virtual rotation `ψ` of the upper part of the link would have to work against, the
-//! angles of the links above held: those balance about their own pivots.
+//! the centre of the contact is the virtual work per virtual rotation `ψ` of the upper part of the link, the angles of the
+//! links above held: those links balance about their own pivots.
 
 use super::kinematics::{Symbols, Vector, block_angles, centroids, dot, jacobian, time_derivative};
 use crate::pattern::Linkage;

@@ -15,7 +15,7 @@ pub struct Equations {
     pub potential: Expr,
     /// Mass matrix `∂²T/∂ω_a∂ω_b` `[kg m²]`, dof x dof.
     pub mass: Vec<Vec<Expr>>,
-    /// What the rates contribute `[N m]`, length dof.
+    /// Rate terms `[N m]`, length dof.
     pub bias: Vec<Expr>,
     /// Gravity and ground motion `[N m]`, length dof.
     pub forcing: Vec<Expr>,

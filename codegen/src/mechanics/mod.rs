@@ -1,6 +1,6 @@
-//! From a linkage to its equations of motion, by the book: positions, energies, Euler-Lagrange, contact forces.
+//! From a linkage to its equations of motion: positions, energies, Euler-Lagrange, contact forces.
 //!
-//! Nothing here is simplified beyond what building an expression does; that is the duty of [`crate::optimise`].
+//! Expressions stay as derived; [`crate::optimise`] simplifies them.
 //! Time stepping, scenes and code are unknown here.
 
 mod contact;

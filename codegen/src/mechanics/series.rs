@@ -8,7 +8,7 @@
 //! ```
 //!
 //! where the weights `C_a, S_a` are linear in `(cos θ_b)¨, (sin θ_b)¨` of the other links and in the ground's acceleration. Two
-//! products per link are all that is not linear. The form is proved against Euler-Lagrange by [`WeightForm::is_proved`].
+//! products per link are all that is not linear. `tests/derivation.rs` proves the form against Euler-Lagrange.
 
 use super::kinematics::{Symbols, jacobian};
 use super::lagrange::Equations;
@@ -27,7 +27,7 @@ pub struct WeightForm {
 /// Derives the weights from the centroids by d'Alembert's principle.
 ///
 /// # Panics
-/// If an equation is not of the form above: the links are rigid, so it is.
+/// If an equation does not have the form above, which all rigid links give.
 pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equations: &Equations) -> WeightForm {
     let dof = linkage.dof();
     let mut form = WeightForm { cos: Vec::with_capacity(dof), sin: Vec::with_capacity(dof) };
@@ -48,19 +48,11 @@ pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equa
         let angle = symbols.theta[link];
         let atoms = [arena.cos(angle), arena.sin(angle)];
         let own = [symbols.cos_ddot[link], symbols.sin_ddot[link]];
-        let mut weights = [Vec::new(), Vec::new()];
-        for (coefficient, term) in arena.terms(moment) {
-            let factors = arena.factors(term);
-            // cos θ (sin θ)¨ - sin θ (cos θ)¨ = θ̈: the link's own share, which belongs to J_a.
-            if factors.iter().any(|(factor, _)| own.contains(factor)) {
-                continue;
-            }
-            let atom = factors.iter().find_map(|(factor, _)| atoms.iter().position(|atom| atom == factor));
-            let atom = atom.expect("a moment about a pivot turns with its link");
-            let rest = arena.product([(term, 1), (atoms[atom], -1)]);
-            weights[atom].push((coefficient, rest));
-        }
-        let [cos, sin] = weights.map(|weight| arena.sum(weight));
+        // cos θ (sin θ)¨ - sin θ (cos θ)¨ = θ̈: the link's own share belongs to J_a.
+        let moment = own.into_iter().fold(moment, |moment, derivative| arena.split_off(moment, derivative)[1]);
+        let [cos, rest] = arena.split_off(moment, atoms[0]);
+        let [sin, rest] = arena.split_off(rest, atoms[1]);
+        assert!(arena.is_zero(rest), "a moment about a pivot turns with its link");
         form.cos.push(cos);
         form.sin.push(sin);
     }
@@ -76,48 +68,9 @@ fn second_derivative(arena: &mut Arena, symbols: &Symbols, position: Expr) -> Ex
         for (atom, derivative) in
             [(arena.cos(angle), symbols.cos_ddot[link]), (arena.sin(angle), symbols.sin_ddot[link])]
         {
-            for (coefficient, term) in arena.terms(expanded) {
-                if arena.factors(term).contains(&(atom, 1)) {
-                    terms.push((coefficient, arena.product([(term, 1), (atom, -1), (derivative, 1)])));
-                }
-            }
+            let [slope, _] = arena.split_off(expanded, atom);
+            terms.push(arena.mul(slope, derivative));
         }
     }
-    arena.sum(terms)
-}
-
-impl WeightForm {
-    /// Whether the form is the equations of motion: with the second derivatives written out, `(cos θ)¨ = -sin θ θ̈ - cos θ θ̇²`
-    /// and `(sin θ)¨ = cos θ θ̈ - sin θ θ̇²`, it differs from Euler-Lagrange by nothing, multiplied out.
-    pub fn is_proved(&self, arena: &mut Arena, symbols: &Symbols, equations: &Equations) -> bool {
-        let dof = self.cos.len();
-        let mut written_out = std::collections::HashMap::new();
-        for link in 0..dof {
-            let [cos, sin] = [arena.cos(symbols.theta[link]), arena.sin(symbols.theta[link])];
-            let square = arena.square(symbols.omega[link]);
-            let alpha = symbols.alpha[link];
-            let (a, b) = (arena.mul(sin, alpha), arena.mul(cos, square));
-            let sum = arena.add(a, b);
-            written_out.insert(symbols.cos_ddot[link], arena.neg(sum));
-            let (a, b) = (arena.mul(cos, alpha), arena.mul(sin, square));
-            written_out.insert(symbols.sin_ddot[link], arena.sub(a, b));
-        }
-        (0..dof).all(|row| {
-            let mut terms = vec![arena.mul(equations.mass[row][row], symbols.alpha[row])];
-            for (angle, weight) in
-                [(arena.cos(symbols.theta[row]), self.cos[row]), (arena.sin(symbols.theta[row]), self.sin[row])]
-            {
-                let weight = arena.substitute(weight, &written_out);
-                terms.push(arena.mul(angle, weight));
-            }
-            for column in 0..dof {
-                let inertia = arena.mul(equations.mass[row][column], symbols.alpha[column]);
-                terms.push(arena.neg(inertia));
-            }
-            terms.push(arena.neg(equations.bias[row]));
-            terms.push(arena.neg(equations.forcing[row]));
-            let residual = arena.total(terms);
-            arena.is_identically_zero(residual)
-        })
-    }
+    arena.total(terms)
 }

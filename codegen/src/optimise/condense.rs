@@ -11,7 +11,7 @@ pub fn collect(arena: &mut Arena, expr: Expr, drivers: &[Expr]) -> Expr {
     let mut parts = Vec::new();
     let mut rest = expr;
     for &driver in drivers {
-        let (slope, remainder) = split_by_factor(arena, rest, driver);
+        let [slope, remainder] = arena.split_off(rest, driver);
         let condensed = condense(arena, slope);
         parts.push(arena.mul(condensed, driver));
         rest = remainder;
@@ -22,7 +22,7 @@ pub fn collect(arena: &mut Arena, expr: Expr, drivers: &[Expr]) -> Expr {
 
 /// The condensed coefficient of `driver` in `expr`.
 pub fn coefficient(arena: &mut Arena, expr: Expr, driver: Expr) -> Expr {
-    let (slope, _) = split_by_factor(arena, expr, driver);
+    let [slope, _] = arena.split_off(expr, driver);
     condense(arena, slope)
 }
 
@@ -33,7 +33,7 @@ pub fn condense(arena: &mut Arena, expr: Expr) -> Expr {
         return merge_coefficients(arena, expanded);
     }
     let Some(factor) = most_shared_factor(arena, expr) else { return expanded };
-    let (inner, rest) = split_by_factor(arena, expr, factor);
+    let [inner, rest] = arena.split_off(expr, factor);
     let inner = condense(arena, inner);
     let product = arena.mul(factor, inner);
     if arena.is_zero(rest) {
@@ -41,23 +41,6 @@ pub fn condense(arena: &mut Arena, expr: Expr) -> Expr {
     }
     let rest = condense(arena, rest);
     arena.add(product, rest)
-}
-
-/// Splits `expr = factor · inner + rest`; a square of the driver counts as a factor when the driver is a square.
-fn split_by_factor(arena: &mut Arena, expr: Expr, factor: Expr) -> (Expr, Expr) {
-    let wanted = arena.factors(factor);
-    let (mut inner, mut rest) = (Vec::new(), Vec::new());
-    for (coefficient, term) in arena.terms(expr) {
-        let factors = arena.factors(term);
-        let holds = wanted.iter().all(|(f, power)| factors.iter().any(|(g, q)| g == f && q >= power));
-        if holds {
-            let quotient = arena.product(factors.into_iter().chain(wanted.iter().map(|&(f, power)| (f, -power))));
-            inner.push((coefficient, quotient));
-        } else {
-            rest.push((coefficient, term));
-        }
-    }
-    (arena.sum(inner), arena.sum(rest))
 }
 
 /// Every term is a scene coefficient times the sine or cosine of the same angle.

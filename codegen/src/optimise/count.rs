@@ -1,6 +1,5 @@
-//! Counting what a program costs.
+//! Operation counts of expressions.
 
-use super::program::Routine;
 use crate::symbolic::{Arena, Expr, Level, Node, Rational};
 use std::collections::HashSet;
 use std::fmt;
@@ -36,81 +35,45 @@ impl fmt::Display for Operations {
     }
 }
 
-/// Counts one call of a routine; shared nodes count once, sines and cosines are its input, changes of sign are free.
-pub fn operations(arena: &Arena, routine: &Routine) -> Operations {
-    let values = routine.statements.iter().map(|statement| statement.value).chain(routine.outputs.iter().copied());
-    count_expressions(arena, values)
-}
-
-/// Counts the evaluation of some expressions together.
+/// Counts one evaluation of some expressions together. Shared nodes count once, sines and cosines are inputs, changes of sign are
+/// free.
 pub fn count_expressions(arena: &Arena, values: impl IntoIterator<Item = Expr>) -> Operations {
-    let mut count = Operations::default();
-    let mut seen = HashSet::new();
-    for value in values {
-        visit(arena, value, &mut seen, &mut count);
-    }
-    count
+    count(arena, values, |_| false)
 }
 
-/// As [`count_expressions`], whatever a scene fixes being one constant.
+/// As [`count_expressions`], every scene expression counted as one constant.
 pub fn count_hoisted(arena: &Arena, values: impl IntoIterator<Item = Expr>) -> Operations {
+    count(arena, values, |expr| arena.level(expr) != Level::State)
+}
+
+fn count(arena: &Arena, values: impl IntoIterator<Item = Expr>, is_constant: impl Fn(Expr) -> bool) -> Operations {
     let mut count = Operations::default();
     let mut seen = HashSet::new();
     let mut open: Vec<Expr> = values.into_iter().collect();
     while let Some(expr) = open.pop() {
-        if arena.level(expr) != Level::State || !seen.insert(expr) {
+        if is_constant(expr) || !seen.insert(expr) {
             continue;
         }
+        let constants = arena.operands(expr).filter(|part| is_constant(*part)).count();
         match arena.node(expr) {
-            Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {}
+            Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => continue,
             Node::Sum(terms) => {
-                let state = terms.iter().filter(|(_, term)| arena.level(*term) == Level::State);
-                let has_constant = state.clone().count() < terms.len();
-                count.additions += state.clone().count() + usize::from(has_constant) - 1;
-                for (coefficient, term) in state {
+                count.additions += terms.len() - constants + usize::from(constants > 0) - 1;
+                for (coefficient, term) in terms.iter().filter(|(_, term)| !is_constant(*term)) {
                     let is_unit = *coefficient == Rational::ONE || *coefficient == -Rational::ONE;
                     // A number joins the scene constant of its product.
-                    let has_constant =
-                        arena.factors(*term).iter().any(|(factor, _)| arena.level(*factor) != Level::State);
+                    let has_constant = arena.factors(*term).iter().any(|(factor, _)| is_constant(*factor));
                     count.multiplications += usize::from(!is_unit && !has_constant);
-                    open.push(*term);
                 }
             }
             Node::Product(factors) => {
-                let state: Vec<_> = factors.iter().filter(|(factor, _)| arena.level(*factor) == Level::State).collect();
-                let powers: u32 = state.iter().map(|(_, power)| power.unsigned_abs()).sum();
-                count.multiplications += powers as usize + usize::from(state.len() < factors.len()) - 1;
-                for (factor, power) in state {
-                    count.divisions += usize::from(*power < 0);
-                    open.push(*factor);
-                }
+                let powers = factors.iter().filter(|(factor, _)| !is_constant(*factor)).map(|(_, power)| *power);
+                count.divisions += powers.clone().filter(|power| *power < 0).count();
+                let multiplications: u32 = powers.map(i32::unsigned_abs).sum();
+                count.multiplications += multiplications as usize + usize::from(constants > 0) - 1;
             }
         }
+        open.extend(arena.operands(expr));
     }
     count
-}
-
-fn visit(arena: &Arena, expr: Expr, seen: &mut HashSet<Expr>, count: &mut Operations) {
-    if !seen.insert(expr) {
-        return;
-    }
-    match arena.node(expr) {
-        Node::Number(_) | Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {}
-        Node::Sum(terms) => {
-            count.additions += terms.len() - 1;
-            for (coefficient, term) in terms {
-                let is_unit = *coefficient == Rational::ONE || *coefficient == -Rational::ONE;
-                count.multiplications += usize::from(!is_unit);
-                visit(arena, *term, seen, count);
-            }
-        }
-        Node::Product(factors) => {
-            let multiplications: u32 = factors.iter().map(|(_, power)| power.unsigned_abs()).sum();
-            count.multiplications += multiplications as usize - 1;
-            for (factor, power) in factors {
-                count.divisions += usize::from(*power < 0);
-                visit(arena, *factor, seen, count);
-            }
-        }
-    }
 }

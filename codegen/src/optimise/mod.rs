@@ -1,7 +1,7 @@
-//! By what a term depends on: condense, hoist what is constant over a scene, share what is used twice, count.
+//! Optimisation by what a term depends on: condense, hoist what is constant over a scene, share what is used twice, count.
 //!
 //! The three times of evaluation are number (build), scene (once per mode that a run enters) and state (every step).
-//! What is left for the step is compared between linkages: equal programs are emitted once.
+//! Step programs are compared between linkages: equal programs are emitted once.
 
 mod condense;
 mod count;
@@ -9,10 +9,9 @@ mod forces;
 mod program;
 mod series;
 mod step;
-mod units;
 
 pub use count::{Operations, count_expressions, count_hoisted};
 pub use forces::force_program;
 pub use program::{Constant, Program, Routine, Statement};
 pub use series::series_program;
-pub use step::{Coupling, Form, Parts, Rates, Units, Weight, acceleration_program, admitted, cheapest, energy_program};
+pub use step::{Form, Parts, Rates, Units, Weight, acceleration_program, admitted, cheapest, energy_program};

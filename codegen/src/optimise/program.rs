@@ -1,16 +1,17 @@
 //! Programs: scene constants pulled out, the rest as named statements over the state.
 //!
-//! A [`ProgramBuilder`] carries expressions of the derivation over into an arena of its own. Whatever a scene fixes becomes
-//! one constant, however large; what remains names no length or mass, so that the programs of different linkages can be
-//! compared. Constants are numbered by first use.
+//! A [`ProgramBuilder`] carries expressions of the derivation over into an arena of its own. Every scene expression becomes one
+//! constant, however large; programs name no length or mass, so that those of different linkages can be compared.
+//! A constant that the builder meets on its way is named by the state factors that it multiplies and by the
+//! quantities in its formula, so that equal programs have equal names. Order of first use is order of the constants.
 
-use super::count::{Operations, operations};
+use super::count::{Operations, count_expressions};
 use crate::mechanics::{Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
 use std::collections::HashMap;
 
-/// How constants are called that have no name of their own: numbered by first use.
-const UNNAMED: &str = "constant_";
+/// Name of a constant by the inputs and statements that it multiplies, outermost first, and its formula in the derivation.
+type ConstantName = Box<dyn Fn(&[String], &Arena, Expr) -> Option<String>>;
 
 /// A scene constant of a program.
 #[derive(Clone, Debug)]
@@ -21,7 +22,7 @@ pub struct Constant {
     pub symbol: Expr,
     /// Unit of the constant.
     pub unit: Unit,
-    /// What it is, in the arena of the derivation.
+    /// Its formula, in the arena of the derivation.
     pub source: Expr,
 }
 
@@ -48,10 +49,9 @@ pub struct Routine {
 }
 
 impl Routine {
-    /// Whether a symbol occurs in it.
-    fn reads(&self, arena: &Arena, symbol: Expr) -> bool {
-        let values = self.statements.iter().map(|statement| statement.value).chain(self.outputs.iter().copied());
-        values.into_iter().any(|value| occurs(arena, value, symbol))
+    /// Values of the statements, then the outputs.
+    pub fn values(&self) -> impl Iterator<Item = Expr> {
+        self.statements.iter().map(|statement| statement.value).chain(self.outputs.iter().copied())
     }
 
     /// Leaves out statements that the outputs do not need.
@@ -99,7 +99,7 @@ impl Program {
         text
     }
 
-    /// Replaces symbols by values throughout; names of what has become a symbol or a number vanish.
+    /// Replaces symbols by values throughout; a statement that has become a symbol or a number vanishes.
     pub fn rewrite(&mut self, mut replacement: HashMap<Expr, Expr>) {
         for routine in &mut self.routines {
             let mut kept = Vec::with_capacity(routine.statements.len());
@@ -129,32 +129,31 @@ impl Program {
 
     /// Leaves out constants that no routine reads.
     pub fn drop_unused_constants(&mut self) {
-        let is_read = |symbol: Expr| self.routines.iter().any(|routine| routine.reads(&self.arena, symbol));
+        let is_read = |symbol: Expr| {
+            self.routines.iter().flat_map(Routine::values).any(|value| occurs(&self.arena, value, symbol))
+        };
         let read: Vec<Expr> = self.constants.iter().map(|constant| constant.symbol).filter(|s| is_read(*s)).collect();
         self.constants.retain(|constant| read.contains(&constant.symbol));
-        let unnamed = self.constants.iter_mut().filter(|constant| constant.name.starts_with(UNNAMED));
-        for (index, constant) in unnamed.enumerate() {
-            constant.name = format!("{UNNAMED}{}", index + 1);
-            self.arena.rename(constant.symbol, &constant.name);
-        }
     }
 
     /// Operations of one call of a routine.
     pub fn operations(&self, routine: &str) -> Option<Operations> {
         let routine = self.routines.iter().find(|candidate| candidate.name == routine)?;
-        Some(operations(&self.arena, routine))
+        Some(count_expressions(&self.arena, routine.values()))
     }
 }
 
 /// Builds a [`Program`] from expressions of a derivation.
-#[derive(Debug)]
 pub struct ProgramBuilder<'a> {
     /// The arena of the derivation.
     pub source: &'a mut Arena,
     program: Program,
-    /// What is already known of the source, by expression: inputs, constants, named statements.
+    /// Expressions of the source that have a symbol in the program: inputs, constants, named statements.
     known: HashMap<Expr, Expr>,
     statements: Vec<Statement>,
+    /// Inputs and statements that multiply the expression being translated, outermost first.
+    factors: Vec<String>,
+    constant_name: ConstantName,
 }
 
 impl<'a> ProgramBuilder<'a> {
@@ -183,7 +182,13 @@ impl<'a> ProgramBuilder<'a> {
         input("ground_x".into(), symbols.ground_x, source);
         input("gravity".into(), symbols.gravity, source);
         let program = Program { dof, arena, constants: Vec::new(), routines: Vec::new() };
-        ProgramBuilder { source, program, known, statements: Vec::new() }
+        let constant_name: ConstantName = Box::new(|_, _, _| None);
+        ProgramBuilder { source, program, known, statements: Vec::new(), factors: Vec::new(), constant_name }
+    }
+
+    /// From now on, names constants that have no name by this rule; `None` gives `coefficient_of_` and the factors.
+    pub fn name_constants_by(&mut self, rule: impl Fn(&[String], &Arena, Expr) -> Option<String> + 'static) {
+        self.constant_name = Box::new(rule);
     }
 
     /// The program's arena.
@@ -191,8 +196,8 @@ impl<'a> ProgramBuilder<'a> {
         &mut self.program.arena
     }
 
-    /// The constant that stands for a scene expression; new ones are called `name`.
-    pub fn constant(&mut self, scene: Expr, name: &str) -> Expr {
+    /// The constant that stands for a scene expression; a new one is called `name` and has this unit.
+    pub fn constant(&mut self, scene: Expr, name: &str, unit: Unit) -> Expr {
         if let Some(&symbol) = self.known.get(&scene) {
             return symbol;
         }
@@ -200,9 +205,12 @@ impl<'a> ProgramBuilder<'a> {
         if let Some(&symbol) = self.known.get(&opposite) {
             return self.program.arena.neg(symbol);
         }
-        let unit = self.source.unit(scene);
-        let symbol = self.program.arena.symbol(name, Level::Scene, unit);
-        self.program.constants.push(Constant { name: name.into(), symbol, unit, source: scene });
+        let mut name = name.to_string();
+        while self.program.constants.iter().any(|constant| constant.name == name) {
+            name.insert_str(0, "other_");
+        }
+        let symbol = self.program.arena.symbol(name.as_str(), Level::Scene, unit);
+        self.program.constants.push(Constant { name, symbol, unit, source: scene });
         self.known.insert(scene, symbol);
         symbol
     }
@@ -217,8 +225,10 @@ impl<'a> ProgramBuilder<'a> {
             return self.program.arena.neg(known);
         }
         if self.source.level(expr) == Level::Scene {
-            let name = self.next_constant_name();
-            return self.constant(expr, &name);
+            let unit = self.source.unit(expr);
+            let name = (self.constant_name)(&self.factors, self.source, expr);
+            let name = name.unwrap_or_else(|| format!("coefficient_of_{}", self.factors.join("_")));
+            return self.constant(expr, &name, unit);
         }
         match self.source.node(expr).clone() {
             Node::Number(value) => self.program.arena.number(value),
@@ -247,10 +257,14 @@ impl<'a> ProgramBuilder<'a> {
             factors.iter().copied().partition(|(factor, _)| self.source.level(*factor) == Level::State);
         let scene = self.source.product(scene);
         let weighted = self.source.scale(coefficient, scene);
+        let outer = self.factors.len();
+        let names = state.iter().filter_map(|(factor, _)| self.name_of(*factor)).collect::<Vec<_>>();
+        self.factors.extend(names);
         let mut translated = vec![(self.translate_scene(weighted), 1)];
         for (factor, power) in state {
             translated.push((self.translate(factor), power));
         }
+        self.factors.truncate(outer);
         self.program.arena.product(translated)
     }
 
@@ -264,11 +278,12 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    fn next_constant_name(&self) -> String {
-        format!("{UNNAMED}{}", self.program.constants.len() + 1)
+    /// Name of the input or statement that a factor of the derivation is.
+    fn name_of(&self, factor: Expr) -> Option<String> {
+        Some(self.program.arena.symbol_name(*self.known.get(&factor)?)?.into())
     }
 
-    /// Names a value: later uses of it, or of its opposite, read the name. A name, the opposite of one, and a number stay what they are.
+    /// Names a value: later uses of it, or of its opposite, read the name. A name, the opposite of a name, and a number get no other name.
     pub fn define(&mut self, name: String, value: Expr) -> Expr {
         if is_plain(&self.program.arena, value) {
             return value;
@@ -292,9 +307,9 @@ impl<'a> ProgramBuilder<'a> {
         symbol
     }
 
-    /// Names a body vector turned by the angle of `link` (from 1), and its constants `*_axial` (along the link's axis) and
-    /// `*_lateral` (across it).
-    pub fn define_turned_vector(&mut self, name: &str, link: usize, vector: Vector) {
+    /// Names a body vector turned by the angle of `link` (from 1), and its constants `*_axial` (along the axis of the link) and
+    /// `*_lateral` (across it), whose names begin with `prefix`.
+    pub fn define_turned_vector(&mut self, prefix: &str, name: &str, link: usize, vector: Vector) {
         for (coefficient, term) in self.source.terms(vector[0]) {
             let factors = self.source.factors(term);
             let along = factors.iter().any(|(factor, _)| matches!(self.source.node(*factor), Node::Cos(_)));
@@ -303,7 +318,9 @@ impl<'a> ProgramBuilder<'a> {
             let scene = self.source.product(scene);
             let scene = self.source.scale(coefficient, scene);
             if self.source.level(scene) == Level::Scene {
-                self.constant(scene, &format!("{name}_{}_{link}", if along { "axial" } else { "lateral" }));
+                let unit = self.source.unit(scene);
+                let axis = if along { "axial" } else { "lateral" };
+                self.constant(scene, &format!("{prefix}{name}_{axis}_{link}"), unit);
             }
         }
         for (axis, component) in ["x", "y"].iter().zip(vector) {
@@ -311,7 +328,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Closes a routine: the statements since the last one, those that the outputs do not need left out.
+    /// Closes a routine: the statements since the last routine that the outputs need.
     pub fn finish_routine(&mut self, name: &'static str, outputs: Vec<Expr>) {
         let statements = std::mem::take(&mut self.statements);
         for statement in &statements {
@@ -343,11 +360,5 @@ fn is_plain(arena: &Arena, expr: Expr) -> bool {
 
 /// Whether `symbol` occurs in `expr`.
 fn occurs(arena: &Arena, expr: Expr, symbol: Expr) -> bool {
-    expr == symbol
-        || match arena.node(expr) {
-            Node::Number(_) | Node::Symbol(_) => false,
-            Node::Sin(angle) | Node::Cos(angle) => occurs(arena, *angle, symbol),
-            Node::Sum(terms) => terms.iter().any(|(_, term)| occurs(arena, *term, symbol)),
-            Node::Product(factors) => factors.iter().any(|(factor, _)| occurs(arena, *factor, symbol)),
-        }
+    arena.any(expr, &|part| part == symbol)
 }

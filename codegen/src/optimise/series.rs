@@ -1,4 +1,4 @@
-//! The program of the weights in the equations of motion: what a Taylor method evaluates per order.
+//! The program of the weights in the equations of motion, which a Taylor method evaluates per order.
 
 use super::program::{Program, ProgramBuilder};
 use crate::mechanics::{Symbols, WeightForm};
@@ -17,7 +17,22 @@ pub fn series_program(arena: &mut Arena, symbols: &Symbols, form: &WeightForm) -
         })
         .collect();
     let mut builder = ProgramBuilder::new(arena, symbols);
-    let outputs = weights.into_iter().map(|weight| builder.translate(weight)).collect();
+    let dof = form.cos.len();
+    let outputs = weights.into_iter().enumerate().map(|(output, weight)| {
+        let link = output % dof + 1;
+        builder.name_constants_by(move |factors, _, _| match factors {
+            [only] if only == "ground_x" => Some(format!("link_moment_axial_{link}")),
+            [only] if only == "gravity" => Some(format!("link_moment_lateral_{link}")),
+            [only] => {
+                let (product, other) = only.rsplit_once("_ddot_")?;
+                let product = if product == "cos" { "cross" } else { "dot" };
+                Some(format!("coupling_{product}_{link}_{other}"))
+            }
+            _ => None,
+        });
+        builder.translate(weight)
+    });
+    let outputs = outputs.collect();
     builder.finish_routine("weights", outputs);
     builder.finish()
 }

@@ -4,17 +4,20 @@
 //! [`Arena::as_difference`]) into
 //!
 //! ```text
-//! J_a = M_aa                                       inertia of link a and what it carries
+//! J_a = M_aa                                       inertia of link a with the masses above
 //! S_a from Σ m_i ∂G_i/∂θ_a = R'(θ_a) S_a           first moment, a body vector (lateral, axial)
 //! d_a from ∂G_top/∂θ_a = R'(θ_a) d_a               lever from the pivot of link a to the next one
 //! M_ab = A_ab cos(θ_b - θ_a) + B_ab sin(θ_b - θ_a),   A_ab = d_a·S_b,   B_ab = d_a×S_b
 //! ```
 //!
-//! Every form is multiplied out and compared with what was derived; where they differ, what was derived stands.
+//! Every form is proved equal to the derived expression by multiplying out. All linkages of rigid blocks have these forms.
 
 use crate::mechanics::{Equations, Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Rational, Unit};
 use std::collections::HashMap;
+
+/// Why every form is found.
+const CHAIN: &str = "the equations of a chain of rigid links have this form";
 
 /// A scene constant with a name.
 #[derive(Clone, Debug)]
@@ -30,7 +33,7 @@ pub struct Definition {
 /// A position as a fixed vector and body vectors turned by the angles of links.
 #[derive(Clone, Debug)]
 pub struct Position {
-    /// The part that does not turn `[m]`; all of it, if the position is no sum of turned vectors.
+    /// The part that does not turn `[m]`.
     pub fixed: Vector,
     /// Links (from zero) and the body vectors (lateral, axial) that their angles turn `[m]`; whole levers by name.
     pub turned: Vec<(usize, Vector)>,
@@ -41,10 +44,8 @@ pub struct Position {
 pub struct Coupling {
     /// Links `a < b`, from zero.
     pub links: (usize, usize),
-    /// `[A, B]`
+    /// `[A, B]`, the scalar and the cross product of lever and first moment: `A = d_a·S_b`, `B = d_a×S_b`.
     pub parts: [Definition; 2],
-    /// Whether they are the scalar and the cross product of lever and first moment: `A = d_a·S_b`, `B = d_a×S_b`.
-    pub of_lever_and_moment: bool,
 }
 
 /// The equations of motion of one linkage with their constants named. Expressions of the derivation's arena.
@@ -54,13 +55,13 @@ pub struct Compact {
     pub positions: Vec<Position>,
     /// `J_a`, by link.
     pub inertia: Vec<Definition>,
-    /// `S_a`: lateral and axial, by link; `None` where the derived first moment is no turned vector.
-    pub moment: Vec<Option<[Definition; 2]>>,
+    /// `S_a`: lateral and axial, by link.
+    pub moment: Vec<[Definition; 2]>,
     /// `d_a`: lateral and axial, by link, all but the last.
-    pub lever: Vec<Option<[Definition; 2]>>,
-    /// Pairs of links whose coupling is a function of the difference of their angles.
+    pub lever: Vec<[Definition; 2]>,
+    /// Pairs of links: their coupling is a function of the difference of their angles.
     pub coupling: Vec<Coupling>,
-    /// `Σ m_i y_i` of blocks that stay with the ground and what else of `V` no angle turns; `None` if there is none.
+    /// The terms of `V / gravity` that no angle turns, blocks that stay with the ground among them; `None` if there are none.
     pub ground_moment: Option<Definition>,
     /// `T [J]`, term by term.
     pub kinetic: Vec<Expr>,
@@ -68,9 +69,9 @@ pub struct Compact {
     pub potential: Expr,
     /// Mass matrix `[kg m²]`, dof x dof.
     pub mass: Vec<Vec<Expr>>,
-    /// What the rates contribute to each equation `[N m]`, term by term.
+    /// Rate terms of each equation `[N m]`.
     pub bias: Vec<Vec<Expr>>,
-    /// What ground motion and gravity contribute to each equation `[N m]`, term by term.
+    /// Terms of ground motion and gravity in each equation `[N m]`.
     pub forcing: Vec<Vec<Expr>>,
     /// Gravity where the ground does not move vertically.
     gravity: Expr,
@@ -82,6 +83,9 @@ pub struct Compact {
 
 impl Compact {
     /// Reads the form out of derived equations.
+    ///
+    /// # Panics
+    /// If the equations are not those of a chain of rigid links.
     pub fn find(arena: &mut Arena, symbols: &Symbols, equations: &Equations) -> Compact {
         let mut compact = Compact {
             positions: Vec::new(),
@@ -116,10 +120,10 @@ impl Compact {
         compact
     }
 
-    /// All constants, each after those that it is made of.
+    /// All constants, each after the constants in its formula.
     pub fn definitions(&self) -> Vec<&Definition> {
         let mut all: Vec<&Definition> = self.inertia.iter().collect();
-        all.extend(self.moment.iter().chain(&self.lever).flatten().flatten());
+        all.extend(self.moment.iter().chain(&self.lever).flatten());
         all.extend(self.coupling.iter().flat_map(|coupling| &coupling.parts));
         all.extend(&self.ground_moment);
         all
@@ -174,9 +178,9 @@ impl Compact {
         self.names.get(&opposite).map(|&symbol| arena.neg(symbol))
     }
 
-    /// Names a constant; should its value not be what it stands for, that is its value.
+    /// Names a constant; `value` is a form of its `meaning`.
     fn define(&mut self, arena: &mut Arena, name: String, value: Expr, meaning: Expr) -> Definition {
-        let value = self.checked(arena, value, meaning).unwrap_or(meaning);
+        let value = self.proved(arena, value, meaning);
         let unit = arena.unit(meaning);
         let symbol = arena.symbol(name, Level::Scene, unit);
         self.meaning.insert(symbol, value);
@@ -196,11 +200,11 @@ impl Compact {
         }
         for (link, &angle) in symbols.theta.iter().enumerate() {
             let moment = body_vector(arena, equations.first_moment[link], angle);
-            let moment = moment.map(|vector| self.define_vector(arena, symbols, "link_moment", link, vector));
+            let moment = self.define_vector(arena, symbols, "link_moment", link, moment);
             self.moment.push(moment);
             if link + 1 < dof {
                 let lever = body_vector(arena, equations.lever[link], angle);
-                let lever = lever.map(|vector| self.define_vector(arena, symbols, "link_lever", link, vector));
+                let lever = self.define_vector(arena, symbols, "link_lever", link, lever);
                 self.lever.push(lever);
             }
         }
@@ -221,9 +225,9 @@ impl Compact {
         })
     }
 
-    /// The lever of a link by name, if that is what the vector is.
+    /// The names of the lever of a link, if the vector is that lever.
     fn lever_or(&self, arena: &mut Arena, link: usize, vector: Vector) -> Vector {
-        let Some(Some(lever)) = self.lever.get(link) else { return vector };
+        let Some(lever) = self.lever.get(link) else { return vector };
         let names = [0, 1].map(|axis| lever[axis].symbol);
         if vector.map(|component| self.named(arena, component)) == names { names } else { vector }
     }
@@ -233,39 +237,28 @@ impl Compact {
             for lower in 0..upper {
                 let (a, b) = (symbols.theta[lower], symbols.theta[upper]);
                 let entry = equations.mass[lower][upper];
-                let Some(read) = arena.as_difference(entry, a, b) else { continue };
-                let products = self
-                    .products(arena, lower, upper)
-                    .filter(|products| (0..2).all(|part| self.checked(arena, products[part], read[part]).is_some()));
-                let names = ["cos", "sin"].map(|part| format!("coupling_{part}_{}_{}", lower + 1, upper + 1));
-                let values = match products {
-                    Some(products) => products,
-                    None => read.map(|part| arena.collect_for_reading(part, &symbols.mass)),
-                };
-                let [cosine, sine] = names;
-                let cosine = self.define(arena, cosine, values[0], read[0]);
-                let sine = self.define(arena, sine, values[1], read[1]);
+                let read = arena.as_difference(entry, a, b).expect(CHAIN);
+                let products = self.products(arena, lower, upper);
+                let parts = [0, 1].map(|part| {
+                    let name = format!("coupling_{}_{}_{}", ["dot", "cross"][part], lower + 1, upper + 1);
+                    self.define(arena, name, products[part], read[part])
+                });
                 self.meaning.extend(arena.addition_theorems(a, b));
                 let form = self.function_of_difference(arena, symbols, (lower, upper), read);
-                if let Some(form) = self.checked(arena, form, entry) {
-                    self.mass[lower][upper] = form;
-                    self.mass[upper][lower] = form;
-                }
-                self.coupling.push(Coupling {
-                    links: (lower, upper),
-                    parts: [cosine, sine],
-                    of_lever_and_moment: products.is_some(),
-                });
+                let form = self.proved(arena, form, entry);
+                self.mass[lower][upper] = form;
+                self.mass[upper][lower] = form;
+                self.coupling.push(Coupling { links: (lower, upper), parts });
             }
         }
     }
 
     /// `d·S` and `d×S` of the lever of the lower link and the moment of the upper one.
-    fn products(&self, arena: &mut Arena, lower: usize, upper: usize) -> Option<[Expr; 2]> {
-        let [d, s] = [self.lever[lower].as_ref()?, self.moment[upper].as_ref()?];
-        let product = |arena: &mut Arena, i: usize, j: usize| arena.mul(d[i].symbol, s[j].symbol);
-        let [xx, yy, xy, yx] = [(0, 0), (1, 1), (0, 1), (1, 0)].map(|(i, j)| product(arena, i, j));
-        Some([arena.add(xx, yy), arena.sub(xy, yx)])
+    fn products(&self, arena: &mut Arena, lower: usize, upper: usize) -> [Expr; 2] {
+        let (d, s) = (&self.lever[lower], &self.moment[upper]);
+        let [xx, yy, xy, yx] =
+            [(0, 0), (1, 1), (0, 1), (1, 0)].map(|(i, j): (usize, usize)| arena.mul(d[i].symbol, s[j].symbol));
+        [arena.add(xx, yy), arena.sub(xy, yx)]
     }
 
     /// `A cos(θ_upper - θ_lower) + B sin(θ_upper - θ_lower)` with `A`, `B` by name.
@@ -288,10 +281,11 @@ impl Compact {
         arena.total(parts)
     }
 
-    /// The form, if it is what was derived.
-    fn checked(&self, arena: &mut Arena, form: Expr, derived: Expr) -> Option<Expr> {
+    /// The form, proved equal to the derived expression.
+    fn proved(&self, arena: &mut Arena, form: Expr, derived: Expr) -> Expr {
         let full = self.in_full(arena, form);
-        arena.equal(full, derived).then_some(form)
+        assert!(arena.equal(full, derived), "{CHAIN}");
+        form
     }
 
     fn write_energies(&mut self, arena: &mut Arena, symbols: &Symbols, equations: &Equations) {
@@ -308,8 +302,8 @@ impl Compact {
             kinetic.push(arena.mul(self.mass[a][b], rates));
         }
         let total = arena.total(kinetic.iter().copied());
-        let holds = self.checked(arena, total, equations.kinetic).is_some();
-        self.kinetic = if holds { kinetic } else { vec![equations.kinetic] };
+        self.proved(arena, total, equations.kinetic);
+        self.kinetic = kinetic;
 
         let mut height = Vec::new();
         for (state, coefficient) in arena.by_state(equations.potential) {
@@ -326,7 +320,7 @@ impl Compact {
         }
         let height = arena.total(height);
         let potential = arena.mul(symbols.gravity, height);
-        self.potential = self.checked(arena, potential, equations.potential).unwrap_or(equations.potential);
+        self.potential = self.proved(arena, potential, equations.potential);
     }
 
     /// Rate terms of one equation: each square with a function of the difference of two angles.
@@ -335,16 +329,15 @@ impl Compact {
         let mut terms = Vec::new();
         for (link, &rate) in symbols.omega.iter().enumerate().filter(|(link, _)| *link != row) {
             let square = arena.square(rate);
-            let coefficient = coefficient_of(arena, derived, square);
+            let [coefficient, _] = arena.split_off(derived, square);
             let (lower, upper) = (row.min(link), row.max(link));
-            let Some(read) = arena.as_difference(coefficient, symbols.theta[lower], symbols.theta[upper]) else {
-                continue;
-            };
+            let read = arena.as_difference(coefficient, symbols.theta[lower], symbols.theta[upper]).expect(CHAIN);
             let form = self.function_of_difference(arena, symbols, (lower, upper), read);
             terms.push(arena.mul(form, square));
         }
         let total = arena.total(terms.iter().copied());
-        if self.checked(arena, total, derived).is_some() { terms } else { vec![derived] }
+        self.proved(arena, total, derived);
+        terms
     }
 
     /// Ground motion and gravity in one equation: a turned vector each.
@@ -354,23 +347,24 @@ impl Compact {
         let atoms = [arena.cos(angle), arena.sin(angle)];
         let mut terms = Vec::new();
         for driver in [symbols.ground_x, symbols.gravity] {
-            let coefficient = coefficient_of(arena, derived, driver);
-            let Some(read) = arena.as_turned(coefficient, angle) else { continue };
+            let [coefficient, _] = arena.split_off(derived, driver);
+            let read = arena.as_turned(coefficient, angle).expect(CHAIN);
             let form = self.combination(arena, atoms, read);
             terms.push(arena.mul(driver, form));
         }
         let total = arena.total(terms.iter().copied());
-        if self.checked(arena, total, derived).is_some() { terms } else { vec![derived] }
+        self.proved(arena, total, derived);
+        terms
     }
 }
 
-/// The body vector `(u, v)` with `vector = R'(angle) (u, v) = (v cos - u sin, -u cos - v sin)`; `None` if there is none.
-fn body_vector(arena: &mut Arena, vector: Vector, angle: Expr) -> Option<Vector> {
-    let [v, minus_u] = arena.as_turned(vector[0], angle)?;
-    let u = arena.neg(minus_u);
-    let [also_minus_u, minus_v] = arena.as_turned(vector[1], angle)?;
+/// The body vector `(u, v)` with `vector = R'(angle) (u, v) = (v cos - u sin, -u cos - v sin)`.
+fn body_vector(arena: &mut Arena, vector: Vector, angle: Expr) -> Vector {
+    let [v, minus_u] = arena.as_turned(vector[0], angle).expect(CHAIN);
+    let [also_minus_u, minus_v] = arena.as_turned(vector[1], angle).expect(CHAIN);
     let also_v = arena.neg(minus_v);
-    (arena.equal(minus_u, also_minus_u) && arena.equal(v, also_v)).then_some([u, v])
+    assert!(arena.equal(minus_u, also_minus_u) && arena.equal(v, also_v), "{CHAIN}");
+    [arena.neg(minus_u), v]
 }
 
 /// A position taken apart into a fixed vector and turned ones `R(θ)(u, v) = (u cos θ + v sin θ, -u sin θ + v cos θ)`.
@@ -379,7 +373,7 @@ fn position(arena: &mut Arena, symbols: &Symbols, centroid: Vector) -> Position 
     let mut turned = Vec::new();
     for (link, &angle) in symbols.theta.iter().enumerate() {
         let (cosine, sine) = (arena.cos(angle), arena.sin(angle));
-        let vector = [coefficient_of(arena, rest[0], cosine), coefficient_of(arena, rest[0], sine)];
+        let vector = [cosine, sine].map(|atom| arena.split_off(rest[0], atom)[0]);
         if vector.iter().all(|&component| arena.is_zero(component)) {
             continue;
         }
@@ -389,22 +383,6 @@ fn position(arena: &mut Arena, symbols: &Symbols, centroid: Vector) -> Position 
         rest = [arena.sub(rest[0], x), arena.sub(rest[1], y)].map(|component| arena.expand(component));
         turned.push((link, vector));
     }
-    if rest.iter().any(|&component| arena.level(component) == Level::State) {
-        return Position { fixed: centroid, turned: Vec::new() };
-    }
+    assert!(rest.iter().all(|&component| arena.level(component) < Level::State), "{CHAIN}");
     Position { fixed: rest, turned }
-}
-
-/// The coefficient of a power in an expanded expression.
-fn coefficient_of(arena: &mut Arena, expr: Expr, power: Expr) -> Expr {
-    let wanted = arena.factors(power);
-    let mut sum = Vec::new();
-    for (coefficient, term) in arena.terms(expr) {
-        let factors = arena.factors(term);
-        if wanted.iter().all(|power| factors.contains(power)) {
-            let inverse = wanted.iter().map(|&(factor, exponent)| (factor, -exponent));
-            sum.push((coefficient, arena.product(factors.into_iter().chain(inverse))));
-        }
-    }
-    arena.sum(sum)
 }

@@ -1,10 +1,11 @@
-//! What `rocking derive --counts` prints: operations of the accelerations before and after each pass.
+//! The output of `rocking derive --counts`: operations of the accelerations before and after each pass.
 
 use super::text::title;
+use crate::derivation::{Derivation, Plan, derive_in_form};
+use crate::ground::GroundMotion;
 use crate::optimise::{Operations, count_expressions, count_hoisted};
 use crate::pattern::Pattern;
 use crate::symbolic::Expr;
-use crate::{Derivation, GroundMotion, Plan, derive_in_form};
 use std::fmt::Write;
 
 /// The operations of a mode's equations as derived, condensed, hoisted, and of all forms of its step programs.
@@ -52,14 +53,14 @@ pub fn counts(pattern: &Pattern) -> String {
     )
 }
 
-/// What Euler-Lagrange gave, nothing done to it.
+/// The terms as Euler-Lagrange gives them.
 fn as_derived(derivation: &Derivation) -> Vec<Expr> {
     let equations = &derivation.equations;
     let rows = (0..equations.mass.len()).flat_map(|row| equations.mass[row][..=row].to_vec());
     rows.chain(equations.bias.iter().copied()).chain(equations.forcing.iter().copied()).collect()
 }
 
-/// The same terms as the programs are made of.
+/// The terms of which programs are made.
 fn condensed(derivation: &Derivation) -> Vec<Expr> {
     let parts = &derivation.parts;
     let pairs = parts.mass.iter().chain(&parts.bias).flatten().copied();

@@ -6,12 +6,12 @@
 
 use super::compact::{Compact, Definition, Position};
 use super::listing::Listing;
+use crate::derivation::{Derivation, derive};
 use crate::mechanics::{Symbols, Vector};
 use crate::optimise::Form;
 use crate::pattern::{Interface, Pattern};
 use crate::symbolic::latex::{Formula, Notation, Place, width};
 use crate::symbolic::{Arena, Expr};
-use crate::{Derivation, derive};
 use std::fmt::Write;
 
 /// Room for a line of a display [pt]: A4 less margins of 25 mm leaves 455, the equation's number and its gap take 35.
@@ -109,7 +109,7 @@ fn notation(symbols: &Symbols, compact: &Compact) -> Notation {
     }
     for (vectors, letter) in [(&compact.moment, "S"), (&compact.lever, "d")] {
         for (link, vector) in vectors.iter().enumerate() {
-            for (definition, axis) in vector.iter().flatten().zip(["\\perp", "\\parallel"]) {
+            for (definition, axis) in vector.iter().zip(["\\perp", "\\parallel"]) {
                 constant(definition, format!("{letter}_{{{}}}^{{{axis}}}", link + 1));
             }
         }
@@ -170,7 +170,7 @@ impl Page<'_> {
         );
     }
 
-    /// What the symbols mean, and which blocks move together.
+    /// Meanings of the symbols, and the blocks of each link.
     fn words(&mut self, pattern: &Pattern) {
         let links = pattern.linkage().link_of_block();
         let numbers = |state: Interface| -> Vec<usize> { positions(&pattern.0, |known| *known == state) };
@@ -232,14 +232,14 @@ impl Page<'_> {
             rows.push(self.equation(&format!("\\mathbf{{G}}_{{{}}}", index + 1), &self.position(position)));
         }
         self.display(&rows, true);
-        let levers: Vec<(usize, &[Definition; 2])> =
-            self.compact.lever.iter().enumerate().filter_map(|(link, lever)| Some((link, lever.as_ref()?))).collect();
+        let levers = &self.compact.lever;
         if levers.is_empty() {
             return;
         }
         self.out.push_str("Here $\\mathbf{d}_a$ leads from the pivot of link $a$ to that of link $a + 1$:\n");
         let rows: Vec<Vec<String>> = levers
             .iter()
+            .enumerate()
             .map(|(link, lever)| {
                 let name = format!("\\mathbf{{d}}_{{{}}}", link + 1);
                 let symbols = self.vector([lever[0].symbol, lever[1].symbol]);
@@ -257,7 +257,7 @@ impl Page<'_> {
             formula.add_tex(&self.vector(position.fixed));
         }
         for &(link, vector) in &position.turned {
-            let lever = self.compact.lever.get(link).and_then(Option::as_ref);
+            let lever = self.compact.lever.get(link);
             let body = match lever.map(|lever| [lever[0].symbol, lever[1].symbol]) {
                 Some(lever) if lever == vector => format!("\\mathbf{{d}}_{{{}}}", link + 1),
                 _ => self.vector(vector),
@@ -278,7 +278,7 @@ impl Page<'_> {
         );
         let mut rows = Vec::new();
         for (link, inertia) in compact.inertia.iter().enumerate() {
-            rows.extend(compact.moment[link].iter().flatten().map(|part| self.definition(part)));
+            rows.extend(compact.moment[link].iter().map(|part| self.definition(part)));
             rows.push(self.definition(inertia));
         }
         self.display(&rows, false);
@@ -299,12 +299,10 @@ impl Page<'_> {
             }
         }
         self.display(&rows, false);
-        if compact.coupling.iter().all(|coupling| coupling.of_lever_and_moment) {
-            self.out.push_str(
-                "the scalar and the cross product of lever and first moment, so that $A_{ab} \\cos(\\theta_b - \\theta_a) \
-                 + B_{ab} \\sin(\\theta_b - \\theta_a) = \\mathbf{d}_a \\cdot R(\\theta_b - \\theta_a) \\mathbf{S}_b$.\n",
-            );
-        }
+        self.out.push_str(
+            "the scalar and the cross product of lever and first moment, so that $A_{ab} \\cos(\\theta_b - \\theta_a) \
+             + B_{ab} \\sin(\\theta_b - \\theta_a) = \\mathbf{d}_a \\cdot R(\\theta_b - \\theta_a) \\mathbf{S}_b$.\n",
+        );
     }
 
     fn definition(&self, definition: &Definition) -> Vec<String> {

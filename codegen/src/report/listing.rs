@@ -1,8 +1,7 @@
 //! The emitted step-time program in the symbols of the derivation, to be printed.
 //!
-//! A program names its constants by what they are to the code, and measures them in units that save operations. Here each
-//! is found again among the constants of [`Compact`], by value, or as a quotient of them, so that the listing speaks of the
-//! same quantities as the formulas above it.
+//! A program measures its constants in units that save operations. The listing writes each of them as a constant of [`Compact`],
+//! found by value, or as a quotient of such constants, so that it has the quantities of the formulas above it.
 
 use super::compact::Compact;
 use crate::mechanics::Symbols;
@@ -68,7 +67,7 @@ impl Listing {
     }
 }
 
-/// A number, a symbol, or the opposite or the reciprocal of one: what needs no name of its own.
+/// Whether an expression needs no name of its own: a number, a symbol, or the opposite or reciprocal of a symbol.
 fn is_short(arena: &Arena, value: Expr) -> bool {
     let is_symbol = |expr: Expr| matches!(arena.node(expr), Node::Symbol(_));
     match arena.node(value) {
@@ -84,38 +83,19 @@ fn carry(from: &Arena, expr: Expr, to: &mut Arena, symbols: &HashMap<Expr, Expr>
     if let Some(&known) = symbols.get(&expr) {
         return known;
     }
-    match from.node(expr) {
-        Node::Number(value) => to.number(*value),
-        Node::Symbol(rank) => {
-            let symbol = from.symbol_data(*rank).clone();
-            to.symbol(symbol.name, symbol.level, symbol.unit)
-        }
-        Node::Sin(angle) => {
-            let angle = carry(from, *angle, to, symbols);
-            to.sin(angle)
-        }
-        Node::Cos(angle) => {
-            let angle = carry(from, *angle, to, symbols);
-            to.cos(angle)
-        }
-        Node::Sum(terms) => {
-            let terms: Vec<_> = terms.iter().map(|&(c, term)| (c, carry(from, term, to, symbols))).collect();
-            to.sum(terms)
-        }
-        Node::Product(factors) => {
-            let factors: Vec<_> =
-                factors.iter().map(|&(factor, power)| (carry(from, factor, to, symbols), power)).collect();
-            to.product(factors)
-        }
+    if let Node::Symbol(rank) = from.node(expr) {
+        let symbol = from.symbol_data(*rank).clone();
+        return to.symbol(symbol.name, symbol.level, symbol.unit);
     }
+    to.rebuild(from.node(expr).clone(), |to, part| carry(from, part, to, symbols))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derivation::{Derivation, derive};
     use crate::pattern::linkages;
     use crate::symbolic::Environment;
-    use crate::{Derivation, derive};
 
     #[test]
     fn the_listed_statements_solve_the_printed_equations_of_motion() {

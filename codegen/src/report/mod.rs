@@ -1,4 +1,4 @@
-//! What `rocking derive` prints: a mode's derivation as text or LaTeX, and its code.
+//! The output of `rocking derive`: the derivation of a mode as text or LaTeX, and its code.
 
 mod compact;
 mod counts;

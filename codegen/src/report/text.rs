@@ -1,9 +1,11 @@
 //! A mode's derivation as plain text, and its code.
 
+use crate::derivation::{Derivation, derive};
+use crate::emit;
+use crate::ground::GroundMotion;
 use crate::optimise::{Constant, Program};
 use crate::pattern::{Interface, Pattern};
 use crate::symbolic::{Arena, Expr};
-use crate::{Derivation, GroundMotion, derive, emit};
 use std::fmt::Write;
 
 /// The derivation of a pattern, from positions to the step-time program, as plain text.

@@ -1,10 +1,11 @@
-//! Sums of scene quantities in the form that takes the fewest marks on paper.
+//! Sums of scene quantities in the form with the fewest characters on paper, for readers.
 //!
 //! Two ways of taking factors out are tried, alone and one inside the other: by a family of symbols in which the sum is
 //! linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and by the factor that most
-//! terms share. What a computer would rather do is the duty of [`crate::optimise`]; this is for readers.
+//! terms share. Forms with the fewest operations are in [`crate::optimise`].
 
-use super::{Arena, Expr, Node, Rational};
+use super::arena::{Arena, Expr, Node};
+use super::rational::Rational;
 
 impl Arena {
     /// The shortest of the forms named above; equal to `expr`.
@@ -25,7 +26,7 @@ impl Arena {
         let mut rest = expr;
         let mut groups: Vec<(Expr, Vec<Expr>)> = Vec::new();
         for &member in family {
-            let (coefficient, remainder) = self.split_off(rest, (member, 1));
+            let [coefficient, remainder] = self.split_off(rest, member);
             rest = remainder;
             if self.is_zero(coefficient) {
                 continue;
@@ -48,9 +49,10 @@ impl Arena {
     /// Takes out the factor that most terms share, again and again.
     fn take_out_factors(&mut self, expr: Expr) -> Expr {
         let Some(factor) = self.most_shared_power(expr) else { return expr };
-        let (inner, rest) = self.split_off(expr, factor);
+        let factor = self.product([factor]);
+        let [inner, rest] = self.split_off(expr, factor);
         let (inner, rest) = (self.take_out_factors(inner), self.take_out_factors(rest));
-        let product = self.product([factor, (inner, 1)]);
+        let product = self.mul(factor, inner);
         self.add(product, rest)
     }
 
@@ -72,21 +74,7 @@ impl Arena {
         counts.first().map(|(power, _)| *power)
     }
 
-    /// Splits `expr = power · inner + rest`.
-    fn split_off(&mut self, expr: Expr, (factor, power): (Expr, i32)) -> (Expr, Expr) {
-        let (mut inner, mut rest) = (Vec::new(), Vec::new());
-        for (coefficient, term) in self.terms(expr) {
-            let holds = self.factors(term).iter().any(|&(known, exponent)| known == factor && exponent >= power);
-            if holds {
-                inner.push((coefficient, self.product([(term, 1), (factor, -power)])));
-            } else {
-                rest.push((coefficient, term));
-            }
-        }
-        (self.sum(inner), self.sum(rest))
-    }
-
-    /// Marks on paper: symbols with their index count two, numbers, exponents and pairs of brackets one.
+    /// Length on paper: symbols with their index count two, numbers, exponents and pairs of brackets one.
     fn marks(&self, expr: Expr) -> usize {
         match self.node(expr) {
             Node::Number(_) => 1,
@@ -110,7 +98,7 @@ impl Arena {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Level, Unit};
+    use super::super::arena::{Level, Unit};
     use super::*;
 
     #[test]

@@ -7,10 +7,11 @@
 //! A cos δ + B sin δ = A (cos a cos b + sin a sin b) + B (cos a sin b - sin a cos b)
 //! ```
 //!
-//! so four products collapse to two if their coefficients agree in pairs. They are compared multiplied out: what is
-//! returned is equal to what was given, or nothing is returned.
+//! so four products collapse to two if their coefficients agree in pairs. Coefficients are compared
+//! multiplied out, so a result is equal to the input.
 
-use super::{Arena, Expr, Level, Rational};
+use super::arena::{Arena, Expr, Level};
+use super::rational::Rational;
 use std::collections::HashMap;
 
 impl Arena {
@@ -37,6 +38,22 @@ impl Arena {
         order.into_iter().map(|state| (state, self.sum(scene.remove(&state).unwrap_or_default()))).collect()
     }
 
+    /// `[inner, rest]` with `expr = factor · inner + rest`; terms that hold every power of the factor go to `inner`.
+    pub fn split_off(&mut self, expr: Expr, factor: Expr) -> [Expr; 2] {
+        let wanted = self.factors(factor);
+        let (mut inner, mut rest) = (Vec::new(), Vec::new());
+        for (coefficient, term) in self.terms(expr) {
+            let factors = self.factors(term);
+            if wanted.iter().all(|(f, power)| factors.iter().any(|(g, exponent)| g == f && exponent >= power)) {
+                let quotient = factors.into_iter().chain(wanted.iter().map(|&(f, power)| (f, -power)));
+                inner.push((coefficient, self.product(quotient)));
+            } else {
+                rest.push((coefficient, term));
+            }
+        }
+        [self.sum(inner), self.sum(rest)]
+    }
+
     /// `[A, B]` with `expr = A cos(angle) + B sin(angle)` and `A`, `B` free of the state; `None` if it is not of this form.
     pub fn as_turned(&mut self, expr: Expr, angle: Expr) -> Option<[Expr; 2]> {
         let atoms = [self.cos(angle), self.sin(angle)];
@@ -58,7 +75,7 @@ impl Arena {
         [self.cos(difference), self.sin(difference)]
     }
 
-    /// What [`Arena::turn`] makes, by the addition theorems: for [`Arena::substitute`].
+    /// Sine and cosine of [`Arena::turn`] with their values by the addition theorems, for [`Arena::substitute`].
     pub fn addition_theorems(&mut self, a: Expr, b: Expr) -> [(Expr, Expr); 2] {
         let [cos_a, sin_a, cos_b, sin_b] = [self.cos(a), self.sin(a), self.cos(b), self.sin(b)];
         let [cc, ss, cs, sc] =
@@ -79,7 +96,7 @@ impl Arena {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
+    use super::super::arena::Unit;
     use super::*;
 
     #[test]

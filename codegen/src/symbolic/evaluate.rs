@@ -1,6 +1,6 @@
 //! Numeric value of an expression, for tests and for proving rewrites.
 
-use super::{Arena, Expr, Node};
+use super::arena::{Arena, Expr, Node};
 use std::collections::HashMap;
 
 /// Values of symbols.

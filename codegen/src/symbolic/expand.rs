@@ -1,6 +1,7 @@
-//! Multiplying out: what makes two expressions of the state comparable term by term.
+//! Multiplying out, so that two expressions of the state can be compared term by term.
 
-use super::{Arena, Expr, Level, Node, Rational};
+use super::arena::{Arena, Expr, Level, Node};
+use super::rational::Rational;
 
 /// How deep [`Arena::expand`] goes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -13,7 +14,7 @@ enum Depth {
 
 impl Arena {
     /// The expression as a sum of products of state atoms with scene coefficients; even powers of sines turned into
-    /// cosines (`sin² = 1 - cos²`), so that what is equal by Pythagoras becomes equal.
+    /// cosines (`sin² = 1 - cos²`), so that expressions equal by Pythagoras become the same.
     ///
     /// Sums that hold no state stay factored: they are coefficients, evaluated once per scene.
     pub fn expand(&mut self, expr: Expr) -> Expr {
@@ -106,7 +107,7 @@ impl Arena {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
+    use super::super::arena::Unit;
     use super::*;
 
     #[test]

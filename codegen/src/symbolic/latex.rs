@@ -1,13 +1,14 @@
 //! Expressions as LaTeX, broken into lines that fit a page.
 //!
 //! A [`Formula`] is a row of pieces; a line may be broken before each of them, preferably outside brackets. Widths are
-//! estimated from the glyphs, so nothing of TeX is needed to know that a line fits. How a symbol is set is the caller's
-//! knowledge ([`Notation`]): the engine knows no mechanics.
+//! estimated from the glyphs, so nothing of TeX is needed to know that a line fits. The caller says how a
+//! symbol is set ([`Notation`]): the engine contains no mechanics.
 
-use super::{Arena, Expr, Level, Node, Rational};
+use super::arena::{Arena, Expr, Level, Node};
+use super::rational::Rational;
 use std::collections::HashMap;
 
-/// Where a symbol stands in a product: drivers lead, what varies fastest ends it.
+/// Place of a symbol in a product: accelerations of the ground lead, rates end it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Place {
     /// Before everything else.
@@ -32,10 +33,9 @@ impl Notation {
 
     /// A symbol as LaTeX; one that was not set appears under its name, as code.
     pub fn tex(&self, arena: &Arena, symbol: Expr) -> String {
-        match (self.glyphs.get(&symbol), arena.node(symbol)) {
-            (Some((_, tex)), _) => tex.clone(),
-            (None, Node::Symbol(rank)) => code(&arena.symbol_data(*rank).name),
-            (None, _) => String::new(),
+        match self.glyphs.get(&symbol) {
+            Some((_, tex)) => tex.clone(),
+            None => arena.symbol_name(symbol).map(code).unwrap_or_default(),
         }
     }
 
@@ -98,7 +98,7 @@ impl<'a> Formula<'a> {
         self.open_piece(tex, 0);
     }
 
-    /// What is added next starts a line.
+    /// Breaks the line before the next term.
     pub fn start_line(&mut self) {
         self.starts_line = !self.pieces.is_empty();
     }
@@ -249,7 +249,7 @@ impl<'a> Formula<'a> {
         }
     }
 
-    /// Whether neighbours would run together: names in code do, and what follows the angle of a sine or cosine.
+    /// Whether two neighbours need a space: names in code, and the factor after a sine or cosine.
     fn needs_space(&self, left: Expr, right: Expr) -> bool {
         let code = |factor: Expr| {
             matches!(self.arena.node(factor), Node::Symbol(_)) && !self.notation.glyphs.contains_key(&factor)
@@ -285,9 +285,8 @@ impl<'a> Formula<'a> {
     fn first_place(&self, expr: Expr) -> Place {
         match self.arena.node(expr) {
             Node::Symbol(_) => self.notation.place(expr),
-            Node::Sum(terms) => terms.iter().map(|(_, term)| self.first_place(*term)).min().unwrap_or(Place::Back),
-            Node::Product(factors) => {
-                factors.iter().map(|(factor, _)| self.first_place(*factor)).min().unwrap_or(Place::Back)
+            Node::Sum(_) | Node::Product(_) => {
+                self.arena.operands(expr).map(|part| self.first_place(part)).min().unwrap_or(Place::Back)
             }
             _ => Place::Back,
         }
@@ -301,20 +300,11 @@ impl<'a> Formula<'a> {
         })
     }
 
-    /// Brackets inside an expression as it is set.
+    /// Depth of the brackets inside an expression.
     fn nesting(&self, expr: Expr) -> usize {
-        match self.arena.node(expr) {
-            Node::Number(_) | Node::Symbol(_) => 0,
-            Node::Sin(angle) | Node::Cos(angle) => usize::from(matches!(self.arena.node(*angle), Node::Sum(_))),
-            Node::Sum(terms) => terms.iter().map(|(_, term)| self.nesting(*term)).max().unwrap_or(0),
-            Node::Product(factors) => factors
-                .iter()
-                .map(|(factor, _)| {
-                    usize::from(matches!(self.arena.node(*factor), Node::Sum(_))) + self.nesting(*factor)
-                })
-                .max()
-                .unwrap_or(0),
-        }
+        let is_sum = |expr: Expr| matches!(self.arena.node(expr), Node::Sum(_));
+        let brackets = |part: Expr| usize::from(is_sum(part) && !is_sum(expr)) + self.nesting(part);
+        self.arena.operands(expr).map(brackets).max().unwrap_or(0)
     }
 }
 
@@ -333,7 +323,7 @@ struct Layout {
     limit: f64,
 }
 
-/// What continued lines begin with, and its width [pt].
+/// Indentation of continued lines, and its width [pt].
 const INDENT: (&str, f64) = ("\\quad", 10.0);
 
 impl Layout {
@@ -455,7 +445,7 @@ fn token(tex: &str) -> (&str, &str) {
     tex.split_at(end)
 }
 
-/// The group in braces or the token that follows, and what is left.
+/// The group in braces or the next token, and the remainder.
 fn argument(tex: &str) -> (&str, &str) {
     let Some(inner) = tex.strip_prefix('{') else { return token(tex) };
     let mut depth = 1;
@@ -474,7 +464,7 @@ fn argument(tex: &str) -> (&str, &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
+    use super::super::arena::Unit;
     use super::*;
 
     struct World {
@@ -507,7 +497,7 @@ mod tests {
         (world, [a, b, w, p, q, m])
     }
 
-    /// One line per rule: what is built, and how it is set.
+    /// One line per rule: name, expression, LaTeX.
     #[test]
     fn rules_of_setting() {
         let (mut world, [a, b, w, p, q, m]) = world();

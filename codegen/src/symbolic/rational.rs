@@ -32,7 +32,7 @@ impl Rational {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// Whether it is below zero.
+    /// Whether the number is below zero.
     pub fn is_negative(self) -> bool {
         self.numerator < 0
     }

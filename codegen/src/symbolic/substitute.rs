@@ -1,6 +1,6 @@
 //! Replacing sub-expressions.
 
-use super::{Arena, Expr, Node};
+use super::arena::{Arena, Expr};
 use std::collections::HashMap;
 
 impl Arena {
@@ -13,26 +13,7 @@ impl Arena {
         if let Some(&result) = by.get(&expr).or_else(|| known.get(&expr)) {
             return result;
         }
-        let result = match self.node(expr).clone() {
-            Node::Number(_) | Node::Symbol(_) => expr,
-            Node::Sin(angle) => {
-                let angle = self.replaced(angle, by, known);
-                self.sin(angle)
-            }
-            Node::Cos(angle) => {
-                let angle = self.replaced(angle, by, known);
-                self.cos(angle)
-            }
-            Node::Sum(terms) => {
-                let terms: Vec<_> = terms.into_iter().map(|(c, term)| (c, self.replaced(term, by, known))).collect();
-                self.sum(terms)
-            }
-            Node::Product(factors) => {
-                let factors: Vec<_> =
-                    factors.into_iter().map(|(f, power)| (self.replaced(f, by, known), power)).collect();
-                self.product(factors)
-            }
-        };
+        let result = self.rebuild(self.node(expr).clone(), |arena, part| arena.replaced(part, by, known));
         known.insert(expr, result);
         result
     }

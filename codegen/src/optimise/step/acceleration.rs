@@ -1,17 +1,18 @@
 //! The accelerations of a linkage in one form: couplings, loads, and their elimination.
 
-use super::elimination::{self, System};
-use super::form::{Coupling, Form, Rates, Weight};
-use super::parts::{Difference, Parts, turned_cosine, turned_sine};
-use crate::GroundMotion;
+use super::elimination::{self, System, pair};
+use super::form::{Form, Rates, Weight};
+use super::parts::Parts;
+use super::units::in_units;
+use crate::ground::GroundMotion;
 use crate::mechanics::Symbols;
 use crate::optimise::condense::collect;
 use crate::optimise::program::{Program, ProgramBuilder};
-use crate::symbolic::{Arena, Expr, Rational};
+use crate::symbolic::{Arena, Expr, Rational, Unit};
 
 const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
 
-/// The program with one routine, `acceleration`, in SI units; the form must have been admitted by the parts.
+/// The program with one routine, `acceleration`, in a form that gives these equations ([`Parts::admit`]).
 pub fn acceleration_program(
     arena: &mut Arena,
     symbols: &Symbols,
@@ -25,16 +26,27 @@ pub fn acceleration_program(
     };
     let weight = weights(arena, symbols, parts, gravity, form);
     let mut builder = ProgramBuilder::new(arena, symbols);
-    parts.name_vectors(&mut builder);
+    parts.name_vectors(&mut builder, "");
+    builder.name_constants_by(constant_name);
     let mut writer = Writer { builder, symbols, parts, form, gravity };
     let couplings = writer.couplings();
     let load = writer.loads(&couplings, &weight);
     let outputs = writer.solve(&couplings, &load);
     writer.builder.finish_routine("acceleration", outputs);
-    writer.builder.finish()
+    let program = writer.builder.finish();
+    in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
 }
 
-/// What gravity and ground motion put into each equation.
+/// Names of the constants that gravity makes: of the weight in the first equation, per angle, and gravity itself.
+fn constant_name(factors: &[String], arena: &Arena, constant: Expr) -> Option<String> {
+    match factors {
+        [only] if only == "cos_1" => Some("weight_lateral_1".into()),
+        [only] if only == "sin_1" => Some("minus_weight_axial_1".into()),
+        _ => (arena.unit(constant) == Unit(1, 0, -2)).then(|| "steady_gravity".into()),
+    }
+}
+
+/// Terms of gravity and ground motion in each equation.
 fn weights(arena: &mut Arena, symbols: &Symbols, parts: &Parts, gravity: Expr, form: Form) -> Vec<Expr> {
     let dof = parts.forcing.len();
     let per_row = (0..dof).map(|row| {
@@ -60,15 +72,6 @@ struct Couplings {
     bias: Vec<Vec<Expr>>,
 }
 
-/// `[cos, sin]` of differences of angles, `[upper][lower]`; empty where the form does without.
-struct Differences(Vec<Vec<[Expr; 2]>>);
-
-impl Differences {
-    fn get(&self, row: usize, column: usize) -> Option<[Expr; 2]> {
-        self.0.get(row.max(column)).map(|row_of| row_of[row.min(column)])
-    }
-}
-
 struct Writer<'a, 'p> {
     builder: ProgramBuilder<'a>,
     symbols: &'p Symbols,
@@ -84,88 +87,28 @@ impl Writer<'_, '_> {
 
     fn couplings(&mut self) -> Couplings {
         let dof = self.dof();
-        let differences = self.differences();
         let zero = self.builder.arena().zero();
         let mut result = Couplings { mass: vec![vec![zero; dof]; dof], bias: vec![vec![zero; dof]; dof] };
         for row in 0..dof {
             for column in 0..row {
-                result.mass[row][column] = self.mass(row, column, &differences);
+                let entry = self.parts.mass[row][column];
+                result.mass[row][column] = self.builder.define_translated(pair("mass", row, column), entry);
             }
         }
         if self.form.rates == Rates::Pairs {
             for row in 0..dof {
                 for column in 0..row {
-                    let bias = self.bias(row, column, &differences);
+                    let [entry, opposite] = [self.parts.bias[row][column], self.parts.bias[column][row]];
+                    let bias = self.builder.define_translated(pair("bias", row, column), entry);
+                    // Centripetal moments of two links on each other are opposite.
+                    let sum = self.builder.source.add(entry, opposite);
                     result.bias[row][column] = bias;
-                    // What pushes the upper link one way pushes the lower one the other.
-                    let sum = self.builder.source.add(self.parts.bias[row][column], self.parts.bias[column][row]);
                     result.bias[column][row] = match self.builder.source.is_zero(sum) {
                         true => self.builder.arena().neg(bias),
-                        false => self.bias(column, row, &differences),
+                        false => self.builder.define_translated(pair("bias", column, row), opposite),
                     };
                 }
             }
-        }
-        result
-    }
-
-    fn mass(&mut self, row: usize, column: usize, differences: &Differences) -> Expr {
-        let parts = self.parts;
-        let form = |arena: &mut Arena, symbols: &Symbols| parts.mass_difference(arena, symbols, row, column);
-        let name = format!("mass_{}{}", row + 1, column + 1);
-        self.coupling(name, parts.mass[row][column], form, differences.get(row, column))
-    }
-
-    fn bias(&mut self, row: usize, column: usize, differences: &Differences) -> Expr {
-        let parts = self.parts;
-        let form = |arena: &mut Arena, symbols: &Symbols| parts.bias_difference(arena, symbols, row, column);
-        let name = format!("bias_{}{}", row + 1, column + 1);
-        self.coupling(name, parts.bias[row][column], form, differences.get(row, column))
-    }
-
-    fn coupling(
-        &mut self,
-        name: String,
-        expr: Expr,
-        form: impl Fn(&mut Arena, &Symbols) -> Option<Difference>,
-        angles: Option<[Expr; 2]>,
-    ) -> Expr {
-        let Some([cosine, sine]) = angles else { return self.builder.define_translated(name, expr) };
-        let form = form(self.builder.source, self.symbols);
-        let Difference { even, odd } = form.expect("the form was admitted: every coupling has it");
-        let terms = [(even, cosine), (odd, sine)].map(|(factor, angle)| {
-            let factor = self.builder.translate(factor);
-            self.builder.arena().mul(factor, angle)
-        });
-        let value = self.builder.arena().total(terms);
-        self.builder.define(name, value)
-    }
-
-    /// Names the cosines and sines of the differences of angles, where the form wants them.
-    fn differences(&mut self) -> Differences {
-        let mut result = Differences(Vec::new());
-        if self.form.coupling == Coupling::TurnedVectors {
-            return result;
-        }
-        let angles: Vec<[Expr; 2]> = (0..self.dof())
-            .map(|link| {
-                let angle = self.symbols.theta[link];
-                let [c, s] = [self.builder.source.cos(angle), self.builder.source.sin(angle)];
-                [self.builder.translate(c), self.builder.translate(s)]
-            })
-            .collect();
-        for upper in 0..self.dof() {
-            let mut row = Vec::new();
-            for lower in 0..upper {
-                let cosine = turned_cosine(self.builder.arena(), angles[lower], angles[upper]);
-                let sine = turned_sine(self.builder.arena(), angles[lower], angles[upper]);
-                let suffix = format!("{}{}", upper + 1, lower + 1);
-                row.push([
-                    self.builder.define(format!("cos_{suffix}"), cosine),
-                    self.builder.define(format!("sin_{suffix}"), sine),
-                ]);
-            }
-            result.0.push(row);
         }
         result
     }
@@ -225,7 +168,7 @@ impl Writer<'_, '_> {
                 self.builder.define(format!("pivot_y_{number}"), y),
             ]);
         }
-        // Per link, what those above pull with.
+        // Per link, the centripetal force of the links above.
         let mut pull: Vec<Option<[Expr; 2]>> = vec![None; dof];
         for link in (0..dof - 1).rev() {
             let above = link + 1;
@@ -271,7 +214,8 @@ impl Writer<'_, '_> {
         let builder = &mut self.builder;
         let inertia: Vec<Expr> = (0..load.len()).map(|link| builder.translate(self.parts.mass[link][link])).collect();
         let first = builder.source.reciprocal(self.parts.mass[0][0]);
-        let inverse_of_first = builder.constant(first, "inverse_inertia_1");
+        let unit = builder.source.unit(first);
+        let inverse_of_first = builder.constant(first, "inverse_inertia_1", unit);
         elimination::solve(builder, &System { inertia: &inertia, inverse_of_first, coupling: &couplings.mass, load })
     }
 }

@@ -1,7 +1,7 @@
 //! `θ̈` from `M θ̈ = load`: a block `L D Lᵀ` factorisation, unrolled.
 //!
-//! A division takes as long as several other operations, and each waits for the one before. So the last two angles, which nothing is
-//! eliminated with, go together by Cramer's rule: of two equations that is as accurate as elimination (forward stable: Higham, *Accuracy and
+//! A division takes as long as several other operations, and each division waits for the one before. So the last two angles, which
+//! eliminate no other, are solved together by Cramer's rule: of two equations that is as accurate as elimination (forward stable: Higham, *Accuracy and
 //! Stability of Numerical Algorithms*, on Cramer's rule), if not of as small a residual. Pairs before the last would hand their residuals on
 //! to all that follow: with masses a million times as large as others, five angles lose four digits.
 
@@ -39,7 +39,7 @@ pub fn solve(builder: &mut ProgramBuilder, system: &System) -> Vec<Expr> {
 struct Elimination {
     /// The angles of each block, base first.
     blocks: Vec<Range<usize>>,
-    /// `D`, as far as it is known.
+    /// The blocks of `D` found so far.
     pivots: Vec<Pivot>,
     /// `L D` below the blocks, `[row][column]`.
     scaled: Vec<Vec<Expr>>,
@@ -61,11 +61,11 @@ impl Elimination {
         for (block, pivot) in self.blocks.iter().zip(&self.pivots) {
             for column in block.clone() {
                 let value = self.remaining(builder, system.coupling[row][column], row, column);
-                self.scaled[row].push(builder.define(name("scaled", row, column), value));
+                self.scaled[row].push(builder.define(pair("scaled", row, column), value));
             }
             let quotients = pivot.divide(builder, &self.scaled[row][block.clone()]);
             for (column, quotient) in block.clone().zip(quotients) {
-                self.factor[row].push(builder.define(name("factor", row, column), quotient));
+                self.factor[row].push(builder.define(pair("factor", row, column), quotient));
             }
         }
         let value = less(builder, system.load[row], &self.factor[row], &self.reduced);
@@ -89,16 +89,16 @@ impl Elimination {
         let (row, column) = (block.start + 1, block.start);
         let upper = diagonal(row);
         let coupling = self.remaining(builder, system.coupling[row][column], row, column);
-        let coupling = builder.define(name("scaled", row, column), coupling);
+        let coupling = builder.define(pair("scaled", row, column), coupling);
         let (product, square) = (builder.arena().mul(lower, upper), builder.arena().square(coupling));
         let determinant = builder.arena().sub(product, square);
-        let determinant = builder.define(name("determinant", row, column), determinant);
+        let determinant = builder.define(pair("determinant", row, column), determinant);
         let inverse = builder.arena().reciprocal(determinant);
-        let inverse_of_determinant = builder.define(name("inverse", row, column), inverse);
+        let inverse_of_determinant = builder.define(pair("inverse", row, column), inverse);
         Pivot::Two { diagonal: [lower, upper], coupling, inverse_of_determinant }
     }
 
-    /// What the blocks before leave of an entry of the mass matrix.
+    /// An entry of the mass matrix less the share of the blocks before.
     fn remaining(&self, builder: &mut ProgramBuilder, entry: Expr, row: usize, column: usize) -> Expr {
         less(builder, entry, &self.scaled[row], &self.factor[column])
     }
@@ -117,7 +117,7 @@ impl Elimination {
                 let coefficients: Vec<Expr> = self.factor[block.clone()].iter().map(|row| row[below]).collect();
                 let rest = less(builder, solution[below], &coefficients, &solution[block.clone()]);
                 let is_next = self.blocks[place - 1].contains(&below);
-                solution[below] = if is_next { rest } else { builder.define(name("rest", below, block.start), rest) };
+                solution[below] = if is_next { rest } else { builder.define(pair("rest", below, block.start), rest) };
             }
         }
         solution
@@ -157,6 +157,7 @@ fn less(builder: &mut ProgramBuilder, value: Expr, a: &[Expr], b: &[Expr]) -> Ex
     arena.sum(terms)
 }
 
-fn name(of: &str, row: usize, column: usize) -> String {
-    format!("{of}_{}{}", row + 1, column + 1)
+/// `mass_2_1`: the name of an entry, links counted from one.
+pub fn pair(of: &str, row: usize, column: usize) -> String {
+    format!("{of}_{}_{}", row + 1, column + 1)
 }

@@ -7,38 +7,25 @@ mod acceleration;
 mod elimination;
 mod form;
 mod parts;
+mod units;
 
-pub use form::{Coupling, Form, Rates, Units, Weight};
+pub use acceleration::acceleration_program;
+pub use form::{Form, Rates, Units, Weight};
 pub use parts::Parts;
 
 use super::condense::collect;
 use super::count::Operations;
 use super::program::{Program, ProgramBuilder};
-use super::units::in_units;
-use crate::GroundMotion;
+use crate::ground::GroundMotion;
 use crate::mechanics::Symbols;
 use crate::symbolic::{Arena, Expr, Level, Rational};
 
-/// The accelerations in a form that [`admitted`] has let through.
-pub fn acceleration_program(
-    arena: &mut Arena,
-    symbols: &Symbols,
-    parts: &Parts,
-    ground: GroundMotion,
-    form: Form,
-) -> Program {
-    let program = acceleration::acceleration_program(arena, symbols, parts, ground, form);
-    in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
-}
-
-/// The forms in which these equations can be written, with what one evaluation costs, in order of preference among equals.
+/// The forms in which these equations can be written, with the cost of one evaluation, in order of preference among equals.
 pub fn admitted(arena: &mut Arena, symbols: &Symbols, parts: &Parts, ground: GroundMotion) -> Vec<(Form, Operations)> {
     let mut result = Vec::new();
     for form in Form::all() {
         let needs_steady_gravity = form.units == Units::UnitInertiaAndGravity;
-        if needs_steady_gravity && ground == GroundMotion::WithVertical
-            || !parts.admit(arena, symbols, form.coupling, form.rates)
-        {
+        if needs_steady_gravity && ground == GroundMotion::WithVertical || !parts.admit(arena, symbols, form.rates) {
             continue;
         }
         let program = acceleration_program(arena, symbols, parts, ground, form);
@@ -57,13 +44,13 @@ pub fn energy_program(arena: &mut Arena, symbols: &Symbols, parts: &Parts) -> Pr
     let dof = symbols.theta.len();
     let mut builder = ProgramBuilder::new(arena, symbols);
 
-    parts.name_vectors(&mut builder);
+    parts.name_vectors(&mut builder, "link_");
     let outputs = (0..dof).flat_map(|row| (0..dof).map(move |column| (row, column)));
     let outputs =
         outputs.map(|(row, column)| builder.translate(parts.mass[row.max(column)][row.min(column)])).collect();
     builder.finish_routine("mass_matrix", outputs);
 
-    parts.name_vectors(&mut builder);
+    parts.name_vectors(&mut builder, "link_");
     let outputs = energies(&mut builder, symbols, parts);
     builder.finish_routine("energies", outputs);
     builder.finish()
@@ -82,7 +69,8 @@ fn energies(builder: &mut ProgramBuilder, symbols: &Symbols, parts: &Parts) -> V
         }
     }
     let kinetic = builder.arena().sum(kinetic);
-    let fixed = builder.constant(parts.height.1, "ground_moment");
+    let unit = builder.source.unit(parts.height.0);
+    let fixed = builder.constant(parts.height.1, "ground_moment", unit);
     let turning = condense_per_angle(builder.source, parts.height.0);
     let turning = builder.translate(turning);
     let gravity = builder.translate(symbols.gravity);

@@ -2,12 +2,11 @@
 
 use super::super::condense::{coefficient, condense};
 use super::super::program::ProgramBuilder;
-use super::form::{Coupling, Rates};
+use super::form::Rates;
 use crate::mechanics::{Equations, Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Rational};
 
-/// The derivation's terms, condensed.
-
+/// The terms of a derivation, condensed.
 #[derive(Clone, Debug)]
 pub struct Parts {
     /// Lower triangle of the mass matrix.
@@ -16,21 +15,12 @@ pub struct Parts {
     pub bias: Vec<Vec<Expr>>,
     /// `Σ m ∂G/∂θ` per link.
     pub moment: Vec<Vector>,
-    /// Lever to the next pivot per link; of the last link nothing uses it.
+    /// Lever to the next pivot per link; nothing uses that of the last link.
     pub lever: Vec<Vector>,
     /// Coefficients of ground acceleration and gravity per equation.
     pub forcing: Vec<[Expr; 2]>,
-    /// `V / gravity`: its parts that turn, and the constant part.
+    /// `V / gravity`: the terms with an angle, and the terms without.
     pub height: (Expr, Expr),
-}
-
-/// `mass = even cos(θ_l - θ_k) + odd sin(θ_l - θ_k)`, and the like of the rates' coefficients.
-#[derive(Clone, Copy, Debug)]
-pub struct Difference {
-    /// Factor of the cosine.
-    pub even: Expr,
-    /// Factor of the sine.
-    pub odd: Expr,
 }
 
 impl Parts {
@@ -64,53 +54,24 @@ impl Parts {
         result
     }
 
-    /// Names the turned levers and first moments, and the diagonal of the mass matrix.
-    pub fn name_vectors(&self, builder: &mut ProgramBuilder) {
+    /// Names the turned levers and first moments, and the diagonal of the mass matrix; names of constants begin with `prefix`.
+    pub fn name_vectors(&self, builder: &mut ProgramBuilder, prefix: &str) {
         let dof = self.mass.len();
         for link in 0..dof {
-            builder.constant(self.mass[link][link], &format!("inertia_{}", link + 1));
-            builder.define_turned_vector("moment", link + 1, self.moment[link]);
+            let unit = builder.source.unit(self.mass[link][link]);
+            builder.constant(self.mass[link][link], &format!("{prefix}inertia_{}", link + 1), unit);
+            builder.define_turned_vector(prefix, "moment", link + 1, self.moment[link]);
             if link + 1 < dof {
-                builder.define_turned_vector("lever", link + 1, self.lever[link]);
+                builder.define_turned_vector(prefix, "lever", link + 1, self.lever[link]);
             }
         }
     }
 
-    /// Whether a coupling and a sum over rates give these equations of motion: proved by multiplying out.
-    pub fn admit(&self, arena: &mut Arena, symbols: &Symbols, coupling: Coupling, rates: Rates) -> bool {
-        let dof = self.mass.len();
-        // A rigid link does not feel the square of its own rate: no form here has a place for that.
-        let is_chain = (0..dof).all(|link| arena.is_zero(self.bias[link][link]));
-        let mut pairs = (0..dof).flat_map(|row| (0..dof).map(move |column| (row, column))).filter(|(a, b)| a != b);
-        is_chain
-            && (coupling == Coupling::TurnedVectors
-                || pairs.all(|(row, column)| {
-                    self.mass_difference(arena, symbols, row, column).is_some()
-                        && self.bias_difference(arena, symbols, row, column).is_some()
-                }))
-            && (rates == Rates::Pairs || self.shared_sums_hold(arena, symbols))
-    }
-
-    /// The coupling of two links in terms of the difference of their angles, if it has that form.
-    pub fn mass_difference(
-        &self,
-        arena: &mut Arena,
-        symbols: &Symbols,
-        row: usize,
-        column: usize,
-    ) -> Option<Difference> {
-        difference(arena, symbols, self.mass[row.max(column)][row.min(column)], row.min(column), row.max(column))
-    }
-
-    /// The coefficient of `ω_column²` in equation `row` in terms of the difference of the two angles, if it has that form.
-    pub fn bias_difference(
-        &self,
-        arena: &mut Arena,
-        symbols: &Symbols,
-        row: usize,
-        column: usize,
-    ) -> Option<Difference> {
-        difference(arena, symbols, self.bias[row][column], row.min(column), row.max(column))
+    /// Whether a sum over rates gives these equations of motion: proved by multiplying out.
+    pub fn admit(&self, arena: &mut Arena, symbols: &Symbols, rates: Rates) -> bool {
+        // No form has a term with the square of a link's own rate: that of a rigid link is zero.
+        let is_chain = (0..self.mass.len()).all(|link| arena.is_zero(self.bias[link][link]));
+        is_chain && (rates == Rates::Pairs || self.shared_sums_hold(arena, symbols))
     }
 
     /// `Q_a + Σ_b B_ab ω_b² = moment_a · (ẍ_g + Σ_{b<a} lever_b' ω_b²) + lever_a · Σ_{b>a} moment_b' ω_b²`, with
@@ -148,22 +109,4 @@ impl Parts {
             arena.is_identically_zero(residual)
         })
     }
-}
-
-/// `expr` in terms of the difference of two links' angles.
-fn difference(arena: &mut Arena, symbols: &Symbols, expr: Expr, lower: usize, upper: usize) -> Option<Difference> {
-    let [even, odd] = arena.as_difference(expr, symbols.theta[lower], symbols.theta[upper])?;
-    Some(Difference { even, odd })
-}
-
-/// `cos(upper - lower)` from `[cos, sin]` of both.
-pub fn turned_cosine(arena: &mut Arena, [c, s]: [Expr; 2], [d, t]: [Expr; 2]) -> Expr {
-    let (a, b) = (arena.mul(c, d), arena.mul(s, t));
-    arena.add(a, b)
-}
-
-/// `sin(upper - lower)` from `[cos, sin]` of both.
-pub fn turned_sine(arena: &mut Arena, [c, s]: [Expr; 2], [d, t]: [Expr; 2]) -> Expr {
-    let (a, b) = (arena.mul(c, t), arena.mul(s, d));
-    arena.sub(a, b)
 }

@@ -1,10 +1,10 @@
-//! Choosing units in which constants are one and vanish.
+//! Units in which constants become one and vanish.
 //!
-//! A program's result is in rad/s² whatever its constants are measured in. With the lowest link's moment of inertia as
-//! the unit of mass (times length²) and gravity as the unit of acceleration, the seconds kept, both drop out of the code.
+//! The result of a program is in rad/s² in whatever units its constants are measured. With the moment of inertia of the lowest
+//! link as unit of mass times length², and gravity as unit of acceleration, both vanish from the code; seconds are kept.
 
-use super::program::{Constant, Program};
-use super::step::Units;
+use super::form::Units;
+use crate::optimise::program::{Constant, Program};
 use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
 use std::collections::HashMap;
 

@@ -1,0 +1,139 @@
+//! The linkages of all columns up to a size, with the distinct programs that they share.
+
+use crate::derivation::{Plan, derive_in_form};
+use crate::error::{GenerateError, LARGEST};
+use crate::optimise::{Constant, Program};
+use crate::pattern::{Linkage, linkages};
+use crate::symbolic::Arena;
+use std::collections::HashMap;
+
+/// One linkage in a [`Catalogue`].
+#[derive(Debug)]
+pub struct LinkageRecord {
+    /// The linkage.
+    pub linkage: Linkage,
+    /// Owner of the constants' formulas.
+    pub arena: Arena,
+    /// Scene constants of the accelerations, per ground motion as in [`crate::GroundMotion::ALL`].
+    pub accelerations: [Vec<Constant>; 2],
+    /// Scene constants of mass matrix and energies.
+    pub energies: Vec<Constant>,
+    /// Scene constants of the weights.
+    pub series: Vec<Constant>,
+    /// Per interface: index of its program in [`Catalogue::forces`], and its scene constants.
+    pub interfaces: Vec<(usize, Vec<Constant>)>,
+}
+
+/// The linkages of all columns up to a size, with the distinct programs that they share.
+#[derive(Debug)]
+pub struct Catalogue {
+    /// Largest column.
+    pub max_blocks: usize,
+    /// All linkages, small columns first.
+    pub linkages: Vec<LinkageRecord>,
+    /// Acceleration programs per ground motion, by degrees of freedom; found by comparison, not assumed.
+    pub accelerations: [Vec<Program>; 2],
+    /// Programs of mass matrix and energies, by degrees of freedom.
+    pub energies: Vec<Program>,
+    /// Programs of the weights, by degrees of freedom.
+    pub series: Vec<Program>,
+    /// Distinct contact-force programs.
+    pub forces: Vec<Program>,
+}
+
+impl Catalogue {
+    /// Number of independent modes of the columns covered.
+    pub fn mode_count(&self) -> usize {
+        (1..=self.max_blocks).map(|blocks| (3usize.pow(blocks as u32) - 1) / 2).sum()
+    }
+}
+
+/// Derives all linkages of columns of up to `max_blocks` blocks and finds which programs are equal.
+///
+/// # Errors
+/// [`GenerateError`] if `max_blocks` is out of range, or if two linkages with equal degrees of freedom need different
+/// step programs (the solver dispatches by degrees of freedom).
+pub fn catalogue(max_blocks: usize) -> Result<Catalogue, GenerateError> {
+    if !(1..=LARGEST).contains(&max_blocks) {
+        return Err(GenerateError::Size { max_blocks });
+    }
+    let plans: Vec<Plan> = (1..=max_blocks).map(Plan::new).collect();
+    catalogue_of(max_blocks, (1..=max_blocks).flat_map(linkages), &plans)
+}
+
+/// The catalogue of some linkages, in the forms planned for their degrees of freedom.
+pub(crate) fn catalogue_of(
+    max_blocks: usize,
+    linkages: impl Iterator<Item = Linkage>,
+    plans: &[Plan],
+) -> Result<Catalogue, GenerateError> {
+    let [mut horizontal, mut vertical, mut energies, mut series, mut forces] = <[Distinct; 5]>::default();
+    let linkages: Vec<Linkage> = linkages.collect();
+    let derivations = map_in_order(&linkages, |linkage| derive_in_form(linkage, &plans[linkage.dof() - 1]));
+    let records = derivations.into_iter().map(|derivation| {
+        let [of_horizontal, of_vertical] = derivation.accelerations;
+        LinkageRecord {
+            linkage: derivation.linkage,
+            arena: derivation.arena,
+            accelerations: [enlist(&mut horizontal, of_horizontal).1, enlist(&mut vertical, of_vertical).1],
+            energies: enlist(&mut energies, derivation.energies).1,
+            series: enlist(&mut series, derivation.series).1,
+            interfaces: derivation.forces.into_iter().map(|program| enlist(&mut forces, program)).collect(),
+        }
+    });
+    let linkages = records.collect();
+    let one_for_each = |distinct: Distinct| match distinct.programs.len() {
+        found if found == max_blocks => {
+            let mut programs = distinct.programs;
+            programs.sort_by_key(|program| program.dof);
+            Ok(programs)
+        }
+        found => Err(GenerateError::Programs { found, expected: max_blocks }),
+    };
+    Ok(Catalogue {
+        max_blocks,
+        linkages,
+        accelerations: [one_for_each(horizontal)?, one_for_each(vertical)?],
+        energies: one_for_each(energies)?,
+        series: one_for_each(series)?,
+        forces: forces.programs,
+    })
+}
+
+/// Distinct programs, and the index of each text among them.
+#[derive(Debug, Default)]
+struct Distinct {
+    programs: Vec<Program>,
+    known: HashMap<String, usize>,
+}
+
+/// The index of a program among the distinct ones, which gain it if it is new, and its own constants.
+fn enlist(distinct: &mut Distinct, program: Program) -> (usize, Vec<Constant>) {
+    let constants = program.constants.clone();
+    let index = *distinct.known.entry(program.fingerprint()).or_insert_with(|| {
+        distinct.programs.push(program);
+        distinct.programs.len() - 1
+    });
+    (index, constants)
+}
+
+/// `f` of every item, in the order of the items, on as many threads as the machine has.
+pub(crate) fn map_in_order<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = std::thread::available_parallelism().map_or(1, |threads| threads.get()).min(items.len().max(1));
+    let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
+        // Every thread takes each n-th item: large linkages are neighbours.
+        let f = &f;
+        let share = move |thread: usize| {
+            let own = items.iter().enumerate().skip(thread).step_by(threads);
+            own.map(|(index, item)| (index, f(item))).collect::<Vec<_>>()
+        };
+        let workers: Vec<_> = (0..threads).map(|thread| scope.spawn(move || share(thread))).collect();
+        let finished = workers.into_iter().flat_map(|worker| match worker.join() {
+            Ok(results) => results,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        finished.collect()
+    });
+    results.sort_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
+}

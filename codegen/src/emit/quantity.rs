@@ -1,0 +1,102 @@
+//! Meanings of the names of emitted constants and statements.
+
+/// Notation of the emitted modules, for their heads.
+pub const NOTATION: &str = "
+Blocks are counted from the base. In comments, p_i, h_i, m_i and I_i are the pivot offset, half-height, mass and centroidal moment of inertia of BLOCK i, and g is gravity; the code reads them as `column.pivot[i - 1]` and so on. The pivot offset is positive at the right corner, negative at the left corner, zero at a closed interface.
+
+Links are the rigid runs of blocks between open interfaces, counted from the lowest that moves. The number in a NAME is that of a LINK: `omega_2` is the rate of link 2. A name with two numbers belongs to a pair of links; names of blocks say so, as `mass_of_block_2`. Link 0 is the ground.
+
+Angles are absolute and clockwise positive. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector (lateral, axial) of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link: names with x and y are such derivatives. The stack of an interface is the blocks above it; a contact is the centre of a closed interface.
+
+`link_inertia_a` is J_a, the moment of inertia about the pivot of link a of the link and all masses above, those concentrated in the next pivot. `link_moment_axial_a`, `link_moment_lateral_a` are S_a, their first moment about the pivot. `link_lever_axial_a`, `link_lever_lateral_a` are d_a, the vector from the pivot of link a to that of link a + 1. Names that begin with `link_` are in SI units.
+";
+
+/// Notation of step programs.
+pub const PROGRAM_UNITS: &str = "
+Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too.
+";
+
+/// Comment before the first statement of a group; `None` within a group.
+pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
+    let of = |name: &str| {
+        let stem = stem(name).0.trim_end_matches("_x").trim_end_matches("_y");
+        Some(match stem {
+            "ground_over_gravity" => "Ground acceleration in units of gravity.",
+            "lever" | "moment" => {
+                "Levers d' and first moments S' in the axes of the ground: derivatives by the angles of their links."
+            }
+            "mass" => "Mass matrix off the diagonal: M_ba = d_a' . S_b' for links a < b.",
+            "bias" => {
+                "Coefficients of squared rates: bias_b_a of rate a in equation b, and -bias_b_a of rate b in equation a."
+            }
+            "omega_squared" => "Squared rates.",
+            "pivot" => {
+                "Accelerations of the pivots at constant rates, ground motion and gravity included, from the base up."
+            }
+            "pull" => "Centripetal forces of the links above, from the top down.",
+            "load" => "Loads in M theta_ddot = load: gravity, ground motion and squared rates.",
+            "reduced" | "scaled" | "factor" | "diagonal" | "inverse" | "determinant" => {
+                "Elimination M = L D L^T with D_1 = 1: diagonal and inverse are D and 1 / D, scaled is L D, factor is L, reduced is L^-1 load. The last two of three or more links are one block of D."
+            }
+            "force" => "Force on the stack, the sum of mass times (acceleration + gravity), in the axes of the ground.",
+            "theta_ddot" | "rest" => "Back substitution.",
+            _ => return None,
+        })
+    };
+    let own = of(name)?;
+    (previous.and_then(of) != Some(own)).then_some(own)
+}
+
+/// Meaning of a constant.
+pub fn meaning(name: &str) -> String {
+    let (stem, numbers) = stem(name);
+    let link = numbers.first().copied().unwrap_or_default();
+    if let Some(opposite) = name.strip_prefix("minus_") {
+        return format!("minus the {}", meaning(opposite));
+    }
+    let (is_si, stem) = stem.strip_prefix("link_").map_or((false, stem), |stem| (true, stem));
+    let by_inertia = if is_si { "" } else { " over J_1" };
+    let side = if stem.ends_with("axial") { "axial" } else { "lateral" };
+    match stem {
+        "inertia" => format!("moment of inertia J_{link}{by_inertia}"),
+        "moment_axial" | "moment_lateral" => format!("{side} first moment of S_{link}{by_inertia}"),
+        "lever_axial" | "lever_lateral" => format!("{side} component of the lever d_{link}"),
+        "weight_axial" | "weight_lateral" => format!("{side} first moment of S_{link}, times gravity, over J_1"),
+        "steady_gravity" => "gravity, fixed by the scene".into(),
+        "inverse_gravity" => "reciprocal of gravity".into(),
+        "ground_moment" => "first moment above the ground of the masses that no angle lifts".into(),
+        "coupling_dot" => format!("scalar product of d_{link} and S_{}", numbers.last().copied().unwrap_or_default()),
+        "coupling_cross" => format!("cross product of d_{link} and S_{}", numbers.last().copied().unwrap_or_default()),
+        "stack_mass" => "mass of the stack above the interface".into(),
+        "stack_axial" | "stack_lateral" => {
+            format!("{side} first moment of the stack about the pivot of link {link}")
+        }
+        "contact_lever_axial" | "contact_lever_lateral" => format!("{side} lever from the contact to the next pivot"),
+        "contact_moment_axial" | "contact_moment_lateral" => {
+            format!("{side} first moment of the stack about the contact, masses of higher links in the next pivot")
+        }
+        "contact_moment_times_lever_axial" | "contact_moment_times_lever_lateral" => {
+            format!("contact_moment_axial times the {side} component of d_{link}")
+        }
+        "contact_inertia" => "moment about the contact per angular acceleration of its link".into(),
+        "contact_cross" | "contact_dot" if numbers.is_empty() => {
+            "moment about the contact per squared rate of its link".into()
+        }
+        "contact_cross" => format!("cross product of the lever from the contact to the next pivot and S_{link}"),
+        "contact_dot" => format!("scalar product of the lever from the contact to the next pivot and S_{link}"),
+        _ => "coefficient of the factors in its name".into(),
+    }
+}
+
+/// A name without the numbers at its end, and these.
+fn stem(name: &str) -> (&str, Vec<&str>) {
+    let mut numbers = Vec::new();
+    let mut rest = name;
+    while let Some((stem, number)) = rest.rsplit_once('_')
+        && number.chars().all(|digit| digit.is_ascii_digit())
+    {
+        numbers.insert(0, number);
+        rest = stem;
+    }
+    (rest, numbers)
+}

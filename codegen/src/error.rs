@@ -1,0 +1,59 @@
+//! Why nothing was generated, and the limits behind it.
+
+use std::fmt;
+
+/// The largest column that can be generated: beyond it the list of linkages alone is too long for a build.
+pub const LARGEST: usize = 12;
+
+/// The largest column that can be baked: seven blocks have 1093 modes, each with code of its own.
+pub const LARGEST_BAKED: usize = 6;
+
+/// Why nothing was generated.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum GenerateError {
+    /// The number of blocks is out of range.
+    Size {
+        /// The number requested.
+        max_blocks: usize,
+    },
+    /// The number of blocks of a baked column is out of range.
+    BakedSize {
+        /// The number requested.
+        blocks: usize,
+    },
+    /// A size of a baked column is not a positive number.
+    BakedValue {
+        /// The size, e.g. `mass of block 2`.
+        name: String,
+        /// The value given.
+        value: f64,
+    },
+    /// Linkages with equal degrees of freedom do not share one step program.
+    Programs {
+        /// Distinct step programs found.
+        found: usize,
+        /// One per number of degrees of freedom.
+        expected: usize,
+    },
+}
+
+impl fmt::Display for GenerateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            GenerateError::Size { max_blocks } => {
+                write!(f, "ROCKING_MAX_BLOCKS = {max_blocks}: choose a whole number from 1 to {LARGEST}")
+            }
+            GenerateError::BakedSize { blocks } => {
+                write!(f, "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; use `generate`")
+            }
+            GenerateError::BakedValue { name, value } => write!(f, "{name} is {value}: give a positive finite number"),
+            GenerateError::Programs { found, expected } => write!(
+                f,
+                "{found} distinct step programs where {expected} were expected: the optimiser missed an equality"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for GenerateError {}
