@@ -1,9 +1,9 @@
 //! What can be asked on the command line.
 
-use crate::commands::sweep::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::excitation::AccelerationUnit;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
@@ -258,6 +258,41 @@ impl Sweep {
     }
 }
 
+/// A part of a sweep, for one of several machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    number: usize,
+    count: usize,
+}
+
+impl Shard {
+    /// Reads `K/M`.
+    ///
+    /// # Errors
+    /// What to write instead.
+    pub fn parse(text: &str) -> Result<Shard, String> {
+        let numbers = text.split_once('/').and_then(|(k, m)| Some((k.parse().ok()?, m.parse().ok()?)));
+        match numbers {
+            Some((number, count)) if number >= 1 && number <= count => Ok(Shard { number, count }),
+            _ => Err("write K/M, the K-th of M parts, e.g. 2/8".into()),
+        }
+    }
+
+    /// Its points: parts differ by one point at most.
+    pub fn points(self, points: usize) -> Range<usize> {
+        let edge = |number: usize| (points as u128 * number as u128 / self.count as u128) as usize;
+        edge(self.number - 1)..edge(self.number)
+    }
+}
+
+/// As in the name of a file.
+impl std::fmt::Display for Shard {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}-of-{}", self.number, self.count)
+    }
+}
+
 /// Threads beyond which a number is taken for a mistake: each has a stack.
 const MOST_THREADS: i64 = 1024;
 
@@ -303,4 +338,21 @@ pub enum Format {
     Rust,
     /// The derivation as a LaTeX document, constants named and couplings in differences of angles.
     Latex,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_cover_all_points_once() {
+        for (points, count) in [(10, 3), (7, 7), (3, 5), (1_000_003, 64)] {
+            let parts: Vec<Range<usize>> = (1..=count).map(|number| Shard { number, count }.points(points)).collect();
+            assert_eq!((parts[0].start, parts[count - 1].end), (0, points));
+            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
+            let lengths: Vec<usize> = parts.iter().map(Range::len).collect();
+            assert!(lengths.iter().max().zip(lengths.iter().min()).is_some_and(|(most, least)| most - least <= 1));
+        }
+        assert!(["0/3", "4/3", "1", "a/b", "1/0"].iter().all(|text| Shard::parse(text).is_err()));
+    }
 }

@@ -1,6 +1,5 @@
 //! What goes wrong, told so that the place and the remedy are seen.
 
-use crate::plot::spectrum::NoSpectrum;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::{RecordError, SceneFileError, SolveError};
 use std::fmt;
@@ -137,12 +136,12 @@ pub enum Failure {
         path: PathBuf,
     },
     /// A table makes no overturning spectrum.
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {problem}", path.display())]
     Spectrum {
         /// The table or the sweep.
         path: PathBuf,
-        /// Why.
-        error: NoSpectrum,
+        /// Why, and what to do.
+        problem: String,
     },
     /// A part of a sweep is to be drawn.
     #[error(

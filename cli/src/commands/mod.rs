@@ -38,7 +38,13 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
             spectrum::plot(&table, format, out.as_deref())
         }
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
-        Command::Record(record) => record::record(record),
+        Command::Record(mut asked) => {
+            let window = record::Window::of(&mut asked)?;
+            match &asked.file {
+                Some(folder) if folder.is_dir() => records::list(folder, &asked),
+                _ => record::record(&asked, window),
+            }
+        }
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),

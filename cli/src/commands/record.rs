@@ -1,7 +1,7 @@
 //! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
 
 use crate::arguments::{self, Picture};
-use crate::commands::{json, print, records};
+use crate::commands::{json, print};
 use crate::error::{Failure, with_dashes};
 use crate::number::significant;
 use crate::{output, plot};
@@ -14,20 +14,13 @@ use std::path::{Path, PathBuf};
 /// Significant digits of what is measured.
 pub const DIGITS: usize = 5;
 
-/// Describes a record file, or lists a folder.
-///
-/// # Errors
-/// [`Failure`]
-pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
-    let window = Window::of(&mut arguments)?;
+/// Describes a record file.
+pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(), Failure> {
     // Only `--trim` may have swallowed the name of the file, and then it is given back.
     let Some(path) = arguments.file.clone() else {
         return Err(Failure::Trim { given: arguments.trim.join(" "), problem: "no record file is named".into() });
     };
-    if path.is_dir() {
-        return records::list(&path, &arguments);
-    }
-    let file = read(&path, &options(&arguments)).map_err(|problem| problem.at(&path))?;
+    let file = read(&path, &options(arguments)).map_err(|problem| problem.at(&path))?;
     let refused = |error: RecordError| Failure::Record { path: path.clone(), error };
     let mut told = Told::of(&path, &file);
     let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
@@ -81,14 +74,14 @@ fn draw(picture: &Path, file: &Path, record: &Record) -> Result<(), Failure> {
 
 /// Two times `[s]` from the first sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Window {
+pub struct Window {
     from: f64,
     to: f64,
 }
 
 impl Window {
     /// The window of `--trim`. One word can say it all; the next one is then the file.
-    fn of(arguments: &mut arguments::Record) -> Result<Option<Window>, Failure> {
+    pub fn of(arguments: &mut arguments::Record) -> Result<Option<Window>, Failure> {
         if arguments.file.is_none() && arguments.trim.len() == 2 {
             arguments.file = arguments.trim.pop().map(PathBuf::from);
         }

@@ -71,5 +71,5 @@ pub fn files(picture: &Path) -> [PathBuf; 2] {
 }
 
 fn refused(path: &Path, error: NoSpectrum) -> Failure {
-    Failure::Spectrum { path: path.into(), error }
+    Failure::Spectrum { path: path.into(), problem: error.to_string() }
 }

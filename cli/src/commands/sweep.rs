@@ -34,7 +34,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
         spectrum::check(asked, &sweep)?;
     }
     let target = check_files(asked, &sweep)?;
-    let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
+    let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let columns = columns(&sweep)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.map_or(0, usize::from)).build();
     let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
@@ -90,41 +90,6 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     let axes = sweep.axes.iter().filter(|axis| axis.key.ends_with(".file"));
     let of_axes = axes.flat_map(|axis| &axis.values).map(|value| sweep.template.beside(&value.to_string()));
     sweep.template.records().into_iter().chain(of_axes).collect()
-}
-
-/// A part of a sweep, for one of several machines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// From 1.
-    number: usize,
-    count: usize,
-}
-
-impl Shard {
-    /// Reads `K/M`.
-    ///
-    /// # Errors
-    /// What to write instead.
-    pub fn parse(text: &str) -> Result<Shard, String> {
-        let numbers = text.split_once('/').and_then(|(k, m)| Some((k.parse().ok()?, m.parse().ok()?)));
-        match numbers {
-            Some((number, count)) if number >= 1 && number <= count => Ok(Shard { number, count }),
-            _ => Err("write K/M, the K-th of M parts, e.g. 2/8".into()),
-        }
-    }
-
-    /// Its points: parts differ by one point at most.
-    fn of(self, points: usize) -> Range<usize> {
-        let edge = |number: usize| (points as u128 * number as u128 / self.count as u128) as usize;
-        edge(self.number - 1)..edge(self.number)
-    }
-}
-
-/// As in the name of a file.
-impl std::fmt::Display for Shard {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}-of-{}", self.number, self.count)
-    }
 }
 
 /// The column of what became of the column.
@@ -258,22 +223,5 @@ impl std::fmt::Display for Tally {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Tally { no_uplift, rocks, overturns, errors } = self;
         writeln!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}, errors {errors}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shards_cover_all_points_once() {
-        for (points, count) in [(10, 3), (7, 7), (3, 5), (1_000_003, 64)] {
-            let parts: Vec<Range<usize>> = (1..=count).map(|number| Shard { number, count }.of(points)).collect();
-            assert_eq!((parts[0].start, parts[count - 1].end), (0, points));
-            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
-            let lengths: Vec<usize> = parts.iter().map(Range::len).collect();
-            assert!(lengths.iter().max().zip(lengths.iter().min()).is_some_and(|(most, least)| most - least <= 1));
-        }
-        assert!(["0/3", "4/3", "1", "a/b", "1/0"].iter().all(|text| Shard::parse(text).is_err()));
     }
 }
