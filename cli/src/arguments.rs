@@ -37,15 +37,19 @@ pub enum Command {
         #[arg(long)]
         force: bool,
     },
-    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion.
+    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points.
     Check {
-        /// Scene file (TOML).
+        /// Scene or sweep file (TOML).
         scene: PathBuf,
         /// Print JSON instead of text.
         #[arg(long)]
         json: bool,
     },
     /// Run a scene and write summary.json, response.csv and events.json.
+    ///
+    /// Figures (time-history, phase-portrait, energy and forces, .svg and .png) and report.html of an earlier run are removed from the
+    /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
+    /// number". Regular files are read up to a size: scenes and sweeps up to 64 MiB, records up to 256 MiB, files of a run up to 1 GiB.
     Run(Run),
     /// Draw the figures of a run: time-history, phase-portrait, energy and forces; of the table of a sweep its spectrum.
     Plot {
@@ -72,8 +76,8 @@ pub enum Command {
         /// Number of blocks.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
-        /// Draw the modes into this file (SVG) instead of listing them; up to 5 blocks.
-        #[arg(long, value_name = "FILE")]
+        /// Draw the modes into this file (SVG or PNG by its name) instead of listing them; up to 5 blocks.
+        #[arg(long, value_name = "FILE", value_parser = figure)]
         svg: Option<PathBuf>,
         /// Print JSON instead of text.
         #[arg(long, conflicts_with = "svg")]
@@ -109,9 +113,13 @@ pub enum Command {
     Record(Record),
     /// Run many scenes made from one by axes over its keys; a table with a row each.
     ///
-    /// A sweep that was cut off goes on where it was when it is started again.
+    /// A sweep that was cut off goes on where it was when it is started again. A run ends when its outcome is certain unless the sweep
+    /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
     Sweep(Sweep),
     /// Join the tables of all shards of a sweep.
+    ///
+    /// `rocking sweep --shard` writes a digest of its sweep, base scene and records beside each table (TABLE.digest); tables whose digests
+    /// differ are refused.
     Merge {
         /// The table to write: CSV, or Parquet if its name ends in .parquet.
         out: PathBuf,
@@ -318,14 +326,18 @@ pub enum Picture {
 }
 
 impl Picture {
+    /// The end of a file's name.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Picture::Svg => "svg",
+            Picture::Png => "png",
+        }
+    }
+
     /// By the name of a file.
     pub fn of(file: &Path) -> Option<Picture> {
-        let extension = file.extension()?.to_str()?.to_ascii_lowercase();
-        match extension.as_str() {
-            "svg" => Some(Picture::Svg),
-            "png" => Some(Picture::Png),
-            _ => None,
-        }
+        let extension = file.extension()?;
+        [Picture::Svg, Picture::Png].into_iter().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))
     }
 }
 

@@ -1,9 +1,12 @@
 //! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
 
-use crate::arguments::{self, Picture};
-use crate::commands::{json, print};
+use crate::arguments;
+use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
+use crate::files::{self, LARGEST_RECORD};
 use crate::number::significant;
+use crate::terminal::{json, print, warn};
+use crate::text::{printable, shown};
 use crate::{output, plot};
 use rocking::excitation::{Measures, RecordFile, TextOptions};
 use rocking::{DEFAULT_GRAVITY, Record, RecordError};
@@ -18,17 +21,15 @@ pub const DIGITS: usize = 5;
 pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(), Failure> {
     // Only `--trim` may have swallowed the name of the file, and then it is given back.
     let Some(path) = arguments.file.clone() else {
-        return Err(Failure::Trim { given: arguments.trim.join(" "), problem: "no record file is named".into() });
+        return Err(Failure::Trim(arguments.trim.join(" "), "no record file is named".into()));
     };
     let file = read(&path, &options(arguments)).map_err(|problem| problem.at(&path))?;
-    let refused = |error: RecordError| Failure::Record { path: path.clone(), error };
+    let refused = |error: RecordError| Failure::Record(path.clone(), error);
     let mut told = Told::of(&path, &file);
     let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
     if let Some(Window { from, to }) = window {
-        record = record.trimmed(from, to).map_err(|error| Failure::Trim {
-            given: arguments.trim.join(" "),
-            problem: format!("{error} ({} s are in the file)", told.duration),
-        })?;
+        let outside = |error| format!("{error} ({} s are in the file)", told.duration);
+        record = record.trimmed(from, to).map_err(|error| Failure::Trim(arguments.trim.join(" "), outside(error)))?;
     }
     if let Some(factor) = arguments.scale {
         record = record.scaled(factor).map_err(refused)?;
@@ -43,33 +44,23 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         output::file(out, record.to_csv())?;
     }
     if let Some(picture) = &arguments.plot {
-        draw(picture, &path, &record)?;
+        let title = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let [velocity, displacement] = [record.velocity(), record.displacement()];
+        let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
+        write(&figure, picture)?;
     }
-    for warning in &told.warnings {
-        eprintln!("warning: {warning}");
-    }
+    warn(&told.warnings);
     if arguments.json {
         return json(&told);
     }
     let mut text = format!("{}{}\n", told.text(), plot::terminal::series(record.accel()));
     if let Some(out) = &arguments.out {
-        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", out.display(), told.samples);
+        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", shown(out), told.samples);
     }
     if let Some(picture) = &arguments.plot {
-        let _ = writeln!(text, "wrote {}", picture.display());
+        let _ = writeln!(text, "wrote {}", shown(picture));
     }
     print(&text)
-}
-
-/// Draws a record as the name of the file says.
-fn draw(picture: &Path, file: &Path, record: &Record) -> Result<(), Failure> {
-    let title = file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let [velocity, displacement] = [record.velocity(), record.displacement()];
-    let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
-    match Picture::of(picture) {
-        Some(Picture::Png) => output::file(picture, plot::png(&figure)),
-        _ => output::file(picture, figure.svg),
-    }
 }
 
 /// Two times `[s]` from the first sample.
@@ -89,7 +80,7 @@ impl Window {
         if given.is_empty() {
             return Ok(None);
         }
-        let wrong = |problem: &str| Failure::Trim { given: given.clone(), problem: problem.into() };
+        let wrong = |problem: &str| Failure::Trim(given.clone(), problem.into());
         let (from, to) = ["..", ",", ":", " "]
             .into_iter()
             .find_map(|delimiter| given.split_once(delimiter))
@@ -127,14 +118,14 @@ pub enum Problem {
 impl Problem {
     pub fn at(self, path: &Path) -> Failure {
         match self {
-            Problem::System(error) => Failure::RecordFile { path: path.into(), problem: error.to_string() },
-            Problem::Content(error) => Failure::Record { path: path.into(), error },
+            Problem::System(error) => Failure::Input(path.into(), error.to_string()),
+            Problem::Content(error) => Failure::Record(path.into(), error),
         }
     }
 }
 
 pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
-    let bytes = std::fs::read(path).map_err(Problem::System)?;
+    let bytes = files::read(path, LARGEST_RECORD).map_err(Problem::System)?;
     RecordFile::read(&bytes, options).map_err(Problem::Content)
 }
 
@@ -208,11 +199,11 @@ impl Told {
     }
 
     fn text(&self) -> String {
-        let mut text = format!("{}\n", self.file.display());
+        let mut text = format!("{}\n", shown(&self.file));
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<22}{value}");
         };
-        let known = |value: &str| if value.is_empty() { "-".to_string() } else { value.to_string() };
+        let known = |value: &str| if value.is_empty() { "-".to_string() } else { printable(value).into_owned() };
         line("format", self.format.to_string());
         line("event", known(&self.title));
         line("station", known(&self.station));

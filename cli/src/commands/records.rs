@@ -5,9 +5,10 @@
 
 use crate::arguments;
 use crate::commands::record::{DIGITS, Problem, Told, options, read};
-use crate::commands::{json, print};
-use crate::error::Failure;
+use crate::error::{Failure, at};
 use crate::number::significant;
+use crate::terminal::{json, print};
+use crate::text::shown;
 use rocking::RecordError;
 use rocking::excitation::TextOptions;
 use serde::Serialize;
@@ -65,12 +66,12 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
         ("pga", arguments.pga.is_some()),
     ];
     if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
-        return Err(Failure::FolderOption { option, path: path.into() });
+        return Err(Failure::FolderOption(path.into(), option));
     }
-    let system = |error: std::io::Error| Failure::RecordFile { path: path.into(), problem: error.to_string() };
+    let system = at(Failure::Input, path);
     let mut names = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(system)? {
-        let entry = entry.map_err(system)?;
+    for entry in std::fs::read_dir(path).map_err(&system)? {
+        let entry = entry.map_err(&system)?;
         let hidden = entry.file_name().to_string_lossy().starts_with('.');
         if !hidden && entry.path().is_file() {
             names.push(PathBuf::from(entry.file_name()));
@@ -92,7 +93,7 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     }
     if groups.is_empty() {
         let first = unread.first().map(|unread| format!(" ({}: {})", unread.file.display(), unread.error));
-        return Err(Failure::NoRecords { path: path.into(), count: names.len(), first: first.unwrap_or_default() });
+        return Err(Failure::NoRecords(path.into(), names.len(), first.unwrap_or_default()));
     }
     let groups = groups.into_iter().map(|(record, mut components)| {
         components.sort_by_key(|listed| listed.direction);
@@ -113,13 +114,13 @@ fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Told, Str
         }
         other => other,
     };
-    let shown = |failure: Failure| {
+    let in_words = |failure: Failure| {
         let (text, prefix) = (failure.to_string(), format!("{}: ", path.display()));
         text.strip_prefix(&prefix).unwrap_or(&text).to_string()
     };
-    let file = file.map_err(|problem| shown(problem.at(&path)))?;
+    let file = file.map_err(|problem| in_words(problem.at(&path)))?;
     let mut told = Told::of(name, &file);
-    let record = file.into_record().map_err(|error| shown(Problem::Content(error).at(&path)))?;
+    let record = file.into_record().map_err(|error| in_words(Problem::Content(error).at(&path)))?;
     told.measure(&record);
     Ok(told)
 }
@@ -127,7 +128,7 @@ fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Told, Str
 impl Folder<'_> {
     fn text(&self) -> String {
         let components = || self.groups.iter().flat_map(|group| &group.components);
-        let width = components().map(|listed| listed.told.file.to_string_lossy().chars().count()).max().unwrap_or(0);
+        let width = components().map(|listed| shown(&listed.told.file).chars().count()).max().unwrap_or(0);
         let mut text = String::new();
         for group in &self.groups {
             let first = &group.components[0].told;
@@ -139,7 +140,7 @@ impl Folder<'_> {
                 let _ = writeln!(
                     text,
                     "  {direction:<12}{:<width$}  PGA {:.4} g  dt {} s  n {}  {} s{}",
-                    told.file.display(),
+                    shown(&told.file),
                     told.pga_g,
                     significant(told.dt, DIGITS),
                     told.samples,
@@ -152,7 +153,7 @@ impl Folder<'_> {
             text.push_str("not read\n");
         }
         for unread in &self.unread {
-            let _ = writeln!(text, "  {}: {}", unread.file.display(), unread.error);
+            let _ = writeln!(text, "  {}: {}", shown(&unread.file), unread.error);
         }
         text
     }

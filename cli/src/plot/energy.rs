@@ -1,10 +1,9 @@
 //! Energy over time: kinetic, potential and both.
 
-use super::Figure;
 use super::axis::{Axis, brief};
 use super::curve::Point;
 use super::motion::Motion;
-use super::sheet::{Anchor, Key, Panel, Sheet};
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
 use rocking::Sample;

@@ -3,7 +3,7 @@
 //! Rows may lie far apart; events hold the angles and the rates on both sides of an impact, so that curves break where they must.
 
 use super::curve::Point;
-use crate::results::{Event, Results};
+use crate::run_folder::{Event, Results};
 use rocking::pattern::Pattern;
 use rocking::{EventKind, ModeName, Sample, StopReason};
 
@@ -57,7 +57,7 @@ impl Motion<'_> {
     pub fn of(results: &Results) -> Motion<'_> {
         let summary = &results.summary;
         let last = results.samples.last().map_or(0.0, |sample| sample.t);
-        let (mut count, mut end) = (results.samples.len(), last.max(summary.options.t_end));
+        let (mut count, mut end) = (results.samples.len(), last.max(summary.given.options.t_end));
         if summary.status == StopReason::Overturned {
             // The first row after it holds the column as it was then.
             count = (results.samples.partition_point(|sample| sample.t < summary.t_final) + 1).min(count);

@@ -7,7 +7,7 @@
 use super::axis::{self, Axis};
 use super::curve::{self, Frame, Point};
 use super::style::{self, Stroke};
-use crate::markup::escape;
+use crate::text::{escape, printable};
 use kuva::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::axis::add_axes_and_grid;
@@ -31,9 +31,35 @@ pub struct Sheet {
     /// What it is, for those who cannot see it.
     pub title: String,
     /// `[px]`
+    pub width: f64,
+    /// `[px]`
     pub height: f64,
     /// In the order of drawing.
     pub marks: Vec<Mark>,
+}
+
+/// A figure: a stand-alone SVG document, and what it is made of.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// File name without extension, e.g. `time-history`.
+    pub name: &'static str,
+    /// What it shows, in a sentence for the reader of a report.
+    pub caption: String,
+    /// The document.
+    pub svg: String,
+    sheet: Sheet,
+}
+
+impl Figure {
+    /// A sheet with its name and its caption.
+    pub fn new(name: &'static str, caption: String, sheet: Sheet) -> Figure {
+        Figure { name, svg: sheet.svg(&caption), caption, sheet }
+    }
+
+    /// A file: PNG, three pixels for one of the SVG, or the SVG itself.
+    pub fn bytes(&self, in_pixels: bool) -> Vec<u8> {
+        if in_pixels { self.sheet.png() } else { self.svg.clone().into_bytes() }
+    }
 }
 
 /// Something on a sheet; coordinates `[px]`.
@@ -54,7 +80,15 @@ pub enum Mark {
         areas: Vec<Vec<Point>>,
         /// As SVG has it.
         fill: &'static str,
+        /// Their edges; none for areas without.
+        edge: Option<Stroke>,
     },
+    /// A pivot: a dark dot in a light ring.
+    Dot(Point),
+    /// The marks up to the end of the group have a name.
+    Group(String),
+    /// See above.
+    EndOfGroup,
     /// Text; `at` is the end of its base line that `anchor` names.
     Words {
         /// See above.
@@ -67,6 +101,8 @@ pub enum Mark {
         anchor: Anchor,
         /// Upwards rather than to the right.
         upwards: bool,
+        /// In bold type.
+        bold: bool,
     },
 }
 
@@ -136,7 +172,7 @@ const ENTRY_GAP: f64 = 20.0;
 impl Sheet {
     /// An empty sheet.
     pub fn new(title: &str) -> Sheet {
-        Sheet { title: title.into(), height: 0.0, marks: Vec::new() }
+        Sheet { title: title.into(), width: WIDTH, height: 0.0, marks: Vec::new() }
     }
 
     /// Frame, ticks and numbers of a panel, with the label of its upward axis.
@@ -148,13 +184,7 @@ impl Sheet {
     pub fn label_upwards(&mut self, panel: &Panel) {
         let Some(axis) = &panel.y else { return };
         let at = [panel.frame.left - LEFT + 16.0, panel.frame.top + 0.5 * panel.frame.height];
-        self.marks.push(Mark::Words {
-            at,
-            text: axis.label.clone(),
-            size: style::LABEL,
-            anchor: Anchor::Middle,
-            upwards: true,
-        });
+        self.words_upwards(at, &axis.label, style::LABEL, Anchor::Middle);
     }
 
     /// The label of the axis to the right, below its numbers. Returns where it ends `[px]`.
@@ -167,8 +197,7 @@ impl Sheet {
     /// Lines in a panel, cut at its frame; `runs` on paper.
     pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
         let inside = runs.iter().flat_map(|run| curve::clip(run, &panel.frame));
-        let runs = inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect();
-        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+        self.runs(inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect(), stroke);
     }
 
     /// A history in a panel: values over time, thinned to what the width can show.
@@ -187,18 +216,52 @@ impl Sheet {
 
     /// A line anywhere.
     pub fn line(&mut self, from: Point, to: Point, stroke: &Stroke) {
-        let runs = curve::dash(&[from, to], stroke.dashes);
-        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+        self.runs(curve::dash(&[from, to], stroke.dashes), stroke);
     }
 
     /// Filled polygons.
     pub fn areas(&mut self, areas: Vec<Vec<Point>>, fill: &'static str) {
-        self.marks.push(Mark::Areas { areas, fill });
+        self.marks.push(Mark::Areas { areas, fill, edge: None });
+    }
+
+    /// A filled polygon with an edge.
+    pub fn shape(&mut self, corners: Vec<Point>, fill: &'static str, edge: &Stroke) {
+        self.marks.push(Mark::Areas { areas: vec![corners], fill, edge: Some(edge.clone()) });
+    }
+
+    /// Lines as one, not cut and not dashed.
+    pub fn runs(&mut self, runs: Vec<Vec<Point>>, stroke: &Stroke) {
+        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+    }
+
+    /// A pivot.
+    pub fn dot(&mut self, at: Point) {
+        self.marks.push(Mark::Dot(at));
+    }
+
+    /// What follows, up to the end of the group, has a name.
+    pub fn begin_group(&mut self, name: &str) {
+        self.marks.push(Mark::Group(name.into()));
+    }
+
+    /// See [`Sheet::begin_group`].
+    pub fn end_group(&mut self) {
+        self.marks.push(Mark::EndOfGroup);
     }
 
     /// Text.
     pub fn words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false });
+        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false, bold: false });
+    }
+
+    /// Text in bold type.
+    pub fn bold_words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false, bold: true });
+    }
+
+    /// Text upwards.
+    pub fn words_upwards(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: true, bold: false });
     }
 
     /// Text on a patch of paper, to be read where lines run.
@@ -220,7 +283,7 @@ impl Sheet {
         let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
         let frame = Frame { left: at[0] - f64::from(size), top, width: f64::from(size) + 4.0, height };
         self.areas(vec![corners(&frame)], style::REST_FILL);
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: true });
+        self.words_upwards(at, text, size, anchor);
     }
 
     /// A legend from `top` down, over the width of the panels. Returns where it ends `[px]`.
@@ -255,22 +318,34 @@ impl Sheet {
     pub fn outline(&mut self, frame: &Frame) {
         let mut run = corners(frame);
         run.push(run[0]);
-        self.marks.push(Mark::Lines { runs: vec![run], stroke: style::THIN });
+        self.runs(vec![run], &style::THIN);
     }
 
     /// The document, with a caption for those who cannot see it.
     pub fn svg(&self, caption: &str) -> String {
-        let drawn = SvgBackend::new().with_pretty(true).render_scene(&self.scene());
-        // Its root has no view box: the sheet would not scale.
-        let body = drawn.split_once('>').map_or("", |(_, body)| body);
-        let (height, [title, caption]) =
-            (self.height, [self.title.as_str(), caption].map(|text| escape(&visible(text))));
+        let body = self.elements(true);
+        let (width, height, [title, caption]) = (self.width, self.height, [&self.title, caption].map(escape));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
-             viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
              font-family=\"Helvetica, Arial, sans-serif\" fill=\"{}\">\n  <desc>{caption}</desc>{body}",
             style::INK
         )
+    }
+
+    /// A document without paper, for a line of text of a page; `attributes` are of its root.
+    pub fn inline(&self, attributes: &str) -> String {
+        let (width, height) = (self.width, self.height);
+        let body = self.elements(false);
+        format!("<svg {attributes} width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">{body}")
+    }
+
+    /// The marks and the end of the root, on white paper or none. The root that `kuva` writes has no view box: a sheet would not scale.
+    fn elements(&self, paper: bool) -> String {
+        let mut scene = self.scene();
+        scene.background_color = scene.background_color.filter(|_| paper);
+        let drawn = SvgBackend::new().with_pretty(paper).render_scene(&scene);
+        drawn.split_once('>').map_or_else(String::new, |(_, body)| body.into())
     }
 
     /// The same in pixels.
@@ -279,7 +354,7 @@ impl Sheet {
     }
 
     fn scene(&self) -> Scene {
-        let mut scene = Scene::new(WIDTH, self.height);
+        let mut scene = Scene::new(self.width, self.height);
         scene.text_color = Some(style::INK.into());
         scene.add(Primitive::GroupStart {
             transform: None,
@@ -290,12 +365,27 @@ impl Sheet {
             match mark {
                 Mark::Axes(panel) => self.draw_axes(&mut scene, panel),
                 Mark::Lines { runs, stroke } => scene.add(path(runs, None, Some(stroke))),
-                Mark::Areas { areas, fill } => scene.add(path(areas, Some(fill), None)),
-                Mark::Words { at, text, size, anchor, upwards } => scene.add(Primitive::Text {
+                Mark::Areas { areas, fill, edge } => scene.add(path(areas, Some(fill), edge.as_ref())),
+                Mark::Dot([x, y]) => scene.add(Primitive::Circle {
+                    cx: tidy(*x),
+                    cy: tidy(*y),
+                    r: 2.8,
+                    fill: style::INK.into(),
+                    fill_opacity: None,
+                    stroke: Some(style::REST_FILL.into()),
+                    stroke_width: Some(0.8),
+                }),
+                Mark::Group(name) => scene.add(Primitive::GroupStart {
+                    transform: None,
+                    title: Some(printable(name).into()),
+                    extra_attrs: None,
+                }),
+                Mark::EndOfGroup => scene.add(Primitive::GroupEnd),
+                Mark::Words { at, text, size, anchor, upwards, bold } => scene.add(Primitive::Text {
                     x: tidy(at[0]),
                     y: tidy(at[1]),
                     // A dollar would begin a formula.
-                    content: visible(text).replace('$', "\\$"),
+                    content: printable(text).replace('$', "\\$"),
                     size: *size,
                     anchor: match anchor {
                         Anchor::Start => TextAnchor::Start,
@@ -303,7 +393,7 @@ impl Sheet {
                         Anchor::End => TextAnchor::End,
                     },
                     rotate: upwards.then_some(-90.0),
-                    bold: false,
+                    bold: *bold,
                     color: None,
                 }),
             }
@@ -316,9 +406,9 @@ impl Sheet {
         let Panel { frame, x, y } = panel;
         let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
         let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
-            .with_width(WIDTH)
+            .with_width(self.width)
             .with_height(self.height)
-            .with_force_margins(frame.left, WIDTH - frame.right())
+            .with_force_margins(frame.left, self.width - frame.right())
             .with_force_margins_y(frame.top, self.height - frame.bottom())
             .with_x_axis_min(x.range[0])
             .with_x_axis_max(x.range[1])
@@ -400,9 +490,4 @@ pub fn text_width(text: &str, size: u32) -> f64 {
         _ => 0.62,
     };
     f64::from(size) * text.chars().map(em).sum::<f64>()
-}
-
-/// Text without signs that XML does not know, as a file's name may have them.
-fn visible(text: &str) -> String {
-    text.replace(char::is_control, "")
 }

@@ -12,9 +12,8 @@ mod grid;
 mod outline;
 mod scale;
 
-use super::Figure;
 use super::curve::{self, Frame, Point};
-use super::sheet::{Anchor, Key, LEFT, Mark, RIGHT, Sheet, WIDTH, text_width};
+use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, WIDTH, text_width};
 use super::style::{self, Stroke};
 use grid::{Class, Grid, Plane};
 use scale::Scale;
@@ -55,6 +54,7 @@ impl Class {
         match self {
             Class::NoUplift => "#ffffff",
             Class::Rocks => "#cfdde9",
+            Class::Overturns => "#0065a0",
             Class::AfterMore => "#e6a52c",
             Class::AfterTwo => "#dd6a12",
             Class::AfterOne => "#0065a0",
@@ -67,6 +67,7 @@ impl Class {
         match self {
             Class::NoUplift => "no uplift",
             Class::Rocks => "rocks and stands",
+            Class::Overturns => "(impacts not counted)",
             Class::AfterMore => "after 3 impacts or more",
             Class::AfterTwo => "after 2 impacts",
             Class::AfterOne => "after 1 impact",
@@ -141,7 +142,7 @@ impl Place<'_> {
         let widths = self.y_ticks().into_iter().map(|(_, number)| text_width(&number, style::NUMBER));
         let right = self.frame.left - TICK - 14.0 - widths.fold(0.0, f64::max);
         let at = [right.max(16.0), self.frame.top + 0.5 * self.frame.height];
-        sheet.marks.push(Mark::Words { at, text, size: style::LABEL, anchor: Anchor::Middle, upwards: true });
+        sheet.words_upwards(at, &text, style::LABEL, Anchor::Middle);
     }
 
     fn x_ticks(&self) -> Vec<(f64, String)> {
@@ -179,7 +180,7 @@ fn spectrum(grid: &Grid) -> Figure {
         );
         cells(&mut sheet, &place, &grid.panels[panel]);
         let least = staircase(&place, &grid.minimum(panel));
-        sheet.marks.push(Mark::Lines { runs: least, stroke: LEAST });
+        sheet.runs(least, &LEAST);
         place.axes(&mut sheet, [is_lowest, column == 0]);
         if column == 0 {
             place.label_upwards(&mut sheet, y.label());
@@ -244,7 +245,7 @@ fn cells(sheet: &mut Sheet, place: &Place, cells: &[Class]) {
         }
     }
     if !hatches.is_empty() {
-        sheet.marks.push(Mark::Lines { runs: hatches, stroke: HATCH });
+        sheet.runs(hatches, &HATCH);
     }
 }
 
@@ -292,7 +293,7 @@ fn minimum(grid: &Grid) -> Figure {
         let stroke = Stroke { color: color.color, ..dashes };
         let runs = curves(&place, &grid.minimum(panel));
         let runs = runs.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect();
-        sheet.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+        sheet.runs(runs, &stroke);
         if !title.is_empty() {
             entries.push((Key::Line(stroke), title.clone()));
         }

@@ -1,13 +1,12 @@
 //! Angles over time: the ground acceleration above, impacts as ticks and modes as a band below.
 
-use super::Figure;
 use super::axis::{Axis, brief, span, subscript};
 use super::curve::{Frame, Point};
 use super::motion::{FALL, Motion, Stretch, over_time};
-use super::sheet::{Anchor, Key, Panel, Sheet, corners};
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
-use crate::results::longest_first;
+use crate::run_folder::longest_first;
 use rocking::Sample;
 
 /// Heights `[px]`.

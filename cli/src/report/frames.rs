@@ -6,10 +6,10 @@
 
 use crate::number::{fixed, significant};
 use crate::plot;
+use crate::plot::modes::fill;
 use crate::report::html::script;
 use crate::report::outcome::closed;
-use crate::report::sketch::fill;
-use crate::results::{Event, Results};
+use crate::run_folder::{Event, Results};
 use rocking::Record;
 use rocking::pattern::Pattern;
 use rocking::{EventKind, StopReason};

@@ -9,7 +9,7 @@
 //! A piece of at most [`GROUP`] rows is all that is in memory. Row groups end where their number of rows says and nowhere else, so
 //! that the bytes of a file depend on its rows alone: a merged table is the table of the whole sweep.
 
-use super::{Column, Kind, Rows};
+use super::column::{Column, Kind, Rows};
 use csv::StringRecord;
 use parquet::basic::{Encoding, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};

@@ -4,7 +4,8 @@
 //! A class is all that is kept of a row.
 
 use super::scale::{Scale, title};
-use crate::table::Rows;
+use crate::table::column::Rows;
+use crate::table::open;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -18,6 +19,8 @@ pub enum Class {
     NoUplift,
     /// It rocked and stands.
     Rocks,
+    /// It overturned, and its impacts were not counted: the sweep asked whether it does and no more.
+    Overturns,
     /// It overturned after three impacts or more.
     AfterMore,
     /// It overturned after two impacts.
@@ -32,9 +35,10 @@ pub enum Class {
 
 impl Class {
     /// All, in this order.
-    pub const ALL: [Class; 7] = [
+    pub const ALL: [Class; 8] = [
         Class::NoUplift,
         Class::Rocks,
+        Class::Overturns,
         Class::AfterMore,
         Class::AfterTwo,
         Class::AfterOne,
@@ -47,6 +51,7 @@ impl Class {
         Some(match (outcome, impacts) {
             ("no-uplift", _) => Class::NoUplift,
             ("rocks", _) => Class::Rocks,
+            ("overturns", "") => Class::Overturns,
             ("overturns", "0") => Class::AtOnce,
             ("overturns", "1") => Class::AfterOne,
             ("overturns", "2") => Class::AfterTwo,
@@ -58,7 +63,7 @@ impl Class {
 
     /// Whether the column overturned.
     pub fn overturns(self) -> bool {
-        matches!(self, Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
+        matches!(self, Class::Overturns | Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
     }
 }
 
@@ -239,7 +244,7 @@ impl Grid {
     pub fn read(file: &Path) -> Result<Grid, NoSpectrum> {
         let broken = |problem: String| NoSpectrum::NoTable { problem };
         let failed = |error: std::io::Error| broken(error.to_string());
-        let Rows { header, rows } = Rows::open(file).map_err(failed)?;
+        let Rows { header, rows } = open(file).map_err(failed)?;
         let column = |name: &str| header.iter().position(|found| found == name);
         let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
             return Err(broken("it has no columns index, outcome and impacts".into()));
