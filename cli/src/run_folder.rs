@@ -290,6 +290,9 @@ pub struct Results {
 /// would have axes that doubles cannot divide.
 const LARGEST_NUMBER: f64 = 1e12;
 
+/// Lengths [m], masses [kg], inertias [kg m²] and gravity [m/s²] of columns that figures are drawn of.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-40..=1e40;
+
 impl Results {
     /// Reads the folder of a run; what could not have been written by one is refused with its file, and its line where there is one.
     pub fn read(folder: &Path) -> Result<Results, FolderError> {
@@ -311,9 +314,8 @@ impl Results {
         if !all_plausible(read.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Err(broken("an angle or a time is out of range".into()));
         }
-        let slender = |interface: usize| column.stack(interface).slenderness();
-        let shape = (0..length).flat_map(|interface| [slender(interface), column.mass_above(interface) * gravity]);
-        if shape.into_iter().any(|size| !(size.is_finite() && size > 1.0 / f64::MAX.sqrt())) {
+        let of_block = |block: &Block| [block.half_width, block.half_height, block.mass, block.inertia];
+        if blocks.iter().flat_map(of_block).chain([*gravity]).any(|size| !SIZES.contains(&size)) {
             return Err(broken("the column's sizes are out of range".into()));
         }
         let samples = samples(&response, length)?;

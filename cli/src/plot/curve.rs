@@ -83,6 +83,9 @@ fn distance(point: Point, from: Point, to: Point) -> f64 {
 /// Side of the squares of ink `[px]`, half of a line's width: what lies in one that has been drawn in cannot be told from it.
 const INK_SQUARE: f64 = 0.7;
 
+/// Squares of a straight line at most.
+const MOST_SQUARES: f64 = 10_000.0;
+
 /// Squares that have been drawn in.
 #[derive(Debug, Default)]
 pub struct Ink(HashSet<[i32; 2]>);
@@ -95,7 +98,8 @@ impl Ink {
         let mut joined = false;
         for ends in run.windows(2) {
             let [from, to] = [ends[0], ends[1]];
-            let squares = ((to[0] - from[0]).hypot(to[1] - from[1]) / INK_SQUARE).ceil();
+            // Nothing on paper is longer; beyond its edges no square needs ink.
+            let squares = ((to[0] - from[0]).hypot(to[1] - from[1]) / INK_SQUARE).ceil().min(MOST_SQUARES);
             let mut new = false;
             for square in 0..=squares as i32 {
                 let share = f64::from(square) / squares.max(1.0);
@@ -116,7 +120,8 @@ impl Ink {
 /// The parts of a curve inside a frame.
 pub fn clip(run: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
-    for ends in run.windows(2) {
+    let is_finite = |ends: &&[Point]| ends.iter().flatten().all(|part| part.is_finite());
+    for ends in run.windows(2).filter(is_finite) {
         let Some([from, to]) = clip_segment(ends[0], ends[1], frame) else { continue };
         match parts.last_mut() {
             Some(part) if part.last() == Some(&from) => part.push(to),
