@@ -276,9 +276,6 @@ pub struct Shard {
 
 impl Shard {
     /// Reads `K/M`.
-    ///
-    /// # Errors
-    /// What to write instead.
     pub fn parse(text: &str) -> Result<Shard, String> {
         let numbers = text.split_once('/').and_then(|(k, m)| Some((k.parse().ok()?, m.parse().ok()?)));
         match numbers {

@@ -2,6 +2,7 @@
 //!
 //! Every JSON that the command line writes or prints passes through [`Explicit`]. [`numbers`] reads such values back.
 
+use serde::de::Error as _;
 use serde::ser::{self, Serialize, Serializer};
 use serde::{Deserialize, Deserializer};
 
@@ -129,25 +130,18 @@ pub fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error>
     #[serde(untagged)]
     enum Number {
         Finite(f64),
-        Word(Word),
+        Word(String),
         Null(()),
     }
-    #[derive(Deserialize)]
-    enum Word {
-        #[serde(rename = "infinite")]
-        Infinite,
-        #[serde(rename = "-infinite")]
-        MinusInfinite,
-        #[serde(rename = "not a number")]
-        NotANumber,
-    }
     let number = |number| match number {
-        Number::Finite(number) => number,
-        Number::Word(Word::Infinite) | Number::Null(()) => f64::INFINITY,
-        Number::Word(Word::MinusInfinite) => f64::NEG_INFINITY,
-        Number::Word(Word::NotANumber) => f64::NAN,
+        Number::Finite(number) => Ok(number),
+        Number::Word(word) if word == INFINITE => Ok(f64::INFINITY),
+        Number::Word(word) if word == MINUS_INFINITE => Ok(f64::NEG_INFINITY),
+        Number::Word(word) if word == NOT_A_NUMBER => Ok(f64::NAN),
+        Number::Word(word) => Err(D::Error::custom(format!("`{word}` is no number"))),
+        Number::Null(()) => Ok(f64::INFINITY),
     };
-    Ok(Vec::<Number>::deserialize(from)?.into_iter().map(number).collect())
+    Vec::<Number>::deserialize(from)?.into_iter().map(number).collect()
 }
 
 #[cfg(test)]

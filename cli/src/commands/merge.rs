@@ -35,7 +35,6 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
             let problem = format!("{} is to be of the other format, and tables are not converted", shown(out));
             return Err(Failure::Shards(path.clone(), problem));
         }
-        check_digest(path, &shards[0], wanted.as_ref())?;
         tables.push((first(path)?, path.as_path()));
     }
     // Of more shards than points some have no row; they come first.
@@ -50,6 +49,9 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         #[cfg(feature = "parquet")]
         Format::Parquet => join_parquet(&tables, wanted.as_ref(), merged.as_file(), failed)?,
     };
+    for path in shards {
+        check_digest(path, &shards[0], wanted.as_ref())?;
+    }
     let told = match wanted {
         Some(wanted) => format!("all points of {}", shown(wanted.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),

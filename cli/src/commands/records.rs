@@ -55,9 +55,6 @@ struct Unread {
 }
 
 /// Lists a folder.
-///
-/// # Errors
-/// [`Failure`]
 pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     let given = [
         ("out", arguments.out.is_some()),

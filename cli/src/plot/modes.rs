@@ -108,7 +108,7 @@ fn mode(sheet: &mut Sheet, Drawing { label, pattern, blocks }: &Drawing, origin:
     };
     let ground = vec![[x - GROUND, y], [x + GROUND, y]];
     let strokes = (0..(2.0 * GROUND / HATCH) as usize).map(stroke);
-    sheet.runs(std::iter::once(ground).chain(strokes).collect(), &HATCHING);
+    sheet.runs(&std::iter::once(ground).chain(strokes).collect::<Vec<_>>(), &HATCHING);
     let link = pattern.linkage().link_of_block();
     for group in groups(pattern) {
         let fill = fill(link[group.start]);

@@ -1,4 +1,4 @@
-//! The sheet of paper: marks as plain data, and how they become SVG and PNG. The only file that knows `kuva`.
+//! The sheet of paper: what is drawn on it, and how that becomes SVG and PNG. The only file that knows `kuva`.
 //!
 //! `kuva` draws frames, ticks, grids and text, and writes both outputs from one list of primitives, so that they show the same. It
 //! brings its font for PNGs; SVGs name a family. Curves come to it thinned, clipped and dashed ([`super::curve`]), so that
@@ -35,7 +35,7 @@ pub struct Sheet {
     /// `[px]`
     pub height: f64,
     /// In the order of drawing.
-    pub marks: Vec<Mark>,
+    drawn: Vec<Primitive>,
 }
 
 /// A figure: a stand-alone SVG document, and what it is made of.
@@ -60,50 +60,6 @@ impl Figure {
     pub fn bytes(&self, in_pixels: bool) -> Vec<u8> {
         if in_pixels { self.sheet.png() } else { self.svg.clone().into_bytes() }
     }
-}
-
-/// Something on a sheet; coordinates `[px]`.
-#[derive(Clone, Debug)]
-pub enum Mark {
-    /// Frame, ticks and numbers.
-    Axes(Panel),
-    /// Lines, dashes among them, as one.
-    Lines {
-        /// Ends and corners.
-        runs: Vec<Vec<Point>>,
-        /// Its dashes have been cut.
-        stroke: Stroke,
-    },
-    /// Filled polygons, as one.
-    Areas {
-        /// Corners.
-        areas: Vec<Vec<Point>>,
-        /// As SVG has it.
-        fill: &'static str,
-        /// Their edges; none for areas without.
-        edge: Option<Stroke>,
-    },
-    /// A pivot: a dark dot in a light ring.
-    Dot(Point),
-    /// The marks up to the end of the group have a name.
-    Group(String),
-    /// See above.
-    EndOfGroup,
-    /// Text; `at` is the end of its base line that `anchor` names.
-    Words {
-        /// See above.
-        at: Point,
-        /// What it says.
-        text: String,
-        /// `[px]`
-        size: u32,
-        /// See above.
-        anchor: Anchor,
-        /// Upwards rather than to the right.
-        upwards: bool,
-        /// In bold type.
-        bold: bool,
-    },
 }
 
 /// Which part of a text is where it was put.
@@ -172,12 +128,40 @@ const ENTRY_GAP: f64 = 20.0;
 impl Sheet {
     /// An empty sheet.
     pub fn new(title: &str) -> Sheet {
-        Sheet { title: title.into(), width: WIDTH, height: 0.0, marks: Vec::new() }
+        Sheet { title: title.into(), width: WIDTH, height: 0.0, drawn: Vec::new() }
     }
 
-    /// Frame, ticks and numbers of a panel, with the label of its upward axis.
-    pub fn axes(&mut self, panel: &Panel) {
-        self.marks.push(Mark::Axes(panel.clone()));
+    /// Frame, ticks and numbers of a panel.
+    pub fn axes(&mut self, Panel { frame, x, y }: &Panel) {
+        let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
+        // Frames are where their margins put them, however high the sheet turns out.
+        let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
+            .with_width(self.width)
+            .with_height(frame.bottom())
+            .with_force_margins(frame.left, self.width - frame.right())
+            .with_force_margins_y(frame.top, 0.0)
+            .with_x_axis_min(x.range[0])
+            .with_x_axis_max(x.range[1])
+            .with_y_axis_min(y_range[0])
+            .with_y_axis_max(y_range[1])
+            .with_x_tick_step(x.step)
+            .with_y_tick_step(y.as_ref().map_or(1.0, |axis| axis.step))
+            .with_x_tick_format(numbers(x))
+            .with_tick_size(style::NUMBER)
+            .with_tick_length(4.0)
+            .with_show_grid(y.is_some())
+            .with_box_axes();
+        layout.theme.grid_color = style::FAINT.into();
+        layout.theme.axis_color = style::INK.into();
+        layout.theme.tick_color = style::INK.into();
+        layout.suppress_y_ticks = y.is_none();
+        if let Some(axis) = y {
+            layout = layout.with_y_tick_format(numbers(axis));
+        }
+        let mut scene = Scene::new(self.width, frame.bottom());
+        add_axes_and_grid(&mut scene, &ComputedLayout::from_layout(&layout), &layout);
+        let unlabelled = |drawn: &Primitive| matches!(drawn, Primitive::Text { content, .. } if content.is_empty());
+        self.drawn.extend(scene.elements.into_iter().filter(|drawn| !unlabelled(drawn)));
     }
 
     /// The label of the upward axis, left of the numbers of the leftmost panel.
@@ -197,7 +181,7 @@ impl Sheet {
     /// Lines in a panel, cut at its frame; `runs` on paper.
     pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
         let inside = runs.iter().flat_map(|run| curve::clip(run, &panel.frame));
-        self.runs(inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect(), stroke);
+        self.runs(&inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect::<Vec<_>>(), stroke);
     }
 
     /// A history in a panel: values over time, thinned to what the width can show.
@@ -216,52 +200,72 @@ impl Sheet {
 
     /// A line anywhere.
     pub fn line(&mut self, from: Point, to: Point, stroke: &Stroke) {
-        self.runs(curve::dash(&[from, to], stroke.dashes), stroke);
+        self.runs(&curve::dash(&[from, to], stroke.dashes), stroke);
     }
 
     /// Filled polygons.
     pub fn areas(&mut self, areas: Vec<Vec<Point>>, fill: &'static str) {
-        self.marks.push(Mark::Areas { areas, fill, edge: None });
+        self.drawn.push(path(&areas, Some(fill), None));
     }
 
     /// A filled polygon with an edge.
     pub fn shape(&mut self, corners: Vec<Point>, fill: &'static str, edge: &Stroke) {
-        self.marks.push(Mark::Areas { areas: vec![corners], fill, edge: Some(edge.clone()) });
+        self.drawn.push(path(&[corners], Some(fill), Some(edge)));
     }
 
     /// Lines as one, not cut and not dashed.
-    pub fn runs(&mut self, runs: Vec<Vec<Point>>, stroke: &Stroke) {
-        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+    pub fn runs(&mut self, runs: &[Vec<Point>], stroke: &Stroke) {
+        self.drawn.push(path(runs, None, Some(stroke)));
     }
 
-    /// A pivot.
-    pub fn dot(&mut self, at: Point) {
-        self.marks.push(Mark::Dot(at));
+    /// A pivot: a dark dot in a light ring.
+    pub fn dot(&mut self, [x, y]: Point) {
+        self.drawn.push(Primitive::Circle {
+            cx: tidy(x),
+            cy: tidy(y),
+            r: 2.8,
+            fill: style::INK.into(),
+            fill_opacity: None,
+            stroke: Some(style::REST_FILL.into()),
+            stroke_width: Some(0.8),
+        });
     }
 
     /// What follows, up to the end of the group, has a name.
     pub fn begin_group(&mut self, name: &str) {
-        self.marks.push(Mark::Group(name.into()));
+        let title = Some(printable(name).into());
+        self.drawn.push(Primitive::GroupStart { transform: None, title, extra_attrs: None });
     }
 
     /// See [`Sheet::begin_group`].
     pub fn end_group(&mut self) {
-        self.marks.push(Mark::EndOfGroup);
+        self.drawn.push(Primitive::GroupEnd);
     }
 
-    /// Text.
+    /// Text; `at` is the end of its base line that `anchor` names.
     pub fn words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false, bold: false });
+        self.text(at, text, size, anchor, None, false);
     }
 
     /// Text in bold type.
     pub fn bold_words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false, bold: true });
+        self.text(at, text, size, anchor, None, true);
     }
 
     /// Text upwards.
     pub fn words_upwards(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: true, bold: false });
+        self.text(at, text, size, anchor, Some(-90.0), false);
+    }
+
+    fn text(&mut self, [x, y]: Point, text: &str, size: u32, anchor: Anchor, rotate: Option<f64>, bold: bool) {
+        let anchor = match anchor {
+            Anchor::Start => TextAnchor::Start,
+            Anchor::Middle => TextAnchor::Middle,
+            Anchor::End => TextAnchor::End,
+        };
+        // A dollar would begin a formula.
+        let content = printable(text).replace('$', "\\$");
+        self.drawn.push(Primitive::Text { x: tidy(x), y: tidy(y), content, size, anchor, rotate, bold, color: None });
     }
 
     /// Text on a patch of paper, to be read where lines run.
@@ -318,7 +322,7 @@ impl Sheet {
     pub fn outline(&mut self, frame: &Frame) {
         let mut run = corners(frame);
         run.push(run[0]);
-        self.runs(vec![run], &style::THIN);
+        self.runs(&[run], &style::THIN);
     }
 
     /// The document, with a caption for those who cannot see it.
@@ -361,79 +365,9 @@ impl Sheet {
             title: None,
             extra_attrs: Some("stroke-linecap=\"round\" stroke-linejoin=\"round\"".into()),
         });
-        for mark in &self.marks {
-            match mark {
-                Mark::Axes(panel) => self.draw_axes(&mut scene, panel),
-                Mark::Lines { runs, stroke } => scene.add(path(runs, None, Some(stroke))),
-                Mark::Areas { areas, fill, edge } => scene.add(path(areas, Some(fill), edge.as_ref())),
-                Mark::Dot([x, y]) => scene.add(Primitive::Circle {
-                    cx: tidy(*x),
-                    cy: tidy(*y),
-                    r: 2.8,
-                    fill: style::INK.into(),
-                    fill_opacity: None,
-                    stroke: Some(style::REST_FILL.into()),
-                    stroke_width: Some(0.8),
-                }),
-                Mark::Group(name) => scene.add(Primitive::GroupStart {
-                    transform: None,
-                    title: Some(printable(name).into()),
-                    extra_attrs: None,
-                }),
-                Mark::EndOfGroup => scene.add(Primitive::GroupEnd),
-                Mark::Words { at, text, size, anchor, upwards, bold } => scene.add(Primitive::Text {
-                    x: tidy(at[0]),
-                    y: tidy(at[1]),
-                    // A dollar would begin a formula.
-                    content: printable(text).replace('$', "\\$"),
-                    size: *size,
-                    anchor: match anchor {
-                        Anchor::Start => TextAnchor::Start,
-                        Anchor::Middle => TextAnchor::Middle,
-                        Anchor::End => TextAnchor::End,
-                    },
-                    rotate: upwards.then_some(-90.0),
-                    bold: *bold,
-                    color: None,
-                }),
-            }
-        }
+        scene.elements.extend(self.drawn.iter().cloned());
         scene.add(Primitive::GroupEnd);
         scene
-    }
-
-    fn draw_axes(&self, scene: &mut Scene, panel: &Panel) {
-        let Panel { frame, x, y } = panel;
-        let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
-        let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
-            .with_width(self.width)
-            .with_height(self.height)
-            .with_force_margins(frame.left, self.width - frame.right())
-            .with_force_margins_y(frame.top, self.height - frame.bottom())
-            .with_x_axis_min(x.range[0])
-            .with_x_axis_max(x.range[1])
-            .with_y_axis_min(y_range[0])
-            .with_y_axis_max(y_range[1])
-            .with_x_tick_step(x.step)
-            .with_y_tick_step(y.as_ref().map_or(1.0, |axis| axis.step))
-            .with_x_tick_format(numbers(x))
-            .with_tick_size(style::NUMBER)
-            .with_tick_length(4.0)
-            .with_show_grid(y.is_some())
-            .with_box_axes();
-        layout.theme.grid_color = style::FAINT.into();
-        layout.theme.axis_color = style::INK.into();
-        layout.theme.tick_color = style::INK.into();
-        layout.suppress_y_ticks = y.is_none();
-        if let Some(axis) = y {
-            layout = layout.with_y_tick_format(numbers(axis));
-        }
-        let computed = ComputedLayout::from_layout(&layout);
-        let before = scene.elements.len();
-        add_axes_and_grid(scene, &computed, &layout);
-        let unlabelled = |drawn: &Primitive| matches!(drawn, Primitive::Text { content, .. } if content.is_empty());
-        let drawn = scene.elements.split_off(before);
-        scene.elements.extend(drawn.into_iter().filter(|drawn| !unlabelled(drawn)));
     }
 }
 

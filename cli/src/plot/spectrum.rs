@@ -78,9 +78,6 @@ impl Class {
 }
 
 /// Whether the axes of a sweep can be drawn, before it is run; each with its key and its values as a table has them.
-///
-/// # Errors
-/// [`NoSpectrum`]
 pub fn check(axes: &[(String, Vec<String>)], points: usize) -> Result<(), NoSpectrum> {
     let distinct = |values: &[String]| {
         let mut seen = HashSet::new();
@@ -91,9 +88,6 @@ pub fn check(axes: &[(String, Vec<String>)], points: usize) -> Result<(), NoSpec
 }
 
 /// The spectrum, and the curves of the least value that overturns, of the table of a sweep.
-///
-/// # Errors
-/// [`NoSpectrum`]
 pub fn figures(table: &Path) -> Result<[Figure; 2], NoSpectrum> {
     let grid = Grid::read(table)?;
     Ok([spectrum(&grid), minimum(&grid)])
@@ -180,7 +174,7 @@ fn spectrum(grid: &Grid) -> Figure {
         );
         cells(&mut sheet, &place, &grid.panels[panel]);
         let least = staircase(&place, &grid.minimum(panel));
-        sheet.runs(least, &LEAST);
+        sheet.runs(&least, &LEAST);
         place.axes(&mut sheet, [is_lowest, column == 0]);
         if column == 0 {
             place.label_upwards(&mut sheet, y.label());
@@ -245,7 +239,7 @@ fn cells(sheet: &mut Sheet, place: &Place, cells: &[Class]) {
         }
     }
     if !hatches.is_empty() {
-        sheet.runs(hatches, &HATCH);
+        sheet.runs(&hatches, &HATCH);
     }
 }
 
@@ -292,8 +286,8 @@ fn minimum(grid: &Grid) -> Figure {
         let (color, dashes) = (style::line(panel), style::line(panel + panel / LINES));
         let stroke = Stroke { color: color.color, ..dashes };
         let runs = curves(&place, &grid.minimum(panel));
-        let runs = runs.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect();
-        sheet.runs(runs, &stroke);
+        let runs: Vec<_> = runs.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect();
+        sheet.runs(&runs, &stroke);
         if !title.is_empty() {
             entries.push((Key::Line(stroke), title.clone()));
         }

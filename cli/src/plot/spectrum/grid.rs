@@ -138,9 +138,6 @@ pub struct Plane {
 
 impl Plane {
     /// Of axes by their keys, with their values as a table has them.
-    ///
-    /// # Errors
-    /// [`NoSpectrum::FewAxes`], [`NoSpectrum::Extreme`], [`NoSpectrum::ManyPanels`]
     pub fn of(axes: &[(String, Vec<String>)]) -> Result<Plane, NoSpectrum> {
         let numbers = |values: &[String]| -> Option<Vec<f64>> {
             let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
@@ -196,9 +193,6 @@ impl Plane {
     }
 
     /// Whether so many points fill the grid.
-    ///
-    /// # Errors
-    /// [`NoSpectrum::NoGrid`]
     pub fn expects(&self, rows: usize) -> Result<(), NoSpectrum> {
         let points = self.points();
         if rows == points { Ok(()) } else { Err(NoSpectrum::NoGrid { rows, points }) }
@@ -238,9 +232,6 @@ pub struct Grid {
 
 impl Grid {
     /// Reads the table of a whole sweep.
-    ///
-    /// # Errors
-    /// [`NoSpectrum`]
     pub fn read(file: &Path) -> Result<Grid, NoSpectrum> {
         let broken = |problem: String| NoSpectrum::NoTable { problem };
         let failed = |error: std::io::Error| broken(error.to_string());
