@@ -1,4 +1,5 @@
-//! Mutated scenes and damaged run folders: every command ends with status 0, 1 or 2 within ten seconds and in little memory.
+//! Mutated scenes and damaged run folders: every command ends with status 0, 1 or 2, in little memory and within ten seconds of
+//! processor time.
 
 #![cfg(unix)]
 
@@ -39,13 +40,13 @@ rtol = 1e-6
 dt = 0.02
 ";
 
-/// Longest time a command may take.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// Longest time a command may take on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Numbers that put arithmetic to the test. Sizes below 1e-12 m are left to the library's own tests.
-const NUMBERS: [&str; 17] = [
-    "0", "-0.0", "1", "-1", "2", "1e-12", "1e-9", "1e-6", "1e6", "1e12", "1e150", "-1e300", "1e308", "1e999", "nan",
-    "inf", "\"x\"",
+/// Numbers that put arithmetic to the test.
+const NUMBERS: [&str; 20] = [
+    "0", "-0.0", "1", "-1", "2", "5e-324", "1e-100", "1e-15", "1e-12", "1e-9", "1e-6", "1e6", "1e12", "1e150",
+    "-1e300", "1e308", "1e999", "nan", "inf", "\"x\"",
 ];
 
 /// A generator of Lehmer's kind after Steele & Vigna (2021), 64 bits.

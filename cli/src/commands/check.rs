@@ -102,7 +102,7 @@ struct MotionFindings {
     pga: f64,
     pgv: f64,
     pgd: f64,
-    /// When it ends `[s]`; none for what goes on for ever.
+    /// End of the motion `[s]`; none for a motion without end.
     end: Option<f64>,
     /// Velocity and displacement with which the ground is left there `[m/s]`, `[m]`.
     left_with: Option<[f64; 2]>,

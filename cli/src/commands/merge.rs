@@ -1,7 +1,7 @@
 //! `rocking merge`: one table of the tables of all shards of a sweep.
 //!
 //! A table holds its points and not how many the sweep has. That the last ones are missing is therefore seen only if the sweep is
-//! given as well. That two shards are of one sweep, their columns tell and the digests beside them.
+//! given as well. Shards of different sweeps differ in their columns, or in the digests beside them.
 
 use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
 use crate::error::{Failure, at};

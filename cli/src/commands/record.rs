@@ -25,10 +25,10 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     };
     let file = read(&path, &options(arguments)).map_err(|problem| problem.at(&path))?;
     let refused = |error: RecordError| Failure::Record(path.clone(), error);
-    let mut told = Told::of(&path, &file);
+    let mut description = Description::of(&path, &file);
     let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
     if let Some(Window { from, to }) = window {
-        let outside = |error| format!("{error} ({} s are in the file)", told.duration);
+        let outside = |error| format!("{error} ({} s are in the file)", description.duration);
         record = record.trimmed(from, to).map_err(|error| Failure::Trim(arguments.trim.join(" "), outside(error)))?;
     }
     if let Some(factor) = arguments.scale {
@@ -37,7 +37,7 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     if let Some(peak) = arguments.pga {
         record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
     }
-    told.measure(&record);
+    description.measure(&record);
     let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
     output::check(&outputs, std::slice::from_ref(&path))?;
     if let Some(out) = &arguments.out {
@@ -49,13 +49,13 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
         write(&figure, picture)?;
     }
-    warn(&told.warnings);
+    warn(&description.warnings);
     if arguments.json {
-        return json(&told);
+        return json(&description);
     }
-    let mut text = format!("{}{}\n", told.text(), plot::terminal::series(record.accel()));
+    let mut text = format!("{}{}\n", description.text(), plot::terminal::series(record.accel()));
     if let Some(out) = &arguments.out {
-        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", shown(out), told.samples);
+        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", shown(out), description.samples);
     }
     if let Some(picture) = &arguments.plot {
         let _ = writeln!(text, "wrote {}", shown(picture));
@@ -129,9 +129,9 @@ pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
     RecordFile::read(&bytes, options).map_err(Problem::Content)
 }
 
-/// What is told of a record.
+/// The description of a record, as text or JSON.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct Description {
     pub file: PathBuf,
     pub format: rocking::excitation::Format,
     pub title: String,
@@ -147,7 +147,7 @@ pub struct Told {
     /// `[s]`
     pub dt: f64,
     pub samples: usize,
-    /// From the first sample to the last `[s]`; told among the measures.
+    /// From the first sample to the last `[s]`; printed among the measures.
     #[serde(skip)]
     pub duration: f64,
     /// Factor of `--scale` or `--pga`.
@@ -163,9 +163,9 @@ pub struct Told {
     pub warnings: Vec<String>,
 }
 
-impl Told {
-    pub fn of(path: &Path, file: &RecordFile) -> Told {
-        Told {
+impl Description {
+    pub fn of(path: &Path, file: &RecordFile) -> Description {
+        Description {
             file: path.into(),
             format: file.format,
             title: file.title.clone(),

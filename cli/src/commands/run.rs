@@ -59,8 +59,8 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), shown(out)))
 }
 
-/// Modes of which the time is told; the others are brief in most runs, and in `summary.json`.
-const MODES_TOLD: usize = 8;
+/// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
+const MODES_PRINTED: usize = 8;
 
 /// A few lines on what happened.
 fn account(scene: &Scene, response: &Response) -> String {
@@ -72,7 +72,7 @@ fn account(scene: &Scene, response: &Response) -> String {
     };
     let peaks: Vec<String> = response.peak_theta.iter().map(|angle| format!("{angle:.5}")).collect();
     let modes = longest_first(&response.time_in_mode);
-    let (told, others) = modes.split_at(modes.len().min(MODES_TOLD));
+    let (told, others) = modes.split_at(modes.len().min(MODES_PRINTED));
     let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
     if !others.is_empty() {
         let time: f64 = others.iter().map(|(_, time)| time).sum();

@@ -1,7 +1,7 @@
-//! `rocking sweep`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on where it was.
+//! `rocking sweep`: a table with a row per point; a sweep that was interrupted continues with the first missing row.
 //!
-//! The growing table (`table/growing.rs`) is told from others by a digest of all that decides its rows. A shard leaves the digest of
-//! its whole sweep in a small file beside its table, by which `rocking merge` knows shards of another sweep.
+//! The name of the unfinished table (`table/growing.rs`) holds a digest of all that decides its rows. A shard leaves the digest of its
+//! whole sweep in a file beside its table, by which `rocking merge` recognises shards of another sweep.
 
 use crate::arguments;
 use crate::commands::{inputs, spectrum};
@@ -80,7 +80,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
 }
 
-/// Reads a sweep, and refuses axes that no row would have an effect of.
+/// Reads a sweep, and refuses axes without effect on its rows.
 pub fn read(file: &Path) -> Result<Sweep, Failure> {
     inputs::check(file)?;
     let sweep = Sweep::from_file(file).map_err(Failure::scene)?;

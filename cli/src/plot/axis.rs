@@ -13,10 +13,10 @@ pub struct Axis {
     pub numbers: bool,
 }
 
-/// Room beyond the values, as a share of their range.
+/// Margin beyond the values, as a share of their range.
 const ROOM: f64 = 0.06;
 
-/// How far an axis reaches to both sides of zero where all values are zero: its numbers are short, and nothing looks like motion.
+/// Half of the range of an axis whose values are all zero: its numbers are short.
 const STILL: f64 = 0.1;
 
 impl Axis {

@@ -38,8 +38,8 @@ const SMALL: u32 = 11;
 const MEDIUM: u32 = 12;
 const LARGE: u32 = 13;
 
-/// Fills of the rigid groups, base first: grey stays with the ground, then the free angles. Okabe and Ito's colours (2008), told
-/// apart also by the colour-blind, at 60 % on white so that lines stand out.
+/// Fills of the rigid groups, base first: grey stays with the ground, then the free angles. Okabe and Ito's colours (2008),
+/// distinct also for the colour-blind, at 60 % on white so that lines stand out.
 const FILLS: [&str; LARGEST + 1] = ["#d9d9d9", "#9ad2f2", "#f0c566", "#66c5ab", "#e0afca", "#f6ef8e"];
 const EDGE: Stroke = Stroke::solid(style::INK, 1.2);
 const HATCHING: Stroke = Stroke::solid(style::INK, 0.8);

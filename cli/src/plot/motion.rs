@@ -36,7 +36,6 @@ pub struct Stretch {
 /// What of a run is drawn.
 #[derive(Debug)]
 pub struct Motion<'a> {
-    /// The run.
     pub results: &'a Results,
     /// The rows that are drawn: those after overturning only fill the file.
     pub samples: &'a [Sample],

@@ -12,7 +12,7 @@ use kuva::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::axis::add_axes_and_grid;
 use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use kuva::render::render::{PathData, Primitive, Scene};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -62,25 +62,15 @@ impl Figure {
     }
 }
 
-/// Which part of a text is where it was put.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// Its left end.
-    Start,
-    /// Its middle.
-    Middle,
-    /// Its right end.
-    End,
-}
+/// The part of a text that stands at its place: its left end, its middle or its right end.
+pub use kuva::render::render::TextAnchor as Anchor;
 
 /// A frame with axes.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// Where it is.
     pub frame: Frame,
-    /// To the right.
     pub x: Axis,
-    /// Upwards; none for a strip in which height means nothing.
+    /// None for a strip in which height means nothing.
     pub y: Option<Axis>,
 }
 
@@ -258,11 +248,6 @@ impl Sheet {
     }
 
     fn text(&mut self, [x, y]: Point, text: &str, size: u32, anchor: Anchor, rotate: Option<f64>, bold: bool) {
-        let anchor = match anchor {
-            Anchor::Start => TextAnchor::Start,
-            Anchor::Middle => TextAnchor::Middle,
-            Anchor::End => TextAnchor::End,
-        };
         // A dollar would begin a formula.
         let content = printable(text).replace('$', "\\$");
         self.drawn.push(Primitive::Text { x: tidy(x), y: tidy(y), content, size, anchor, rotate, bold, color: None });

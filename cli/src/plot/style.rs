@@ -1,4 +1,4 @@
-//! How lines and areas look: told apart by the colour-blind, in grey print, and where curves lie on one another.
+//! Styles of lines and areas: distinct for the colour-blind, in grey print, and where curves lie on one another.
 //!
 //! Colours are Okabe and Ito's (2008). Every line has its own dashes as well, and later lines are thinner, so that an earlier one
 //! shows on both sides and through the gaps of those that cover it.

@@ -129,7 +129,7 @@ impl Ground {
     }
 }
 
-/// The JSON that the player reads; its keys are told in `player/state.js`.
+/// The JSON that the player reads; `player/state.js` lists its keys.
 pub fn json(results: &Results) -> String {
     let ground = Ground::new(results);
     let frames = frames(results, &ground);
@@ -163,7 +163,7 @@ pub fn json(results: &Results) -> String {
         })
         .collect();
     let fills: Vec<&str> = (0..=column.len()).map(fill).collect();
-    // A word per event: what a reader of the player's status line is told.
+    // The player's status line names each event.
     let events: Vec<_> = results
         .events
         .iter()

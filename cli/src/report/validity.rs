@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
 const UNUSUAL_FRICTION: f64 = 1.0;
 
-/// More warnings are folded: the verdict has told what they come to.
+/// Warnings that are shown at once; a longer list is folded, as the verdict above sums it up.
 const WARNINGS_SHOWN: usize = 5;
 
 /// What a run says of the model's limits.

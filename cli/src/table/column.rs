@@ -5,11 +5,8 @@ use csv::StringRecord;
 /// What the cells of a column are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Whole numbers.
     Whole,
-    /// Numbers.
     Number,
-    /// Text.
     Text,
 }
 
@@ -18,9 +15,7 @@ pub enum Kind {
 pub struct Column {
     /// As the first line of CSV has it.
     pub name: String,
-    /// What its cells are.
     pub kind: Kind,
-    /// Whether cells may be blank.
     pub may_be_blank: bool,
 }
 
@@ -48,8 +43,6 @@ impl Column {
 
 /// Rows of a table of either format, as text.
 pub struct Rows {
-    /// Names of the columns.
     pub header: StringRecord,
-    /// One after the other.
     pub rows: Box<dyn Iterator<Item = std::io::Result<StringRecord>>>,
 }

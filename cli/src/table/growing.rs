@@ -1,4 +1,4 @@
-//! The table of a sweep as it grows, so that a sweep that is cut off goes on where it was.
+//! The table of a sweep while it is written: a sweep that was interrupted continues with the first missing row.
 //!
 //! Rows go in order into a hidden file of CSV beside the table, whose name holds a fingerprint of all that decides them. What is
 //! found there is kept up to the first row that is not the one due. When all rows are there it gets the name of the table; a table

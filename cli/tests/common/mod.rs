@@ -24,11 +24,15 @@ pub fn rocking(folder: &Path, arguments: &[&str]) -> Output {
 #[cfg(unix)]
 const MEMORY: u32 = 1 << 20;
 
-/// `rocking` in `folder`, in little memory.
+/// `rocking` in `folder`, in little memory and at most ten seconds of processor time.
 #[cfg(unix)]
 pub fn limited(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_rocking")]);
+    command.args([
+        "-c",
+        &format!("ulimit -v {MEMORY}; ulimit -t 10; exec \"$0\" \"$@\""),
+        env!("CARGO_BIN_EXE_rocking"),
+    ]);
     command.args(arguments).current_dir(folder);
     command
 }
