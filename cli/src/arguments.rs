@@ -1,4 +1,4 @@
-//! What can be asked on the command line.
+//! Arguments of the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Parser)]
 #[command(name = "rocking", version, after_help = FIRST_STEPS)]
 pub struct Arguments {
-    /// What to do.
+    /// Command to carry out.
     #[command(subcommand)]
     pub command: Command,
 }
@@ -30,7 +30,7 @@ pub enum Command {
         /// Number of equal blocks.
         #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
         blocks: u8,
-        /// Shake it with this record instead of a pulse.
+        /// Excite the column with this record instead of a pulse.
         #[arg(long, value_name = "FILE")]
         record: Option<PathBuf>,
         /// Write over a file of this name.
@@ -106,14 +106,14 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Print what is understood of a record file and what it measures, or list the records of a folder.
+    /// Print the description of a record file and its measures, or list the records of a folder.
     ///
-    /// PEER AT2, ESM and ITACA (DYNA), K-NET and KiK-net, CSMIP V2, COSMOS V2 and tables of text are told apart by their
+    /// PEER AT2, ESM and ITACA (DYNA), K-NET and KiK-net, CSMIP V2, COSMOS V2 and tables of text are recognised by their
     /// content.
     Record(Record),
     /// Run many scenes made from one by axes over its keys; a table with a row each.
     ///
-    /// A sweep that was cut off goes on where it was when it is started again. A run ends when its outcome is certain unless the sweep
+    /// A sweep that was interrupted continues when it is started again. A run ends when its outcome is certain unless the sweep
     /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
     Sweep(Sweep),
     /// Join the tables of all shards of a sweep.
@@ -126,7 +126,7 @@ pub enum Command {
         /// The tables of the shards, in any order and of the same format.
         #[arg(required = true)]
         shards: Vec<PathBuf>,
-        /// The sweep (TOML): that its last points are missing is seen with it only.
+        /// The sweep (TOML); needed to notice that its last points are missing.
         #[arg(long, value_name = "FILE")]
         sweep: Option<PathBuf>,
     },
@@ -168,7 +168,7 @@ pub struct Run {
     pub json: bool,
 }
 
-/// What is asked of a record, and what its file may not say itself.
+/// `rocking record`: what to print, and units and sampling where the file does not state them.
 #[derive(Debug, Args)]
 pub struct Record {
     /// Record file, or a folder of them.
@@ -186,7 +186,7 @@ pub struct Record {
     /// Column of a table that holds the accelerations, by its name or its number from 1.
     #[arg(long)]
     pub column: Option<String>,
-    /// Lines of a table that are not looked at.
+    /// Leading lines of a table that are skipped.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub skip_rows: usize,
     /// Warn rather than fail where samples are missing or the header states another peak.
@@ -304,7 +304,7 @@ const MOST_THREADS: i64 = 1024;
 /// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.
 const LARGEST_LISTED: i64 = 12;
 
-/// Whose right-hand sides.
+/// Right-hand sides of the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Dynamics {
     /// Generated at build time; what the build has not got runs on the generic ones.

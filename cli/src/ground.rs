@@ -59,7 +59,7 @@ fn is_covered(kind: &str, key: &str) -> bool {
     key == "kind" || (kind == "record" && OF_A_RECORD.contains(&key))
 }
 
-/// Where a record comes from, as far as that is known, and its sampling.
+/// Origin of a record, as far as it is known, and its sampling.
 fn record(description: &Map<String, Value>) -> Vec<String> {
     let mut parts = Vec::new();
     for (key, before) in [("title", ""), ("station", "station "), ("component", "component "), ("file", "file ")] {

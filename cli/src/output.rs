@@ -29,7 +29,7 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Where a file that the user has named is put: where links lead to.
+/// The place of a file that the user has named, links followed.
 pub fn target(path: &Path) -> Result<PathBuf, Failure> {
     let refused = |problem: &str| Err(Failure::File(path.into(), problem.into()));
     let text = path.to_string_lossy();

@@ -5,7 +5,7 @@
 use rocking::pattern::{Interface, Pattern};
 use std::ops::Range;
 
-/// How to read [`line()`].
+/// Key to the drawings of [`line()`].
 pub const LINE_KEY: &str = "blocks base first, = joins those that move as one; | upright, / leaning right, \\ leaning left, all open \
     interfaces by the same angle; . marks the corner on which blocks pivot.";
 

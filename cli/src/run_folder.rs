@@ -14,19 +14,19 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// What is wrong with a folder.
+/// Why a folder is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
-    /// It cannot be written.
+    /// The folder or a file of it cannot be written.
     #[error("{}: {}; choose a folder that can be written to with --out", .0.display(), .1)]
     Write(PathBuf, String),
-    /// It is not that of a finished run.
+    /// A file is not that of a finished run.
     #[error("{}: {}; give the folder of a finished `rocking run`, or run the scene again", .0.display(), .1)]
     Read(PathBuf, String),
 }
 
-/// `summary.json`. Lists have N entries, per block or interface, base first. `Given` is what the scene gave: [`Inputs`] where a
-/// summary is read.
+/// `summary.json`. Lists have N entries, per block or interface, base first. `Given` are the inputs of the scene: [`Inputs`] where
+/// a summary is read.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct Summary<Given = Inputs> {
     pub title: String,
@@ -65,7 +65,7 @@ pub struct Summary<Given = Inputs> {
 /// The scene file as it was read: a run's folder says all that the run was.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct SceneText {
-    /// As it was named on the command line.
+    /// The path as the command line named it.
     pub file: PathBuf,
     pub text: String,
 }
@@ -75,11 +75,11 @@ pub struct SceneText {
 pub struct Separation {
     /// `[s]`
     pub t: f64,
-    /// What was going on.
+    /// The kind of event at which the contact problem arose.
     pub during: EventKind,
 }
 
-/// What the scene gave, as it is written: the library's own types.
+/// Inputs of the scene as they are written: the library's own types.
 #[derive(Serialize)]
 struct Written<'a> {
     options: &'a rocking::SolveOptions,
@@ -91,7 +91,7 @@ struct Written<'a> {
     initial: &'a rocking::Initial,
 }
 
-/// What the scene gave, as far as it is read.
+/// Inputs of the scene, as far as they are read.
 #[derive(Debug, Deserialize)]
 pub struct Inputs {
     pub options: Options,
@@ -100,7 +100,7 @@ pub struct Inputs {
     pub restitution: serde_json::Value,
     /// `kind` and parameters.
     pub excitation: serde_json::Value,
-    /// Of the ground, horizontal and vertical, until `t_end` `[m/s²]`: rows may miss it. Runs of earlier versions have none.
+    /// Horizontal and vertical, until `t_end` `[m/s²]`; the peak of the rows may be lower. Runs of earlier versions have none.
     peak_ground_acceleration: Option<[f64; 2]>,
 }
 
@@ -132,17 +132,17 @@ pub struct Event {
     /// `[s]`
     pub t: f64,
     pub kind: EventKind,
-    /// Patterns before and after, as signs.
+    /// Pattern before, as signs.
     pub before: Vec<i8>,
-    /// See `before`.
+    /// Pattern after, as signs.
     pub after: Vec<i8>,
     /// Label of the mode after, `rest` where nothing moves.
     pub mode: String,
     /// Angles `[rad]`.
     pub theta: Vec<f64>,
-    /// Rates before and after `[rad/s]`.
+    /// Rates before `[rad/s]`.
     pub omega_before: Vec<f64>,
-    /// See `omega_before`.
+    /// Rates after `[rad/s]`.
     pub omega_after: Vec<f64>,
 }
 

@@ -13,7 +13,7 @@ use crate::files::{LARGEST_TABLE, check};
 use column::Rows;
 use std::path::Path;
 
-/// How a table is written.
+/// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Text.

@@ -1,4 +1,4 @@
-//! `rocking check`: what a scene says, and what follows from it before anything is run.
+//! `rocking check`: the content of a scene or a sweep, and its consequences before anything is run.
 
 use crate::commands::{inputs, sweep, thresholds};
 use crate::error::Failure;
@@ -31,7 +31,7 @@ fn is_sweep(text: &str) -> bool {
     text.lines().map(str::trim_start).any(begins)
 }
 
-/// What is found of a sweep.
+/// Description of a sweep.
 #[derive(Debug, Serialize)]
 struct SweepFindings {
     scene: PathBuf,
@@ -74,7 +74,7 @@ fn check_sweep(path: &Path, as_json: bool) -> Result<(), Failure> {
     print(&text)
 }
 
-/// What is found of a scene. Lengths N per block or interface, base first.
+/// Description of a scene. Lists have N entries, per block or interface, base first.
 #[derive(Debug, Serialize)]
 struct Findings {
     title: String,
@@ -89,7 +89,7 @@ struct Findings {
     opens: Vec<usize>,
     method: &'static str,
     rows: Option<u64>,
-    /// What the files of records make one know.
+    /// Warnings of the readers of record files.
     warnings: Vec<String>,
 }
 

@@ -39,7 +39,7 @@ impl NamedRecord {
         let folder = folder_of(file);
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
         let name = found.strip_prefix(&folder).unwrap_or(&found).display().to_string();
-        // What a file leaves unsaid, `rocking check` asks for.
+        // `rocking check` asks for units and intervals that the file does not state.
         let read = RecordFile::read(&bytes, &TextOptions::default()).and_then(RecordFile::into_record);
         Ok(NamedRecord { name, duration: read.ok().map(|record| record.duration()) })
     }

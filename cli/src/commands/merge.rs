@@ -5,7 +5,7 @@
 
 use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
 use crate::error::{Failure, at};
-use crate::files::{folder_of, share};
+use crate::files::{folder_of, read, share};
 use crate::output;
 use crate::table::column::{Column, Rows};
 #[cfg(feature = "parquet")]
@@ -37,7 +37,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         }
         tables.push((first(path)?, path.as_path()));
     }
-    // Of more shards than points some have no row; they come first.
+    // Tables without a row, of a sweep with fewer points than shards, come first.
     tables.sort();
     let tables: Vec<&Path> = tables.into_iter().map(|(_, path)| path).collect();
 
@@ -61,7 +61,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     print(&format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out)))
 }
 
-/// What the tables must make.
+/// The sweep that the tables must make up.
 struct Wanted<'a> {
     file: &'a Path,
     sweep: Sweep,
@@ -90,7 +90,7 @@ impl Wanted<'_> {
 
 /// Refuses a table whose digest is not that of the sweep, or of the first table. Tables without one, as earlier versions left them, pass.
 fn check_digest(path: &Path, first: &Path, wanted: Option<&Wanted>) -> Result<(), Failure> {
-    let of_table = |table: &Path| std::fs::read_to_string(digest_file(table)).ok();
+    let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let Some(own) = of_table(path) else { return Ok(()) };
     let (expected, other) = match wanted {
         Some(wanted) => (Some(Fnv::of(&wanted.sweep, wanted.file)?.to_string()), wanted.file),
@@ -189,7 +189,7 @@ fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
     Ok(last == *b"\n")
 }
 
-/// The same as Parquet; the rows of all tables are cut into groups anew.
+/// [`join_csv`] for Parquet; the rows of all tables are cut into groups anew.
 #[cfg(feature = "parquet")]
 fn join_parquet(
     tables: &[&Path],

@@ -24,7 +24,7 @@ pub struct Row {
     dof: usize,
     /// The step-time program of all modes with as many free angles.
     program: String,
-    /// Of one call of its accelerations, ground moving horizontally.
+    /// Floating-point operations of one evaluation of the accelerations under horizontal ground motion.
     flops: usize,
     /// Among the flops.
     divisions: usize,
@@ -85,7 +85,7 @@ pub fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
     print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", shown(file)))
 }
 
-/// What is asked of a mode.
+/// The output of `rocking derive`.
 pub enum Asked {
     /// The equations, in a format.
     Derivation(Format),
@@ -93,7 +93,7 @@ pub enum Asked {
     Counts,
 }
 
-/// What was asked of a mode, as text.
+/// The derivation or the operation counts of a mode, as text.
 pub fn derive(blocks: usize, mode: &str, asked: Asked) -> Result<String, Failure> {
     let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
     let pattern = pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?;

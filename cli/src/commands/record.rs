@@ -138,7 +138,7 @@ pub struct Description {
     pub station: String,
     pub component: String,
     pub channels: Vec<String>,
-    /// Of the accelerations in the file.
+    /// Unit of the accelerations in the file.
     pub unit: rocking::excitation::AccelerationUnit,
     /// Samples that the header declares.
     pub declared: Option<usize>,
@@ -152,7 +152,7 @@ pub struct Description {
     pub duration: f64,
     /// Factor of `--scale` or `--pga`.
     pub scale: f64,
-    /// What one g is `[m/s²]`.
+    /// One g `[m/s²]`.
     pub gravity: f64,
     /// Peak acceleration `[g]`.
     pub pga_g: f64,

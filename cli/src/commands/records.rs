@@ -172,7 +172,7 @@ fn by_number(name: &str) -> (String, u64, String) {
     (text.into(), rest[..end].parse().unwrap_or(u64::MAX), rest.into())
 }
 
-/// What the components of a record have in common in their names, and what names the component.
+/// The common part of the names of a record's components, and the part that names the component.
 ///
 /// `RSN125_FRIULI.A_A-TMZ-UP.AT2`: RSN125, UP; `XXX0010103040506.EW`: EW; `XX.MIB..HNE.D.ASC`: HNE; `ELC180.AT2`: ELC, 180.
 fn record_and_component(file: &str) -> (std::borrow::Cow<'_, str>, &str) {

@@ -202,7 +202,7 @@ pub fn digest_file(table: &Path) -> PathBuf {
 pub struct Fnv(u64);
 
 impl Fnv {
-    /// Of all that decides the rows of a sweep: version, scene, axes, records.
+    /// The digest of all that decides the rows of a sweep: version, scene, axes, records.
     pub fn of(sweep: &Sweep, file: &Path) -> Result<Fnv, Failure> {
         let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
         digest.add(env!("CARGO_PKG_VERSION").as_bytes());
@@ -232,7 +232,7 @@ impl std::fmt::Display for Fnv {
     }
 }
 
-/// How many rows have which outcome.
+/// Number of rows by outcome.
 #[derive(Debug, Default, Serialize)]
 struct Tally {
     no_uplift: usize,
@@ -242,7 +242,7 @@ struct Tally {
 }
 
 impl Tally {
-    /// Of rows of CSV, with the first error among them.
+    /// The tally of a table of CSV, and the first error in it.
     fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
         let (mut tally, mut first_error) = (Tally::default(), None);
         let mut reader = csv::Reader::from_path(path)?;

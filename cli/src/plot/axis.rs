@@ -35,12 +35,12 @@ impl Axis {
         Axis::over(label, [middle - reach, middle + reach], ticks)
     }
 
-    /// The same without numbers.
+    /// The axis without numbers.
     pub fn unnumbered(&self) -> Axis {
         Axis { numbers: false, ..self.clone() }
     }
 
-    /// Where a value is along the axis, from 0 to 1.
+    /// Position of a value along the axis, from 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.range[0]) / (self.range[1] - self.range[0])
     }

@@ -98,7 +98,7 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
     contacts.iter().flat_map(|contact| &contact.demand).flatten().map(|point| point[1])
 }
 
-/// Where the run's largest demands are, at the right edge, and what they are, below: events between the output times count too.
+/// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
 fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) -> f64 {
     let summary = &motion.results.summary;
     let available = summary.given.friction.map(|friction| format!("friction coefficient {}", brief(friction)));

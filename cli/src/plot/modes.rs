@@ -31,7 +31,7 @@ const CAPTION: f64 = 52.0;
 const LEGEND_WIDTH: f64 = 240.0;
 const LEGEND_LINE: f64 = 18.0;
 const HATCH: f64 = 6.0;
-/// How far the ground reaches to both sides of a base's centre.
+/// Half of the width of the ground below a base `[px]`.
 const GROUND: f64 = SCALE * COLUMN[0] + HATCH;
 /// Sizes of text `[px]`.
 const SMALL: u32 = 11;

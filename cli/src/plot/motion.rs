@@ -33,7 +33,7 @@ pub struct Stretch {
     pub mirrored: bool,
 }
 
-/// What of a run is drawn.
+/// The part of a run that is drawn.
 #[derive(Debug)]
 pub struct Motion<'a> {
     pub results: &'a Results,
@@ -41,7 +41,7 @@ pub struct Motion<'a> {
     pub samples: &'a [Sample],
     /// Rows and events in order of time.
     pub knots: Vec<Knot<'a>>,
-    /// Where axes of time end `[s]`.
+    /// End of the axes of time `[s]`.
     pub end: f64,
 }
 
@@ -90,7 +90,7 @@ impl Motion<'_> {
         falling.filter(|_| self.overturned()).map(|knot| knot.t)
     }
 
-    /// What the run ended with, to be written at its time; none where time was over first, or nothing began.
+    /// Time `[s]` and name of the end of the run; none where the run lasted its whole time, or nothing moved.
     pub fn ending(&self) -> Option<(f64, String)> {
         let summary = &self.results.summary;
         match (summary.status, summary.overturned_block) {

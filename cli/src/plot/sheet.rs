@@ -28,7 +28,7 @@ const PNG_SCALE: f32 = 3.0;
 /// A sheet: what is drawn later lies on top.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// What it is, for those who cannot see it.
+    /// Title, for those who cannot see the sheet.
     pub title: String,
     /// `[px]`
     pub width: f64,
@@ -43,7 +43,7 @@ pub struct Sheet {
 pub struct Figure {
     /// File name without extension, e.g. `time-history`.
     pub name: &'static str,
-    /// What it shows, in a sentence for the reader of a report.
+    /// Content in a sentence, for the reader of a report.
     pub caption: String,
     /// The document.
     pub svg: String,
@@ -80,13 +80,13 @@ impl Panel {
         Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
     }
 
-    /// Where a pair of values is on paper.
+    /// Position of a pair of values on paper.
     pub fn place(&self, [x, y]: Point) -> Point {
         let up = self.y.as_ref().map_or(0.0, |axis| axis.share(y));
         [self.place_x(x), self.frame.bottom() - self.frame.height * up]
     }
 
-    /// Where a value is along the axis to the right.
+    /// Position of a value along the axis to the right `[px]`.
     pub fn place_x(&self, x: f64) -> f64 {
         self.frame.left + self.frame.width * self.x.share(x)
     }
@@ -221,13 +221,13 @@ impl Sheet {
         });
     }
 
-    /// What follows, up to the end of the group, has a name.
+    /// Begins a group of marks with a name.
     pub fn begin_group(&mut self, name: &str) {
         let title = Some(printable(name).into());
         self.drawn.push(Primitive::GroupStart { transform: None, title, extra_attrs: None });
     }
 
-    /// See [`Sheet::begin_group`].
+    /// Ends a group of marks.
     pub fn end_group(&mut self) {
         self.drawn.push(Primitive::GroupEnd);
     }
@@ -266,7 +266,7 @@ impl Sheet {
         self.words(at, text, size, anchor);
     }
 
-    /// The same, upwards.
+    /// Upward text on a patch of paper.
     pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         let height = text_width(text, size) + 6.0;
         let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
@@ -337,7 +337,7 @@ impl Sheet {
         drawn.split_once('>').map_or_else(String::new, |(_, body)| body.into())
     }
 
-    /// The same in pixels.
+    /// The sheet as a PNG file.
     pub fn png(&self) -> Vec<u8> {
         RasterBackend::new().with_scale(PNG_SCALE).render_scene(&self.scene()).expect("a sheet has a size")
     }
@@ -391,7 +391,7 @@ fn tidy(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }
 
-/// How much of a text of this width lies before the point where it was put.
+/// Width of the part of a text before its anchor `[px]`; `width` is that of the whole.
 fn behind(anchor: Anchor, width: f64) -> f64 {
     match anchor {
         Anchor::Start => 0.0,

@@ -27,7 +27,7 @@ const TITLE: f64 = 24.0;
 const NUMBERS: f64 = 26.0;
 const GAP: f64 = 14.0;
 const TICK: f64 = 4.0;
-/// How far a number may reach beyond the left end of its axis where another panel is.
+/// Largest overhang of a number beyond the left end of its axis where another panel stands `[px]`.
 const BESIDE: f64 = 2.0;
 /// Most panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
 const MOST_COLUMNS: usize = 4;

@@ -1,8 +1,8 @@
-//! What the player plays: the state at every output time and on both sides of every event, with the ground's motion.
+//! Frames of the player: the state at every output time and on both sides of every event, with the ground's motion.
 //!
 //! A frame is a row of `response.csv`, or the column just before or just after an event: two frames of one time, so that the
 //! player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
-//! written to 1e-10 rad. The ground's displacement is for the eye alone: that of the rows as a record, less a constant velocity.
+//! written to 1e-10 rad. The ground's displacement only serves the picture: that of the rows as a record, less a constant velocity.
 
 use crate::number::{fixed, significant};
 use crate::plot;
@@ -40,7 +40,7 @@ struct Frame<'a> {
     ground: [[f64; 2]; 2],
 }
 
-/// Every how many rows one is kept.
+/// Number of rows of which one is kept.
 fn stride(results: &Results) -> usize {
     results.samples.len().div_ceil(MOST_ROWS)
 }
@@ -219,7 +219,7 @@ fn interfaces(event: &Event) -> Vec<usize> {
     (0..event.after.len()).filter(|&interface| event.before.get(interface) != event.after.get(interface)).collect()
 }
 
-/// What a viewer must know of what is shown.
+/// Notes below the player: drift of the ground that is taken out, rows that are left out.
 pub fn notes(results: &Results) -> String {
     let mut notes = Vec::new();
     if results.peak_ground_acceleration() != [0.0; 2] {

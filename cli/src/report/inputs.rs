@@ -1,4 +1,4 @@
-//! What was asked: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
+//! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
 use crate::number::{percent, significant};

@@ -2,7 +2,7 @@
 //!
 //! The page is `page.html` with the texts that the files beside this one write, `page.css` and the files of `player/` put in their
 //! places, and the run's frames as JSON for the player. The same folder gives the same bytes: no time of day, no path of the folder.
-//! What the page says of a run it reads from [`Results`]; it computes no motion.
+//! All that the page says of a run stands in [`Results`]; no motion is computed here.
 
 mod outcome;
 mod validity;
@@ -56,7 +56,7 @@ const PLAYER: [&str; 4] = [
     include_str!("player/controls.js"),
 ];
 
-/// Where the player writes each block's angle, top block first.
+/// Fields in which the player writes each block's angle, top block first.
 fn readout(blocks: usize) -> String {
     let row = |block| {
         format!(

@@ -1,4 +1,4 @@
-//! What happened: the outcome in a sentence, key figures, peaks, impacts, time in each mode.
+//! Outcome of a run: in a sentence, then key figures, peaks, impacts, time in each mode.
 
 use crate::number::{degrees, percent, significant};
 use crate::plot::modes::sketch;
@@ -133,7 +133,7 @@ pub fn closed(event: &Event) -> Vec<usize> {
 /// Gaps of an interface that has closed are rounding; hops that the solver follows are above its stick angle, 1e-9 rad `[rad]`.
 const CLOSED_GAP: f64 = 1e-12;
 
-/// How many impacts, where and when.
+/// Number of impacts, their interfaces, and the times of the first and the last.
 pub fn impacts(results: &Results) -> String {
     let impacts: Vec<&Event> = results.events.iter().filter(|event| event.kind == EventKind::Impact).collect();
     let (Some(first), Some(last)) = (impacts.first(), impacts.last()) else {

@@ -1,4 +1,4 @@
-//! What computed the run, and how to have it computed again.
+//! Provenance of a run: version, method and tolerances, and the command that repeats it.
 
 use crate::number::{degrees, significant};
 use crate::report::html::definitions;

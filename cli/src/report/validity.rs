@@ -11,11 +11,11 @@ const UNUSUAL_FRICTION: f64 = 1.0;
 /// Warnings that are shown at once; a longer list is folded, as the verdict above sums it up.
 const WARNINGS_SHOWN: usize = 5;
 
-/// What a run says of the model's limits.
+/// Whether a run stayed within the model's limits.
 enum Verdict {
     /// Nothing speaks against the model.
     Holds(String),
-    /// It holds for joints that are rough enough; the scene does not say how rough they are.
+    /// The model holds for joints that are rough enough; the scene gives no friction coefficient.
     Conditional(String),
     /// The reasons against it.
     Fails(Vec<String>),

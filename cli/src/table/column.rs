@@ -2,7 +2,7 @@
 
 use csv::StringRecord;
 
-/// What the cells of a column are.
+/// The type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Whole,
@@ -13,7 +13,7 @@ pub enum Kind {
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// As the first line of CSV has it.
+    /// Heading of the column.
     pub name: String,
     pub kind: Kind,
     pub may_be_blank: bool,

@@ -80,7 +80,7 @@ impl Growing {
                     .and_then(|file| parquet::from_csv(&self.part, columns, BufWriter::new(file)))
                     .and_then(|()| std::fs::rename(&whole, &self.out));
                 if let Err(error) = written {
-                    // What is half written is of no use; the part is.
+                    // The incomplete Parquet file is of no use; the part is.
                     let _ = std::fs::remove_file(&whole);
                     return Err(match error.kind() {
                         ErrorKind::InvalidData => Failure::Part(self.part.clone(), error.to_string()),

@@ -125,7 +125,7 @@ impl Piece {
     fn texts(self) -> Result<Vec<StringRecord>> {
         let columns = self.columns.into_iter().map(|cells| match cells {
             Cells::Whole(values) => values.texts(|value| Ok(value.to_string())),
-            // As an axis is written to CSV.
+            // The text of an axis in CSV.
             Cells::Number(values) => values.texts(|value| Ok(Setting::Number(*value).to_string())),
             Cells::Text(values) => values.texts(|value| Ok(value.as_utf8()?.to_string())),
         });

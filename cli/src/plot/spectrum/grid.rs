@@ -42,7 +42,7 @@ impl Class {
         Class::Error,
     ];
 
-    /// Of a row.
+    /// The class of a row.
     fn of(outcome: &str, impacts: &str) -> Option<Class> {
         Some(match (outcome, impacts) {
             ("no-uplift", _) => Class::NoUplift,
@@ -90,7 +90,7 @@ pub enum NoSpectrum {
     NoGrid { rows: usize, points: usize },
 }
 
-/// Where the values of an axis are.
+/// Positions of the values of an axis.
 #[derive(Clone, Debug, PartialEq)]
 enum Span {
     /// In these columns.
@@ -101,7 +101,7 @@ enum Span {
     Panels(usize),
 }
 
-/// What the axes of a sweep span.
+/// The plane and the panels that the axes of a sweep span.
 #[derive(Clone, Debug)]
 pub struct Plane {
     /// To the right.
@@ -110,12 +110,12 @@ pub struct Plane {
     pub y: Scale,
     /// A title for each panel; empty if there is nothing to say.
     pub titles: Vec<String>,
-    /// Of each axis, where its values are, in their order.
+    /// Positions of the values of each axis, in their order.
     spans: Vec<Span>,
 }
 
 impl Plane {
-    /// Of axes by their keys, with their values as a table has them.
+    /// The plane of axes, each with its key and its values as a table has them.
     pub fn of(axes: &[(String, Vec<String>)]) -> Result<Plane, NoSpectrum> {
         let numbers = |values: &[String]| -> Option<Vec<f64>> {
             let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
@@ -204,7 +204,7 @@ fn shortened(values: &[String]) -> Vec<&str> {
 pub struct Grid {
     /// The axes.
     pub plane: Plane,
-    /// Of each panel, a row of cells after the other, the lowest first.
+    /// Cells of each panel, row by row, the lowest row first.
     pub panels: Vec<Vec<Class>>,
 }
 
@@ -245,7 +245,7 @@ impl Grid {
             panels[panel][y * columns + x] = Some(class);
         }
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
-        // As many rows as cells, but some twice and others not at all.
+        // The number of rows is that of the cells, yet some points occur twice and others not at all.
         let panels = panels.ok_or_else(|| broken("points are missing".into()))?;
         Ok(Grid { plane, panels })
     }

@@ -31,7 +31,7 @@ pub fn layers<C: Copy + PartialEq>(cells: &[C], columns: usize) -> Vec<Layer<C>>
         let inside = inside(&outline, columns);
         outlines.push((*first, outline, inside));
     }
-    // What holds another region has more cells inside.
+    // A region that holds another one has more cells inside.
     outlines.sort_by_key(|(first, _, inside)| (usize::MAX - inside.len(), *first));
     let mut depth_at = vec![0usize; cells.len()];
     let mut layers: BTreeMap<(usize, usize), Layer<C>> = BTreeMap::new();
