@@ -1,16 +1,16 @@
-//! What can be asked on the command line.
+//! Arguments of the command line.
 
-use crate::commands::sweep::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
 #[derive(Debug, Parser)]
 #[command(name = "rocking", version, after_help = FIRST_STEPS)]
 pub struct Arguments {
-    /// What to do.
+    /// Command to carry out.
     #[command(subcommand)]
     pub command: Command,
 }
@@ -30,22 +30,26 @@ pub enum Command {
         /// Number of equal blocks.
         #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
         blocks: u8,
-        /// Shake it with this record instead of a pulse.
+        /// Excite the column with this record instead of a pulse.
         #[arg(long, value_name = "FILE")]
         record: Option<PathBuf>,
         /// Write over a file of this name.
         #[arg(long)]
         force: bool,
     },
-    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion.
+    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points.
     Check {
-        /// Scene file (TOML).
+        /// Scene or sweep file (TOML).
         scene: PathBuf,
         /// Print JSON instead of text.
         #[arg(long)]
         json: bool,
     },
     /// Run a scene and write summary.json, response.csv and events.json.
+    ///
+    /// Figures (time-history, phase-portrait, energy and forces, .svg and .png) and report.html of an earlier run are removed from the
+    /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
+    /// number". Regular files are read up to a size: scenes and sweeps up to 64 MiB, records up to 256 MiB, files of a run up to 1 GiB.
     Run(Run),
     /// Draw the figures of a run: time-history, phase-portrait, energy and forces; of the table of a sweep its spectrum.
     Plot {
@@ -72,8 +76,8 @@ pub enum Command {
         /// Number of blocks.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
-        /// Draw the modes into this file (SVG) instead of listing them; up to 5 blocks.
-        #[arg(long, value_name = "FILE")]
+        /// Draw the modes into this file (SVG or PNG by its name) instead of listing them; up to 5 blocks.
+        #[arg(long, value_name = "FILE", value_parser = figure)]
         svg: Option<PathBuf>,
         /// Print JSON instead of text.
         #[arg(long, conflicts_with = "svg")]
@@ -102,23 +106,27 @@ pub enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Print what is understood of a record file and what it measures, or list the records of a folder.
+    /// Print the description of a record file and its measures, or list the records of a folder.
     ///
-    /// PEER AT2, ESM and ITACA (DYNA), K-NET and KiK-net, CSMIP V2, COSMOS V2 and tables of text are told apart by their
+    /// PEER AT2, ESM and ITACA (DYNA), K-NET and KiK-net, CSMIP V2, COSMOS V2 and tables of text are recognised by their
     /// content.
     Record(Record),
     /// Run many scenes made from one by axes over its keys; a table with a row each.
     ///
-    /// A sweep that was cut off goes on where it was when it is started again.
+    /// A sweep that was interrupted continues when it is started again. A run ends when its outcome is certain unless the sweep
+    /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
     Sweep(Sweep),
     /// Join the tables of all shards of a sweep.
+    ///
+    /// `rocking sweep --shard` writes a digest of its sweep, base scene and records beside each table (TABLE.digest); tables whose digests
+    /// differ are refused.
     Merge {
         /// The table to write: CSV, or Parquet if its name ends in .parquet.
         out: PathBuf,
         /// The tables of the shards, in any order and of the same format.
         #[arg(required = true)]
         shards: Vec<PathBuf>,
-        /// The sweep (TOML): that its last points are missing is seen with it only.
+        /// The sweep (TOML); needed to notice that its last points are missing.
         #[arg(long, value_name = "FILE")]
         sweep: Option<PathBuf>,
     },
@@ -160,7 +168,7 @@ pub struct Run {
     pub json: bool,
 }
 
-/// What is asked of a record, and what its file may not say itself.
+/// `rocking record`: what to print, and units and sampling where the file does not state them.
 #[derive(Debug, Args)]
 pub struct Record {
     /// Record file, or a folder of them.
@@ -178,7 +186,7 @@ pub struct Record {
     /// Column of a table that holds the accelerations, by its name or its number from 1.
     #[arg(long)]
     pub column: Option<String>,
-    /// Lines of a table that are not looked at.
+    /// Leading lines of a table that are skipped.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub skip_rows: usize,
     /// Warn rather than fail where samples are missing or the header states another peak.
@@ -258,13 +266,45 @@ impl Sweep {
     }
 }
 
+/// A part of a sweep, for one of several machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    number: usize,
+    count: usize,
+}
+
+impl Shard {
+    /// Reads `K/M`.
+    pub fn parse(text: &str) -> Result<Shard, String> {
+        let numbers = text.split_once('/').and_then(|(k, m)| Some((k.parse().ok()?, m.parse().ok()?)));
+        match numbers {
+            Some((number, count)) if number >= 1 && number <= count => Ok(Shard { number, count }),
+            _ => Err("write K/M, the K-th of M parts, e.g. 2/8".into()),
+        }
+    }
+
+    /// Its points: parts differ by one point at most.
+    pub fn points(self, points: usize) -> Range<usize> {
+        let edge = |number: usize| (points as u128 * number as u128 / self.count as u128) as usize;
+        edge(self.number - 1)..edge(self.number)
+    }
+}
+
+/// As in the name of a file.
+impl std::fmt::Display for Shard {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}-of-{}", self.number, self.count)
+    }
+}
+
 /// Threads beyond which a number is taken for a mistake: each has a stack.
 const MOST_THREADS: i64 = 1024;
 
 /// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.
 const LARGEST_LISTED: i64 = 12;
 
-/// Whose right-hand sides.
+/// Right-hand sides of the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Dynamics {
     /// Generated at build time; what the build has not got runs on the generic ones.
@@ -283,14 +323,18 @@ pub enum Picture {
 }
 
 impl Picture {
+    /// The end of a file's name.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Picture::Svg => "svg",
+            Picture::Png => "png",
+        }
+    }
+
     /// By the name of a file.
     pub fn of(file: &Path) -> Option<Picture> {
-        let extension = file.extension()?.to_str()?.to_ascii_lowercase();
-        match extension.as_str() {
-            "svg" => Some(Picture::Svg),
-            "png" => Some(Picture::Png),
-            _ => None,
-        }
+        let extension = file.extension()?;
+        [Picture::Svg, Picture::Png].into_iter().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))
     }
 }
 
@@ -303,4 +347,21 @@ pub enum Format {
     Rust,
     /// The derivation as a LaTeX document, constants named and couplings in differences of angles.
     Latex,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_cover_all_points_once() {
+        for (points, count) in [(10, 3), (7, 7), (3, 5), (1_000_003, 64)] {
+            let parts: Vec<Range<usize>> = (1..=count).map(|number| Shard { number, count }.points(points)).collect();
+            assert_eq!((parts[0].start, parts[count - 1].end), (0, points));
+            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
+            let lengths: Vec<usize> = parts.iter().map(Range::len).collect();
+            assert!(lengths.iter().max().zip(lengths.iter().min()).is_some_and(|(most, least)| most - least <= 1));
+        }
+        assert!(["0/3", "4/3", "1", "a/b", "1/0"].iter().all(|text| Shard::parse(text).is_err()));
+    }
 }

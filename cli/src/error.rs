@@ -1,193 +1,94 @@
-//! What goes wrong, told so that the place and the remedy are seen.
+//! Why a command fails, with the place and the remedy.
 
-use crate::plot::spectrum::NoSpectrum;
+use crate::run_folder::FolderError;
+use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::{RecordError, SceneFileError, SolveError};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Why a command failed.
+/// Why a command failed. A path comes first, then what is wrong with it.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// The scene or its record must be corrected.
+    /// The scene, or a record that it names, must be corrected.
     #[error("{}", .0.error)]
     Scene(Box<SceneFailure>),
-    /// A file or folder cannot be written.
-    #[error("{}: {problem}; choose a folder that can be written to with --out", path.display())]
-    Output {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system says.
-        problem: String,
-    },
-    /// A folder is not that of a run.
-    #[error("{}: {problem}; give the folder of a finished `rocking run`, or run the scene again", path.display())]
-    Results {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        problem: String,
-    },
+    /// A run's folder cannot be written or read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// An output folder cannot be written.
+    #[error("{}: {}; choose a folder that can be written to with --out", .0.display(), .1)]
+    Output(PathBuf, String),
     /// A file that the user has named cannot be written.
-    #[error("{}: {problem}; choose a file that can be written", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        problem: String,
-    },
+    #[error("{}: {}; choose a file that can be written", .0.display(), .1)]
+    File(PathBuf, String),
     /// A command would write over what it reads, or write two things into one file.
-    #[error("{}: the command reads this file, or writes something else into it; choose another name", path.display())]
-    InUse {
-        /// The file.
-        path: PathBuf,
-    },
-    /// Another process is at the same work.
-    #[error("{}: another process is running the same sweep into it; wait for that, or give another name with --out", path.display())]
-    Running {
-        /// The table.
-        path: PathBuf,
-    },
+    #[error("{}: the command reads this file, or writes something else into it; choose another name", .0.display())]
+    InUse(PathBuf),
+    /// Another process runs the same sweep into this table.
+    #[error("{}: another process is running the same sweep into it; wait for that, or give another name with --out", .0.display())]
+    Running(PathBuf),
     /// A file would be written over.
-    #[error("{}: there is such a file already; choose another name, or write over it with --force", path.display())]
-    Taken {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A record file or folder cannot be read.
-    #[error("{}: {problem}; check the path and its permissions", path.display())]
-    RecordFile {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system says.
-        problem: String,
-    },
+    #[error("{}: there is such a file already; choose another name, or write over it with --force", .0.display())]
+    Taken(PathBuf),
+    /// A file or folder cannot be read.
+    #[error("{}: {}; check the path and its permissions", .0.display(), .1)]
+    Input(PathBuf, String),
     /// A record file must be corrected, or more must be said of it.
-    #[error("{}: {}", path.display(), with_dashes(&error.to_string()))]
-    Record {
-        /// The file.
-        path: PathBuf,
-        /// What the library says.
-        error: RecordError,
-    },
-    /// No file of a folder is a record.
-    #[error("{}: none of its {count} file(s) reads as a record{first}; give a folder of record files", path.display())]
-    NoRecords {
-        /// The folder.
-        path: PathBuf,
-        /// Its files.
-        count: usize,
-        /// What is wrong with the first of them.
-        first: String,
-    },
-    /// A window of time is none.
-    #[error("--trim {given}: {problem}; write two times in s from the first sample as `--trim 2..8`, `2..` or `..8`")]
-    Trim {
-        /// What was asked for.
-        given: String,
-        /// What is wrong.
-        problem: String,
-    },
-    /// An option needs one record.
-    #[error("--{option} is for a single record and {} is a folder; give one of its files", path.display())]
-    FolderOption {
-        /// The option.
-        option: &'static str,
-        /// The folder.
-        path: PathBuf,
-    },
+    #[error("{}: {}", .0.display(), with_dashes(&.1.to_string()))]
+    Record(PathBuf, RecordError),
+    /// No file of a folder is a record: the folder, its number of files, and what is wrong with the first.
+    #[error("{}: none of its {} file(s) reads as a record{}; give a folder of record files", .0.display(), .1, .2)]
+    NoRecords(PathBuf, usize, String),
+    /// A window of time, as it was given, is none.
+    #[error("--trim {0}: {1}; write two times in s from the first sample as `--trim 2..8`, `2..` or `..8`")]
+    Trim(String, String),
+    /// An option needs one record and not a folder.
+    #[error("--{} is for a single record and {} is a folder; give one of its files", .1, .0.display())]
+    FolderOption(PathBuf, &'static str),
+    /// An axis of a sweep has no effect on its table.
+    #[error("{}, key `axes.{}`: friction does not change the results of a sweep; remove the axis", .0.display(), .1)]
+    IdleAxis(PathBuf, String),
+    /// No row of a sweep has a result: the table, its rows, and the first reason.
+    #[error("{}: none of the {} point(s) has a result; the first says: {}", .0.display(), .1, .2)]
+    NoResult(PathBuf, usize, String),
     /// A table is not the next part of a sweep.
-    #[error("{}: {problem}; give the tables of all shards of one sweep", path.display())]
-    Shards {
-        /// The table.
-        path: PathBuf,
-        /// What is wrong.
-        problem: String,
-    },
-    /// What was left of a sweep that was cut off is not as it was written.
-    #[error("{}: {problem}; remove this file and run the sweep again", path.display())]
-    Part {
-        /// The hidden file.
-        path: PathBuf,
-        /// What is wrong.
-        problem: String,
-    },
-    /// The last points of a sweep are in no table.
-    #[error(
-        "{}: it has {points} point(s) and the tables end after {rows} of them; give the tables of the other shards as well",
-        sweep.display()
-    )]
-    ShardsMissing {
-        /// The sweep.
-        sweep: PathBuf,
-        /// Its points.
-        points: usize,
-        /// Rows of the tables.
-        rows: usize,
-    },
+    #[error("{}: {}; give the tables of all shards of one sweep", .0.display(), .1)]
+    Shards(PathBuf, String),
+    /// The growing table of a sweep is not as it was written.
+    #[error("{}: {}; remove this file and run the sweep again", .0.display(), .1)]
+    Part(PathBuf, String),
+    /// The last points of a sweep are in no table: the sweep, its points, and the rows of the tables.
+    #[error("{}: it has {} point(s) and the tables end after {} of them; give the tables of the other shards as well", .0.display(), .1, .2)]
+    ShardsMissing(PathBuf, usize, usize),
     /// A table of Parquet, and a build without it.
     #[cfg_attr(feature = "parquet", allow(dead_code, reason = "this build has it"))]
-    #[error(
-        "{}: this build of rocking has no Parquet; build it with `cargo build --release -p rocking-cli --features parquet`, or \
-         name a table .csv",
-        path.display()
-    )]
-    NoParquet {
-        /// The table.
-        path: PathBuf,
-    },
-    /// A table makes no overturning spectrum.
-    #[error("{}: {error}", path.display())]
-    Spectrum {
-        /// The table or the sweep.
-        path: PathBuf,
-        /// Why.
-        error: NoSpectrum,
-    },
+    #[error("{}: this build of rocking has no Parquet; build it with `cargo build --release -p rocking-cli --features parquet`, or \
+         name a table .csv", .0.display())]
+    NoParquet(PathBuf),
+    /// A table, or the sweep of one, makes no overturning spectrum.
+    #[error("{}: {}", .0.display(), .1)]
+    Spectrum(PathBuf, String),
     /// A part of a sweep is to be drawn.
     #[error(
         "--plot: a shard is a part of a sweep; `rocking merge` the tables of all shards, then `rocking plot` the merged one"
     )]
     PlotOfShard,
-    /// A figure of so many modes would not be read.
+    /// A figure of so many modes could not be read.
     #[error(
-        "--svg: a column of {blocks} blocks has {modes} modes, too many for a figure; draw up to {largest} blocks, \
-         or list the modes without --svg"
+        "--svg: a column of {blocks} blocks has {modes} modes, too many for a figure; draw up to {largest} blocks, or list the \
+         modes without --svg"
     )]
-    CrowdedFigure {
-        /// Number of blocks.
-        blocks: usize,
-        /// Number of independent modes.
-        modes: u64,
-        /// The largest column that is drawn.
-        largest: usize,
-    },
-    /// There is no such mode.
-    #[error(
-        "--mode {mode}: a column of {blocks} block(s) has no such mode; `rocking modes --blocks {blocks}` lists them"
-    )]
-    Mode {
-        /// What was asked for.
-        mode: String,
-        /// Number of blocks.
-        blocks: usize,
-    },
-    /// The run could not be finished.
+    CrowdedFigure { blocks: usize, modes: u64, largest: usize },
+    /// There is no such mode in a column of so many blocks.
+    #[error("--mode {0}: a column of {1} block(s) has no such mode; `rocking modes --blocks {1}` lists them")]
+    Mode(String, usize),
+    /// The run of a scene could not be finished.
     #[error("{}: {error} ({} is left as it was)", scene.display(), out.display())]
-    Solve {
-        /// The scene file.
-        scene: PathBuf,
-        /// The folder of the results.
-        out: PathBuf,
-        /// What the library says.
-        error: SolveError,
-    },
+    Solve { scene: PathBuf, out: PathBuf, error: SolveError },
     /// Standard output cannot be written.
-    #[error("standard output: {problem}")]
-    Print {
-        /// What the system says.
-        problem: String,
-    },
+    #[error("standard output: {0}")]
+    Print(String),
 }
 
 /// A refused scene with its text.
@@ -206,66 +107,57 @@ pub fn with_dashes(text: &str) -> String {
     })
 }
 
+/// Makes a failure of a path and of what is wrong with it.
+pub fn at<E: ToString>(failure: fn(PathBuf, String) -> Failure, path: &Path) -> impl Fn(E) -> Failure {
+    move |problem| failure(path.into(), problem.to_string())
+}
+
 impl Failure {
     /// The failure of reading a scene, with its text if it can be shown.
     pub fn scene(error: SceneFileError) -> Failure {
         let source_text = match &error {
             SceneFileError::Scene { file, .. } => std::fs::read_to_string(file)
                 .ok()
-                .map(|text| NamedSource::new(file.display().to_string(), text).with_language("toml")),
+                .map(|text| NamedSource::new(shown(file), same_length(&text)).with_language("toml")),
             _ => None,
         };
         Failure::Scene(Box::new(SceneFailure { error, source_text }))
     }
 
-    /// A file or folder that cannot be written.
-    pub fn output(path: &Path, problem: impl fmt::Display) -> Failure {
-        Failure::Output { path: path.into(), problem: problem.to_string() }
-    }
-
-    /// Something in a run's folder that is not as it was written.
-    pub fn results(path: &Path, problem: impl fmt::Display) -> Failure {
-        Failure::Results { path: path.into(), problem: problem.to_string() }
-    }
-
-    /// Whether the user can mend it by other input.
-    pub fn is_bad_input(&self) -> bool {
-        matches!(
-            self,
-            Failure::Scene(_)
-                | Failure::Output { .. }
-                | Failure::Results { .. }
-                | Failure::File { .. }
-                | Failure::InUse { .. }
-                | Failure::Running { .. }
-                | Failure::Taken { .. }
-                | Failure::Shards { .. }
-                | Failure::Part { .. }
-                | Failure::ShardsMissing { .. }
-                | Failure::NoParquet { .. }
-                | Failure::Spectrum { .. }
-                | Failure::PlotOfShard
-                | Failure::RecordFile { .. }
-                | Failure::Record { .. }
-                | Failure::NoRecords { .. }
-                | Failure::Trim { .. }
-                | Failure::FolderOption { .. }
-                | Failure::CrowdedFigure { .. }
-                | Failure::Mode { .. }
-        )
+    /// 2 for input that must be corrected, 1 for everything else.
+    pub fn exit_code(&self) -> u8 {
+        if matches!(self, Failure::Solve { .. } | Failure::Print(_) | Failure::NoResult(..)) { 1 } else { 2 }
     }
 }
 
-impl Diagnostic for Failure {
+/// The text with a question mark for each byte of its control characters: places in it stay where they are.
+fn same_length(text: &str) -> String {
+    let shown = |sign: char| match sign {
+        '\n' | '\r' | '\t' => sign.into(),
+        sign if crate::text::is_unsafe(sign) => "?".repeat(sign.len_utf8()),
+        sign => sign.into(),
+    };
+    text.chars().map(shown).collect::<String>()
+}
+
+/// A failure as it is reported: without control characters.
+#[derive(Debug, thiserror::Error)]
+pub struct Report(pub Failure);
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&printable_lines(&self.0.to_string()))
+    }
+}
+
+impl Diagnostic for Report {
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        match self {
-            Failure::Scene(scene) => scene.source_text.as_ref().map(|text| text as &dyn SourceCode),
-            _ => None,
-        }
+        let Failure::Scene(scene) = &self.0 else { return None };
+        scene.source_text.as_ref().map(|text| text as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let Failure::Scene(scene) = self else { return None };
+        let Failure::Scene(scene) = &self.0 else { return None };
         let (SceneFileError::Scene { span, .. }, Some(_)) = (&scene.error, &scene.source_text) else { return None };
         Some(Box::new(std::iter::once(LabeledSpan::new(Some("here".into()), span.0, span.1))))
     }

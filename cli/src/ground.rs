@@ -1,13 +1,13 @@
 //! Ground motion in words, from its description as the library serialises it (in `summary.json`).
 //!
-//! Kinds of motion come with time. What is said of one in full is its name, amplitude and frequency, which most have; every
-//! other number of a description is listed under its own name.
+//! New kinds of motion need no change here: name, amplitude and frequency, which most have, are put into words; every other number of
+//! a description is listed under its own name.
 
 use crate::number::significant;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
-/// One component of the ground motion; `peak` is its largest size in the run `[m/s²]`, told where the description has none itself.
+/// One component of the ground motion. `peak` is its largest acceleration in the run `[m/s²]`, named where the description has none.
 pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     let Value::Object(description) = motion else {
         return "none".into();
@@ -37,7 +37,7 @@ pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     if kind == "record" {
         parts.extend(record(description));
     }
-    for (key, value) in description.iter().filter(|(key, _)| !told(kind, key)) {
+    for (key, value) in description.iter().filter(|(key, _)| !is_covered(kind, key)) {
         parts.extend(parameter(key, value, gravity));
     }
     let has_size = description.contains_key("amplitude") || description.contains_key("peak");
@@ -51,15 +51,15 @@ fn acceleration(value: f64, gravity: f64) -> String {
     format!("{} m/s² = {} g", significant(value, 5), significant(value / gravity, 4))
 }
 
-/// Keys of a record that [`record`] tells.
+/// Keys of a record that [`record`] puts into words.
 const OF_A_RECORD: [&str; 7] = ["samples", "dt", "duration", "file", "title", "station", "component"];
 
-/// What is said already, or need not be.
-fn told(kind: &str, key: &str) -> bool {
+/// Whether a key needs no words of its own.
+fn is_covered(kind: &str, key: &str) -> bool {
     key == "kind" || (kind == "record" && OF_A_RECORD.contains(&key))
 }
 
-/// Where a record comes from, as far as that is known, and its sampling.
+/// Origin of a record, as far as it is known, and its sampling.
 fn record(description: &Map<String, Value>) -> Vec<String> {
     let mut parts = Vec::new();
     for (key, before) in [("title", ""), ("station", "station "), ("component", "component "), ("file", "file ")] {
@@ -122,21 +122,21 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn motions_are_told_in_both_units_and_unknown_ones_by_their_parameters() {
+    fn motions_are_given_in_both_units_and_unknown_ones_by_their_parameters() {
         let pulse = json!({"kind": "sine-pulse", "amplitude": 4.905, "omega": TAU, "start": 0.0});
-        let told = "one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s";
-        assert_eq!(words(&pulse, 9.81, 1.0), told);
+        let expected = "one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s";
+        assert_eq!(words(&pulse, 9.81, 1.0), expected);
         let record = json!({"kind": "record", "samples": 2001, "dt": 0.01, "duration": 20.0, "start": 1.5, "scale": 1.0, "peak": 4.905,
             "file": "a<b", "title": "Friuli", "station": "", "component": "0"});
-        let told = "record: Friuli; component 0; file a<b; 2001 samples every 0.01 s, 20 s long; peak 4.905 m/s² = 0.5 g; from t = 1.5 s on";
-        assert_eq!(words(&record, 9.81, 4.8), told);
+        let expected = "record: Friuli; component 0; file a<b; 2001 samples every 0.01 s, 20 s long; peak 4.905 m/s² = 0.5 g; from t = 1.5 s on";
+        assert_eq!(words(&record, 9.81, 4.8), expected);
         let unknown = json!({"kind": "near-fault", "v_peak": 1.25, "name": "<b>", "list": vec![0.0; 9], "none": null});
         assert_eq!(words(&unknown, 9.81, 0.0), "near fault: list: 9 numbers; name: <b>; v peak = 1.25");
         assert_eq!(words(&Value::Null, 9.81, 0.0), "none");
         let sum = json!({"kind": "sum", "terms": [pulse, {"kind": "rectangular", "amplitude": 0.981, "start": 2.0, "duration": 0.5}]});
-        let told = "sum of one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s, and \
+        let expected = "sum of one-sine pulse: amplitude 4.905 m/s² = 0.5 g; ω = 6.2832 rad/s, frequency 1 Hz, period 1 s, and \
             rectangular pulse: amplitude 0.981 m/s² = 0.1 g; lasting 0.5 s; from t = 2 s on";
-        assert_eq!(words(&sum, 9.81, 0.0), told);
-        assert_eq!(words(&sum, 9.81, 9.81), format!("{told}; peak 9.81 m/s² = 1 g"));
+        assert_eq!(words(&sum, 9.81, 0.0), expected);
+        assert_eq!(words(&sum, 9.81, 9.81), format!("{expected}; peak 9.81 m/s² = 1 g"));
     }
 }

@@ -3,19 +3,21 @@
 mod arguments;
 mod commands;
 mod error;
-mod figure;
+mod files;
 mod ground;
-mod markup;
+mod json;
 mod number;
 mod output;
 mod plot;
+mod posture;
 mod progress;
 mod report;
-mod results;
+mod run_folder;
 mod table;
+mod terminal;
+mod text;
 
 use clap::Parser;
-use error::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -25,15 +27,8 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             let code = failure.exit_code();
-            eprintln!("{:?}", miette::Report::new(failure));
-            code
+            eprintln!("{:?}", miette::Report::new(error::Report(failure)));
+            ExitCode::from(code)
         }
-    }
-}
-
-impl Failure {
-    /// 2 for input that must be corrected, 1 for everything else.
-    fn exit_code(&self) -> ExitCode {
-        ExitCode::from(if self.is_bad_input() { 2 } else { 1 })
     }
 }

@@ -217,8 +217,9 @@ mod in_chromium {
     const LENGTH: f64 = 1e-6;
 
     #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
     fn the_page_shows_the_angles_and_corners_of_the_response() {
-        let Some(mut browser) = Browser::start(1280) else { return };
+        let mut browser = Browser::start(1280);
         let folder = tempfile::tempdir().expect("a folder");
         for name in SCENES {
             let run = run(folder.path(), name);
@@ -274,8 +275,9 @@ mod in_chromium {
 
     /// Between rows the page interpolates; at an event it shows the event, and after it the new pattern at once.
     #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
     fn events_are_shown_at_their_instants() {
-        let Some(mut browser) = Browser::start(1280) else { return };
+        let mut browser = Browser::start(1280);
         let folder = tempfile::tempdir().expect("a folder");
         let run = run(folder.path(), "pulse");
         browser.open(&run.join("report.html"), "");
@@ -291,8 +293,9 @@ mod in_chromium {
     /// A run with ten times as many rows is the reference. Cubics through angles and rates are off by h⁴/384 times a fourth
     /// derivative, 1e-10 s⁴/384 at rows 0.01 s apart; where a phase is cut short by an event the cubic is shorter.
     #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
     fn between_rows_the_page_follows_the_motion() {
-        let Some(mut browser) = Browser::start(1280) else { return };
+        let mut browser = Browser::start(1280);
         let folder = tempfile::tempdir().expect("a folder");
         let scene = std::fs::read_to_string(common::root().join("scenes/paper-3-blocks-3.00.toml")).expect("a scene");
         let coarse = super::run_text(folder.path(), "coarse", &format!("{scene}\n[output]\ndt = 0.01\n"));
@@ -310,8 +313,9 @@ mod in_chromium {
     }
 
     #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
     fn it_plays_to_the_end_and_obeys_the_keyboard() {
-        let Some(mut browser) = Browser::start(1280) else { return };
+        let mut browser = Browser::start(1280);
         let folder = tempfile::tempdir().expect("a folder");
         let run = run(folder.path(), "pulse");
         let file = run.join("report.html");
@@ -356,8 +360,9 @@ mod in_chromium {
 
     /// Nothing reaches beyond the page, what is to be touched is large enough, and the canvas is as sharp as the screen.
     #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
     fn it_fits_a_phone() {
-        let Some(mut browser) = Browser::start(390) else { return };
+        let mut browser = Browser::start(390);
         let folder = tempfile::tempdir().expect("a folder");
         for name in SCENES {
             let run = run(folder.path(), name);
@@ -375,8 +380,9 @@ mod in_chromium {
     }
 
     #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
     fn a_hostile_scene_runs_no_script() {
-        let Some(mut browser) = Browser::start(1280) else { return };
+        let mut browser = Browser::start(1280);
         let folder = tempfile::tempdir().expect("a folder");
         let run = hostile(folder.path());
         // The folder's name is no address; the page is the same elsewhere.

@@ -132,12 +132,12 @@ fn every_cell_shows_what_the_table_says() {
 }
 
 #[test]
-fn signs_that_xml_does_not_know_are_left_out() {
+fn signs_that_xml_does_not_know_are_written_as_escapes() {
     let folder = folder_with("title = [\"a\\u0001b<\", \"c\"]\nomega_p = [1.0, 2.0]\namplitude_uplift = [0.5, 2.0]\n");
     common::succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
     let figure = read(folder.path(), "f.svg");
     let document = Document::parse(&figure).expect("XML");
-    assert!(document.descendants().any(|node| node.text() == Some("title = ab<")), "{figure}");
+    assert!(document.descendants().any(|node| node.text() == Some("title = a\\u{1}b<")), "{figure}");
 }
 
 #[test]

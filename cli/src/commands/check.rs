@@ -1,30 +1,80 @@
-//! `rocking check`: what a scene says, and what follows from it before anything is run.
+//! `rocking check`: the content of a scene or a sweep, and its consequences before anything is run.
 
-use crate::commands::{json, print, thresholds};
+use crate::commands::{inputs, sweep, thresholds};
 use crate::error::Failure;
 use crate::ground;
 use crate::number::{fixed, significant};
-use rocking::scene_file::{self, Derived, SceneFile};
+use crate::terminal::{json, print, warn};
+use crate::text::{printable, shown};
+use rocking::scene_file::{Derived, SceneFile};
+use rocking::sweep::{Axis, Combine};
 use rocking::{Block, Motion, Restitution, Scene};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Reads a scene and explains it, or tells what is wrong with it.
-///
-/// # Errors
-/// [`Failure`]
+/// Reads a scene or a sweep and explains it.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let text = scene_file::text(path).map_err(Failure::scene)?;
+    let text = inputs::text(path)?;
+    if is_sweep(&text) {
+        return check_sweep(path, as_json);
+    }
     let SceneFile { scene, derived } = SceneFile::from_toml(&text, path).map_err(Failure::scene)?;
     let findings = Findings::of(&scene, derived);
-    for warning in &findings.warnings {
-        eprintln!("warning: {warning}");
-    }
+    warn(&findings.warnings);
     if as_json { json(&findings) } else { print(&findings.text(path, &scene)) }
 }
 
-/// What is found of a scene. Lengths N per block or interface, base first.
+/// Whether the text of a file is a sweep: it has axes, which no scene has.
+fn is_sweep(text: &str) -> bool {
+    let begins = |line: &str| ["[axes", "axes.", "axes ", "axes="].iter().any(|start| line.starts_with(start));
+    text.lines().map(str::trim_start).any(begins)
+}
+
+/// Description of a sweep.
+#[derive(Debug, Serialize)]
+struct SweepFindings {
+    scene: PathBuf,
+    combine: &'static str,
+    points: usize,
+    axes: Vec<AxisFindings>,
+}
+
+/// An axis: its key, number of values, and the first and the last of them.
+#[derive(Debug, Serialize)]
+struct AxisFindings {
+    key: String,
+    values: usize,
+    from: String,
+    to: String,
+}
+
+fn check_sweep(path: &Path, as_json: bool) -> Result<(), Failure> {
+    let sweep = sweep::read(path)?;
+    let axis = |axis: &Axis| {
+        let [from, to] =
+            [axis.values.first(), axis.values.last()].map(|value| value.map_or_else(String::new, ToString::to_string));
+        AxisFindings { key: axis.key.clone(), values: axis.values.len(), from, to }
+    };
+    let findings = SweepFindings {
+        scene: sweep.template.file().into(),
+        combine: if sweep.combine == Combine::Paired { "paired" } else { "cartesian" },
+        points: sweep.len(),
+        axes: sweep.axes.iter().map(axis).collect(),
+    };
+    if as_json {
+        return json(&findings);
+    }
+    let SweepFindings { scene, combine, points, axes } = findings;
+    let mut text = format!("{}: a valid sweep of {points} point(s), {combine}\n", shown(path));
+    for AxisFindings { key, values, from, to } in axes {
+        let _ = writeln!(text, "  {key}: {values} value(s), from {} to {}", printable(&from), printable(&to));
+    }
+    let _ = writeln!(text, "its base scene {} is valid; run it with `rocking sweep {}`", shown(&scene), shown(path));
+    print(&text)
+}
+
+/// Description of a scene. Lists have N entries, per block or interface, base first.
 #[derive(Debug, Serialize)]
 struct Findings {
     title: String,
@@ -39,7 +89,7 @@ struct Findings {
     opens: Vec<usize>,
     method: &'static str,
     rows: Option<u64>,
-    /// What the files of records make one know.
+    /// Warnings of the readers of record files.
     warnings: Vec<String>,
 }
 
@@ -52,7 +102,7 @@ struct MotionFindings {
     pga: f64,
     pgv: f64,
     pgd: f64,
-    /// When it ends `[s]`; none for what goes on for ever.
+    /// End of the motion `[s]`; none for a motion without end.
     end: Option<f64>,
     /// Velocity and displacement with which the ground is left there `[m/s]`, `[m]`.
     left_with: Option<[f64; 2]>,
@@ -86,9 +136,9 @@ impl Findings {
     }
 
     fn text(&self, path: &Path, scene: &Scene) -> String {
-        let mut text = format!("{}: a valid scene", path.display());
+        let mut text = format!("{}: a valid scene", shown(path));
         if !self.title.is_empty() {
-            let _ = write!(text, ", {}", self.title);
+            let _ = write!(text, ", {}", printable(&self.title));
         }
         text.push('\n');
         self.column(&mut text, scene);

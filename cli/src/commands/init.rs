@@ -1,36 +1,22 @@
 //! `rocking init`: a scene to begin with, commented.
 
-use crate::commands::print;
-use crate::error::Failure;
+use crate::error::{Failure, at};
+use crate::files::{LARGEST_RECORD, folder_of, read};
 use crate::output;
-use rocking::ground::{RecordFile, TextOptions, read_file};
+use crate::terminal::print;
+use crate::text::shown;
+use rocking::ground::{RecordFile, TextOptions};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What a new scene is made of.
-#[derive(Debug)]
-pub struct NewScene<'a> {
-    /// Where it goes.
-    pub file: &'a Path,
-    /// Number of equal blocks.
-    pub blocks: u8,
-    /// A record to shake it with, as named on the command line.
-    pub record: Option<&'a Path>,
-    /// Whether a file of this name may be written over.
-    pub force: bool,
-}
-
-/// Writes the scene.
-///
-/// # Errors
-/// [`Failure::Taken`] if the file is there already, [`Failure::RecordFile`] if the record is not, [`Failure::File`] if it cannot be written.
-pub fn init(new: &NewScene) -> Result<(), Failure> {
-    if new.file.exists() && !new.force {
-        return Err(Failure::Taken { path: new.file.into() });
+/// Writes a scene of so many equal blocks, excited by a record if one is named. A file that is there is written over by `force` only.
+pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> Result<(), Failure> {
+    if file.exists() && !force {
+        return Err(Failure::Taken(file.into()));
     }
-    let record = new.record.map(|record| Shaking::new(new.file, record)).transpose()?;
-    output::file(new.file, scene(usize::from(new.blocks), record.as_ref()))?;
-    let file = new.file.display();
+    let record = record.map(|record| NamedRecord::new(file, record)).transpose()?;
+    output::file(file, scene(blocks, record.as_ref()))?;
+    let file = shown(file);
     print(&format!(
         "wrote {file}: open it in an editor and put in your column and ground motion, then\n\
          \x20 rocking check {file}            tells what it says and what follows from it\n\
@@ -39,28 +25,27 @@ pub fn init(new: &NewScene) -> Result<(), Failure> {
 }
 
 /// A record as a new scene names it.
-struct Shaking {
+struct NamedRecord {
     /// Relative to the scene's folder where it stands below it, absolute otherwise.
     name: String,
     /// `[s]`, if the file says it itself.
     duration: Option<f64>,
 }
 
-impl Shaking {
-    fn new(file: &Path, record: &Path) -> Result<Shaking, Failure> {
-        let failed = |error: std::io::Error| Failure::RecordFile { path: record.into(), problem: error.to_string() };
-        let bytes = read_file(record).map_err(failed)?;
-        let found = std::fs::canonicalize(record).map_err(failed)?;
-        let folder = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+impl NamedRecord {
+    fn new(file: &Path, record: &Path) -> Result<NamedRecord, Failure> {
+        let bytes = read(record, LARGEST_RECORD).map_err(at(Failure::Input, record))?;
+        let found = std::fs::canonicalize(record).map_err(at(Failure::Input, record))?;
+        let folder = folder_of(file);
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
         let name = found.strip_prefix(&folder).unwrap_or(&found).display().to_string();
-        // What a file leaves unsaid, `rocking check` asks for.
+        // `rocking check` asks for units and intervals that the file does not state.
         let read = RecordFile::read(&bytes, &TextOptions::default()).and_then(RecordFile::into_record);
-        Ok(Shaking { name, duration: read.ok().map(|record| record.duration()) })
+        Ok(NamedRecord { name, duration: read.ok().map(|record| record.duration()) })
     }
 }
 
-fn scene(blocks: usize, record: Option<&Shaking>) -> String {
+fn scene(blocks: usize, record: Option<&NamedRecord>) -> String {
     let mut text = String::from(include_str!("init/head.toml"));
     for block in 1..=blocks {
         let place = match (block, blocks) {
@@ -101,5 +86,10 @@ const AFTERWARDS: f64 = 10.0;
 
 /// Text in quotes of TOML: backslashes of Windows' paths survive.
 fn toml_text(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+    let sign = |sign: char| match sign {
+        '\\' | '"' => format!("\\{sign}"),
+        sign if sign.is_control() => format!("\\u{:04X}", sign as u32),
+        sign => sign.into(),
+    };
+    format!("\"{}\"", text.chars().map(sign).collect::<String>())
 }

@@ -1,27 +1,28 @@
 //! `rocking merge`: one table of the tables of all shards of a sweep.
 //!
 //! A table holds its points and not how many the sweep has. That the last ones are missing is therefore seen only if the sweep is
-//! given as well.
+//! given as well. Shards of different sweeps differ in their columns, or in the digests beside them.
 
-use crate::commands::print;
-use crate::commands::sweep::{OUTCOME, TIME, columns, inputs_of};
-use crate::error::Failure;
+use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
+use crate::error::{Failure, at};
+use crate::files::{folder_of, read, share};
 use crate::output;
+use crate::table::column::{Column, Rows};
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
-use crate::table::{self, Column, Format, Rows};
+use crate::table::{Format, open};
+use crate::terminal::print;
+use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::scene_file::Setting;
 use rocking::sweep::{Ask, Fate, Sweep};
 use std::fs::File;
-use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+#[cfg(feature = "parquet")]
+use std::io::{BufWriter, Write};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// Joins tables in the order of their points. With the sweep's file it is certain that all points are there.
-///
-/// # Errors
-/// [`Failure::Shards`] for tables that do not belong together, [`Failure::ShardsMissing`], [`Failure::InUse`], [`Failure::File`],
-/// [`Failure::Scene`], [`Failure::NoParquet`]
 pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(), Failure> {
     let format = Format::of(out)?;
     let wanted = sweep.map(Wanted::of).transpose()?;
@@ -31,33 +32,36 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let mut tables = Vec::new();
     for path in shards {
         if Format::of(path)? != format {
-            let problem = format!("{} is to be of the other format, and tables are not converted", out.display());
-            return Err(Failure::Shards { path: path.clone(), problem });
+            let problem = format!("{} is to be of the other format, and tables are not converted", shown(out));
+            return Err(Failure::Shards(path.clone(), problem));
         }
         tables.push((first(path)?, path.as_path()));
     }
-    // Of more shards than points some have no row; they come first.
+    // Tables without a row, of a sweep with fewer points than shards, come first.
     tables.sort();
     let tables: Vec<&Path> = tables.into_iter().map(|(_, path)| path).collect();
 
-    let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
+    let failed = |error: std::io::Error| Failure::File(out.into(), error.to_string());
     let target = output::target(out)?;
-    let merged = tempfile::NamedTempFile::new_in(output::folder_of(&target)).map_err(failed)?;
+    let merged = tempfile::NamedTempFile::new_in(folder_of(&target)).map_err(failed)?;
     let rows = match format {
         Format::Csv => join_csv(&tables, wanted.as_ref(), merged.as_file(), failed)?,
         #[cfg(feature = "parquet")]
         Format::Parquet => join_parquet(&tables, wanted.as_ref(), merged.as_file(), failed)?,
     };
+    for path in shards {
+        check_digest(path, &shards[0], wanted.as_ref())?;
+    }
     let told = match wanted {
-        Some(wanted) => format!("all points of {}", wanted.file.display()),
+        Some(wanted) => format!("all points of {}", shown(wanted.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
-    output::share(&merged).map_err(failed)?;
+    share(&merged).map_err(failed)?;
     merged.persist(target).map_err(|error| failed(error.error))?;
-    print(&format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), out.display()))
+    print(&format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out)))
 }
 
-/// What the tables must make.
+/// The sweep that the tables must make up.
 struct Wanted<'a> {
     file: &'a Path,
     sweep: Sweep,
@@ -66,13 +70,13 @@ struct Wanted<'a> {
 
 impl Wanted<'_> {
     fn of(file: &Path) -> Result<Wanted<'_>, Failure> {
-        let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
+        let sweep = sweep::read(file)?;
         Ok(Wanted { file, columns: columns(&sweep)?, sweep })
     }
 
     /// Whether a row has the values of a point, and in each cell what its column and the question are for.
     fn has(&self, row: &StringRecord, point: usize) -> bool {
-        let is_setting = |(setting, cell): (&Setting, &str)| table::on_one_line(&setting.to_string()) == cell;
+        let is_setting = |(setting, cell): (&Setting, &str)| printable(&setting.to_string()) == cell;
         let of_axes = || self.sweep.settings(point).into_iter().zip(row.iter().skip(1));
         let cells = || self.columns.iter().zip(row);
         let cell = |name: &str| cells().find(|(column, _)| column.name == name).map_or("", |(_, cell)| cell);
@@ -84,9 +88,26 @@ impl Wanted<'_> {
     }
 }
 
+/// Refuses a table whose digest is not that of the sweep, or of the first table. Tables without one, as earlier versions left them, pass.
+fn check_digest(path: &Path, first: &Path, wanted: Option<&Wanted>) -> Result<(), Failure> {
+    let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let Some(own) = of_table(path) else { return Ok(()) };
+    let (expected, other) = match wanted {
+        Some(wanted) => (Some(Fnv::of(&wanted.sweep, wanted.file)?.to_string()), wanted.file),
+        None => (of_table(first), first),
+    };
+    match expected {
+        Some(expected) if expected != own => {
+            let problem = format!("its sweep, base scene or records are not those of {}", shown(other));
+            Err(Failure::Shards(path.into(), problem))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The number of the first point of a table that has rows.
 fn first(path: &Path) -> Result<Option<u64>, Failure> {
-    let row = Rows::open(path).map_err(broken(path))?.rows.next().transpose().map_err(broken(path))?;
+    let row = open(path).map_err(broken(path))?.rows.next().transpose().map_err(broken(path))?;
     row.map(|row| index(&row, path)).transpose()
 }
 
@@ -99,7 +120,7 @@ fn join(
     let mut header = wanted.map(|wanted| wanted.columns.iter().map(|column| column.name.as_str()).collect());
     let mut next = 0;
     for path in tables {
-        let Rows { header: found, rows } = Rows::open(path).map_err(broken(path))?;
+        let Rows { header: found, rows } = open(path).map_err(broken(path))?;
         if *header.get_or_insert_with(|| found.clone()) != found {
             return Err(other_columns(path, wanted));
         }
@@ -115,7 +136,7 @@ fn join(
                 return Err(broken(path)(format!("the row of point {point} is not whole")));
             }
             if let Some(wanted) = wanted.filter(|wanted| !wanted.has(&row, next)) {
-                let problem = format!("the row of point {point} is not one of {}", wanted.file.display());
+                let problem = format!("the row of point {point} is not one of {}", shown(wanted.file));
                 return Err(broken(path)(problem));
             }
             write(&row)?;
@@ -124,7 +145,7 @@ fn join(
     }
     match wanted {
         Some(Wanted { sweep, file, .. }) if sweep.len() != next => {
-            Err(Failure::ShardsMissing { sweep: file.into(), points: sweep.len(), rows: next })
+            Err(Failure::ShardsMissing(file.into(), sweep.len(), next))
         }
         _ => Ok(next),
     }
@@ -149,12 +170,9 @@ fn join_csv(
             return Err(broken(path)("its last line is cut"));
         }
     }
-    let mut writer = BufWriter::new(out);
-    let mut write = |row: &StringRecord| {
-        let cells: Vec<String> = row.iter().map(table::quoted).collect();
-        writeln!(writer, "{}", cells.join(",")).map_err(&failed)
-    };
-    write(&Rows::open(tables[0]).map_err(broken(tables[0]))?.header)?;
+    let mut writer = csv::Writer::from_writer(out);
+    let mut write = |row: &StringRecord| writer.write_record(row).map_err(|error| failed(error.into()));
+    write(&open(tables[0]).map_err(broken(tables[0]))?.header)?;
     let rows = join(tables, wanted, write)?;
     writer.flush().map_err(&failed)?;
     Ok(rows)
@@ -171,7 +189,7 @@ fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
     Ok(last == *b"\n")
 }
 
-/// The same as Parquet; the rows of all tables are cut into groups anew.
+/// [`join_csv`] for Parquet; the rows of all tables are cut into groups anew.
 #[cfg(feature = "parquet")]
 fn join_parquet(
     tables: &[&Path],
@@ -201,11 +219,11 @@ fn index(row: &StringRecord, path: &Path) -> Result<u64, Failure> {
 
 fn other_columns(path: &Path, wanted: Option<&Wanted>) -> Failure {
     broken(path)(match wanted {
-        Some(wanted) => format!("its columns are not those of {}", wanted.file.display()),
+        Some(wanted) => format!("its columns are not those of {}", shown(wanted.file)),
         None => "its columns are not those of the others".into(),
     })
 }
 
 fn broken<E: ToString>(path: &Path) -> impl Fn(E) -> Failure {
-    move |problem| Failure::Shards { path: path.into(), problem: problem.to_string() }
+    at(Failure::Shards, path)
 }

@@ -2,6 +2,7 @@
 
 mod check;
 mod init;
+mod inputs;
 mod merge;
 mod modes;
 mod plot;
@@ -11,25 +12,20 @@ mod report;
 mod run;
 mod shell;
 mod spectrum;
-pub mod sweep;
+mod sweep;
 mod thresholds;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;
-use init::NewScene;
+use crate::terminal::{json, print};
 use modes::Asked;
-use rocking::Scene;
-use std::io::Write as _;
 use std::path::Path;
 
-/// Carries out what was asked.
-///
-/// # Errors
-/// [`Failure`]
+/// Carries out a command.
 pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Init { file, blocks, record, force } => {
-            init::init(&NewScene { file: &file, blocks, record: record.as_deref(), force })
+            init::init(&file, usize::from(blocks), record.as_deref(), force)
         }
         Command::Check { scene, json } => check::check(&scene, json),
         Command::Run(run) => run::run(&run),
@@ -38,7 +34,13 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
             spectrum::plot(&table, format, out.as_deref())
         }
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
-        Command::Record(record) => record::record(record),
+        Command::Record(mut asked) => {
+            let window = record::Window::of(&mut asked)?;
+            match &asked.file {
+                Some(folder) if folder.is_dir() => records::list(folder, &asked),
+                _ => record::record(&asked, window),
+            }
+        }
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),
@@ -46,8 +48,8 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
             let asked = if counts { Asked::Counts } else { Asked::Derivation(format) };
             print(&modes::derive(usize::from(blocks), &mode, asked)?)
         }
-        Command::Thresholds { scene, json: true } => json(&thresholds::rows(&read(&scene)?)),
-        Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&read(&scene)?)),
+        Command::Thresholds { scene, json: true } => json(&thresholds::rows(&inputs::scene(&scene)?)),
+        Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&inputs::scene(&scene)?)),
         Command::Sweep(asked) => sweep::sweep(&asked),
         Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
         Command::Completions { shell } => shell::completions(shell),
@@ -55,27 +57,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-fn read(path: &Path) -> Result<Scene, Failure> {
-    Scene::from_file(path).map_err(Failure::scene)
-}
-
-/// A reader that has seen enough and closes the pipe is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::Print { problem: error.to_string() })
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Prints what a script reads.
-fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| Failure::Print { problem: error.to_string() })?;
-    print(&(text + "\n"))
-}
-
 /// Whether a table is meant, though perhaps not there, and not a folder.
 fn is_table(path: &Path) -> bool {
-    path.is_file() || !path.exists() && path.extension().is_some()
+    path.exists() && !path.is_dir() || !path.exists() && path.extension().is_some()
 }

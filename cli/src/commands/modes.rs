@@ -1,9 +1,12 @@
 //! `rocking modes` and `rocking derive`: what the generator knows of a column's modes.
 
 use crate::arguments::Format;
-use crate::commands::print;
+use crate::commands::plot::write;
 use crate::error::Failure;
-use crate::{figure, output};
+use crate::plot::modes::{LARGEST, draw};
+use crate::posture;
+use crate::terminal::print;
+use crate::text::shown;
 use rocking::GroundMotion;
 use rocking::pattern::{ModeLabel, Pattern, modes};
 use rocking_codegen::Plan;
@@ -21,7 +24,7 @@ pub struct Row {
     dof: usize,
     /// The step-time program of all modes with as many free angles.
     program: String,
-    /// Of one call of its accelerations, ground moving horizontally.
+    /// Floating-point operations of one evaluation of the accelerations under horizontal ground motion.
     flops: usize,
     /// Among the flops.
     divisions: usize,
@@ -41,7 +44,7 @@ pub fn rows(blocks: usize) -> Vec<Row> {
             program: format!("Dof{dof}"),
             flops: operations[dof - 1].flops(),
             divisions: operations[dof - 1].divisions,
-            drawing: figure::line(&pattern),
+            drawing: posture::line(&pattern),
         }
     };
     modes(blocks).map(row).collect()
@@ -63,7 +66,7 @@ pub fn list_modes(blocks: usize) -> String {
          dof: free angles; program: the step-time program of all modes with as many; flops, divisions: of one call of its accelerations, ground moving horizontally.\n\
          drawing: {}\n",
         mode_count(blocks),
-        figure::LINE_KEY
+        posture::LINE_KEY
     );
     text
 }
@@ -73,19 +76,16 @@ fn mode_count(blocks: usize) -> u64 {
 }
 
 /// Draws the modes into a file.
-///
-/// # Errors
-/// [`Failure::CrowdedFigure`], [`Failure::File`]
 pub fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
     let modes = mode_count(blocks);
-    if blocks > figure::LARGEST {
-        return Err(Failure::CrowdedFigure { blocks, modes, largest: figure::LARGEST });
+    if blocks > LARGEST {
+        return Err(Failure::CrowdedFigure { blocks, modes, largest: LARGEST });
     }
-    output::file(file, figure::svg(blocks))?;
-    print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", file.display()))
+    write(&draw(blocks), file)?;
+    print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", shown(file)))
 }
 
-/// What is asked of a mode.
+/// The output of `rocking derive`.
 pub enum Asked {
     /// The equations, in a format.
     Derivation(Format),
@@ -93,13 +93,10 @@ pub enum Asked {
     Counts,
 }
 
-/// What was asked of a mode, as text.
-///
-/// # Errors
-/// [`Failure::Mode`]
+/// The derivation or the operation counts of a mode, as text.
 pub fn derive(blocks: usize, mode: &str, asked: Asked) -> Result<String, Failure> {
     let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
-    let pattern = pattern.ok_or_else(|| Failure::Mode { mode: mode.into(), blocks })?;
+    let pattern = pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?;
     Ok(match asked {
         Asked::Counts => rocking_codegen::report::counts(&pattern),
         Asked::Derivation(Format::Text) => rocking_codegen::report::text(&pattern),

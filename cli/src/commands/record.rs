@@ -1,9 +1,12 @@
 //! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
 
-use crate::arguments::{self, Picture};
-use crate::commands::{json, print, records};
+use crate::arguments;
+use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
+use crate::files::{self, LARGEST_RECORD};
 use crate::number::significant;
+use crate::terminal::{json, print, warn};
+use crate::text::{printable, shown};
 use crate::{output, plot};
 use rocking::ground::{Measures, RecordFile, TextOptions, read_file};
 use rocking::{DEFAULT_GRAVITY, Record, RecordError};
@@ -14,28 +17,19 @@ use std::path::{Path, PathBuf};
 /// Significant digits of what is measured.
 pub const DIGITS: usize = 5;
 
-/// Describes a record file, or lists a folder.
-///
-/// # Errors
-/// [`Failure`]
-pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
-    let window = Window::of(&mut arguments)?;
+/// Describes a record file.
+pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(), Failure> {
     // Only `--trim` may have swallowed the name of the file, and then it is given back.
     let Some(path) = arguments.file.clone() else {
-        return Err(Failure::Trim { given: arguments.trim.join(" "), problem: "no record file is named".into() });
+        return Err(Failure::Trim(arguments.trim.join(" "), "no record file is named".into()));
     };
-    if path.is_dir() {
-        return records::list(&path, &arguments);
-    }
-    let file = read(&path, &options(&arguments)).map_err(|problem| problem.at(&path))?;
-    let refused = |error: RecordError| Failure::Record { path: path.clone(), error };
-    let mut told = Told::of(&path, &file);
+    let file = read(&path, &options(arguments)).map_err(|problem| problem.at(&path))?;
+    let refused = |error: RecordError| Failure::Record(path.clone(), error);
+    let mut description = Description::of(&path, &file);
     let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
     if let Some(Window { from, to }) = window {
-        record = record.trimmed(from, to).map_err(|error| Failure::Trim {
-            given: arguments.trim.join(" "),
-            problem: format!("{error} ({} s are in the file)", told.duration),
-        })?;
+        let outside = |error| format!("{error} ({} s are in the file)", description.duration);
+        record = record.trimmed(from, to).map_err(|error| Failure::Trim(arguments.trim.join(" "), outside(error)))?;
     }
     if let Some(factor) = arguments.scale {
         record = record.scaled(factor).map_err(refused)?;
@@ -43,52 +37,42 @@ pub fn record(mut arguments: arguments::Record) -> Result<(), Failure> {
     if let Some(peak) = arguments.pga {
         record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
     }
-    told.measure(&record);
+    description.measure(&record);
     let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
     output::check(&outputs, std::slice::from_ref(&path))?;
     if let Some(out) = &arguments.out {
         output::file(out, record.to_csv())?;
     }
     if let Some(picture) = &arguments.plot {
-        draw(picture, &path, &record)?;
+        let title = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let [velocity, displacement] = [record.velocity(), record.displacement()];
+        let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
+        write(&figure, picture)?;
     }
-    for warning in &told.warnings {
-        eprintln!("warning: {warning}");
-    }
+    warn(&description.warnings);
     if arguments.json {
-        return json(&told);
+        return json(&description);
     }
-    let mut text = format!("{}{}\n", told.text(), plot::terminal::series(record.accel()));
+    let mut text = format!("{}{}\n", description.text(), plot::terminal::series(record.accel()));
     if let Some(out) = &arguments.out {
-        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", out.display(), told.samples);
+        let _ = writeln!(text, "wrote {} ({} samples, m/s2)", shown(out), description.samples);
     }
     if let Some(picture) = &arguments.plot {
-        let _ = writeln!(text, "wrote {}", picture.display());
+        let _ = writeln!(text, "wrote {}", shown(picture));
     }
     print(&text)
 }
 
-/// Draws a record as the name of the file says.
-fn draw(picture: &Path, file: &Path, record: &Record) -> Result<(), Failure> {
-    let title = file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let [velocity, displacement] = [record.velocity(), record.displacement()];
-    let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
-    match Picture::of(picture) {
-        Some(Picture::Png) => output::file(picture, plot::png(&figure)),
-        _ => output::file(picture, figure.svg),
-    }
-}
-
 /// Two times `[s]` from the first sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Window {
+pub struct Window {
     from: f64,
     to: f64,
 }
 
 impl Window {
     /// The window of `--trim`. One word can say it all; the next one is then the file.
-    fn of(arguments: &mut arguments::Record) -> Result<Option<Window>, Failure> {
+    pub fn of(arguments: &mut arguments::Record) -> Result<Option<Window>, Failure> {
         if arguments.file.is_none() && arguments.trim.len() == 2 {
             arguments.file = arguments.trim.pop().map(PathBuf::from);
         }
@@ -96,7 +80,7 @@ impl Window {
         if given.is_empty() {
             return Ok(None);
         }
-        let wrong = |problem: &str| Failure::Trim { given: given.clone(), problem: problem.into() };
+        let wrong = |problem: &str| Failure::Trim(given.clone(), problem.into());
         let (from, to) = ["..", ",", ":", " "]
             .into_iter()
             .find_map(|delimiter| given.split_once(delimiter))
@@ -134,27 +118,27 @@ pub enum Problem {
 impl Problem {
     pub fn at(self, path: &Path) -> Failure {
         match self {
-            Problem::System(error) => Failure::RecordFile { path: path.into(), problem: error.to_string() },
-            Problem::Content(error) => Failure::Record { path: path.into(), error },
+            Problem::System(error) => Failure::Input(path.into(), error.to_string()),
+            Problem::Content(error) => Failure::Record(path.into(), error),
         }
     }
 }
 
 pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
-    let bytes = read_file(path).map_err(Problem::System)?;
+    let bytes = files::read(path, LARGEST_RECORD).map_err(Problem::System)?;
     RecordFile::read(&bytes, options).map_err(Problem::Content)
 }
 
-/// What is told of a record.
+/// The description of a record, as text or JSON.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct Description {
     pub file: PathBuf,
     pub format: rocking::ground::Format,
     pub title: String,
     pub station: String,
     pub component: String,
     pub channels: Vec<String>,
-    /// Of the accelerations in the file.
+    /// Unit of the accelerations in the file.
     pub unit: rocking::ground::AccelerationUnit,
     /// Samples that the header declares.
     pub declared: Option<usize>,
@@ -163,12 +147,12 @@ pub struct Told {
     /// `[s]`
     pub dt: f64,
     pub samples: usize,
-    /// From the first sample to the last `[s]`; told among the measures.
+    /// From the first sample to the last `[s]`; printed among the measures.
     #[serde(skip)]
     pub duration: f64,
     /// Factor of `--scale` or `--pga`.
     pub scale: f64,
-    /// What one g is `[m/s²]`.
+    /// One g `[m/s²]`.
     pub gravity: f64,
     /// Peak acceleration `[g]`.
     pub pga_g: f64,
@@ -179,9 +163,9 @@ pub struct Told {
     pub warnings: Vec<String>,
 }
 
-impl Told {
-    pub fn of(path: &Path, file: &RecordFile) -> Told {
-        Told {
+impl Description {
+    pub fn of(path: &Path, file: &RecordFile) -> Description {
+        Description {
             file: path.into(),
             format: file.format,
             title: file.title.clone(),
@@ -215,11 +199,11 @@ impl Told {
     }
 
     fn text(&self) -> String {
-        let mut text = format!("{}\n", self.file.display());
+        let mut text = format!("{}\n", shown(&self.file));
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<22}{value}");
         };
-        let known = |value: &str| if value.is_empty() { "-".to_string() } else { value.to_string() };
+        let known = |value: &str| if value.is_empty() { "-".to_string() } else { printable(value).into_owned() };
         line("format", self.format.to_string());
         line("event", known(&self.title));
         line("station", known(&self.station));

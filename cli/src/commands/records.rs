@@ -1,13 +1,14 @@
 //! `rocking record FOLDER`: the records of a folder, their components by direction.
 //!
-//! What belongs together and which way it shakes is told by names of files, as the databases give them, and by what the files
-//! say of their components.
+//! The names of the files, as the databases give them, and the components that the files name decide which components belong to one
+//! record, and their directions.
 
 use crate::arguments;
-use crate::commands::record::{DIGITS, Problem, Told, options, read};
-use crate::commands::{json, print};
-use crate::error::Failure;
+use crate::commands::record::{DIGITS, Description, Problem, options, read};
+use crate::error::{Failure, at};
 use crate::number::significant;
+use crate::terminal::{json, print};
+use crate::text::shown;
 use rocking::RecordError;
 use rocking::ground::TextOptions;
 use serde::Serialize;
@@ -28,10 +29,10 @@ enum Direction {
 struct Listed {
     direction: Direction,
     #[serde(flatten)]
-    told: Told,
+    description: Description,
 }
 
-/// What is told of a folder.
+/// The records of a folder, and the files that are none.
 #[derive(Debug, Serialize)]
 struct Folder<'a> {
     folder: &'a Path,
@@ -54,9 +55,6 @@ struct Unread {
 }
 
 /// Lists a folder.
-///
-/// # Errors
-/// [`Failure`]
 pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     let given = [
         ("out", arguments.out.is_some()),
@@ -65,12 +63,12 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
         ("pga", arguments.pga.is_some()),
     ];
     if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
-        return Err(Failure::FolderOption { option, path: path.into() });
+        return Err(Failure::FolderOption(path.into(), option));
     }
-    let system = |error: std::io::Error| Failure::RecordFile { path: path.into(), problem: error.to_string() };
+    let system = at(Failure::Input, path);
     let mut names = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(system)? {
-        let entry = entry.map_err(system)?;
+    for entry in std::fs::read_dir(path).map_err(&system)? {
+        let entry = entry.map_err(&system)?;
         let hidden = entry.file_name().to_string_lossy().starts_with('.');
         if !hidden && entry.path().is_file() {
             names.push(PathBuf::from(entry.file_name()));
@@ -81,18 +79,18 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     let mut unread = Vec::new();
     for name in &names {
         match listed(path, name, &options(arguments)) {
-            Ok(told) => {
+            Ok(description) => {
                 let file = name.to_string_lossy();
                 let (record, ending) = record_and_component(&file);
-                let direction = direction(ending, &told.component);
-                groups.entry(record.into_owned()).or_default().push(Listed { direction, told });
+                let direction = direction(ending, &description.component);
+                groups.entry(record.into_owned()).or_default().push(Listed { direction, description });
             }
             Err(error) => unread.push(Unread { file: name.clone(), error }),
         }
     }
     if groups.is_empty() {
         let first = unread.first().map(|unread| format!(" ({}: {})", unread.file.display(), unread.error));
-        return Err(Failure::NoRecords { path: path.into(), count: names.len(), first: first.unwrap_or_default() });
+        return Err(Failure::NoRecords(path.into(), names.len(), first.unwrap_or_default()));
     }
     let groups = groups.into_iter().map(|(record, mut components)| {
         components.sort_by_key(|listed| listed.direction);
@@ -105,7 +103,7 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
 }
 
 /// A file of a folder: what the user says goes for the files that are silent.
-fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Told, String> {
+fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Description, String> {
     let path = folder.join(name);
     let file = match read(&path, options) {
         Err(Problem::Content(RecordError::Contradiction { .. } | RecordError::NoChannel { .. })) => {
@@ -113,38 +111,42 @@ fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Told, Str
         }
         other => other,
     };
-    let shown = |failure: Failure| {
+    let in_words = |failure: Failure| {
         let (text, prefix) = (failure.to_string(), format!("{}: ", path.display()));
         text.strip_prefix(&prefix).unwrap_or(&text).to_string()
     };
-    let file = file.map_err(|problem| shown(problem.at(&path)))?;
-    let mut told = Told::of(name, &file);
-    let record = file.into_record().map_err(|error| shown(Problem::Content(error).at(&path)))?;
-    told.measure(&record);
-    Ok(told)
+    let file = file.map_err(|problem| in_words(problem.at(&path)))?;
+    let mut description = Description::of(name, &file);
+    let record = file.into_record().map_err(|error| in_words(Problem::Content(error).at(&path)))?;
+    description.measure(&record);
+    Ok(description)
 }
 
 impl Folder<'_> {
     fn text(&self) -> String {
         let components = || self.groups.iter().flat_map(|group| &group.components);
-        let width = components().map(|listed| listed.told.file.to_string_lossy().chars().count()).max().unwrap_or(0);
+        let width = components().map(|listed| shown(&listed.description.file).chars().count()).max().unwrap_or(0);
         let mut text = String::new();
         for group in &self.groups {
-            let first = &group.components[0].told;
+            let first = &group.components[0].description;
             let names: Vec<&str> =
                 [first.title.as_str(), first.station.as_str()].into_iter().filter(|name| !name.is_empty()).collect();
             let _ = writeln!(text, "{}  {}", group.record, names.join(", "));
-            for Listed { direction, told } in &group.components {
+            for Listed { direction, description } in &group.components {
                 let direction = if *direction == Direction::Vertical { "vertical" } else { "horizontal" };
                 let _ = writeln!(
                     text,
                     "  {direction:<12}{:<width$}  PGA {:.4} g  dt {} s  n {}  {} s{}",
-                    told.file.display(),
-                    told.pga_g,
-                    significant(told.dt, DIGITS),
-                    told.samples,
-                    significant(told.duration, DIGITS),
-                    if told.warnings.is_empty() { String::new() } else { format!("  ({})", told.warnings.join("; ")) },
+                    shown(&description.file),
+                    description.pga_g,
+                    significant(description.dt, DIGITS),
+                    description.samples,
+                    significant(description.duration, DIGITS),
+                    if description.warnings.is_empty() {
+                        String::new()
+                    } else {
+                        format!("  ({})", description.warnings.join("; "))
+                    },
                 );
             }
         }
@@ -152,7 +154,7 @@ impl Folder<'_> {
             text.push_str("not read\n");
         }
         for unread in &self.unread {
-            let _ = writeln!(text, "  {}: {}", unread.file.display(), unread.error);
+            let _ = writeln!(text, "  {}: {}", shown(&unread.file), unread.error);
         }
         text
     }
@@ -162,7 +164,7 @@ impl Folder<'_> {
 const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
 const HORIZONTAL: [&str; 8] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T"];
 
-/// The order of names that a number tells apart: RSN77 before RSN125.
+/// The order of names by the number in them: RSN77 before RSN125.
 fn by_number(name: &str) -> (String, u64, String) {
     let start = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
     let (text, rest) = name.split_at(start);
@@ -170,7 +172,7 @@ fn by_number(name: &str) -> (String, u64, String) {
     (text.into(), rest[..end].parse().unwrap_or(u64::MAX), rest.into())
 }
 
-/// What the components of a record have in common in their names, and what names the component.
+/// The common part of the names of a record's components, and the part that names the component.
 ///
 /// `RSN125_FRIULI.A_A-TMZ-UP.AT2`: RSN125, UP; `XXX0010103040506.EW`: EW; `XX.MIB..HNE.D.ASC`: HNE; `ELC180.AT2`: ELC, 180.
 fn record_and_component(file: &str) -> (std::borrow::Cow<'_, str>, &str) {

@@ -1,30 +1,30 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::{Dynamics, Picture, Run};
-use crate::commands::{plot, print, report};
+use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
-use crate::output::{Folder, SceneText};
+use crate::output;
+use crate::plot::NAMES;
 use crate::progress::Progress;
-use crate::results::longest_first;
+use crate::run_folder::{Folder, Results, SceneText, longest_first};
+use crate::terminal::{json_text, print, warn};
+use crate::text::{printable, shown};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::time::Instant;
 
-/// Runs a scene and writes its results.
-///
-/// # Errors
-/// [`Failure`]
+/// Runs a scene and writes its results; figures and a report of an earlier run are removed from their folder.
 pub fn run(asked: &Run) -> Result<(), Failure> {
     let Run { scene: path, out, .. } = asked;
-    let text = rocking::scene_file::text(path).map_err(Failure::scene)?;
+    let text = inputs::text(path)?;
     let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
     if asked.dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::open(out)?;
-    let bar = Progress::new(scene.options.t_end, asked.quiet);
+    let bar = Progress::of_run(scene.options.t_end, asked.quiet);
     let start = Instant::now();
-    let response = simulate_observed(&scene, |t| bar.advance(t)).map_err(|error| Failure::Solve {
+    let response = simulate_observed(&scene, |t| bar.reached_time(t)).map_err(|error| Failure::Solve {
         scene: path.clone(),
         out: out.clone(),
         error,
@@ -33,33 +33,34 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     bar.finish();
     let mut warnings = scene.excitation.warnings();
     warnings.extend(response.warnings(scene.friction));
-    folder.write(SceneText { file: path, text: &text }, &scene, &response, seconds, &warnings)?;
-    let mut written: Vec<String> = FILES_OF_A_RUN.map(String::from).to_vec();
-    if asked.plots {
-        written.extend(plot::draw(out, Picture::Svg, out)?.into_iter().map(|drawn| drawn.file));
-    }
-    if asked.report {
-        // Made of the files, as `rocking report` makes it: of one run there is one page.
-        let page = report::write(out, None)?;
-        written.push(page.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()));
+    let mut outdated: Vec<String> =
+        NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]).collect();
+    outdated.push(report::NAME.into());
+    folder.write(SceneText { file: path.clone(), text }, &scene, &response, seconds, &warnings, &outdated)?;
+    let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
+    if asked.plots || asked.report {
+        // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
+        let results = Results::read(out)?;
+        if asked.plots {
+            written.extend(plot::draw(&results, Picture::Svg, out)?.into_iter().map(|(file, _)| file));
+        }
+        if asked.report {
+            output::file(&out.join(report::NAME), crate::report::page(&results))?;
+            written.push(report::NAME.into());
+        }
     }
     if asked.quiet {
         return Ok(());
     }
-    for warning in &warnings {
-        eprintln!("warning: {warning}");
-    }
+    warn(&warnings);
     if asked.json {
-        return print(&folder.summary()?);
+        return json_text(&folder.summary()?);
     }
-    print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), out.display()))
+    print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), shown(out)))
 }
 
-/// As they are told.
-const FILES_OF_A_RUN: [&str; 3] = ["summary.json", "response.csv", "events.json"];
-
-/// Modes of which the time is told; the others are brief in most runs, and in `summary.json`.
-const MODES_TOLD: usize = 8;
+/// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
+const MODES_PRINTED: usize = 8;
 
 /// A few lines on what happened.
 fn account(scene: &Scene, response: &Response) -> String {
@@ -71,7 +72,7 @@ fn account(scene: &Scene, response: &Response) -> String {
     };
     let peaks: Vec<String> = response.peak_theta.iter().map(|angle| format!("{angle:.5}")).collect();
     let modes = longest_first(&response.time_in_mode);
-    let (told, others) = modes.split_at(modes.len().min(MODES_TOLD));
+    let (told, others) = modes.split_at(modes.len().min(MODES_PRINTED));
     let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
     if !others.is_empty() {
         let time: f64 = others.iter().map(|(_, time)| time).sum();
@@ -79,7 +80,7 @@ fn account(scene: &Scene, response: &Response) -> String {
     }
     let mut text = String::new();
     if !scene.title.is_empty() {
-        let _ = writeln!(text, "{}", scene.title);
+        let _ = writeln!(text, "{}", printable(&scene.title));
     }
     let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts);
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));

@@ -1,83 +1,118 @@
-//! `rocking sweep`: a table with a row per point, written as it grows, so that a sweep that is cut off goes on where it was.
+//! `rocking sweep`: a table with a row per point; a sweep that was interrupted continues with the first missing row.
 //!
-//! The growing table (`table/growing.rs`) is told from others by a fingerprint of all that decides its rows.
+//! The name of the unfinished table (`table/growing.rs`) holds a digest of all that decides its rows. A shard leaves the digest of its
+//! whole sweep in a file beside its table, by which `rocking merge` recognises shards of another sweep.
 
 use crate::arguments;
-use crate::commands::{json, print, spectrum};
-use crate::error::Failure;
+use crate::commands::{inputs, spectrum};
+use crate::error::{Failure, at};
 use crate::output;
-use crate::progress::Points;
+use crate::progress::Progress;
+use crate::table::Format;
+use crate::table::column::{Column, Kind};
 use crate::table::growing::Growing;
-use crate::table::{Column, Format, Kind, header, quoted};
-use rocking::scene_file::{MOST_BLOCKS, Setting};
-use rocking::sweep::{Ask, Fate, Row, Sweep};
+use crate::terminal::{json, print};
+use crate::text::{printable, shown};
+use csv::StringRecord;
+use rocking::SceneFileError;
+use rocking::scene_file::{Cause, MOST_BLOCKS, Setting};
+use rocking::sweep::{Ask, Axis, Fate, Row, Sweep};
 use serde::Serialize;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Points run together at first. Batches grow and shrink to take [`PATIENCE`]: long enough to keep all threads busy, short enough that
-/// little is lost when a sweep is cut off. Rows do not depend on them.
-const BATCH: usize = 256;
-const MOST: usize = 1 << 16;
-const PATIENCE: Duration = Duration::from_millis(250);
+/// Points run together: at first, and at most. Batches grow and shrink to take [`BATCH_TIME`]: long enough to keep all threads busy,
+/// short enough that little is lost when a sweep is cut off. Rows do not depend on them.
+const FIRST_BATCH: usize = 256;
+const LARGEST_BATCH: usize = 1 << 16;
+const BATCH_TIME: Duration = Duration::from_millis(250);
 
 /// Runs a sweep, or what is left of it.
-///
-/// # Errors
-/// [`Failure`]
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let out = asked.table();
     let format = Format::of(&out)?;
-    let sweep = Sweep::from_file(&asked.file).map_err(Failure::scene)?;
+    let sweep = read(&asked.file)?;
     if asked.plot.is_some() {
         spectrum::check(asked, &sweep)?;
     }
-    let target = check_files(asked, &sweep)?;
-    let range = asked.shard.map_or(0..sweep.len(), |shard| shard.of(sweep.len()));
+    let mut outputs = vec![out.clone()];
+    outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
+    let target = output::target(&out)?;
+    let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let columns = columns(&sweep)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.map_or(0, usize::from)).build();
-    let threads = threads.map_err(|error| Failure::Print { problem: error.to_string() })?;
-    let failed = |error: std::io::Error| Failure::File { path: out.clone(), problem: error.to_string() };
-    let fingerprint = fingerprint(&sweep, &range, &asked.file)?;
-    let mut table = Growing::open(&target, &header(&columns), fingerprint, range.clone())?;
-    let bar = Points::new(range.len(), table.next - range.start, asked.quiet || asked.json);
+    let threads = threads.map_err(|error| Failure::Print(error.to_string()))?;
+    let mut digest = Fnv::of(&sweep, &asked.file)?;
+    if asked.shard.is_some() {
+        output::file(&digest_file(&out), digest.to_string())?;
+    }
+    digest.add(format!("{range:?}").as_bytes());
+    let mut table = Growing::open(&target, &columns, digest.0, range.clone())?;
     let resumed = table.next - range.start;
-    let (mut size, mut next, mut last) = (BATCH, table.next, Vec::new());
+    let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
+    let (mut size, mut next, mut last) = (FIRST_BATCH, table.next, Vec::new());
     while table.next < range.end {
         let begun = Instant::now();
         let batch = next..range.end.min(next + size);
         next = batch.end;
         // A batch is written while the one after it runs.
-        let run = || sweep.lines(batch, |row| line(&row, columns.len()));
-        let (lines, written) = threads.install(|| rayon::join(run, || table.append(last.into_iter())));
-        written.map_err(failed)?;
-        last = lines;
+        let run = || sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()));
+        let (rows, written) = threads.install(|| rayon::join(run, || table.append(&last)));
+        written.map_err(at(Failure::File, &out))?;
+        last = rows;
         bar.reached(table.next - range.start);
-        size = if begun.elapsed() < PATIENCE { (2 * size).min(MOST) } else { (size / 2).max(BATCH) };
+        size = if begun.elapsed() < BATCH_TIME { (2 * size).min(LARGEST_BATCH) } else { (size / 2).max(FIRST_BATCH) };
     }
     bar.finish();
-    let broken = |error: std::io::Error| Failure::Part { path: table.part.clone(), problem: error.to_string() };
-    let tally = if asked.quiet { None } else { Some(Tally::of(&table.part).map_err(broken)?) };
+    let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
-    let drawn = match &asked.plot {
-        Some(picture) => spectrum::draw(&out, picture)?,
-        None => String::new(),
-    };
-    let Some(tally) = tally else { return Ok(()) };
+    let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
     if asked.json {
-        return json(&tally);
+        json(&tally)?;
+    } else if !asked.quiet {
+        let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
+        print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), shown(&out)))?;
     }
-    let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-    print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), out.display()))
+    match first_error {
+        Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
+        _ => Ok(()),
+    }
 }
 
-/// Where the table is put, if nothing that the sweep is made of, or writes elsewhere, is written over.
-fn check_files(asked: &arguments::Sweep, sweep: &Sweep) -> Result<PathBuf, Failure> {
-    let mut outputs = vec![asked.table()];
-    outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
-    output::check(&outputs, &inputs_of(&asked.file, sweep))?;
-    output::target(&outputs[0])
+/// Reads a sweep, and refuses axes without effect on its rows.
+pub fn read(file: &Path) -> Result<Sweep, Failure> {
+    inputs::check(file)?;
+    let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
+    // Friction demand is compared with the coefficient in the summary of a run only, and a table has none.
+    if let Some(axis) = sweep.axes.iter().find(|axis| axis.key == "friction") {
+        return Err(Failure::IdleAxis(file.into(), axis.key.clone()));
+    }
+    check_keys(&sweep)?;
+    Ok(sweep)
+}
+
+/// Points of a sweep whose scenes are read before it is run.
+const SAMPLES: usize = 64;
+
+/// Refuses a key that no scene knows. `Sweep::from_file` does so by its first scene; where that has a record that cannot be read, the
+/// others are asked here.
+fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
+    let is_of_key = |error: &SceneFileError| matches!(error, SceneFileError::Scene { cause: Cause::Key, .. });
+    if !matches!(sweep.scene(0), Err(SceneFileError::Record { .. } | SceneFileError::Unreadable { .. })) {
+        return Ok(());
+    }
+    let last = sweep.len() - 1;
+    let spread = (1..SAMPLES).map(|sample| (last as u128 * sample as u128 / (SAMPLES - 1) as u128) as usize);
+    let samples = (1..last.min(SAMPLES)).chain(spread).map(|index| sweep.scene(index).err());
+    // Records that cannot be read are rows with errors.
+    let mut others = samples.filter(|error| !matches!(error, Some(SceneFileError::Record { .. })));
+    match others.next() {
+        Some(Some(error)) if is_of_key(&error) && others.all(|other| other.as_ref().is_some_and(is_of_key)) => {
+            Err(Failure::scene(error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The files that a sweep is made of, its own among them.
@@ -92,57 +127,20 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     sweep.template.records().into_iter().chain(of_axes).collect()
 }
 
-/// A part of a sweep, for one of several machines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// From 1.
-    number: usize,
-    count: usize,
-}
-
-impl Shard {
-    /// Reads `K/M`.
-    ///
-    /// # Errors
-    /// What to write instead.
-    pub fn parse(text: &str) -> Result<Shard, String> {
-        let numbers = text.split_once('/').and_then(|(k, m)| Some((k.parse().ok()?, m.parse().ok()?)));
-        match numbers {
-            Some((number, count)) if number >= 1 && number <= count => Ok(Shard { number, count }),
-            _ => Err("write K/M, the K-th of M parts, e.g. 2/8".into()),
-        }
-    }
-
-    /// Its points: parts differ by one point at most.
-    fn of(self, points: usize) -> Range<usize> {
-        let edge = |number: usize| (points as u128 * number as u128 / self.count as u128) as usize;
-        edge(self.number - 1)..edge(self.number)
-    }
-}
-
-/// As in the name of a file.
-impl std::fmt::Display for Shard {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}-of-{}", self.number, self.count)
-    }
-}
-
-/// The column of what became of the column.
+/// The `outcome` column of a table.
 pub const OUTCOME: &str = "outcome";
 
-/// The column of when it overturned.
+/// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
 /// The columns of the table of a sweep.
-///
-/// # Errors
-/// [`Failure::Scene`]
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
-    let mut columns = vec![Column::full("index", Kind::Whole)];
-    columns.extend(sweep.axes.iter().map(|axis| {
+    let of_axis = |axis: &Axis| {
         let is_number = axis.values.iter().all(|value| matches!(value, Setting::Number(_)));
         Column::full(&axis.key, if is_number { Kind::Number } else { Kind::Text })
-    }));
+    };
+    let mut columns = vec![Column::full("index", Kind::Whole)];
+    columns.extend(sweep.axes.iter().map(of_axis));
     columns.push(Column::full(OUTCOME, Kind::Text));
     columns.push(Column::sparse("impacts", Kind::Whole));
     columns.push(Column::sparse("block", Kind::Whole));
@@ -160,14 +158,20 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     Ok(columns)
 }
 
-/// A row as a line of so many cells of CSV.
-fn line(row: &Row, columns: usize) -> String {
+/// A row as so many cells.
+fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     let mut cells = vec![row.index.to_string()];
-    cells.extend(row.settings.iter().map(|setting| quoted(&setting.to_string())));
+    cells.extend(row.settings.iter().map(|setting| printable(&setting.to_string()).into_owned()));
     match &row.result {
         Ok(outcome) => {
+            // A run that ends when its outcome is certain has not had all its impacts.
+            let is_counted = match outcome.fate {
+                Fate::NoUplift => true,
+                Fate::Rocks => ask == Ask::Peaks,
+                Fate::Overturns => ask != Ask::Overturns,
+            };
             cells.push(outcome.fate.name().into());
-            cells.push(outcome.impacts.to_string());
+            cells.push(if is_counted { outcome.impacts.to_string() } else { String::new() });
             cells.push(outcome.block.map_or(String::new(), |block| block.to_string()));
             cells.push(outcome.overturned_at.map_or(String::new(), |t| format!("{t:?}")));
             cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
@@ -181,41 +185,40 @@ fn line(row: &Row, columns: usize) -> String {
         Err(error) => {
             cells.push("error".into());
             cells.resize(columns - 1, String::new());
-            cells.push(quoted(&error.to_string()));
+            cells.push(printable(&error.to_string()).into_owned());
         }
     }
-    cells.join(",")
+    cells.into()
 }
 
-/// A number that changes with all that decides the rows: version, scene, axes, records, range.
-fn fingerprint(sweep: &Sweep, range: &Range<usize>, file: &Path) -> Result<u64, Failure> {
-    let mut hash = Fnv::default();
-    hash.add(env!("CARGO_PKG_VERSION").as_bytes());
-    hash.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
-    hash.add(sweep.template.text().as_bytes());
-    hash.add(format!("{range:?}").as_bytes());
-    for axis in &sweep.axes {
-        hash.add(axis.key.as_bytes());
-        axis.values.iter().for_each(|value| hash.add(value.to_string().as_bytes()));
-    }
-    // Another record of the same name gives other rows.
-    for record in records(sweep) {
-        hash.add(&rocking::ground::read_file(record).unwrap_or_default());
-    }
-    Ok(hash.0)
+/// The file with the digest of the sweep that a shard's table is of.
+pub fn digest_file(table: &Path) -> PathBuf {
+    let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    table.with_file_name(format!("{name}.digest"))
 }
 
-/// Fowler, Noll & Vo's hash, 1a, of 64 bits: the same in every version and on every machine.
-#[derive(Debug)]
-struct Fnv(u64);
-
-impl Default for Fnv {
-    fn default() -> Fnv {
-        Fnv(0xcbf2_9ce4_8422_2325)
-    }
-}
+/// A digest: Fowler, Noll & Vo's hash, 1a, of 64 bits, the same in every version and on every machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fnv(u64);
 
 impl Fnv {
+    /// The digest of all that decides the rows of a sweep: version, scene, axes, records.
+    pub fn of(sweep: &Sweep, file: &Path) -> Result<Fnv, Failure> {
+        let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
+        digest.add(env!("CARGO_PKG_VERSION").as_bytes());
+        digest.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
+        digest.add(sweep.template.text().as_bytes());
+        for axis in &sweep.axes {
+            digest.add(axis.key.as_bytes());
+            axis.values.iter().for_each(|value| digest.add(value.to_string().as_bytes()));
+        }
+        // Another record of the same name gives other rows.
+        for record in records(sweep) {
+            digest.add(&crate::files::read(&record, crate::files::LARGEST_RECORD).unwrap_or_default());
+        }
+        Ok(digest)
+    }
+
     fn add(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(b"\0") {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
@@ -223,7 +226,13 @@ impl Fnv {
     }
 }
 
-/// How many rows have which outcome.
+impl std::fmt::Display for Fnv {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+/// Number of rows by outcome.
 #[derive(Debug, Default, Serialize)]
 struct Tally {
     no_uplift: usize,
@@ -233,24 +242,24 @@ struct Tally {
 }
 
 impl Tally {
-    /// Of rows of CSV.
-    fn of(path: &Path) -> std::io::Result<Tally> {
-        let mut tally = Tally::default();
+    /// The tally of a table of CSV, and the first error in it.
+    fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
+        let (mut tally, mut first_error) = (Tally::default(), None);
         let mut reader = csv::Reader::from_path(path)?;
         let outcome = reader.headers()?.iter().position(|name| name == OUTCOME);
         for row in reader.records() {
             let row = row?;
-            let name = outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default();
-            let count =
-                match [Fate::NoUplift, Fate::Rocks, Fate::Overturns].into_iter().find(|fate| fate.name() == name) {
-                    Some(Fate::NoUplift) => &mut tally.no_uplift,
-                    Some(Fate::Rocks) => &mut tally.rocks,
-                    Some(Fate::Overturns) => &mut tally.overturns,
-                    None => &mut tally.errors,
-                };
-            *count += 1;
+            *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
+                name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
+                name if name == Fate::Rocks.name() => &mut tally.rocks,
+                name if name == Fate::Overturns.name() => &mut tally.overturns,
+                _ => {
+                    first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
+                    &mut tally.errors
+                }
+            } += 1;
         }
-        Ok(tally)
+        Ok((tally, first_error))
     }
 }
 
@@ -258,22 +267,5 @@ impl std::fmt::Display for Tally {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Tally { no_uplift, rocks, overturns, errors } = self;
         writeln!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}, errors {errors}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shards_cover_all_points_once() {
-        for (points, count) in [(10, 3), (7, 7), (3, 5), (1_000_003, 64)] {
-            let parts: Vec<Range<usize>> = (1..=count).map(|number| Shard { number, count }.of(points)).collect();
-            assert_eq!((parts[0].start, parts[count - 1].end), (0, points));
-            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
-            let lengths: Vec<usize> = parts.iter().map(Range::len).collect();
-            assert!(lengths.iter().max().zip(lengths.iter().min()).is_some_and(|(most, least)| most - least <= 1));
-        }
-        assert!(["0/3", "4/3", "1", "a/b", "1/0"].iter().all(|text| Shard::parse(text).is_err()));
     }
 }

@@ -13,10 +13,10 @@ pub struct Axis {
     pub numbers: bool,
 }
 
-/// Room beyond the values, as a share of their range.
+/// Margin beyond the values, as a share of their range.
 const ROOM: f64 = 0.06;
 
-/// How far an axis reaches to both sides of zero where all values are zero: its numbers are short, and nothing looks like motion.
+/// Half of the range of an axis whose values are all zero: its numbers are short.
 const STILL: f64 = 0.1;
 
 impl Axis {
@@ -35,12 +35,12 @@ impl Axis {
         Axis::over(label, [middle - reach, middle + reach], ticks)
     }
 
-    /// The same without numbers.
+    /// The axis without numbers.
     pub fn unnumbered(&self) -> Axis {
         Axis { numbers: false, ..self.clone() }
     }
 
-    /// Where a value is along the axis, from 0 to 1.
+    /// Position of a value along the axis, from 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.range[0]) / (self.range[1] - self.range[0])
     }

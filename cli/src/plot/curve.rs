@@ -1,39 +1,33 @@
 //! Curves on paper `[px]`: thinned to what can be seen, cut at the frame, cut into dashes.
 //!
-//! Dashes are cut here rather than by whoever draws: all outputs then show the same, and a raster that starts its dashes anew at
-//! every point would show none.
+//! Dashes are cut here and not by the SVG reader or the raster, so that both outputs show the same: the raster would start its dashes
+//! anew at every point and show none.
 
 use std::collections::HashSet;
 
 /// `[x, y]`, y downwards on paper.
 pub type Point = [f64; 2];
 
-/// A rectangle on paper.
+/// A rectangle on paper `[px]`; width and height are above zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Of the left edge.
     pub left: f64,
-    /// Of the upper edge.
     pub top: f64,
-    /// Above zero.
     pub width: f64,
-    /// Above zero.
     pub height: f64,
 }
 
 impl Frame {
-    /// Of the right edge.
     pub fn right(&self) -> f64 {
         self.left + self.width
     }
 
-    /// Of the lower edge.
     pub fn bottom(&self) -> f64 {
         self.top + self.height
     }
 }
 
-/// How wide the columns are in which [`thin_along_x`] keeps extremes `[px]`: wider ones let the drops of an energy lean.
+/// Width of the columns in which [`thin_along_x`] keeps extremes `[px]`: wider columns would make the drops of an energy slope.
 const COLUMN: f64 = 0.5;
 
 /// A curve that runs to the right: first, smallest, largest and last point of every pixel column, in their order.
@@ -53,7 +47,7 @@ pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// A curve may be drawn so far from its points `[px]`: a tenth of a pixel of the PNG.
+/// Largest distance of a drawn curve from its points `[px]`: a tenth of a pixel of the PNG.
 const STRAIGHT: f64 = 0.03;
 
 /// A curve without the points that lie on a straight line between others (Douglas and Peucker 1973).
@@ -80,8 +74,11 @@ fn distance(point: Point, from: Point, to: Point) -> f64 {
     (out[0] - share * along[0]).hypot(out[1] - share * along[1])
 }
 
-/// Side of the squares of ink `[px]`, half of a line's width: what lies in one that has been drawn in cannot be told from it.
+/// Side of the squares of ink `[px]`, half of a line's width: a second line within a square could not be seen.
 const INK_SQUARE: f64 = 0.7;
+
+/// Squares of a straight line at most.
+const MOST_SQUARES: f64 = 10_000.0;
 
 /// Squares that have been drawn in.
 #[derive(Debug, Default)]
@@ -95,7 +92,8 @@ impl Ink {
         let mut joined = false;
         for ends in run.windows(2) {
             let [from, to] = [ends[0], ends[1]];
-            let squares = ((to[0] - from[0]).hypot(to[1] - from[1]) / INK_SQUARE).ceil();
+            // Nothing on paper is longer; beyond its edges no square needs ink.
+            let squares = ((to[0] - from[0]).hypot(to[1] - from[1]) / INK_SQUARE).ceil().min(MOST_SQUARES);
             let mut new = false;
             for square in 0..=squares as i32 {
                 let share = f64::from(square) / squares.max(1.0);
@@ -116,7 +114,8 @@ impl Ink {
 /// The parts of a curve inside a frame.
 pub fn clip(run: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
-    for ends in run.windows(2) {
+    let is_finite = |ends: &&[Point]| ends.iter().flatten().all(|part| part.is_finite());
+    for ends in run.windows(2).filter(is_finite) {
         let Some([from, to]) = clip_segment(ends[0], ends[1], frame) else { continue };
         match parts.last_mut() {
             Some(part) if part.last() == Some(&from) => part.push(to),
@@ -152,8 +151,8 @@ fn clip_segment(from: Point, to: Point, frame: &Frame) -> Option<[Point; 2]> {
     (enters <= leaves).then_some([first, last])
 }
 
-/// A curve longer than this `[px]`, forty times the width of a panel, runs to and fro so densely that its dashes make no line: it
-/// is drawn solid.
+/// Longest curve that is dashed `[px]`, forty times the width of a panel: a longer curve runs to and fro so densely that dashes would
+/// not be seen.
 const TOO_LONG_FOR_DASHES: f64 = 25_000.0;
 
 /// Cuts a curve into dashes; `lengths` are of dashes and gaps in turn. A solid line stays as it is.

@@ -1,10 +1,9 @@
 //! Energy over time: kinetic, potential and both.
 
-use super::Figure;
 use super::axis::{Axis, brief};
 use super::curve::Point;
 use super::motion::Motion;
-use super::sheet::{Anchor, Key, Panel, Sheet};
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
 use rocking::Sample;
@@ -27,7 +26,7 @@ pub fn draw(motion: &Motion) -> Figure {
     let still = vec![0.0; column.len()];
     let rest = Sample { t: 0.0, theta: still.clone(), omega: still, ground: [0.0; 2], pattern };
     let level = rest.energy(column).potential;
-    // Beyond, energies only tell how far it has fallen.
+    // After the fall has begun, energies show only how far the column has fallen.
     let fall = motion.falls_at().unwrap_or(f64::INFINITY);
     let mut curves: [Vec<Point>; 3] = [const { Vec::new() }; 3];
     for row in motion.knots.iter().flat_map(|knot| knot.rows()) {

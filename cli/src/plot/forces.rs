@@ -1,10 +1,9 @@
 //! Contact forces over time: normal force over the weight above, and the friction that each interface asks for.
 
-use super::Figure;
 use super::axis::{Axis, brief, span};
 use super::curve::{self, Point};
 use super::motion::Motion;
-use super::sheet::{Anchor, Key, Panel, Sheet};
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
 
@@ -18,6 +17,9 @@ const GAP: f64 = 16.0;
 const LARGEST_DEMAND: f64 = 2.0;
 /// The axis of normal forces ends at so many weights: a column that lies down hits hard.
 const LARGEST_NORMAL: f64 = 5.0;
+
+/// The coefficient that the scene has.
+const AVAILABLE: Stroke = Stroke::dashed(style::INK, 1.8, &[10.0, 5.0]);
 
 /// Curves of one interface over time. Friction demand has gaps where nothing presses.
 struct Contact {
@@ -48,10 +50,9 @@ pub fn draw(motion: &Motion) -> Figure {
     }
     mark_ending(&mut sheet, motion, &normal, Anchor::Start);
 
-    let recorded = summary.friction_demand.iter().flatten();
-    let [_, needed] = span(recorded.copied().chain(demands(&contacts)));
-    let most = LARGEST_DEMAND.max(summary.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
-    let least = summary.friction.unwrap_or(0.05) * 1.15;
+    let [_, needed] = span(summary.friction_demand.iter().copied().chain(demands(&contacts)));
+    let most = LARGEST_DEMAND.max(summary.given.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
+    let least = summary.given.friction.unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
     let friction = Panel::wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
@@ -63,10 +64,8 @@ pub fn draw(motion: &Motion) -> Figure {
         });
         sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
     }
-    if let Some(available) = summary.friction {
-        sheet.level(&friction, available, &Stroke::dashed(style::INK, 1.8, &[10.0, 5.0]));
-        let at = [friction.frame.right() - 8.0, friction.place([0.0, available])[1] - 6.0];
-        sheet.words_on_paper(at, &format!("friction coefficient {}", brief(available)), style::NOTE, Anchor::End);
+    if let Some(available) = summary.given.friction {
+        sheet.level(&friction, available, &AVAILABLE);
     }
     let below = sheet.label_below(&friction);
     sheet.height = largest_demands(&mut sheet, motion, &friction, below) + 8.0;
@@ -99,20 +98,24 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
     contacts.iter().flat_map(|contact| &contact.demand).flatten().map(|point| point[1])
 }
 
-/// Where the run's largest demands are, at the right edge, and what they are, below: events between the output times count too.
+/// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
 fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) -> f64 {
-    let mut entries = vec![(Key::None, "Largest demand of the whole run (◂):".to_string())];
-    for (interface, demand) in motion.results.summary.friction_demand.iter().enumerate() {
-        let what = demand.map_or("no friction is enough".into(), brief);
+    let summary = &motion.results.summary;
+    let available = summary.given.friction.map(|friction| format!("friction coefficient {}", brief(friction)));
+    // Below the panel and not along its line: there the name would lie on the curves.
+    let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
+    if !summary.friction_demand.is_empty() {
+        entries.push((Key::None, "Largest demand of the whole run (◂):".to_string()));
+    }
+    for (interface, demand) in summary.friction_demand.iter().enumerate() {
+        let what = if demand.is_finite() { brief(*demand) } else { "no friction is enough".into() };
         entries.push((Key::Line(style::line(interface)), what));
-        let Some(demand) = demand.filter(|demand| panel.reaches(*demand)) else { continue };
-        let [x, y] = [panel.frame.right() + 2.0, panel.place([0.0, demand])[1]];
-        sheet.areas(vec![vec![[x, y], [x + 11.0, y - 5.0], [x + 11.0, y + 5.0]]], style::line(interface).color);
+        if panel.reaches(*demand) {
+            let [x, y] = [panel.frame.right() + 2.0, panel.place([0.0, *demand])[1]];
+            sheet.areas(vec![vec![[x, y], [x + 11.0, y - 5.0], [x + 11.0, y + 5.0]]], style::line(interface).color);
+        }
     }
-    if motion.results.summary.friction_demand.is_empty() {
-        return top;
-    }
-    sheet.legend(top, &entries)
+    if entries.is_empty() { top } else { sheet.legend(top, &entries) }
 }
 
 fn caption(motion: &Motion, contacts: &[Contact], panel: &Panel) -> String {
@@ -120,11 +123,12 @@ fn caption(motion: &Motion, contacts: &[Contact], panel: &Panel) -> String {
         "At output times: normal force of each interface over the weight above it (dashed: 1), and below the friction \
          coefficient it asks for",
     );
-    match motion.results.summary.friction {
+    match motion.results.summary.given.friction {
         Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
         None => caption.push_str("; the scene names no friction coefficient."),
     }
-    let beyond = demands(contacts).chain(motion.results.summary.friction_demand.iter().flatten().copied());
+    let beyond = demands(contacts)
+        .chain(motion.results.summary.friction_demand.iter().copied().filter(|demand| demand.is_finite()));
     if beyond.into_iter().any(|demand| !panel.reaches(demand)) {
         caption.push_str(" Larger demands leave the panel.");
     }

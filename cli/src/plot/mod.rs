@@ -14,6 +14,7 @@ mod axis;
 mod curve;
 mod energy;
 mod forces;
+pub mod modes;
 mod motion;
 mod phase_portrait;
 mod record;
@@ -23,38 +24,18 @@ mod style;
 pub mod terminal;
 mod time_history;
 
-use crate::results::Results;
+use crate::run_folder::Results;
 use motion::Motion;
-use sheet::Sheet;
 
 pub use motion::FALL;
 pub use record::record;
+pub use sheet::Figure;
 
-/// A figure: a stand-alone SVG document, and what it is made of.
-#[derive(Clone, Debug)]
-pub struct Figure {
-    /// File name without extension, e.g. `time-history`.
-    pub name: &'static str,
-    /// What it shows, in a sentence for the reader of a report.
-    pub caption: String,
-    /// The document.
-    pub svg: String,
-    sheet: Sheet,
-}
-
-impl Figure {
-    fn new(name: &'static str, caption: String, sheet: Sheet) -> Figure {
-        Figure { name, svg: sheet.svg(&caption), caption, sheet }
-    }
-}
+/// Names of the figures of a run, in the order of [`figures`].
+pub const NAMES: [&str; 4] = ["time-history", "phase-portrait", "energy", "forces"];
 
 /// All figures of a run, in the order in which they are read.
 pub fn figures(results: &Results) -> Vec<Figure> {
     let motion = Motion::of(results);
     vec![time_history::draw(&motion), phase_portrait::draw(&motion), energy::draw(&motion), forces::draw(&motion)]
-}
-
-/// A figure as a PNG file, three pixels for one of the SVG.
-pub fn png(figure: &Figure) -> Vec<u8> {
-    figure.sheet.png()
 }

@@ -3,7 +3,7 @@
 //! Rows may lie far apart; events hold the angles and the rates on both sides of an impact, so that curves break where they must.
 
 use super::curve::Point;
-use crate::results::{Event, Results};
+use crate::run_folder::{Event, Results};
 use rocking::pattern::Pattern;
 use rocking::{EventKind, ModeName, Sample, StopReason};
 
@@ -33,16 +33,15 @@ pub struct Stretch {
     pub mirrored: bool,
 }
 
-/// What of a run is drawn.
+/// The part of a run that is drawn.
 #[derive(Debug)]
 pub struct Motion<'a> {
-    /// The run.
     pub results: &'a Results,
     /// The rows that are drawn: those after overturning only fill the file.
     pub samples: &'a [Sample],
     /// Rows and events in order of time.
     pub knots: Vec<Knot<'a>>,
-    /// Where axes of time end `[s]`.
+    /// End of the axes of time `[s]`.
     pub end: f64,
 }
 
@@ -57,7 +56,7 @@ impl Motion<'_> {
     pub fn of(results: &Results) -> Motion<'_> {
         let summary = &results.summary;
         let last = results.samples.last().map_or(0.0, |sample| sample.t);
-        let (mut count, mut end) = (results.samples.len(), last.max(summary.options.t_end));
+        let (mut count, mut end) = (results.samples.len(), last.max(summary.given.options.t_end));
         if summary.status == StopReason::Overturned {
             // The first row after it holds the column as it was then.
             count = (results.samples.partition_point(|sample| sample.t < summary.t_final) + 1).min(count);
@@ -91,7 +90,7 @@ impl Motion<'_> {
         falling.filter(|_| self.overturned()).map(|knot| knot.t)
     }
 
-    /// What the run ended with, to be written at its time; none where time was over first, or nothing began.
+    /// Time `[s]` and name of the end of the run; none where the run lasted its whole time, or nothing moved.
     pub fn ending(&self) -> Option<(f64, String)> {
         let summary = &self.results.summary;
         match (summary.status, summary.overturned_block) {

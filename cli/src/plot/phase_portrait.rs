@@ -1,10 +1,9 @@
 //! Rates over angles, a panel per block; impacts jump from one rate to the next at the same angle.
 
-use super::Figure;
 use super::axis::{Axis, subscript};
 use super::curve::{self, Frame, Ink, Point};
 use super::motion::{FALL, Motion};
-use super::sheet::{Anchor, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
+use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
 use super::style::{self, Stroke};
 
 /// Room around panels `[px]`.

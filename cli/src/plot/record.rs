@@ -1,9 +1,8 @@
 //! An accelerogram: acceleration, velocity, displacement, and how its Arias intensity builds up.
 
-use super::Figure;
 use super::axis::{Axis, brief};
 use super::curve::Point;
-use super::sheet::{Anchor, Panel, Sheet};
+use super::sheet::{Anchor, Figure, Panel, Sheet};
 use super::style::{self, Stroke};
 
 /// Heights `[px]`.

@@ -1,4 +1,4 @@
-//! The sheet of paper: marks as plain data, and how they become SVG and PNG. The only file that knows `kuva`.
+//! The sheet of paper: what is drawn on it, and how that becomes SVG and PNG. The only file that knows `kuva`.
 //!
 //! `kuva` draws frames, ticks, grids and text, and writes both outputs from one list of primitives, so that they show the same. It
 //! brings its font for PNGs; SVGs name a family. Curves come to it thinned, clipped and dashed ([`super::curve`]), so that
@@ -7,12 +7,12 @@
 use super::axis::{self, Axis};
 use super::curve::{self, Frame, Point};
 use super::style::{self, Stroke};
-use crate::markup::escape;
+use crate::text::{escape, printable};
 use kuva::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::axis::add_axes_and_grid;
 use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use kuva::render::render::{PathData, Primitive, Scene};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -28,67 +28,49 @@ const PNG_SCALE: f32 = 3.0;
 /// A sheet: what is drawn later lies on top.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// What it is, for those who cannot see it.
+    /// Title, for those who cannot see the sheet.
     pub title: String,
+    /// `[px]`
+    pub width: f64,
     /// `[px]`
     pub height: f64,
     /// In the order of drawing.
-    pub marks: Vec<Mark>,
+    drawn: Vec<Primitive>,
 }
 
-/// Something on a sheet; coordinates `[px]`.
+/// A figure: a stand-alone SVG document, and what it is made of.
 #[derive(Clone, Debug)]
-pub enum Mark {
-    /// Frame, ticks and numbers.
-    Axes(Panel),
-    /// Lines, dashes among them, as one.
-    Lines {
-        /// Ends and corners.
-        runs: Vec<Vec<Point>>,
-        /// Its dashes have been cut.
-        stroke: Stroke,
-    },
-    /// Filled polygons, as one.
-    Areas {
-        /// Corners.
-        areas: Vec<Vec<Point>>,
-        /// As SVG has it.
-        fill: &'static str,
-    },
-    /// Text; `at` is the end of its base line that `anchor` names.
-    Words {
-        /// See above.
-        at: Point,
-        /// What it says.
-        text: String,
-        /// `[px]`
-        size: u32,
-        /// See above.
-        anchor: Anchor,
-        /// Upwards rather than to the right.
-        upwards: bool,
-    },
+pub struct Figure {
+    /// File name without extension, e.g. `time-history`.
+    pub name: &'static str,
+    /// Content in a sentence, for the reader of a report.
+    pub caption: String,
+    /// The document.
+    pub svg: String,
+    sheet: Sheet,
 }
 
-/// Which part of a text is where it was put.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// Its left end.
-    Start,
-    /// Its middle.
-    Middle,
-    /// Its right end.
-    End,
+impl Figure {
+    /// A sheet with its name and its caption.
+    pub fn new(name: &'static str, caption: String, sheet: Sheet) -> Figure {
+        Figure { name, svg: sheet.svg(&caption), caption, sheet }
+    }
+
+    /// A file: PNG, three pixels for one of the SVG, or the SVG itself.
+    pub fn bytes(&self, in_pixels: bool) -> Vec<u8> {
+        if in_pixels { self.sheet.png() } else { self.svg.clone().into_bytes() }
+    }
 }
+
+/// The part of a text that stands at its place: its left end, its middle or its right end.
+pub use kuva::render::render::TextAnchor as Anchor;
 
 /// A frame with axes.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// Where it is.
     pub frame: Frame,
-    /// To the right.
     pub x: Axis,
-    /// Upwards; none for a strip in which height means nothing.
+    /// None for a strip in which height means nothing.
     pub y: Option<Axis>,
 }
 
@@ -98,13 +80,13 @@ impl Panel {
         Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
     }
 
-    /// Where a pair of values is on paper.
+    /// Position of a pair of values on paper.
     pub fn place(&self, [x, y]: Point) -> Point {
         let up = self.y.as_ref().map_or(0.0, |axis| axis.share(y));
         [self.place_x(x), self.frame.bottom() - self.frame.height * up]
     }
 
-    /// Where a value is along the axis to the right.
+    /// Position of a value along the axis to the right `[px]`.
     pub fn place_x(&self, x: f64) -> f64 {
         self.frame.left + self.frame.width * self.x.share(x)
     }
@@ -136,25 +118,47 @@ const ENTRY_GAP: f64 = 20.0;
 impl Sheet {
     /// An empty sheet.
     pub fn new(title: &str) -> Sheet {
-        Sheet { title: title.into(), height: 0.0, marks: Vec::new() }
+        Sheet { title: title.into(), width: WIDTH, height: 0.0, drawn: Vec::new() }
     }
 
-    /// Frame, ticks and numbers of a panel, with the label of its upward axis.
-    pub fn axes(&mut self, panel: &Panel) {
-        self.marks.push(Mark::Axes(panel.clone()));
+    /// Frame, ticks and numbers of a panel.
+    pub fn axes(&mut self, Panel { frame, x, y }: &Panel) {
+        let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
+        // Frames are where their margins put them, however high the sheet turns out.
+        let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
+            .with_width(self.width)
+            .with_height(frame.bottom())
+            .with_force_margins(frame.left, self.width - frame.right())
+            .with_force_margins_y(frame.top, 0.0)
+            .with_x_axis_min(x.range[0])
+            .with_x_axis_max(x.range[1])
+            .with_y_axis_min(y_range[0])
+            .with_y_axis_max(y_range[1])
+            .with_x_tick_step(x.step)
+            .with_y_tick_step(y.as_ref().map_or(1.0, |axis| axis.step))
+            .with_x_tick_format(numbers(x))
+            .with_tick_size(style::NUMBER)
+            .with_tick_length(4.0)
+            .with_show_grid(y.is_some())
+            .with_box_axes();
+        layout.theme.grid_color = style::FAINT.into();
+        layout.theme.axis_color = style::INK.into();
+        layout.theme.tick_color = style::INK.into();
+        layout.suppress_y_ticks = y.is_none();
+        if let Some(axis) = y {
+            layout = layout.with_y_tick_format(numbers(axis));
+        }
+        let mut scene = Scene::new(self.width, frame.bottom());
+        add_axes_and_grid(&mut scene, &ComputedLayout::from_layout(&layout), &layout);
+        let unlabelled = |drawn: &Primitive| matches!(drawn, Primitive::Text { content, .. } if content.is_empty());
+        self.drawn.extend(scene.elements.into_iter().filter(|drawn| !unlabelled(drawn)));
     }
 
     /// The label of the upward axis, left of the numbers of the leftmost panel.
     pub fn label_upwards(&mut self, panel: &Panel) {
         let Some(axis) = &panel.y else { return };
         let at = [panel.frame.left - LEFT + 16.0, panel.frame.top + 0.5 * panel.frame.height];
-        self.marks.push(Mark::Words {
-            at,
-            text: axis.label.clone(),
-            size: style::LABEL,
-            anchor: Anchor::Middle,
-            upwards: true,
-        });
+        self.words_upwards(at, &axis.label, style::LABEL, Anchor::Middle);
     }
 
     /// The label of the axis to the right, below its numbers. Returns where it ends `[px]`.
@@ -167,8 +171,7 @@ impl Sheet {
     /// Lines in a panel, cut at its frame; `runs` on paper.
     pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
         let inside = runs.iter().flat_map(|run| curve::clip(run, &panel.frame));
-        let runs = inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect();
-        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+        self.runs(&inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect::<Vec<_>>(), stroke);
     }
 
     /// A history in a panel: values over time, thinned to what the width can show.
@@ -187,18 +190,67 @@ impl Sheet {
 
     /// A line anywhere.
     pub fn line(&mut self, from: Point, to: Point, stroke: &Stroke) {
-        let runs = curve::dash(&[from, to], stroke.dashes);
-        self.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+        self.runs(&curve::dash(&[from, to], stroke.dashes), stroke);
     }
 
     /// Filled polygons.
     pub fn areas(&mut self, areas: Vec<Vec<Point>>, fill: &'static str) {
-        self.marks.push(Mark::Areas { areas, fill });
+        self.drawn.push(path(&areas, Some(fill), None));
     }
 
-    /// Text.
+    /// A filled polygon with an edge.
+    pub fn shape(&mut self, corners: Vec<Point>, fill: &'static str, edge: &Stroke) {
+        self.drawn.push(path(&[corners], Some(fill), Some(edge)));
+    }
+
+    /// Lines as one, not cut and not dashed.
+    pub fn runs(&mut self, runs: &[Vec<Point>], stroke: &Stroke) {
+        self.drawn.push(path(runs, None, Some(stroke)));
+    }
+
+    /// A pivot: a dark dot in a light ring.
+    pub fn dot(&mut self, [x, y]: Point) {
+        self.drawn.push(Primitive::Circle {
+            cx: tidy(x),
+            cy: tidy(y),
+            r: 2.8,
+            fill: style::INK.into(),
+            fill_opacity: None,
+            stroke: Some(style::REST_FILL.into()),
+            stroke_width: Some(0.8),
+        });
+    }
+
+    /// Begins a group of marks with a name.
+    pub fn begin_group(&mut self, name: &str) {
+        let title = Some(printable(name).into());
+        self.drawn.push(Primitive::GroupStart { transform: None, title, extra_attrs: None });
+    }
+
+    /// Ends a group of marks.
+    pub fn end_group(&mut self) {
+        self.drawn.push(Primitive::GroupEnd);
+    }
+
+    /// Text; `at` is the end of its base line that `anchor` names.
     pub fn words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: false });
+        self.text(at, text, size, anchor, None, false);
+    }
+
+    /// Text in bold type.
+    pub fn bold_words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        self.text(at, text, size, anchor, None, true);
+    }
+
+    /// Text upwards.
+    pub fn words_upwards(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
+        self.text(at, text, size, anchor, Some(-90.0), false);
+    }
+
+    fn text(&mut self, [x, y]: Point, text: &str, size: u32, anchor: Anchor, rotate: Option<f64>, bold: bool) {
+        // A dollar would begin a formula.
+        let content = printable(text).replace('$', "\\$");
+        self.drawn.push(Primitive::Text { x: tidy(x), y: tidy(y), content, size, anchor, rotate, bold, color: None });
     }
 
     /// Text on a patch of paper, to be read where lines run.
@@ -214,13 +266,13 @@ impl Sheet {
         self.words(at, text, size, anchor);
     }
 
-    /// The same, upwards.
+    /// Upward text on a patch of paper.
     pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         let height = text_width(text, size) + 6.0;
         let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
         let frame = Frame { left: at[0] - f64::from(size), top, width: f64::from(size) + 4.0, height };
         self.areas(vec![corners(&frame)], style::REST_FILL);
-        self.marks.push(Mark::Words { at, text: text.into(), size, anchor, upwards: true });
+        self.words_upwards(at, text, size, anchor);
     }
 
     /// A legend from `top` down, over the width of the panels. Returns where it ends `[px]`.
@@ -255,95 +307,52 @@ impl Sheet {
     pub fn outline(&mut self, frame: &Frame) {
         let mut run = corners(frame);
         run.push(run[0]);
-        self.marks.push(Mark::Lines { runs: vec![run], stroke: style::THIN });
+        self.runs(&[run], &style::THIN);
     }
 
     /// The document, with a caption for those who cannot see it.
     pub fn svg(&self, caption: &str) -> String {
-        let drawn = SvgBackend::new().with_pretty(true).render_scene(&self.scene());
-        // Its root has no view box: the sheet would not scale.
-        let body = drawn.split_once('>').map_or("", |(_, body)| body);
-        let (height, [title, caption]) =
-            (self.height, [self.title.as_str(), caption].map(|text| escape(&visible(text))));
+        let body = self.elements(true);
+        let (width, height, [title, caption]) = (self.width, self.height, [&self.title, caption].map(escape));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
-             viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
              font-family=\"Helvetica, Arial, sans-serif\" fill=\"{}\">\n  <desc>{caption}</desc>{body}",
             style::INK
         )
     }
 
-    /// The same in pixels.
+    /// A document without paper, for a line of text of a page; `attributes` are of its root.
+    pub fn inline(&self, attributes: &str) -> String {
+        let (width, height) = (self.width, self.height);
+        let body = self.elements(false);
+        format!("<svg {attributes} width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">{body}")
+    }
+
+    /// The marks and the end of the root, on white paper or none. The root that `kuva` writes has no view box: a sheet would not scale.
+    fn elements(&self, paper: bool) -> String {
+        let mut scene = self.scene();
+        scene.background_color = scene.background_color.filter(|_| paper);
+        let drawn = SvgBackend::new().with_pretty(paper).render_scene(&scene);
+        drawn.split_once('>').map_or_else(String::new, |(_, body)| body.into())
+    }
+
+    /// The sheet as a PNG file.
     pub fn png(&self) -> Vec<u8> {
         RasterBackend::new().with_scale(PNG_SCALE).render_scene(&self.scene()).expect("a sheet has a size")
     }
 
     fn scene(&self) -> Scene {
-        let mut scene = Scene::new(WIDTH, self.height);
+        let mut scene = Scene::new(self.width, self.height);
         scene.text_color = Some(style::INK.into());
         scene.add(Primitive::GroupStart {
             transform: None,
             title: None,
             extra_attrs: Some("stroke-linecap=\"round\" stroke-linejoin=\"round\"".into()),
         });
-        for mark in &self.marks {
-            match mark {
-                Mark::Axes(panel) => self.draw_axes(&mut scene, panel),
-                Mark::Lines { runs, stroke } => scene.add(path(runs, None, Some(stroke))),
-                Mark::Areas { areas, fill } => scene.add(path(areas, Some(fill), None)),
-                Mark::Words { at, text, size, anchor, upwards } => scene.add(Primitive::Text {
-                    x: tidy(at[0]),
-                    y: tidy(at[1]),
-                    // A dollar would begin a formula.
-                    content: visible(text).replace('$', "\\$"),
-                    size: *size,
-                    anchor: match anchor {
-                        Anchor::Start => TextAnchor::Start,
-                        Anchor::Middle => TextAnchor::Middle,
-                        Anchor::End => TextAnchor::End,
-                    },
-                    rotate: upwards.then_some(-90.0),
-                    bold: false,
-                    color: None,
-                }),
-            }
-        }
+        scene.elements.extend(self.drawn.iter().cloned());
         scene.add(Primitive::GroupEnd);
         scene
-    }
-
-    fn draw_axes(&self, scene: &mut Scene, panel: &Panel) {
-        let Panel { frame, x, y } = panel;
-        let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
-        let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
-            .with_width(WIDTH)
-            .with_height(self.height)
-            .with_force_margins(frame.left, WIDTH - frame.right())
-            .with_force_margins_y(frame.top, self.height - frame.bottom())
-            .with_x_axis_min(x.range[0])
-            .with_x_axis_max(x.range[1])
-            .with_y_axis_min(y_range[0])
-            .with_y_axis_max(y_range[1])
-            .with_x_tick_step(x.step)
-            .with_y_tick_step(y.as_ref().map_or(1.0, |axis| axis.step))
-            .with_x_tick_format(numbers(x))
-            .with_tick_size(style::NUMBER)
-            .with_tick_length(4.0)
-            .with_show_grid(y.is_some())
-            .with_box_axes();
-        layout.theme.grid_color = style::FAINT.into();
-        layout.theme.axis_color = style::INK.into();
-        layout.theme.tick_color = style::INK.into();
-        layout.suppress_y_ticks = y.is_none();
-        if let Some(axis) = y {
-            layout = layout.with_y_tick_format(numbers(axis));
-        }
-        let computed = ComputedLayout::from_layout(&layout);
-        let before = scene.elements.len();
-        add_axes_and_grid(scene, &computed, &layout);
-        let unlabelled = |drawn: &Primitive| matches!(drawn, Primitive::Text { content, .. } if content.is_empty());
-        let drawn = scene.elements.split_off(before);
-        scene.elements.extend(drawn.into_iter().filter(|drawn| !unlabelled(drawn)));
     }
 }
 
@@ -382,7 +391,7 @@ fn tidy(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }
 
-/// How much of a text of this width lies before the point where it was put.
+/// Width of the part of a text before its anchor `[px]`; `width` is that of the whole.
 fn behind(anchor: Anchor, width: f64) -> f64 {
     match anchor {
         Anchor::Start => 0.0,
@@ -400,9 +409,4 @@ pub fn text_width(text: &str, size: u32) -> f64 {
         _ => 0.62,
     };
     f64::from(size) * text.chars().map(em).sum::<f64>()
-}
-
-/// Text without signs that XML does not know, as a file's name may have them.
-fn visible(text: &str) -> String {
-    text.replace(char::is_control, "")
 }

@@ -12,9 +12,8 @@ mod grid;
 mod outline;
 mod scale;
 
-use super::Figure;
 use super::curve::{self, Frame, Point};
-use super::sheet::{Anchor, Key, LEFT, Mark, RIGHT, Sheet, WIDTH, text_width};
+use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, WIDTH, text_width};
 use super::style::{self, Stroke};
 use grid::{Class, Grid, Plane};
 use scale::Scale;
@@ -28,7 +27,7 @@ const TITLE: f64 = 24.0;
 const NUMBERS: f64 = 26.0;
 const GAP: f64 = 14.0;
 const TICK: f64 = 4.0;
-/// How far a number may reach beyond the left end of its axis where another panel is.
+/// Largest overhang of a number beyond the left end of its axis where another panel stands `[px]`.
 const BESIDE: f64 = 2.0;
 /// Most panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
 const MOST_COLUMNS: usize = 4;
@@ -55,6 +54,7 @@ impl Class {
         match self {
             Class::NoUplift => "#ffffff",
             Class::Rocks => "#cfdde9",
+            Class::Overturns => "#0065a0",
             Class::AfterMore => "#e6a52c",
             Class::AfterTwo => "#dd6a12",
             Class::AfterOne => "#0065a0",
@@ -67,6 +67,7 @@ impl Class {
         match self {
             Class::NoUplift => "no uplift",
             Class::Rocks => "rocks and stands",
+            Class::Overturns => "(impacts not counted)",
             Class::AfterMore => "after 3 impacts or more",
             Class::AfterTwo => "after 2 impacts",
             Class::AfterOne => "after 1 impact",
@@ -77,9 +78,6 @@ impl Class {
 }
 
 /// Whether the axes of a sweep can be drawn, before it is run; each with its key and its values as a table has them.
-///
-/// # Errors
-/// [`NoSpectrum`]
 pub fn check(axes: &[(String, Vec<String>)], points: usize) -> Result<(), NoSpectrum> {
     let distinct = |values: &[String]| {
         let mut seen = HashSet::new();
@@ -90,9 +88,6 @@ pub fn check(axes: &[(String, Vec<String>)], points: usize) -> Result<(), NoSpec
 }
 
 /// The spectrum, and the curves of the least value that overturns, of the table of a sweep.
-///
-/// # Errors
-/// [`NoSpectrum`]
 pub fn figures(table: &Path) -> Result<[Figure; 2], NoSpectrum> {
     let grid = Grid::read(table)?;
     Ok([spectrum(&grid), minimum(&grid)])
@@ -141,7 +136,7 @@ impl Place<'_> {
         let widths = self.y_ticks().into_iter().map(|(_, number)| text_width(&number, style::NUMBER));
         let right = self.frame.left - TICK - 14.0 - widths.fold(0.0, f64::max);
         let at = [right.max(16.0), self.frame.top + 0.5 * self.frame.height];
-        sheet.marks.push(Mark::Words { at, text, size: style::LABEL, anchor: Anchor::Middle, upwards: true });
+        sheet.words_upwards(at, &text, style::LABEL, Anchor::Middle);
     }
 
     fn x_ticks(&self) -> Vec<(f64, String)> {
@@ -179,7 +174,7 @@ fn spectrum(grid: &Grid) -> Figure {
         );
         cells(&mut sheet, &place, &grid.panels[panel]);
         let least = staircase(&place, &grid.minimum(panel));
-        sheet.marks.push(Mark::Lines { runs: least, stroke: LEAST });
+        sheet.runs(&least, &LEAST);
         place.axes(&mut sheet, [is_lowest, column == 0]);
         if column == 0 {
             place.label_upwards(&mut sheet, y.label());
@@ -244,7 +239,7 @@ fn cells(sheet: &mut Sheet, place: &Place, cells: &[Class]) {
         }
     }
     if !hatches.is_empty() {
-        sheet.marks.push(Mark::Lines { runs: hatches, stroke: HATCH });
+        sheet.runs(&hatches, &HATCH);
     }
 }
 
@@ -291,8 +286,8 @@ fn minimum(grid: &Grid) -> Figure {
         let (color, dashes) = (style::line(panel), style::line(panel + panel / LINES));
         let stroke = Stroke { color: color.color, ..dashes };
         let runs = curves(&place, &grid.minimum(panel));
-        let runs = runs.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect();
-        sheet.marks.push(Mark::Lines { runs, stroke: stroke.clone() });
+        let runs: Vec<_> = runs.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect();
+        sheet.runs(&runs, &stroke);
         if !title.is_empty() {
             entries.push((Key::Line(stroke), title.clone()));
         }

@@ -1,4 +1,4 @@
-//! How lines and areas look: told apart by the colour-blind, in grey print, and where curves lie on one another.
+//! Styles of lines and areas: distinct for the colour-blind, in grey print, and where curves lie on one another.
 //!
 //! Colours are Okabe and Ito's (2008). Every line has its own dashes as well, and later lines are thinner, so that an earlier one
 //! shows on both sides and through the gaps of those that cover it.
@@ -11,20 +11,20 @@ pub const GREY: &str = "#777777";
 pub const FAINT: &str = "#e4e4e4";
 /// The ground.
 pub const GROUND: &str = "#000000";
-/// What an impact does.
+/// Jumps at impacts.
 pub const IMPACT: &str = "#d55e00";
 
 /// Sizes of text `[px]` on a sheet 720 px wide: 8 pt where it is printed 15 cm wide.
 pub const LABEL: u32 = 14;
-/// See [`LABEL`].
+/// Numbers at ticks `[px]`.
 pub const NUMBER: u32 = 13;
-/// See [`LABEL`].
+/// Legends and notes `[px]`.
 pub const NOTE: u32 = 13;
 
 /// A line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// As SVG has it.
+    /// In the notation of SVG.
     pub color: &'static str,
     /// `[px]`
     pub width: f64,

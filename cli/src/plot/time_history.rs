@@ -1,13 +1,12 @@
 //! Angles over time: the ground acceleration above, impacts as ticks and modes as a band below.
 
-use super::Figure;
 use super::axis::{Axis, brief, span, subscript};
 use super::curve::{Frame, Point};
 use super::motion::{FALL, Motion, Stretch, over_time};
-use super::sheet::{Anchor, Key, Panel, Sheet, corners};
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
-use crate::results::longest_first;
+use crate::run_folder::longest_first;
 use rocking::Sample;
 
 /// Heights `[px]`.
@@ -16,7 +15,7 @@ const ANGLES: f64 = 220.0;
 const TICKS: f64 = 16.0;
 const BAND: f64 = 28.0;
 const GAP: f64 = 14.0;
-/// Height of the dark edge that tells a pattern from its mirror image.
+/// Height of the dark edge of the band `[px]`: at its top for a pattern, at its bottom for the mirror image.
 const EDGE: f64 = 5.0;
 
 /// The figure.
@@ -107,7 +106,7 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, anchor: An
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
-    let y = if anchor == Anchor::End { frame.top + 8.0 } else { frame.bottom() - 8.0 };
+    let y = if matches!(anchor, Anchor::End) { frame.top + 8.0 } else { frame.bottom() - 8.0 };
     let beside = if frame.right() - x > 20.0 { x + 15.0 } else { x - 6.0 };
     sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);
 }

@@ -1,15 +1,15 @@
-//! What the player plays: the state at every output time and on both sides of every event, with the ground's motion.
+//! Frames of the player: the state at every output time and on both sides of every event, with the ground's motion.
 //!
 //! A frame is a row of `response.csv`, or the column just before or just after an event: two frames of one time, so that the
 //! player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
-//! written to 1e-10 rad. The ground's displacement is for the eye alone: that of the rows as a record, less a constant velocity.
+//! written to 1e-10 rad. The ground's displacement only serves the picture: that of the rows as a record, less a constant velocity.
 
 use crate::number::{fixed, significant};
 use crate::plot;
+use crate::plot::modes::fill;
 use crate::report::html::script;
 use crate::report::outcome::closed;
-use crate::report::sketch::fill;
-use crate::results::{Event, Results};
+use crate::run_folder::{Event, Results};
 use rocking::Record;
 use rocking::pattern::Pattern;
 use rocking::{EventKind, StopReason};
@@ -40,7 +40,7 @@ struct Frame<'a> {
     ground: [[f64; 2]; 2],
 }
 
-/// Every how many rows one is kept.
+/// Number of rows of which one is kept.
 fn stride(results: &Results) -> usize {
     results.samples.len().div_ceil(MOST_ROWS)
 }
@@ -129,7 +129,7 @@ impl Ground {
     }
 }
 
-/// The JSON that the player reads; its keys are told in `player/state.js`.
+/// The JSON that the player reads; `player/state.js` lists its keys.
 pub fn json(results: &Results) -> String {
     let ground = Ground::new(results);
     let frames = frames(results, &ground);
@@ -163,7 +163,7 @@ pub fn json(results: &Results) -> String {
         })
         .collect();
     let fills: Vec<&str> = (0..=column.len()).map(fill).collect();
-    // A word per event: what a reader of the player's status line is told.
+    // The player's status line names each event.
     let events: Vec<_> = results
         .events
         .iter()
@@ -219,7 +219,7 @@ fn interfaces(event: &Event) -> Vec<usize> {
     (0..event.after.len()).filter(|&interface| event.before.get(interface) != event.after.get(interface)).collect()
 }
 
-/// What a viewer must know of what is shown.
+/// Notes below the player: drift of the ground that is taken out, rows that are left out.
 pub fn notes(results: &Results) -> String {
     let mut notes = Vec::new();
     if results.peak_ground_acceleration() != [0.0; 2] {

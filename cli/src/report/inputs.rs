@@ -1,10 +1,10 @@
-//! What was asked: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
+//! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
-use crate::markup::escape;
 use crate::number::{percent, significant};
 use crate::report::html::definitions;
-use crate::results::Results;
+use crate::run_folder::Results;
+use crate::text::escape;
 use serde_json::Value;
 use std::fmt::Write as _;
 
@@ -14,19 +14,19 @@ pub fn inputs(results: &Results) -> String {
     let mut text = blocks(results);
     let peaks = results.peak_ground_acceleration();
     let component = |name: &str, axis: usize| {
-        let motion = summary.excitation.get(name).unwrap_or(&Value::Null);
+        let motion = summary.given.excitation.get(name).unwrap_or(&Value::Null);
         escape(&ground::words(motion, column.gravity(), peaks[axis]))
     };
     let mut rows = vec![
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
         ("Gravity", format!("{} m/s²", significant(column.gravity(), 6))),
-        ("Impacts", restitution(&summary.restitution, column.housner_ratio())),
-        ("Friction", summary.friction.map_or("not given".into(), |friction| significant(friction, 4))),
+        ("Impacts", restitution(&summary.given.restitution, column.housner_ratio())),
+        ("Friction", summary.given.friction.map_or("not given".into(), |friction| significant(friction, 4))),
         ("Ground, horizontal", component("horizontal", 0)),
         ("Ground, vertical", component("vertical", 1)),
     ];
     rows.extend(initial(results).map(|state| ("Initial state", state)));
-    rows.push(("Length of the run", format!("{} s", significant(summary.options.t_end, 6))));
+    rows.push(("Length of the run", format!("{} s", significant(summary.given.options.t_end, 6))));
     text.push_str(&definitions(&rows));
     let _ = write!(
         text,

@@ -1,9 +1,9 @@
-//! What happened: the outcome in a sentence, key figures, peaks, impacts, time in each mode.
+//! Outcome of a run: in a sentence, then key figures, peaks, impacts, time in each mode.
 
-use crate::markup::escape;
 use crate::number::{degrees, percent, significant};
-use crate::report::sketch::sketch;
-use crate::results::{Event, Results, longest_first};
+use crate::plot::modes::sketch;
+use crate::run_folder::{Event, Results, longest_first};
+use crate::text::escape;
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::{EventKind, StopReason};
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 pub fn sentence(results: &Results) -> String {
     let summary = &results.summary;
     let t = significant(summary.t_final, 4);
-    let end = significant(summary.options.t_end, 4);
+    let end = significant(summary.given.options.t_end, 4);
     let (class, words) = match summary.status {
         StopReason::Overturned => {
             let first = summary.overturned_block.map_or(String::new(), |block| match results.column.len() {
@@ -133,7 +133,7 @@ pub fn closed(event: &Event) -> Vec<usize> {
 /// Gaps of an interface that has closed are rounding; hops that the solver follows are above its stick angle, 1e-9 rad `[rad]`.
 const CLOSED_GAP: f64 = 1e-12;
 
-/// How many impacts, where and when.
+/// Number of impacts, their interfaces, and the times of the first and the last.
 pub fn impacts(results: &Results) -> String {
     let impacts: Vec<&Event> = results.events.iter().filter(|event| event.kind == EventKind::Impact).collect();
     let (Some(first), Some(last)) = (impacts.first(), impacts.last()) else {

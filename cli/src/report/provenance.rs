@@ -1,13 +1,13 @@
-//! What computed the run, and how to have it computed again.
+//! Provenance of a run: version, method and tolerances, and the command that repeats it.
 
-use crate::markup::escape;
 use crate::number::{degrees, significant};
 use crate::report::html::definitions;
-use crate::results::Results;
+use crate::run_folder::Results;
+use crate::text::escape;
 
 /// The provenance of a run.
 pub fn provenance(results: &Results) -> String {
-    let (summary, options) = (&results.summary, &results.summary.options);
+    let (summary, options) = (&results.summary, &results.summary.given.options);
     let generic = options.dynamics.as_str() == Some("generic");
     let dynamics = match options.dynamics.as_str() {
         Some("generated") if summary.used_generic => {

@@ -1,21 +1,21 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations.
 
-use crate::markup::escape;
 use crate::number::{percent, significant};
-use crate::results::Results;
+use crate::run_folder::Results;
+use crate::text::escape;
 use std::fmt::Write as _;
 
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
 const UNUSUAL_FRICTION: f64 = 1.0;
 
-/// More warnings are folded: the verdict has told what they come to.
+/// Warnings that are shown at once; a longer list is folded, as the verdict above sums it up.
 const WARNINGS_SHOWN: usize = 5;
 
-/// What a run says of the model's limits.
+/// Whether a run stayed within the model's limits.
 enum Verdict {
     /// Nothing speaks against the model.
     Holds(String),
-    /// It holds for joints that are rough enough; the scene does not say how rough they are.
+    /// The model holds for joints that are rough enough; the scene gives no friction coefficient.
     Conditional(String),
     /// The reasons against it.
     Fails(Vec<String>),
@@ -25,8 +25,7 @@ enum Verdict {
 
 /// The interface, from 0, that needs most friction, with its demand; infinite where none is enough.
 fn largest_demand(results: &Results) -> Option<(usize, f64)> {
-    let demand = results.summary.friction_demand.iter().map(|demand| demand.unwrap_or(f64::INFINITY));
-    demand.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+    results.summary.friction_demand.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 fn judge(results: &Results) -> Verdict {
@@ -41,20 +40,19 @@ fn judge(results: &Results) -> Verdict {
         ));
     }
     let forces = summary.min_normal_force.iter().enumerate();
-    let parted: Vec<usize> =
-        forces.filter(|(_, force)| force.is_some_and(|force| force < 0.0)).map(|(at, _)| at).collect();
+    let parted: Vec<usize> = forces.filter(|(_, force)| **force < 0.0).map(|(at, _)| at).collect();
     if !parted.is_empty() {
         reasons.push(format!("{} would have to pull: the blocks would part", named(&parted)));
     }
     let Some((worst, demand)) = largest_demand(results) else {
         return if reasons.is_empty() { Verdict::Unknown } else { Verdict::Fails(reasons) };
     };
-    let demands = summary.friction_demand.iter().map(|demand| demand.unwrap_or(f64::INFINITY)).enumerate();
+    let demands = summary.friction_demand.iter().copied().enumerate();
     let beyond = |available: f64| demands.clone().filter(|(_, demand)| *demand > available).map(|(at, _)| at).collect();
     if demand.is_infinite() {
         let limitless: Vec<usize> = beyond(f64::MAX);
         reasons.push(format!("no friction coefficient is enough at {}: the blocks would slide", named(&limitless)));
-    } else if let Some(available) = summary.friction.filter(|available| demand > *available) {
+    } else if let Some(available) = summary.given.friction.filter(|available| demand > *available) {
         let sliding: Vec<usize> = beyond(available);
         let (verb, most) = if sliding.len() == 1 { ("needs", "") } else { ("need", "up to ") };
         reasons.push(format!(
@@ -64,7 +62,7 @@ fn judge(results: &Results) -> Verdict {
             significant(available, 3)
         ));
     }
-    match (reasons.is_empty(), summary.friction) {
+    match (reasons.is_empty(), summary.given.friction) {
         (false, _) => Verdict::Fails(reasons),
         (true, Some(available)) => Verdict::Holds(format!(
             "no block leaves its contact, and the joints need a friction coefficient of at most {} where the scene has {}",
@@ -127,22 +125,21 @@ pub fn details(results: &Results) -> String {
         let weight = column.mass_above(interface) * column.gravity();
         let demand = summary.friction_demand[interface];
         let force = summary.min_normal_force[interface];
-        let slides = summary.friction.is_some_and(|available| demand.is_none_or(|demand| demand > available));
-        let share =
-            force.map_or(String::new(), |force| format!(" <span class=\"note\">{}</span>", percent(force / weight)));
+        let slides = summary.given.friction.is_some_and(|available| demand > available);
+        let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
+        let share = known(format!("{} <span class=\"note\">{}</span>", significant(force, 4), percent(force / weight)));
         let _ = writeln!(
             rows,
-            "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}{share}</td><td>{}</td></tr>",
+            "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{share}</td><td>{}</td></tr>",
             if slides { " class=\"beyond\"" } else { "" },
             interface + 1,
-            demand.map_or("none is enough".into(), |demand| significant(demand, 3)),
-            force.map_or("not finite".into(), |force| significant(force, 4)),
+            if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() },
             significant(weight, 4),
         );
     }
     let mut text = String::new();
     if !rows.is_empty() {
-        let available = summary.friction.map_or("the scene names no coefficient".into(), |friction| {
+        let available = summary.given.friction.map_or("the scene names no coefficient".into(), |friction| {
             format!("the scene has {}", significant(friction, 3))
         });
         let _ = write!(

@@ -1,24 +1,28 @@
-//! The table of a sweep as it grows, so that a sweep that is cut off goes on where it was.
+//! The table of a sweep while it is written: a sweep that was interrupted continues with the first missing row.
 //!
 //! Rows go in order into a hidden file of CSV beside the table, whose name holds a fingerprint of all that decides them. What is
 //! found there is kept up to the first row that is not the one due. When all rows are there it gets the name of the table; a table
 //! of Parquet is made of it first, and the hidden file stays until that has its name.
 
+use super::Format;
+use super::column::Column;
 #[cfg(feature = "parquet")]
 use super::parquet;
-use super::{Column, Format};
-use crate::error::Failure;
+use crate::error::{Failure, at};
+use csv::StringRecord;
 use std::fs::{File, TryLockError};
 #[cfg(feature = "parquet")]
+use std::io::BufWriter;
+#[cfg(feature = "parquet")]
 use std::io::ErrorKind;
-use std::io::{BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A table under way.
 #[derive(Debug)]
 pub struct Growing {
-    file: BufWriter<File>,
+    file: csv::Writer<File>,
     /// The hidden file.
     pub part: PathBuf,
     out: PathBuf,
@@ -27,48 +31,46 @@ pub struct Growing {
 }
 
 impl Growing {
-    /// Goes on with what is there, or begins; the rows are those of these points.
-    ///
-    /// # Errors
-    /// [`Failure::Running`] where another process is at it, [`Failure::File`]
-    pub fn open(out: &Path, header: &str, fingerprint: u64, points: Range<usize>) -> Result<Growing, Failure> {
-        let failed = |error: std::io::Error| Failure::File { path: out.into(), problem: error.to_string() };
+    /// Goes on with what is there, or begins; the rows are those of these points. [`Failure::Running`] where another process is at it.
+    pub fn open(out: &Path, columns: &[Column], fingerprint: u64, points: Range<usize>) -> Result<Growing, Failure> {
+        let failed = at(Failure::File, out);
+        let mut header = csv::Writer::from_writer(Vec::new());
+        header.write_record(columns.iter().map(|column| &column.name)).map_err(at(Failure::File, out))?;
+        let header = header.into_inner().map_err(at(Failure::File, out))?;
         let name = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
         let mut file =
-            File::options().read(true).write(true).create(true).truncate(false).open(&part).map_err(failed)?;
+            File::options().read(true).write(true).create(true).truncate(false).open(&part).map_err(&failed)?;
         // Two at once would write rows between each other's. Elsewhere a lock would keep this very program from reading.
         if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-            return Err(Failure::Running { path: out.into() });
+            return Err(Failure::Running(out.into()));
         }
-        let lines = keep_due(&mut file, header, points.start).map_err(failed)?;
-        let mut file = BufWriter::new(file);
+        let lines = keep_due(&mut file, &header, points.start).map_err(&failed)?;
         if lines == 0 {
-            writeln!(file, "{header}").and_then(|()| file.flush()).map_err(failed)?;
+            file.write_all(&header).map_err(failed)?;
         }
-        Ok(Growing { file, part, out: out.into(), next: points.start + lines.saturating_sub(1) })
+        Ok(Growing {
+            file: csv::Writer::from_writer(file),
+            part,
+            out: out.into(),
+            next: points.start + lines.saturating_sub(1),
+        })
     }
 
     /// Adds rows.
-    ///
-    /// # Errors
-    /// What the system says.
-    pub fn append(&mut self, lines: impl Iterator<Item = String>) -> std::io::Result<()> {
-        for line in lines {
-            writeln!(self.file, "{line}")?;
+    pub fn append(&mut self, rows: &[StringRecord]) -> std::io::Result<()> {
+        for row in rows {
+            self.file.write_record(row)?;
             self.next += 1;
         }
         self.file.flush()
     }
 
     /// Gives the table its name. Killed before, after or within, a sweep has all it needs to come here again.
-    ///
-    /// # Errors
-    /// [`Failure::File`], [`Failure::Part`]
     #[cfg_attr(not(feature = "parquet"), allow(unused_variables, reason = "CSV has no types"))]
     pub fn close(mut self, format: Format, columns: &[Column]) -> Result<(), Failure> {
-        let failed = |error: std::io::Error| Failure::File { path: self.out.clone(), problem: error.to_string() };
-        self.file.flush().map_err(failed)?;
+        let failed = at(Failure::File, &self.out);
+        self.file.flush().map_err(&failed)?;
         match format {
             Format::Csv => std::fs::rename(&self.part, &self.out).map_err(failed),
             #[cfg(feature = "parquet")]
@@ -78,10 +80,10 @@ impl Growing {
                     .and_then(|file| parquet::from_csv(&self.part, columns, BufWriter::new(file)))
                     .and_then(|()| std::fs::rename(&whole, &self.out));
                 if let Err(error) = written {
-                    // What is half written is of no use; the part is.
+                    // The incomplete Parquet file is of no use; the part is.
                     let _ = std::fs::remove_file(&whole);
                     return Err(match error.kind() {
-                        ErrorKind::InvalidData => Failure::Part { path: self.part.clone(), problem: error.to_string() },
+                        ErrorKind::InvalidData => Failure::Part(self.part.clone(), error.to_string()),
                         _ => failed(error),
                     });
                 }
@@ -93,9 +95,9 @@ impl Growing {
 
 /// Cuts a file before the first line that is not the one due, the header and then a row for each point from the first on: a cut line, or
 /// what a failing disk has left. Returns how many lines are kept.
-fn keep_due(file: &mut File, header: &str, first: usize) -> std::io::Result<usize> {
+fn keep_due(file: &mut File, header: &[u8], first: usize) -> std::io::Result<usize> {
     let is_due = |line: &[u8], lines: usize| match lines {
-        0 => line.strip_suffix(b"\n") == Some(header.as_bytes()),
+        0 => line == header,
         _ => {
             let begins = line.starts_with(format!("{},", first + lines - 1).as_bytes());
             begins && line.ends_with(b"\n") && !line.contains(&0)

@@ -9,7 +9,7 @@
 //! A piece of at most [`GROUP`] rows is all that is in memory. Row groups end where their number of rows says and nowhere else, so
 //! that the bytes of a file depend on its rows alone: a merged table is the table of the whole sweep.
 
-use super::{Column, Kind, Rows};
+use super::column::{Column, Kind, Rows};
 use csv::StringRecord;
 use parquet::basic::{Encoding, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -125,7 +125,7 @@ impl Piece {
     fn texts(self) -> Result<Vec<StringRecord>> {
         let columns = self.columns.into_iter().map(|cells| match cells {
             Cells::Whole(values) => values.texts(|value| Ok(value.to_string())),
-            // As an axis is written to CSV.
+            // The text of an axis in CSV.
             Cells::Number(values) => values.texts(|value| Ok(Setting::Number(*value).to_string())),
             Cells::Text(values) => values.texts(|value| Ok(value.as_utf8()?.to_string())),
         });
@@ -142,9 +142,6 @@ pub struct Writer<W: Write + Send> {
 
 impl<W: Write + Send> Writer<W> {
     /// A table with these columns.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn new(file: W, columns: &[Column]) -> Result<Writer<W>> {
         let fields = columns.iter().map(field).collect::<std::result::Result<_, ParquetError>>()?;
         let schema = Type::group_type_builder("schema").with_fields(fields).build()?;
@@ -166,9 +163,6 @@ impl<W: Write + Send> Writer<W> {
     }
 
     /// Takes a row of CSV, and writes a group when its rows are there.
-    ///
-    /// # Errors
-    /// What the system says, or which cell is no value of its column.
     pub fn push(&mut self, row: &StringRecord) -> Result<()> {
         self.piece.push(row)?;
         if self.piece.rows == GROUP { self.write() } else { Ok(()) }
@@ -189,9 +183,6 @@ impl<W: Write + Send> Writer<W> {
     }
 
     /// Writes what is left and the end of the file; returns the file.
-    ///
-    /// # Errors
-    /// What the system says.
     pub fn finish(mut self) -> Result<W> {
         if self.piece.rows > 0 {
             self.write()?;
@@ -201,9 +192,6 @@ impl<W: Write + Send> Writer<W> {
 }
 
 /// Writes a table of CSV with these columns as Parquet.
-///
-/// # Errors
-/// What the system says; [`ErrorKind::InvalidData`] if the table cannot be read.
 pub fn from_csv(csv: &Path, columns: &[Column], file: impl Write + Send) -> Result<()> {
     let mut writer = Writer::new(file, columns)?;
     let unreadable = |error: csv::Error| Error::new(ErrorKind::InvalidData, error);
@@ -239,9 +227,6 @@ pub struct Reader {
 
 impl Reader {
     /// Opens a table that [`Writer`] has written.
-    ///
-    /// # Errors
-    /// What the system says, or what is wrong with the file.
     pub fn open(path: &Path) -> Result<Reader> {
         let file = SerializedFileReader::new(File::open(path)?)?;
         let schema = file.metadata().file_metadata().schema();

@@ -20,6 +20,23 @@ pub fn rocking(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the binary is built with the tests")
 }
 
+/// Address space of a command that may be given anything [KiB].
+#[cfg(unix)]
+const MEMORY: u32 = 1 << 20;
+
+/// `rocking` in `folder`, in little memory and at most ten seconds of processor time.
+#[cfg(unix)]
+pub fn limited(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new("sh");
+    command.args([
+        "-c",
+        &format!("ulimit -v {MEMORY}; ulimit -t 10; exec \"$0\" \"$@\""),
+        env!("CARGO_BIN_EXE_rocking"),
+    ]);
+    command.args(arguments).current_dir(folder);
+    command
+}
+
 /// Standard output of a command that must succeed.
 pub fn succeeds(folder: &Path, arguments: &[&str]) -> String {
     let output = rocking(folder, arguments);

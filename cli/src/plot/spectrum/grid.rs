@@ -4,27 +4,26 @@
 //! A class is all that is kept of a row.
 
 use super::scale::{Scale, title};
-use crate::table::Rows;
+use crate::table::column::Rows;
+use crate::table::open;
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Panels beyond which nobody could read them.
 const MOST_PANELS: usize = 16;
 
-/// What became of the column, as it is told apart in the figure; from the least to the most violent.
+/// The outcome of a point as the figure distinguishes it, from the least to the most violent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
-    /// Nothing opened.
     NoUplift,
-    /// It rocked and stands.
     Rocks,
-    /// It overturned after three impacts or more.
+    /// The column overturned, and its impacts were not counted: the sweep asked only whether it does.
+    Overturns,
+    /// The column overturned after three impacts or more.
     AfterMore,
-    /// It overturned after two impacts.
     AfterTwo,
-    /// It overturned after one impact.
     AfterOne,
-    /// It overturned without an impact.
+    /// The column overturned without an impact.
     AtOnce,
     /// The point has no result.
     Error,
@@ -32,9 +31,10 @@ pub enum Class {
 
 impl Class {
     /// All, in this order.
-    pub const ALL: [Class; 7] = [
+    pub const ALL: [Class; 8] = [
         Class::NoUplift,
         Class::Rocks,
+        Class::Overturns,
         Class::AfterMore,
         Class::AfterTwo,
         Class::AfterOne,
@@ -42,11 +42,12 @@ impl Class {
         Class::Error,
     ];
 
-    /// Of a row.
+    /// The class of a row.
     fn of(outcome: &str, impacts: &str) -> Option<Class> {
         Some(match (outcome, impacts) {
             ("no-uplift", _) => Class::NoUplift,
             ("rocks", _) => Class::Rocks,
+            ("overturns", "") => Class::Overturns,
             ("overturns", "0") => Class::AtOnce,
             ("overturns", "1") => Class::AfterOne,
             ("overturns", "2") => Class::AfterTwo,
@@ -58,7 +59,7 @@ impl Class {
 
     /// Whether the column overturned.
     pub fn overturns(self) -> bool {
-        matches!(self, Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
+        matches!(self, Class::Overturns | Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
     }
 }
 
@@ -66,48 +67,30 @@ impl Class {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoSpectrum {
     /// The file is not the table of a sweep.
-    #[error("{problem}; give the table that `rocking sweep` wrote")]
-    NoTable {
-        /// What is wrong.
-        problem: String,
-    },
-    /// One axis is no plane.
+    #[error("{0}; give the table that `rocking sweep` wrote")]
+    NoTable(String),
+    /// So many axes with two numbers or more are no plane.
     #[error(
-        "axes with numbers that vary: {count}; a spectrum needs two, so give e.g. both omega_p and amplitude_uplift \
-         several values"
+        "axes with numbers that vary: {0}; a spectrum needs two, so give e.g. both omega_p and amplitude_uplift several values"
     )]
-    FewAxes {
-        /// Axes of numbers with two values or more.
-        count: usize,
-    },
-    /// Beyond what is drawn.
-    #[error("`{key}` has values that cannot be drawn; let their sizes be between 1e-100 and 1e100, or zero")]
-    Extreme {
-        /// The axis.
-        key: String,
-    },
-    /// Too many to be read.
+    FewAxes(usize),
+    /// An axis has values beyond what is drawn.
+    #[error("`{0}` has values that cannot be drawn; let their sizes be between 1e-100 and 1e100, or zero")]
+    Extreme(String),
+    /// So many panels could not be read.
     #[error(
-        "the axes before the last two make {count} panels, and {MOST_PANELS} can be read; give those axes fewer values"
+        "the axes before the last two make {0} panels, and {MOST_PANELS} can be read; give those axes fewer values"
     )]
-    ManyPanels {
-        /// Panels.
-        count: usize,
-    },
+    ManyPanels(usize),
     /// A part of a sweep, or axes that run in pairs.
     #[error(
         "there are {rows} points and the values of the axes make {points}; draw a whole sweep with axes that are \
          combined as `cartesian` and have each value once, of shards the table that `rocking merge` makes"
     )]
-    NoGrid {
-        /// Points there are.
-        rows: usize,
-        /// Points of a whole grid.
-        points: usize,
-    },
+    NoGrid { rows: usize, points: usize },
 }
 
-/// Where the values of an axis are.
+/// Positions of the values of an axis.
 #[derive(Clone, Debug, PartialEq)]
 enum Span {
     /// In these columns.
@@ -118,7 +101,7 @@ enum Span {
     Panels(usize),
 }
 
-/// What the axes of a sweep span.
+/// The plane and the panels that the axes of a sweep span.
 #[derive(Clone, Debug)]
 pub struct Plane {
     /// To the right.
@@ -127,15 +110,12 @@ pub struct Plane {
     pub y: Scale,
     /// A title for each panel; empty if there is nothing to say.
     pub titles: Vec<String>,
-    /// Of each axis, where its values are, in their order.
+    /// Positions of the values of each axis, in their order.
     spans: Vec<Span>,
 }
 
 impl Plane {
-    /// Of axes by their keys, with their values as a table has them.
-    ///
-    /// # Errors
-    /// [`NoSpectrum::FewAxes`], [`NoSpectrum::Extreme`], [`NoSpectrum::ManyPanels`]
+    /// The plane of axes, each with its key and its values as a table has them.
     pub fn of(axes: &[(String, Vec<String>)]) -> Result<Plane, NoSpectrum> {
         let numbers = |values: &[String]| -> Option<Vec<f64>> {
             let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
@@ -148,13 +128,13 @@ impl Plane {
         };
         let mut spanning = (0..axes.len()).rev().filter_map(scale);
         let (Some((y_place, y)), x) = (spanning.next(), spanning.next()) else {
-            return Err(NoSpectrum::FewAxes { count: 0 });
+            return Err(NoSpectrum::FewAxes(0));
         };
-        let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes { count: 1 }) };
+        let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes(1)) };
         drop(spanning);
         let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());
         if let Some(scale) = [&x, &y].into_iter().find(|scale| !scale.values.iter().all(is_drawn)) {
-            return Err(NoSpectrum::Extreme { key: scale.key.clone() });
+            return Err(NoSpectrum::Extreme(scale.key.clone()));
         }
         let others = axes.iter().enumerate().filter(|(place, _)| ![x_place, y_place].contains(place));
         let mut titles = vec![String::new()];
@@ -162,7 +142,7 @@ impl Plane {
             let values = shortened(values);
             let count = titles.len() * values.len();
             if count > MOST_PANELS {
-                return Err(NoSpectrum::ManyPanels { count });
+                return Err(NoSpectrum::ManyPanels(count));
             }
             let with = |above: &String, value: &str| match above.as_str() {
                 "" => title(key, value),
@@ -191,9 +171,6 @@ impl Plane {
     }
 
     /// Whether so many points fill the grid.
-    ///
-    /// # Errors
-    /// [`NoSpectrum::NoGrid`]
     pub fn expects(&self, rows: usize) -> Result<(), NoSpectrum> {
         let points = self.points();
         if rows == points { Ok(()) } else { Err(NoSpectrum::NoGrid { rows, points }) }
@@ -227,19 +204,16 @@ fn shortened(values: &[String]) -> Vec<&str> {
 pub struct Grid {
     /// The axes.
     pub plane: Plane,
-    /// Of each panel, a row of cells after the other, the lowest first.
+    /// Cells of each panel, row by row, the lowest row first.
     pub panels: Vec<Vec<Class>>,
 }
 
 impl Grid {
     /// Reads the table of a whole sweep.
-    ///
-    /// # Errors
-    /// [`NoSpectrum`]
     pub fn read(file: &Path) -> Result<Grid, NoSpectrum> {
-        let broken = |problem: String| NoSpectrum::NoTable { problem };
+        let broken = NoSpectrum::NoTable;
         let failed = |error: std::io::Error| broken(error.to_string());
-        let Rows { header, rows } = Rows::open(file).map_err(failed)?;
+        let Rows { header, rows } = open(file).map_err(failed)?;
         let column = |name: &str| header.iter().position(|found| found == name);
         let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
             return Err(broken("it has no columns index, outcome and impacts".into()));
@@ -271,7 +245,7 @@ impl Grid {
             panels[panel][y * columns + x] = Some(class);
         }
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
-        // As many rows as cells, but some twice and others not at all.
+        // The number of rows is that of the cells, yet some points occur twice and others not at all.
         let panels = panels.ok_or_else(|| broken("points are missing".into()))?;
         Ok(Grid { plane, panels })
     }
@@ -308,14 +282,14 @@ mod tests {
         assert_eq!(shortened(&["r/a".into(), "s/a".into()]), ["r/a", "s/a"]);
         assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
         assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
-        assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes { count: 1 }));
-        assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes { count: 0 }));
+        assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes(1)));
+        assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes(0)));
     }
 
     #[test]
     fn more_panels_than_can_be_read_are_refused() {
         let many: Vec<String> = (0..17).map(|number| number.to_string()).collect();
         let axes = [("blocks".into(), many), axis("a", &["1", "2"]), axis("b", &["1", "2"])];
-        assert_eq!(Plane::of(&axes).err(), Some(NoSpectrum::ManyPanels { count: 17 }));
+        assert_eq!(Plane::of(&axes).err(), Some(NoSpectrum::ManyPanels(17)));
     }
 }

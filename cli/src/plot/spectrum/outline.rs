@@ -1,8 +1,8 @@
 //! Cells of equal class as polygons without holes, in an order of painting that needs none.
 //!
 //! Cells that share an edge and a class make a region; only its outer edge is drawn, and what lies within is painted over it.
-//! Regions equally deep in one another do not overlap and are painted together, a polygon each. So an edge never shows anything
-//! between the two regions that meet there but the region that holds both.
+//! Regions of equal nesting depth do not overlap and are painted together, a polygon each. Between two regions that meet at an edge,
+//! a gap of rounding can therefore show only the region that holds both.
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub fn layers<C: Copy + PartialEq>(cells: &[C], columns: usize) -> Vec<Layer<C>>
         let inside = inside(&outline, columns);
         outlines.push((*first, outline, inside));
     }
-    // What holds another region has more cells inside.
+    // A region that holds another one has more cells inside.
     outlines.sort_by_key(|(first, _, inside)| (usize::MAX - inside.len(), *first));
     let mut depth_at = vec![0usize; cells.len()];
     let mut layers: BTreeMap<(usize, usize), Layer<C>> = BTreeMap::new();
@@ -84,7 +84,7 @@ fn outline(region_of: &[usize], [columns, rows]: [usize; 2], region: usize, firs
         let cell = [x.checked_add_signed(right), y.checked_add_signed(up)];
         matches!(cell, [Some(x), Some(y)] if x < columns && y < rows && region_of[y * columns + x] == region)
     };
-    // The cells left and right ahead of whoever stands on a corner and looks along a step.
+    // The cells ahead of a corner in the direction of each step: left and right.
     let ahead = [[[0, 0], [0, -1]], [[-1, 0], [0, 0]], [[-1, -1], [-1, 0]], [[0, -1], [-1, -1]]];
     let mut corners = vec![start];
     let (mut at, mut step) = (start, 0);
@@ -127,7 +127,7 @@ fn inside(outline: &[Corner], columns: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// The cells as they look once all layers are painted.
+    /// The class of each cell after all layers are painted.
     fn painted(layers: &[Layer<u8>], count: usize, columns: usize) -> Vec<Option<u8>> {
         let mut cells = vec![None; count];
         for layer in layers {

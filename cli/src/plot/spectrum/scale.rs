@@ -45,7 +45,7 @@ impl Scale {
         self.values.binary_search_by(|probe| probe.partial_cmp(&value).unwrap_or(Ordering::Less)).ok()
     }
 
-    /// Where a value is along the axis, from 0 to 1.
+    /// Position of a value along the axis, from 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
         let along = if self.is_log { value.ln() } else { value };
         (along - self.ends[0]) / (self.ends[1] - self.ends[0])
@@ -74,7 +74,7 @@ impl Scale {
         round.filter(|value| (0.0..=1.0).contains(&self.share(*value))).collect()
     }
 
-    /// What the axis shows, in the field's words.
+    /// Quantity and unit of the axis.
     pub fn label(&self) -> String {
         label(&self.key)
     }

@@ -1,0 +1,64 @@
+//! Files read up to a size, and written beside their places and then renamed, so that nothing is ever half there.
+
+use std::fs::File;
+use std::io::{BufWriter, Error, ErrorKind, Read, Result, Write};
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+/// Largest scene or sweep that is read [bytes].
+pub const LARGEST_SCENE: u64 = 64 << 20;
+/// Largest record that is read [bytes].
+pub const LARGEST_RECORD: u64 = 256 << 20;
+/// Largest file of a run's folder that is read [bytes].
+pub const LARGEST_RESULT: u64 = 1 << 30;
+/// Largest table of a sweep that is read, row by row [bytes].
+pub const LARGEST_TABLE: u64 = 1 << 40;
+
+/// Refuses what is no regular file, such as a device or a pipe, and what is larger than `largest` bytes, before it is opened.
+pub fn check(path: &Path, largest: u64) -> Result<()> {
+    let found = std::fs::metadata(path)?;
+    let refused = |problem: String| Err(Error::new(ErrorKind::InvalidInput, problem));
+    match found.len() {
+        _ if found.is_dir() => refused("it is a folder".into()),
+        _ if !found.is_file() => {
+            refused("it is a device or a pipe and no regular file; copy its content into a file".into())
+        }
+        size if size > largest => refused(format!("it has {size} bytes, and at most {largest} are read")),
+        _ => Ok(()),
+    }
+}
+
+/// A regular file of at most `largest` bytes.
+pub fn read(path: &Path, largest: u64) -> Result<Vec<u8>> {
+    check(path, largest)?;
+    let mut bytes = Vec::new();
+    File::open(path)?.take(largest).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The folder of a file: a bare name has the empty path above it.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A temporary file in `folder`, with all that `write` writes.
+pub fn fill(folder: &Path, write: impl FnOnce(&mut BufWriter<&mut File>) -> Result<()>) -> Result<NamedTempFile> {
+    let mut file = NamedTempFile::new_in(folder)?;
+    let mut writer = BufWriter::new(file.as_file_mut());
+    write(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    share(&file)?;
+    Ok(file)
+}
+
+/// Makes a temporary file, which is private, readable for whoever may read its folder.
+#[cfg_attr(not(unix), allow(unused_variables, reason = "permissions are those of the folder"))]
+pub fn share(file: &NamedTempFile) -> Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,48 @@
+//! Columns of the table of a sweep, and its rows as text.
+
+use csv::StringRecord;
+
+/// The type of the cells of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Whole,
+    Number,
+    Text,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Heading of the column.
+    pub name: String,
+    pub kind: Kind,
+    pub may_be_blank: bool,
+}
+
+impl Column {
+    /// A column with a value in every row.
+    pub fn full(name: impl Into<String>, kind: Kind) -> Column {
+        Column { name: name.into(), kind, may_be_blank: false }
+    }
+
+    /// A column with blank cells.
+    pub fn sparse(name: impl Into<String>, kind: Kind) -> Column {
+        Column { name: name.into(), kind, may_be_blank: true }
+    }
+
+    /// Whether a cell of CSV may be one of this column.
+    pub fn takes(&self, cell: &str) -> bool {
+        match self.kind {
+            Kind::Text => true,
+            _ if cell.is_empty() => self.may_be_blank,
+            Kind::Whole => cell.parse::<u64>().is_ok(),
+            Kind::Number => cell.parse::<f64>().is_ok(),
+        }
+    }
+}
+
+/// Rows of a table of either format, as text.
+pub struct Rows {
+    pub header: StringRecord,
+    pub rows: Box<dyn Iterator<Item = std::io::Result<StringRecord>>>,
+}

@@ -1,0 +1,35 @@
+//! Standard output and standard error; what is written there has no control characters of users' text.
+
+use crate::error::Failure;
+use crate::json::Explicit;
+use crate::text::{is_unsafe, printable, printable_lines};
+use serde::Serialize;
+use std::io::Write as _;
+
+/// Prints text. A reader that has seen enough and closes the pipe is no failure.
+pub fn print(text: &str) -> Result<(), Failure> {
+    match std::io::stdout().write_all(printable_lines(text).as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Print(error.to_string())),
+        _ => Ok(()),
+    }
+}
+
+/// Prints what a script reads.
+pub fn json(value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(&Explicit(value)).map_err(|error| Failure::Print(error.to_string()))?;
+    json_text(&text)
+}
+
+/// Prints JSON; what a terminal could obey has the escapes of JSON, which reads back to the same text.
+pub fn json_text(text: &str) -> Result<(), Failure> {
+    let escape =
+        |sign: char| if is_unsafe(sign) && sign != '\n' { format!("\\u{:04x}", sign as u32) } else { sign.into() };
+    print(&(text.chars().map(escape).collect::<String>() + "\n"))
+}
+
+/// Warns, a line each.
+pub fn warn(warnings: &[String]) {
+    for warning in warnings {
+        eprintln!("warning: {}", printable(warning));
+    }
+}

@@ -1,0 +1,317 @@
+//! Faults that were mended, a claim each.
+
+mod common;
+
+use common::sweeps::{BASE, SWEEP, folder};
+use common::{rocking, succeeds};
+use serde_json::Value;
+use std::fs::{read, read_dir, read_to_string, write};
+use std::path::Path;
+
+const SCENE: &str = "title = \"one block\"
+friction = 0.8
+[[block]]
+half_width = 0.4
+half_height = 1.6
+[excitation.horizontal]
+kind = \"sine-pulse\"
+amplitude = 4.0
+omega = 10.0
+[solver]
+t_end = 2.0
+";
+
+/// A folder with `scene.toml`.
+fn folder_with(scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    write(folder.path().join("scene.toml"), scene).expect("written");
+    folder
+}
+
+/// The message of a command that must end with this status.
+fn fails(folder: &Path, arguments: &[&str], status: i32, named: &[&str]) -> String {
+    let output = rocking(folder, arguments);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {message}");
+    assert!(named.iter().all(|part| message.contains(part)), "{named:?} in\n{message}");
+    message
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_sweep_without_any_result_fails_with_the_first_reason() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [1.5, 2.5]\n");
+    for arguments in
+        [&["sweep", "sweep.toml"][..], &["sweep", "sweep.toml", "--quiet"], &["sweep", "sweep.toml", "--json"]]
+    {
+        fails(folder.path(), arguments, 1, &["sweep.csv", "none of the 2 point(s)", "restitution.eta", "1.5"]);
+    }
+    write(folder.path().join("sweep.toml"), "scene = \"base.toml\"\n[axes]\neta = [1.5, 0.9]\n").expect("written");
+    assert!(succeeds(folder.path(), &["sweep", "sweep.toml"]).contains("errors 1"));
+}
+
+#[test]
+fn an_unreadable_record_does_not_switch_off_the_check_for_unknown_keys() {
+    let axes =
+        |key: &str| format!("scene = \"base.toml\"\n[axes]\nfile = {{ folder = \"records\" }}\n{key} = [0.3, 0.6]\n");
+    let folder = folder(&axes("pga_gg"));
+    std::fs::create_dir(folder.path().join("records")).expect("made");
+    let synthetic = common::root().join("scenes/records/synthetic.AT2");
+    std::fs::copy(&synthetic, folder.path().join("records/b.AT2")).expect("copied");
+    write(folder.path().join("records/a.txt"), "no record\n").expect("written");
+    let pulse = "kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0";
+    write(folder.path().join("base.toml"), BASE.replace(pulse, "kind = \"record\"\nfile = \"records/b.AT2\""))
+        .expect("written");
+    fails(folder.path(), &["sweep", "sweep.toml"], 2, &["pga_gg", "unknown"]);
+    assert!(!folder.path().join("sweep.csv").exists());
+    write(folder.path().join("sweep.toml"), axes("pga_g")).expect("written");
+    assert!(succeeds(folder.path(), &["sweep", "sweep.toml"]).contains("errors 2"));
+}
+
+#[test]
+fn a_figure_of_modes_has_the_format_of_its_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    succeeds(folder.path(), &["modes", "--blocks", "2", "--svg", "m.png"]);
+    assert!(read(folder.path().join("m.png")).expect("written").starts_with(b"\x89PNG\r\n\x1a\n"));
+    succeeds(folder.path(), &["modes", "--blocks", "2", "--svg", "m.SVG"]);
+    assert!(read_to_string(folder.path().join("m.SVG")).expect("written").starts_with("<svg"));
+    fails(folder.path(), &["modes", "--blocks", "2", "--svg", "m.pdf"], 2, &[".svg or .png"]);
+}
+
+#[test]
+fn friction_as_an_axis_is_refused() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\nfriction = [0.3, 0.6]\n");
+    for command in ["sweep", "check"] {
+        fails(folder.path(), &[command, "sweep.toml"], 2, &["sweep.toml", "axes.friction", "remove the axis"]);
+    }
+}
+
+#[test]
+fn a_sweep_file_is_checked_as_a_sweep() {
+    let folder = folder(SWEEP);
+    let text = succeeds(folder.path(), &["check", "sweep.toml"]);
+    for part in ["60 point(s)", "blocks: 2 value(s), from 1 to 2", "base.toml is valid", "rocking sweep sweep.toml"] {
+        assert!(text.contains(part), "`{part}` is not in\n{text}");
+    }
+    let found: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["check", "sweep.toml", "--json"])).expect("JSON");
+    assert_eq!((&found["points"], found["axes"].as_array().map(Vec::len)), (&60.into(), Some(3)));
+    write(folder.path().join("base.toml"), BASE.replace("eta = 0.9", "eta = 9")).expect("written");
+    fails(folder.path(), &["check", "sweep.toml"], 2, &["base.toml", "restitution.eta"]);
+}
+
+#[test]
+fn the_name_of_the_friction_line_covers_no_curve() {
+    let folder = folder_with(SCENE);
+    succeeds(folder.path(), &["run", "scene.toml", "--plots"]);
+    let figure = read_to_string(folder.path().join("out/forces.svg")).expect("written");
+    let document = roxmltree::Document::parse(&figure).expect("XML");
+    let height = |name: &str| -> f64 {
+        let mut texts = document.descendants().filter(|node| node.has_tag_name("text"));
+        let text = texts.find(|node| node.text() == Some(name)).unwrap_or_else(|| panic!("{name}"));
+        text.attribute("y").and_then(|y| y.parse().ok()).expect("a number")
+    };
+    assert!(height("friction coefficient 0.8") > height("Time [s]"), "it stands below the panels");
+    // White patches below words are the only areas of that fill.
+    let patches =
+        document.descendants().filter(|node| node.has_tag_name("path") && node.attribute("fill") == Some("#ffffff"));
+    assert_eq!(
+        patches.count(),
+        usize::from(figure.contains("overturned")) * 2 + usize::from(figure.contains("at rest")) * 2
+    );
+}
+
+#[test]
+fn figures_and_reports_of_an_earlier_run_do_not_stay() {
+    let folder = folder_with(SCENE);
+    succeeds(folder.path(), &["run", "scene.toml", "--plots", "--report"]);
+    succeeds(folder.path(), &["plot", "out", "--format", "png"]);
+    write(folder.path().join("out/notes.txt"), "mine").expect("written");
+    assert_eq!(names(&folder.path().join("out")).len(), 13);
+    // A refused scene and a run that is asked for nothing else.
+    fails(folder.path(), &["run", "none.toml"], 2, &["none.toml"]);
+    assert_eq!(names(&folder.path().join("out")).len(), 13);
+    succeeds(folder.path(), &["run", "scene.toml"]);
+    assert_eq!(names(&folder.path().join("out")), ["events.json", "notes.txt", "response.csv", "summary.json"]);
+    succeeds(folder.path(), &["run", "scene.toml", "--report"]);
+    assert_eq!(names(&folder.path().join("out")).len(), 5);
+}
+
+#[test]
+fn impacts_are_blank_where_a_run_ends_when_its_outcome_is_certain() {
+    for (ask, overturns, rocks) in [("outcome", true, false), ("overturns", false, false), ("peaks", true, true)] {
+        let folder = folder(&format!("ask = \"{ask}\"\n{SWEEP}"));
+        let table = common::sweeps::table(folder.path(), &[]);
+        let (mut seen, mut reader) = (0, csv::Reader::from_reader(table.as_bytes()));
+        for row in reader.records() {
+            let row = row.expect("a row");
+            let counted = match &row[4] {
+                "no-uplift" => true,
+                "rocks" => rocks,
+                _ => overturns,
+            };
+            seen += usize::from(&row[4] != "no-uplift");
+            assert_eq!(counted, !row[5].is_empty(), "{ask}: {row:?}");
+        }
+        assert!(seen > 10);
+        succeeds(folder.path(), &["plot", "t.csv"]);
+        let figure = read_to_string(folder.path().join("t.svg")).expect("written");
+        assert_eq!(figure.contains("overturns (impacts not counted)"), !overturns);
+    }
+}
+
+#[test]
+fn control_characters_reach_no_terminal() {
+    let title = SCENE.replace("one block", "red \\u001b[31m, \\u009b, \\u202e and\\nnext <b>");
+    let folder = folder_with(&title);
+    let name = "a\u{1b}[31mb.toml";
+    write(folder.path().join(name), &title).expect("written");
+    write(folder.path().join("bad\u{7}.toml"), "title = \"\u{1b}[31m\"\n").expect("written");
+    write(folder.path().join("c\u{1b}.AT2"), "1\n").expect("written");
+    std::fs::create_dir(folder.path().join("records\u{1b}")).expect("made");
+    for arguments in [
+        &["run", name, "--out", "o\u{1b}"][..],
+        &["run", name, "--json"],
+        &["check", name],
+        &["check", name, "--json"],
+        &["run", "bad\u{7}.toml"],
+        &["run", "none\u{1b}.toml"],
+        &["record", "c\u{1b}.AT2"],
+        &["record", "records\u{1b}"],
+        &["plot", "o\u{1b}"],
+        &["report", "o\u{1b}", "--out", "r\u{1b}.html"],
+        &["init", "i\u{1b}.toml"],
+        &["thresholds", "bad\u{7}.toml"],
+        &["modes", "--blocks", "1", "--svg", "m\u{1b}.svg"],
+    ] {
+        let output = rocking(folder.path(), arguments);
+        for text in [output.stdout, output.stderr] {
+            let text = String::from_utf8(text).expect("text");
+            let is_safe = |sign: char| !sign.is_control() && sign != '\u{202e}' || sign == '\n';
+            assert!(text.chars().all(is_safe), "{arguments:?}: {text:?}");
+        }
+    }
+    let told = succeeds(folder.path(), &["run", name]);
+    assert!(told.starts_with("red \\u{1b}[31m, \\u{9b}, \\u{202e} and next <b>\n"), "{told}");
+    let summary: Value = serde_json::from_str(&succeeds(folder.path(), &["run", name, "--json"])).expect("JSON");
+    assert_eq!(summary["title"], "red \u{1b}[31m, \u{9b}, \u{202e} and\nnext <b>", "JSON has the text itself");
+    let page = read_to_string(folder.path().join("r\u{1b}.html")).expect("written");
+    assert!(page.contains("red \\u{1b}[31m, \\u{9b}, \\u{202e} and\nnext &lt;b&gt;"));
+    assert!(page.chars().filter(|sign| *sign != '\n' && *sign != '\t').all(|sign| !sign.is_control()));
+}
+
+#[test]
+fn a_number_that_is_not_finite_is_a_word_in_json() {
+    // The lowest contact parts with a force along it.
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = common::root().join("scenes/paper-1-block-6.32.toml");
+    succeeds(folder.path(), &["run", &scene.to_string_lossy()]);
+    let summary: Value =
+        serde_json::from_str(&read_to_string(folder.path().join("out/summary.json")).expect("written")).expect("JSON");
+    assert_eq!(summary["friction_demand"][0], "infinite");
+    succeeds(folder.path(), &["report", "out"]);
+    let page = read_to_string(folder.path().join("out/report.html")).expect("written");
+    assert!(page.contains("no friction coefficient is enough at interface 1"));
+    // As earlier versions wrote it.
+    let old = read_to_string(folder.path().join("out/summary.json")).expect("written").replace("\"infinite\"", "null");
+    write(folder.path().join("out/summary.json"), old).expect("written");
+    succeeds(folder.path(), &["report", "out", "--out", "old.html"]);
+    assert_eq!(read_to_string(folder.path().join("old.html")).expect("written"), page);
+    // A displacement beyond the range of doubles.
+    write(folder.path().join("huge.csv"), "t,a\n0,1e304\n1e5,1e304\n2e5,1e304\n").expect("written");
+    let output = rocking(folder.path(), &["record", "huge.csv", "--units", "m/s2", "--json"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(!output.status.success() || text.contains("\"infinite\"") && !text.contains("\"pgd\": null"), "{text}");
+}
+
+#[test]
+fn shards_of_another_base_scene_are_not_merged() {
+    let folder = folder(SWEEP);
+    let shard = |number: &str, name: &str| {
+        succeeds(folder.path(), &["sweep", "sweep.toml", "--shard", number, "--out", name, "--quiet"]);
+    };
+    shard("1/2", "1.csv");
+    write(folder.path().join("base.toml"), BASE.replace("eta = 0.9", "eta = 0.8")).expect("written");
+    shard("2/2", "2.csv");
+    let problem = ["2.csv", "base scene", "1.csv", "all shards of one sweep"];
+    fails(folder.path(), &["merge", "m.csv", "1.csv", "2.csv"], 2, &problem);
+    fails(folder.path(), &["merge", "m.csv", "1.csv", "2.csv", "--sweep", "sweep.toml"], 2, &["1.csv", "sweep.toml"]);
+    assert!(!folder.path().join("m.csv").exists());
+    shard("1/2", "1.csv");
+    succeeds(folder.path(), &["merge", "m.csv", "1.csv", "2.csv", "--sweep", "sweep.toml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn only_regular_files_up_to_a_size_are_read() {
+    let folder = folder(SWEEP);
+    let pipe = folder.path().join("pipe");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()));
+    let large = std::fs::File::create(folder.path().join("large")).expect("made");
+    large.set_len(1 << 41).expect("a sparse file");
+    succeeds(folder.path(), &["run", "base.toml"]);
+    for (file, problem) in [("/dev/zero", "device or a pipe"), ("pipe", "device or a pipe"), ("large", "at most")] {
+        for arguments in [
+            &["run", file][..],
+            &["check", file],
+            &["thresholds", file],
+            &["sweep", file],
+            &["plot", file],
+            &["record", file],
+            &["init", "new.toml", "--record", file],
+            &["merge", "m.csv", file],
+            &["merge", "m.csv", "sweep.csv", "--sweep", file],
+        ] {
+            fails(folder.path(), arguments, 2, &[file, problem]);
+        }
+    }
+    std::fs::remove_file(folder.path().join("out/events.json")).expect("there");
+    std::os::unix::fs::symlink("/dev/zero", folder.path().join("out/events.json")).expect("a link");
+    for command in ["plot", "report"] {
+        fails(folder.path(), &[command, "out"], 2, &["events.json", "device or a pipe", "run the scene again"]);
+    }
+}
+
+/// Damages that made figures panic, or take all memory.
+#[cfg(unix)]
+#[test]
+fn damaged_run_folders_are_refused_with_file_and_remedy() {
+    let folder = folder_with(SCENE);
+    succeeds(folder.path(), &["run", "scene.toml"]);
+    for (file, from, to) in [
+        ("summary.json", "\"t_end\": 2.0", "\"t_end\": 1e300"),
+        ("summary.json", "\"t_end\": 2.0", "\"t_end\": -2.0"),
+        ("summary.json", "\"half_width\": 0.4", "\"half_width\": 5e-324"),
+        ("summary.json", "\"half_width\": 0.4", "\"half_width\": 1e300"),
+        ("summary.json", "\"overturned_block\": null", "\"overturned_block\": 9"),
+        ("summary.json", "\"peak_theta\": [", "\"peak_theta\": [0.1,"),
+        ("summary.json", "\"friction_demand\": [", "\"friction_demand\": [0.1,"),
+        ("events.json", "\"before\":[", "\"before\":[1,"),
+        ("events.json", "\"omega_after\":[", "\"omega_after\":[1.0,"),
+        ("events.json", "\"omega_before\":[", "\"omega_before\":[1e300,"),
+        ("events.json", "\"t\":", "\"t\":-1"),
+        ("response.csv", "\n0.01,", "\n1e300,"),
+        ("response.csv", "\n0.02,", "\n0.01,"),
+    ] {
+        let path = folder.path().join("out").join(file);
+        let whole = read_to_string(&path).expect("written");
+        assert!(whole.contains(from), "`{from}` is not in {file}");
+        write(&path, whole.replacen(from, to, 1)).expect("written");
+        for command in ["plot", "report"] {
+            let output = common::limited(folder.path(), &[command, "out"]).output().expect("a shell");
+            let message = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{from} to {to}: {message}");
+            assert!(message.contains(file) && message.contains("run the scene again"), "{message}");
+        }
+        write(&path, whole).expect("written");
+    }
+    succeeds(folder.path(), &["plot", "out"]);
+}
