@@ -1,6 +1,7 @@
-//! The documents hold what they say of the project: sections that comments cite, links, file names, commands, keys of scenes.
+//! The documents hold what they say of the project: sections that comments cite, links, file names, commands, keys of scenes,
+//! figures of benchmarks.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 fn root() -> &'static Path {
@@ -300,4 +301,106 @@ fn the_reference_of_scene_files_has_all_keys() {
         }
     }
     assert!(asked > 25 && documented.len() > 50, "{asked} and {}: the patterns find them", documented.len());
+}
+
+/// Cells of the tables between a heading of the chapter on performance and the next one, without heads and rules.
+fn measured(heading: &str) -> Vec<Vec<String>> {
+    let text = read(&root().join("docs/book/performance.md"));
+    let (_, section) = text.split_once(&format!("## {heading}\n")).expect("a section");
+    let rows = section.split("\n## ").next().unwrap_or_default().lines().filter(|line| line.starts_with("| "));
+    let cells = |row: &str| row.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
+    let rows: Vec<Vec<String>> = rows.map(cells).filter(|row| row.iter().any(|cell| number(cell).is_some())).collect();
+    assert!(!rows.is_empty(), "{heading} has a table");
+    rows
+}
+
+/// The number at the head of a cell, and how far off rounding may be.
+fn number(cell: &str) -> Option<(f64, f64)> {
+    let end = cell.find(|c: char| !(c.is_ascii_digit() || ".,".contains(c))).unwrap_or(cell.len());
+    let digits = cell[..end].trim_end_matches(',').replace(',', "");
+    let value: f64 = digits.parse().ok()?;
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    Some((value, (0.501 * 0.1f64.powi(decimals as i32)).max(if decimals == 0 { 0.005 * value } else { 0.0 })))
+}
+
+fn shows(cell: &str, value: f64) -> bool {
+    number(cell).is_some_and(|(shown, rounding)| (shown - value).abs() <= rounding)
+}
+
+/// Rows of a table of figures by the names of its columns.
+fn figures(file: &str) -> Vec<BTreeMap<String, String>> {
+    let cells = |line: &str| {
+        // Commas in quotes are no separators.
+        let parts: Vec<String> = line
+            .split('"')
+            .enumerate()
+            .map(|(i, part)| if i % 2 == 1 { part.replace(',', ";") } else { part.into() })
+            .collect();
+        parts.concat().split(',').map(String::from).collect::<Vec<_>>()
+    };
+    let text = read(&root().join(file));
+    let mut lines = text.lines();
+    let names = cells(lines.next().expect("a head"));
+    lines.map(|line| names.iter().cloned().zip(cells(line)).collect()).collect()
+}
+
+fn value(row: &BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap_or(f64::NAN)
+}
+
+#[test]
+fn tables_of_performance_show_the_figures_of_record() {
+    let sweeps = figures("docs/sweeps.csv");
+    for row in measured("Sweeps") {
+        for (cell, column, threads) in [(1, "scenes_per_s", "1"), (2, "scenes_per_s", "2"), (3, "speed_up", "2")] {
+            let of_row =
+                |figure: &&BTreeMap<String, String>| figure["blocks"] == row[0] && figure["threads"] == threads;
+            let figure = sweeps.iter().find(of_row).expect("a figure");
+            assert!(shows(&row[cell], value(figure, column)), "{row:?}: {figure:?}");
+        }
+    }
+    let skips = figures("docs/skips.csv");
+    for row in measured("What a run leaves out") {
+        let columns = [(2, "with_us"), (3, "without_us"), (4, "ratio")];
+        let is_shown =
+            |figure: &BTreeMap<String, String>| columns.iter().all(|(i, name)| shows(&row[*i], value(figure, name)));
+        assert!(skips.iter().any(is_shown), "{row:?} is not in docs/skips.csv");
+    }
+    let peers = figures("benches/peers/peers.csv");
+    let mut scene = String::new();
+    for row in measured("Against others") {
+        if !row[0].is_empty() {
+            scene = row[0].split(" (").next().unwrap_or_default().replace(',', ";");
+        }
+        let error: f64 = row[1].parse().expect("an error");
+        for (cell, is_ours) in [(2, true), (3, false)].into_iter().filter(|(cell, _)| !row[*cell].is_empty()) {
+            let is_meant = |figure: &&BTreeMap<String, String>| {
+                figure["scene"] == scene
+                    && (figure["program"] == "rocking") == is_ours
+                    && value(figure, "error") <= error
+            };
+            let times = peers.iter().filter(is_meant).map(|figure| value(figure, "time_us"));
+            let least = times.fold(f64::INFINITY, f64::min);
+            assert!(shows(&row[cell], least), "{row:?}: {least}");
+        }
+    }
+    let precision = figures("docs/work-precision.csv");
+    let errors: Vec<_> = measured("Run time against error").into_iter().filter(|row| row.len() == 4).collect();
+    assert_eq!(errors.len(), 7);
+    for row in errors {
+        for (cell, method) in ["dop853", "dormand-prince54", "taylor"].into_iter().enumerate() {
+            let scene = row[0].replace(',', ";");
+            let of_cell = |figure: &&BTreeMap<String, String>| {
+                let tolerance = value(figure, "rtol_or_step");
+                figure["scene"] == scene
+                    && figure["method"] == method
+                    && figure["dynamics"] == "generated"
+                    && tolerance > 0.9e-11
+            };
+            let over =
+                |figure: &BTreeMap<String, String>| value(figure, "angle_error_rad") / value(figure, "rtol_or_step");
+            let worst = precision.iter().filter(of_cell).map(over).fold(0.0, f64::max);
+            assert!(shows(&row[cell + 1], worst), "{row:?}: {method} {worst}");
+        }
+    }
 }
