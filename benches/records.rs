@@ -13,7 +13,7 @@
 //! # The momentum form
 //!
 //! Absolute velocities are those relative to the ground plus `(ẋ_g, ẏ_g)`. With `S_a = (u_a, v_a)` the first moment that link `a`
-//! carries about its pivot, in its own axes (MODEL.md section 3), and `M(θ)` the mass matrix, the kinetic energy in the resting frame is
+//! carries about its pivot, in its own axes (docs/book/model.md, section 3), and `M(θ)` the mass matrix, the kinetic energy in the resting frame is
 //!
 //! ```text
 //! T = ½ ωᵀ M ω + Σ_a (ẋ_g q_a + ẏ_g r_a) ω_a + a function of time,      V = g Σ_a q_a + a function of time

@@ -169,7 +169,7 @@ impl Column {
     }
 
     /// Horizontal ground acceleration `[m/s²]` at which the interface (from zero) of the column at rest opens:
-    /// `c_i g / h_Pi` (MODEL.md section 4, the paper's Eq. 1).
+    /// `c_i g / h_Pi` (docs/book/model.md, section 4, the paper's Eq. 1).
     pub fn uplift_acceleration(&self, interface: usize) -> f64 {
         self.stack(interface).uplift_acceleration()
     }
@@ -223,7 +223,7 @@ impl Stack {
         (self.mass * self.gravity * self.radius() / self.inertia).sqrt()
     }
 
-    /// Horizontal ground acceleration at which it opens from rest, `c g / h_P` `[m/s²]` (MODEL.md section 4).
+    /// Horizontal ground acceleration at which it opens from rest, `c g / h_P` `[m/s²]` (docs/book/model.md, section 4).
     pub fn uplift_acceleration(&self) -> f64 {
         self.half_width * self.gravity / self.centroid_height
     }

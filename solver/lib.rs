@@ -60,9 +60,9 @@ pub use response::{Event, EventKind, Impulse, ModeName, Response, Sample, StopRe
 pub use rocking_codegen::{GroundMotion, pattern};
 pub use rocking_ground as ground;
 pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordError};
-pub use run::certainty::stands as outcome;
 #[doc(hidden)]
 pub use run::Skips;
+pub use run::certainty::stands as outcome;
 pub use run::{Simulator, SolveError, simulate, simulate_observed};
 pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions, Wanted};
 pub use scene_file::SceneFileError;

@@ -8,7 +8,7 @@ use rocking_ground::Excitation;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
-/// What impacts do beyond the plastic law of MODEL.md section 5.
+/// What impacts do beyond the plastic law of docs/book/model.md, section 5.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Restitution {

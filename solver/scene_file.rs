@@ -345,8 +345,14 @@ fn solver(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
         }
     }
     if let Some((name, _)) = table.text("method")? {
-        options.method = Method::parse(&name)
-            .ok_or_else(|| table.no_such("method", "method", &name, &Method::ALL.iter().map(|method| method.name()).collect::<Vec<_>>()))?;
+        options.method = Method::parse(&name).ok_or_else(|| {
+            table.no_such(
+                "method",
+                "method",
+                &name,
+                &Method::ALL.iter().map(|method| method.name()).collect::<Vec<_>>(),
+            )
+        })?;
     }
     table.close()
 }

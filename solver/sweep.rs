@@ -7,9 +7,9 @@
 //! contact and set-up stay scalar and lose their place in the cache.
 
 use crate::response::{ModeName, Response};
+use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
-use crate::run::{Simulator, SolveError};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
 

@@ -142,14 +142,8 @@ fn hold(name: &str, lines: &[String]) {
 }
 
 /// The methods in the order of the committed files.
-const METHODS: [Method; 6] = [
-    Method::Auto,
-    Method::Dop853,
-    Method::DormandPrince54,
-    Method::Taylor,
-    Method::KuttaMerson,
-    Method::RungeKutta4,
-];
+const METHODS: [Method; 6] =
+    [Method::Auto, Method::Dop853, Method::DormandPrince54, Method::Taylor, Method::KuttaMerson, Method::RungeKutta4];
 
 /// Every method and both sources of equations.
 fn variants(name: &str, scene: &Scene) -> Vec<(String, Scene)> {

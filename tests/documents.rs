@@ -107,7 +107,7 @@ fn citations(source: &str) -> Vec<(usize, Option<usize>)> {
 
 #[test]
 fn citations_are_read_in_all_their_forms() {
-    assert_eq!(citations("//! (MODEL.md section 5, item 3)."), [(5, Some(3))]);
+    assert_eq!(citations("//! (docs/book/model.md, section 5, item 3)."), [(5, Some(3))]);
     assert_eq!(citations("/// `docs/book/model.md`, section 4."), [(4, None)]);
     assert_eq!(citations("// see model.md\n// sections 4 and 5: a"), [(4, None), (5, None)]);
     assert_eq!(citations("/// MODEL.md leaves it out."), []);

@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use rocking::contact::{ImpactLaw, impact};
 use rocking::dynamics::Ground;
 use rocking::kinematics::Posture;
-use rocking::ode::Tolerance;
 use rocking::pattern::{Interface, Pattern};
 use rocking::{Block, Column, DynamicsSource, Mode, Motion, Restitution, Scene, simulate};
+use rocking::{Excitation, IntegrateOptions};
 
 #[test]
 fn energy_is_constant_between_impacts() {
@@ -22,8 +22,9 @@ fn energy_is_constant_between_impacts() {
             let x: Vec<f64> = angles.chain(rates).collect();
             let ground = Ground { x: 0.0, gravity: column.gravity() };
             let times: Vec<f64> = (0..=20).map(|step| 0.02 * f64::from(step)).collect();
-            let tolerance = Tolerance { rtol: 1e-13, atol: 1e-15 };
-            let states = mode.integrate(&x, |_| ground, &times, tolerance).expect("smooth");
+            let options = IntegrateOptions::with_tolerances(1e-13, 1e-15);
+            let still = Excitation::default().segments(1.0);
+            let states = mode.integrate(&x, &still, &times, &options).expect("smooth");
             let start = mode.energy(&x, ground.gravity).total();
             for state in states {
                 let energy = mode.energy(&state, ground.gravity).total();
@@ -150,7 +151,7 @@ fn impact_never_adds_energy() {
                     let law = ImpactLaw { kappa: &factors, stick_angle: 1e-9, is_recorded: true };
                     let after = impact(&column, &pattern, &theta, &omega, &closing, ground, law).expect("solvable");
                     let energy = kinetic_energy(&column, &after.pattern, &theta, &after.omega);
-                    // 1e-12 is what restitution is allowed for η = 1 (MODEL.md section 5).
+                    // 1e-12 is what restitution is allowed for η = 1 (docs/book/model.md, section 5).
                     prop_assert!(
                         energy <= before * (1.0 + 2e-12),
                         "{before} -> {energy}, {pattern} -> {}",

@@ -10,8 +10,8 @@ mod replaying;
 
 use oracle::{impact_answers, opening_answers};
 use replaying::{drift, replay};
+use rocking::IntegrateOptions;
 use rocking::dynamics::Ground;
-use rocking::ode::Tolerance;
 use rocking::pattern::{Interface, Pattern};
 use rocking::{
     Block, Column, DynamicsSource, EventKind, Excitation, Method, Mode, Motion, Record, Response, Scene, simulate,
@@ -164,8 +164,8 @@ fn alone(mode: &Mode, x: &[f64], motion: &Motion, times: &[f64]) -> Vec<Vec<f64>
         let mut stops = vec![from];
         stops.extend(inside.iter().filter(|t| **t > from));
         stops.push(segment.end);
-        let tolerance = Tolerance { rtol: 1e-13, atol: 1e-16 };
-        let found = mode.integrate(&x, |t| Ground::at(&segment, t, 9.81), &stops, tolerance).expect("smooth");
+        let options = IntegrateOptions::with_tolerances(1e-13, 1e-16);
+        let found = mode.integrate(&x, std::slice::from_ref(&segment), &stops, &options).expect("smooth");
         states.extend(inside.iter().map(|t| found[stops.iter().position(|stop| stop == t).expect("a stop")].clone()));
         x.clone_from(&found[stops.len() - 1]);
         from = segment.end;
@@ -315,9 +315,10 @@ fn a_block_that_stops_is_thrown_to_the_other_side_in_the_same_instant() {
         assert_eq!(first.omega_after[..], [0.0]);
         assert_eq!(response.events.len(), 1, "{method:?}: {:?}", response.events);
         let mode = Mode::generic(&column, &Pattern::from_signs(&[-1])).expect("it moves");
-        let ground = Ground { x: push, gravity: 9.81 };
-        let tolerance = Tolerance { rtol: 1e-13, atol: 1e-16 };
-        let states = mode.integrate(&[0.0, 0.0], |_| ground, &[first.t, 0.3], tolerance).expect("smooth");
+        let options = IntegrateOptions::with_tolerances(1e-13, 1e-16);
+        let pushed = Motion::Rectangular { amplitude: push, start: 0.0, duration: 1.0 };
+        let pushed = Excitation { horizontal: Some(pushed), vertical: None }.segments(0.5);
+        let states = mode.integrate(&[0.0, 0.0], &pushed, &[first.t, 0.3], &options).expect("smooth");
         assert!(distance(&states[1], &end(&response)) < 1e-10, "{method:?}");
     });
 }
@@ -575,20 +576,6 @@ fn every_impact_of_a_run_and_what_opens_with_it_is_what_brute_force_says() {
     });
     println!("{impacts} impacts, {stuck} of them with an interface that stuck, {opened} with one that forces opened");
     assert!(impacts > 500);
-}
-
-/// A dip between the last inner sample and the end, and one between equal ends.
-#[test]
-fn regression_a_dip_beside_the_end_or_between_equal_ends_is_found() {
-    use rocking::event::first_crossing;
-    for bottom in [0.1, 0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 0.95] {
-        for depth in [1e-6, 1e-4, 1e-2] {
-            let dip = |s: f64| (s - bottom) * (s - bottom) - depth;
-            let found = first_crossing(dip, dip(0.0), 1.0);
-            let expected = bottom - depth.sqrt();
-            assert!(found.is_some_and(|s| (s - expected).abs() < 1e-9), "bottom {bottom}, depth {depth}: {found:?}");
-        }
-    }
 }
 
 /// The fall of an overturning block takes a Taylor step of half a radian: the moment in which its contact parts lies inside, and in the

@@ -1,4 +1,4 @@
-//! Generated functions over other scalars: lanes, dual numbers, double-doubles.
+//! Generated functions over other scalars: dual numbers, double-doubles.
 
 mod common;
 #[allow(dead_code, reason = "the benchmark that it belongs to needs more of it")]
@@ -8,7 +8,6 @@ mod double;
 use double::Double;
 use proptest::prelude::*;
 use rocking::generated::{equations, geometry};
-use rocking::lanes::{Ensemble, Lanes};
 use rocking::pattern::Pattern;
 use rocking::program::{EnergyProgram, Geometry, Scalar, StepProgram};
 use rocking::scalar::Dual;
@@ -40,45 +39,6 @@ fn inputs(random: &[f64]) -> ([f64; 6], f64, f64) {
     (x, 10.0 * random[6], 12.0 + 8.0 * random[7])
 }
 
-fn lanes_are_scalars<S: Scalar, const L: usize>(to: impl Fn([f64; L]) -> S, from: impl Fn(S) -> [f64; L]) {
-    let strategy = prop::collection::vec(strategy(), L);
-    let run = |cases: Vec<(Column, Vec<f64>)>| {
-        let pattern = Pattern::from_signs(&SIGNS);
-        let geometries: Vec<_> = cases.iter().map(|(column, _)| geometry(column, &pattern)).collect();
-        let inputs: Vec<_> = cases.iter().map(|(_, random)| inputs(random)).collect();
-        let pack = |value: &dyn Fn(usize) -> f64| to(std::array::from_fn(value));
-        let blocks = |pick: &dyn Fn(&Geometry<f64>) -> &Vec<f64>| -> Vec<S> {
-            (0..4).map(|block| pack(&|lane| pick(&geometries[lane])[block])).collect()
-        };
-        let packed = Geometry {
-            gravity: pack(&|lane| geometries[lane].gravity),
-            pivot: blocks(&|g| &g.pivot),
-            half_height: blocks(&|g| &g.half_height),
-            mass: blocks(&|g| &g.mass),
-            inertia: blocks(&|g| &g.inertia),
-        };
-        let x: [S; 6] = std::array::from_fn(|i| pack(&|lane| inputs[lane].0[i]));
-        let together =
-            accelerations(&packed, MASK, x, pack(&|lane| inputs[lane].1), pack(&|lane| inputs[lane].2)).map(&from);
-        for lane in 0..L {
-            let (x, ground_x, gravity) = inputs[lane];
-            let alone = accelerations(&geometries[lane], MASK, x, ground_x, gravity);
-            for link in 0..3 {
-                prop_assert_eq!(together[link][lane].to_bits(), alone[link].to_bits());
-            }
-        }
-        Ok(())
-    };
-    common::runner(200).run(&strategy, run).expect("lanes agree with scalars");
-}
-
-#[test]
-fn lanes_give_bit_for_bit_what_scalars_give() {
-    lanes_are_scalars::<f64x4, 4>(f64x4::new, |lanes| lanes.to_array());
-    lanes_are_scalars::<f64x8, 8>(f64x8::new, |lanes| lanes.to_array());
-    lanes_are_scalars::<Lanes<8>, 8>(Lanes, |lanes| lanes.0);
-}
-
 /// Up to an eighth of a turn, where they are polynomials, and just beyond. The last rounding makes half a place. A sine's polynomial adds 0.078 places
 /// at most for each of its relative roundings, of which there are 4.3; a cosine's adds a quarter for that of the square, and 0.08.
 #[test]
@@ -95,40 +55,6 @@ fn sines_and_cosines_err_by_less_than_the_last_place() {
         worst = [worst[0].max(error(sin, exact.0)), worst[1].max(error(cos, exact.1))];
     }
     assert!(worst[0] < 0.85 && worst[1] < 0.85, "{worst:?}");
-}
-
-/// An ensemble runs in whatever instructions the machine has; beyond the polynomials its lanes go one by one.
-#[test]
-fn an_ensemble_gives_bit_for_bit_what_its_scenes_give() {
-    use rocking::dynamics::{Dynamics, Ground};
-    use rocking::generated::GeneratedMode;
-    let run = |cases: Vec<(Column, Vec<f64>)>| {
-        let pattern = Pattern::from_signs(&SIGNS);
-        let modes: Vec<_> = cases.iter().map(|(column, _)| (column, &pattern)).collect();
-        let ensemble = Ensemble::<equations::Dof3>::new(&modes, GroundMotion::WithVertical, equations::linkage::<f64>);
-        let ensemble = ensemble.expect("the build covers it");
-        let inputs: Vec<_> = cases.iter().map(|(_, random)| inputs(random)).collect();
-        let states: Vec<f64> = inputs.iter().flat_map(|(x, _, _)| *x).collect();
-        let ground: Vec<Ground> = inputs.iter().map(|&(_, x, gravity)| Ground { x, gravity }).collect();
-        let states = ensemble.pack(&states, 6);
-        let shaken: Vec<f64> = ground.iter().flat_map(|ground| [ground.x, ground.gravity]).collect();
-        let mut slopes = states.clone();
-        ensemble.slopes(&states, &ensemble.pack(&shaken, 2), &mut slopes);
-        let slopes = ensemble.unpack(&slopes, 6);
-        for (index, (column, pattern)) in modes.iter().enumerate() {
-            type Alone = GeneratedMode<equations::Dof3>;
-            let alone = Alone::new(column, pattern, GroundMotion::WithVertical, equations::linkage::<f64>);
-            let mut slope = [0.0; 6];
-            alone.expect("the build covers it").derivative(&inputs[index].0, ground[index], &mut slope);
-            for (a, b) in slopes[6 * index..].iter().zip(slope) {
-                prop_assert_eq!(a.to_bits(), b.to_bits());
-            }
-        }
-        Ok(())
-    };
-    for count in [0, 1, 8, 19] {
-        common::runner(60).run(&prop::collection::vec(strategy(), count), run).expect("ensembles agree with scenes");
-    }
 }
 
 /// Derivatives by every column parameter (gravity, pivots, half-heights, masses, inertias), every angle and every rate.

@@ -3,7 +3,7 @@
 #[path = "common/stress.rs"]
 mod scenes;
 
-use rocking::{Response, Scene, Skips, simulate};
+use rocking::{Response, Scene, Simulator, Skips, simulate};
 
 /// Events that are compared: later ones of a chaotic run differ by what the first ones rounded.
 const EVENTS: usize = 6;
@@ -12,9 +12,7 @@ fn runs(seed: u64, off: Skips) -> Option<(Scene, Response, Response)> {
     let mut scene = scenes::scene(seed);
     (scene.options.rtol, scene.options.atol) = (1e-11, 1e-14);
     scene.options.method = rocking::Method::Auto;
-    let mut whole = scene.clone();
-    whole.options.skips = off;
-    let (a, b) = (simulate(&scene).ok()?, simulate(&whole).ok()?);
+    let (a, b) = (simulate(&scene).ok()?, Simulator::with_skips(off).run(&scene).ok()?);
     Some((scene, a, b))
 }
 
@@ -80,12 +78,12 @@ fn on_noise(seed: u64) -> Scene {
 #[test]
 fn steps_over_samples_end_where_steps_between_them_do() {
     let (mut compared, mut leaps, mut overturned, mut peaks, mut others) = (0, 0, 0, 0, Vec::new());
+    let mut each_sample = Simulator::with_skips(Skips { samples: false, ..Skips::default() });
     for seed in 0..160 {
         let scene = on_noise(seed);
         let mut tight = scene.clone();
-        tight.options.skips.samples = false;
         (tight.options.rtol, tight.options.atol) = (1e-13, 1e-16);
-        let (a, b) = (simulate(&scene).expect("solved"), simulate(&tight).expect("solved"));
+        let (a, b) = (simulate(&scene).expect("solved"), each_sample.run(&tight).expect("solved"));
         assert_eq!(b.work.leaps, 0);
         leaps += a.work.leaps;
         overturned += usize::from(a.overturned_block.is_some());
@@ -182,8 +180,7 @@ fn counters_tell_what_was_left_out() {
     assert!(work.force_calls == 0 && !work.with_vertical, "{work:?}");
     scene.options.wanted = Wanted::Outcome;
     assert!(simulate(&scene).expect("solved").work.ended_early);
-    scene.options.skips = Skips::NOTHING;
-    let work = simulate(&scene).expect("solved").work;
+    let work = Simulator::with_skips(Skips::NOTHING).run(&scene).expect("solved").work;
     assert!(work.swings == 0 && work.waits == 0 && !work.ended_early, "{work:?}");
     assert!(work.force_calls > work.steps && work.with_vertical && work.modes_entered <= 2, "{work:?}");
 }

@@ -14,7 +14,7 @@
 //!
 //! The linear limit `α -> 0` under `a sin Ωt` is, in units `α` and `1/p`, `θ̈ = θ - s - A sin(wτ)` with `A = a / (α g)` and
 //! `w = Ω / p`, solved piece by piece (Zhang & Makris 2001): `θ = s + A/(1 + w²) sin(wτ) + c_+ e^τ + c_- e^-τ`. A positive ground
-//! acceleration starts the block to the left, `s = -1` (MODEL.md section 4).
+//! acceleration starts the block to the left, `s = -1` (docs/book/model.md, section 4).
 
 use rocking::{Block, Column, EventKind, Method, Motion, Response, Restitution, Scene, StopReason, simulate};
 use std::f64::consts::TAU;

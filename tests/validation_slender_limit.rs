@@ -1,6 +1,6 @@
 //! The linear limit of the single block (Zhang & Makris 2001): thresholds of the one-sine pulse, Ω/p = 5, η = 0.9.
 //!
-//! 3.0186, 6.3181 and 7.1681 times α g are the exact roots of the linear problem as MODEL.md section 7 gives them. At
+//! 3.0186, 6.3181 and 7.1681 times α g are the exact roots of the linear problem as docs/book/model.md, section 7 gives them. At
 //! α = 1e-3 the nonlinear block is off by terms of α², a part in a million: four digits must agree.
 
 use rocking::{Block, Column, Motion, Restitution, Scene, StopReason, simulate};

@@ -1,6 +1,6 @@
-//! Rates after an impact in double-doubles: MODEL.md section 5 with the pattern after known.
+//! Rates after an impact in double-doubles: docs/book/model.md, section 5 with the pattern after known.
 //!
-//! Centroids are differentiated as they stand in MODEL.md section 3, per block and without pivots to walk along:
+//! Centroids are differentiated as they stand in docs/book/model.md, section 3, per block and without pivots to walk along:
 //!
 //! ```text
 //!     v_i = Σ_{k<i} ω_k R'(θ_k) (p_{k+1} - p_k, 2 h_k) + ω_i R'(θ_i) (-p_i, h_i)

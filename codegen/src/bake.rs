@@ -78,7 +78,7 @@ impl BakedColumn {
         Ok(())
     }
 
-    /// `c_1 = b_1`, `c_i = min(b_{i-1}, b_i)` (MODEL.md section 1).
+    /// `c_1 = b_1`, `c_i = min(b_{i-1}, b_i)` (docs/book/model.md, section 1).
     fn contact_half_width(&self, interface: usize) -> f64 {
         let own = self.blocks[interface].half_width;
         interface.checked_sub(1).map_or(own, |below| own.min(self.blocks[below].half_width))

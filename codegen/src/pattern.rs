@@ -2,7 +2,7 @@
 //!
 //! A column of `N` blocks has `N` interfaces, counted from the base. Each is closed or open on one of its
 //! corners, so there are `3^N` patterns: one at rest, the others in mirror pairs, `(3^N - 1)/2` modes
-//! (MODEL.md section 2). This file lists and labels them; it knows no lengths, masses or equations.
+//! (docs/book/model.md, section 2). This file lists and labels them; it knows no lengths, masses or equations.
 //!
 //! ```text
 //!     s = +1: pivots on the right corner      s = -1: on the left corner
@@ -138,7 +138,7 @@ impl Pattern {
         Linkage { open: self.0.iter().map(|interface| interface.is_open()).collect() }
     }
 
-    /// Mode `k.j` of MODEL.md section 2, and whether this pattern is its mirror image; `None` at rest.
+    /// Mode `k.j` of docs/book/model.md, section 2, and whether this pattern is its mirror image; `None` at rest.
     ///
     /// ```
     /// use rocking_codegen::pattern::Pattern;

@@ -2,7 +2,8 @@
 
 use super::decision::Decision;
 use super::instant::{
-    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, is_rounding, largest, may_open, project, relative,
+    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, is_rounding, largest, may_open, project,
+    relative,
 };
 use super::search::ContactProblem;
 use crate::column::Column;
@@ -22,7 +23,7 @@ pub struct ImpactLaw<'a> {
     pub is_recorded: bool,
 }
 
-/// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (MODEL.md section 5).
+/// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (docs/book/model.md, section 5).
 ///
 /// `pattern` is the one before, `theta` and `omega` are the blocks' angles and rates before, length N. Angles at closed and
 /// closing interfaces are equal, to rounding; so are angles and rates at the closed ones of the decision.
@@ -129,7 +130,7 @@ pub(crate) fn stick(
     })
 }
 
-/// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or MODEL.md leaves it out.
+/// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or the model leaves it out.
 fn restitute<S: Size>(
     mechanism: &Mechanism<S>,
     plastic: &Answer<S>,
@@ -201,14 +202,14 @@ fn restitute<S: Size>(
     (!chosen(free).any(flips) && !gains).then_some(rebound)
 }
 
-/// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (MODEL.md section 5).
+/// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (docs/book/model.md, section 5).
 const ENERGY_ROUNDING: f64 = 1e-12;
 
 /// A hop of less than this is below the resolution of angles: 64 roundings of a radian `[rad]`. Larger, and short hops that
-/// MODEL.md has are lost; smaller, and two interfaces that strike in turn go on until rounding decides their pattern.
+/// the model has are lost; smaller, and two interfaces that strike in turn go on until rounding decides their pattern.
 const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 
-/// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (MODEL.md section 5, rest): all of them at
+/// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (docs/book/model.md, section 5, rest): all of them at
 /// once, judged by the rates and accelerations before any of them is closed. What then hops by less than angles resolve is
 /// closed as well.
 /// Mechanism and rates are then those that are left; answers with their forces.

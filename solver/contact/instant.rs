@@ -134,7 +134,7 @@ impl<S: Size> Motion<S> {
     }
 }
 
-/// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (MODEL.md section 5, item 1).
+/// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (docs/book/model.md, section 5, item 1).
 #[inline(always)]
 pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Motion<S>) -> Answer<S> {
     let posture = &mechanism.posture;
@@ -146,7 +146,7 @@ pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Motion<S>) -> 
     Answer { motion, resultants, change }
 }
 
-/// The accelerations of a pattern at the blocks' rates, and what its contacts carry (MODEL.md section 4).
+/// The accelerations of a pattern at the blocks' rates, and what its contacts carry (docs/book/model.md, section 4).
 #[inline(always)]
 pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], ground: Ground) -> Answer<S> {
     let posture = &mechanism.posture;

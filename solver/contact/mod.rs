@@ -1,4 +1,4 @@
-//! Contact problems: which interfaces are open after an impact, and which open when forces change (MODEL.md sections 4 and 5).
+//! Contact problems: which interfaces are open after an impact, and which open when forces change (docs/book/model.md, sections 4 and 5).
 //!
 //! Both are the same question at two levels. *Impact*: velocities before are given, velocities after are sought, contacts
 //! transmit impulses. *Opening*: velocities are given, accelerations are sought, contacts transmit forces. In either, every
@@ -12,7 +12,7 @@
 //! These are the optimality conditions of a projection onto a convex cone (two corners a contact, neither of which may sink in
 //! or pull), so admissible patterns differ at most in contacts that carry nothing: the first one found is the answer. It is
 //! searched for in `search.rs`, from the guess that most often holds.
-//! Where none is admissible MODEL.md takes the nearest one and calls it a separation.
+//! Where none is admissible the model takes the nearest one and calls it a separation.
 
 mod decision;
 mod impact;
@@ -21,8 +21,8 @@ mod opening;
 mod search;
 
 pub use decision::Decision;
-pub use impact::{ImpactLaw, impact};
 pub(crate) use impact::stick;
+pub use impact::{ImpactLaw, impact};
 pub use instant::SingularMass;
 pub(crate) use instant::{is_gapless, is_motionless, verge_acceleration};
 pub use opening::open;

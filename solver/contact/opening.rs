@@ -8,7 +8,7 @@ use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (MODEL.md section 4): the
+/// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (docs/book/model.md, section 4): the
 /// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion call for. `released` are interfaces, with their
 /// sides, whose resultants have reached a corner in this instant: they open, whatever rounding says of their acceleration.
 ///
@@ -46,7 +46,8 @@ fn open_at<S: Size>(
     let tolerance = verge_acceleration(instant.column, &answer.motion, ground);
     let is_driven_back =
         |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
-    let driven_back: PerBlock<usize> = released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
+    let driven_back: PerBlock<usize> =
+        released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
         driven_back.iter().for_each(|&interface| free[interface] = true);
         let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces };

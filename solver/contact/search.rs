@@ -1,5 +1,5 @@
 //! Search for the admissible pattern of a contact problem: from a guess by setting right what is violated, and by trying all
-//! patterns if that does not lead there (MODEL.md section 5, item 3).
+//! patterns if that does not lead there (docs/book/model.md, section 5, item 3).
 
 use super::instant::{Answer, Instant, Mechanism, SingularMass, chosen, relative};
 use crate::numerics::per_block::Size;
@@ -138,7 +138,7 @@ mod tests {
     use rocking_codegen::pattern::Pattern;
     use std::cell::Cell;
 
-    /// MODEL.md section 5, item 3: of all patterns of random stacks of drums exactly one is admissible, and the search finds it.
+    /// docs/book/model.md, section 5, item 3: of all patterns of random stacks of drums exactly one is admissible, and the search finds it.
     #[test]
     fn the_search_finds_the_one_admissible_pattern() {
         let block = (0.3f64..0.5, 0.5f64..1.0).prop_map(|(b, h)| Block::rectangle(b, h, 1.0));

@@ -25,7 +25,7 @@ impl Ground {
     }
 }
 
-/// Contact force at an interface, on the stack above (MODEL.md section 4).
+/// Contact force at an interface, on the stack above (docs/book/model.md, section 4).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactForce {
     /// Normal part `[N]`, compression positive, in the axes of the lower block.

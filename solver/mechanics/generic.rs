@@ -40,7 +40,8 @@ impl GenericMode {
     }
 
     fn posture(&self, state: &[f64]) -> Posture<'_> {
-        let theta: PerBlock<f64> = self.link.iter().map(|&link| if link == 0 { 0.0 } else { state[link - 1] }).collect();
+        let theta: PerBlock<f64> =
+            self.link.iter().map(|&link| if link == 0 { 0.0 } else { state[link - 1] }).collect();
         Posture::new(&self.column, &self.pattern, &theta)
     }
 }

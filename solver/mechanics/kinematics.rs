@@ -6,8 +6,8 @@
 //! Notation: link 0 moves with the ground, link `a >= 1` turns by the free angle `a`. Clockwise is positive, so a rate ω
 //! about a pivot moves a point at `r` with `ω (r_y, -r_x)` and a rate alone accelerates it by `-ω² r`.
 
-use crate::column::{Block, Column};
 use super::dynamics::ContactForce;
+use crate::column::{Block, Column};
 use crate::numerics::per_block::{Any, Size};
 use crate::numerics::sines;
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -236,7 +236,7 @@ impl<'a, S: Size> Posture<'a, S> {
     }
 
     /// What the contacts transmit to the stacks above when the blocks are given these accelerations less gravity
-    /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. MODEL.md section 4.
+    /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. docs/book/model.md, section 4.
     #[inline(always)]
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
         let blocks = self.blocks();

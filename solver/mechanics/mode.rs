@@ -9,7 +9,7 @@ use crate::numerics::ode::control::{Part, Tolerance};
 use crate::numerics::ode::explicit::Tableau;
 use crate::numerics::ode::methods::{ForTableau, Method};
 use rocking_codegen::pattern::Pattern;
-use rocking_ground::Excitation;
+use rocking_ground::Segment;
 use std::sync::Arc;
 
 /// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
@@ -34,9 +34,22 @@ pub struct IntegrateOptions {
     pub step: f64,
 }
 
+impl IntegrateOptions {
+    /// The default options with these tolerances.
+    pub fn with_tolerances(rtol: f64, atol: f64) -> IntegrateOptions {
+        IntegrateOptions { rtol, atol, ..IntegrateOptions::default() }
+    }
+}
+
 impl Default for IntegrateOptions {
     fn default() -> IntegrateOptions {
-        IntegrateOptions { gravity: rocking_ground::DEFAULT_GRAVITY, method: Method::Auto, rtol: 1e-9, atol: 1e-12, step: 1e-3 }
+        IntegrateOptions {
+            gravity: rocking_ground::DEFAULT_GRAVITY,
+            method: Method::Auto,
+            rtol: 1e-9,
+            atol: 1e-12,
+            step: 1e-3,
+        }
     }
 }
 
@@ -52,8 +65,8 @@ pub enum IntegrateError {
         /// Length given.
         found: usize,
     },
-    /// The times are not ascending from zero on.
-    #[error("times must be finite, ascending and not below zero; time {index} is {time}")]
+    /// The times are not ascending, or not covered by the segments.
+    #[error("times must be finite, ascending and covered by the segments; time {index} is {time}")]
     Times {
         /// Place in the list, from zero.
         index: usize,
@@ -177,7 +190,8 @@ impl Mode {
         forces
     }
 
-    /// States at `times` `[s]` (ascending, the first is that of `x`) in this mode alone: hinges that hold both ways, no events.
+    /// States at `times` `[s]` (ascending, the first is that of `x`) in this mode alone, under segments of ground motion
+    /// ([`Excitation::segments`](rocking_ground::Excitation::segments)) that cover them: hinges that hold both ways, no events.
     ///
     /// # Errors
     /// [`IntegrateError`]
@@ -186,7 +200,8 @@ impl Mode {
     /// use rocking::{Column, Excitation, Mode, pattern::Pattern};
     /// let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81)?;
     /// let mode = Mode::new(&column, &Pattern::from_signs(&[1])).unwrap();
-    /// let states = mode.integrate(&[0.1, 0.0], &Excitation::default(), &[0.0, 0.2], &Default::default())?;
+    /// let still = Excitation::default().segments(0.2);
+    /// let states = mode.integrate(&[0.1, 0.0], &still, &[0.0, 0.2], &Default::default())?;
     /// let energy = |x: &[f64]| mode.energy(x, 9.81).total();
     /// assert!((energy(&states[1]) / energy(&states[0]) - 1.0).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -194,7 +209,7 @@ impl Mode {
     pub fn integrate(
         &self,
         x: &[f64],
-        excitation: &Excitation,
+        segments: &[Segment],
         times: &[f64],
         options: &IntegrateOptions,
     ) -> Result<Vec<Vec<f64>>, IntegrateError> {
@@ -202,7 +217,7 @@ impl Mode {
         if x.len() != expected {
             return Err(IntegrateError::StateLength { expected, found: x.len() });
         }
-        let mut least = 0.0;
+        let mut least = f64::NEG_INFINITY;
         for (index, &time) in times.iter().enumerate() {
             if !(time.is_finite() && time >= least) {
                 return Err(IntegrateError::Times { index, time });
@@ -212,7 +227,10 @@ impl Mode {
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Ok(Vec::new()) };
         let tolerance = Tolerance { rtol: options.rtol, atol: options.atol };
         let mut integrator = self.integrator(options.method, options.gravity, options.rtol, options.step);
-        let segments = excitation.segments(last.max(f64::MIN_POSITIVE));
+        let uncovered = |time: f64| segments.iter().all(|segment| time < segment.start || time > segment.end);
+        if let Some((index, &time)) = times.iter().enumerate().find(|(_, time)| uncovered(**time)) {
+            return Err(IntegrateError::Times { index, time });
+        }
         let (mut t, mut states) = (first, vec![x.to_vec()]);
         let (mut wanted, mut has_begun) = (f64::INFINITY, false);
         for segment in segments.iter().filter(|segment| segment.end > first) {

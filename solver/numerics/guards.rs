@@ -339,4 +339,20 @@ mod tests {
         assert_eq!(first_crossing(guard, 0.6, 0.5), None);
         assert_root(first_crossing(guard, 0.6, 0.8), 0.6);
     }
+
+    /// A dip between the last inner sample and the end, and one between equal ends.
+    #[test]
+    fn regression_a_dip_beside_the_end_or_between_equal_ends_is_found() {
+        for bottom in [0.1, 0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 0.95] {
+            for depth in [1e-6, 1e-4, 1e-2] {
+                let dip = |s: f64| (s - bottom) * (s - bottom) - depth;
+                let found = first_crossing(dip, dip(0.0), 1.0);
+                let expected = bottom - depth.sqrt();
+                assert!(
+                    found.is_some_and(|s| (s - expected).abs() < 1e-9),
+                    "bottom {bottom}, depth {depth}: {found:?}"
+                );
+            }
+        }
+    }
 }

@@ -17,7 +17,7 @@ impl Sample {
             .map_or_else(|| rest::energy(column), |mode| mode.energy(&self.state_of_links(), gravity))
     }
 
-    /// Contact forces at all interfaces, base first, length N (MODEL.md section 4).
+    /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4).
     pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
         let ground = Ground { x: self.ground[0], gravity: column.gravity() + self.ground[1] };
         match Mode::new(column, &self.pattern) {

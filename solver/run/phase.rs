@@ -230,8 +230,11 @@ impl Phase {
         let closed: PerBlock<usize> = (0..blocks).filter(|i| !pattern.0[*i].is_open()).collect();
         let pendulum = if dof == 1 && problem.swings_in_closed_form() { integrator.pendulum() } else { None };
         let steps_over_samples = dof == 1 && closed.is_empty() && problem.steps_over_samples();
-        let samples = if steps_over_samples { integrator.rocker().map(|rocker| SampleSteps { rocker, pause: 0 }) } else { None };
-        let fall = problem.growth().and_then(|growth| Fall::new(&scene.column, options.overturn_angle, growth, integrator.pendulum()?));
+        let samples =
+            if steps_over_samples { integrator.rocker().map(|rocker| SampleSteps { rocker, pause: 0 }) } else { None };
+        let fall = problem
+            .growth()
+            .and_then(|growth| Fall::new(&scene.column, options.overturn_angle, growth, integrator.pendulum()?));
         let zeros = || PerBlock::filled(0.0, 2 * dof);
         Phase {
             pendulum,

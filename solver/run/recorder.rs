@@ -217,7 +217,8 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
     let numbers = transition.interfaces.iter().map(|interface| interface + 1);
     // Where nothing strikes, rates do not change but for what is snapped.
     let strikes = !transition.decision.impulses.is_empty();
-    let impulses = || PerBlock::from_slice(&size.list_of(|interface| Impulse::from(&transition.decision.impulses[interface])));
+    let impulses =
+        || PerBlock::from_slice(&size.list_of(|interface| Impulse::from(&transition.decision.impulses[interface])));
     Event {
         t: after.t,
         kind: transition.kind,

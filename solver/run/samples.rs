@@ -12,8 +12,8 @@ use super::problem::Problem;
 use super::stretch::{Request, Stretch};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::control::Part;
-use crate::numerics::ode::samples::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
 use crate::numerics::ode::gauss_rule::NODES;
+use crate::numerics::ode::samples::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
 
 impl Crests {
     /// The first and last share of the step between which the angle may have a crest above `peak`.
@@ -32,7 +32,13 @@ impl Crests {
 
 /// Bounds of an angle all through a step of length `h` `[s]` from `start` on a side, out being positive: where it may have crests, and the share
 /// of the step from which on the block may land or overturn, if it may.
-fn bounds(rocker: Rocker, [start, sign]: [f64; 2], h: f64, step: &SampledStep, overturned: f64) -> (Crests, Option<f64>) {
+fn bounds(
+    rocker: Rocker,
+    [start, sign]: [f64; 2],
+    h: f64,
+    step: &SampledStep,
+    overturned: f64,
+) -> (Crests, Option<f64>) {
     let mut angles = [sign * start; NODES + 2];
     let later = step.theta.0.iter().chain(&step.end[..1]);
     angles[1..].iter_mut().zip(later).for_each(|(angle, theta)| *angle = sign * theta);

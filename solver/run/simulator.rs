@@ -41,10 +41,7 @@ pub fn simulate(scene: &Scene) -> Result<Response, SolveError> {
 ///
 /// # Errors
 /// As [`simulate`]; [`SolveError::Cancelled`].
-pub fn simulate_observed(
-    scene: &Scene,
-    progress: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<Response, SolveError> {
+pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<Response, SolveError> {
     Simulator::new().run_observed(scene, progress)
 }
 

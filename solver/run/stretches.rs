@@ -123,7 +123,10 @@ impl Phase {
     fn certain_outcome(&self, problem: &Problem) -> Option<Over> {
         let x = self.integrator.start();
         let sign = self.gaps[0].across.sign;
-        if self.fall.is_some_and(|fall| verdict::falls(&fall, problem, (self.segment, self.t), [x[0], x[self.dof]], sign)) {
+        if self
+            .fall
+            .is_some_and(|fall| verdict::falls(&fall, problem, (self.segment, self.t), [x[0], x[self.dof]], sign))
+        {
             return Some(Over::Falls(0));
         }
         verdict::stands(problem, (self.segment, self.t), self.pattern(), || self.per_block(x)).then_some(Over::Stands)

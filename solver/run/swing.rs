@@ -101,7 +101,9 @@ impl Phase {
         let is_below_crest = || overturned < 0.0 && swing.turning_point().is_some_and(|crest| overturned <= crest);
         let is_overturned = goes_out && (!has_crest || is_below_crest());
         let (ended, psi) = match is_overturned {
-            true => (Ended::Over(Over::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0))), overturned),
+            true => {
+                (Ended::Over(Over::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0))), overturned)
+            }
             false => (Ended::Closing(PerBlock::from_slice(&[gap.interface])), landing),
         };
         let size = swing.rate_at(psi)?;
@@ -216,7 +218,8 @@ impl Swing {
         if !(self.has_turned() && self.course.height() > known) {
             return at_end;
         }
-        let crest = self.course.swing.turning_point().map(|turn| self.course.pendulum.theta(turn, self.course.sign).abs());
+        let crest =
+            self.course.swing.turning_point().map(|turn| self.course.pendulum.theta(turn, self.course.sign).abs());
         crest.map_or(at_end, |crest| crest.max(at_end))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The oracle knows no links and no Jacobians. Each block has three velocities of its own; a contact is rows of constraints between
 //! two blocks, a hinge at a corner or a hinge at the centre and equal rates; and one linear system gives the motion and, as
-//! its multipliers, what the contacts transmit (MODEL.md sections 4 and 5):
+//! its multipliers, what the contacts transmit (docs/book/model.md, sections 4 and 5):
 //!
 //! ```text
 //!     [ m  -Gᵀ ] [ v⁺ ]   [ m v⁻ ]              [ m  -Gᵀ ] [ A ]   [ 0              ]

@@ -4,9 +4,9 @@
 //! outside its contact, and the state at the end of the phase that the next event recorded.
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
+use rocking::IntegrateOptions;
 use rocking::dynamics::Ground;
 use rocking::ground::Segment;
-use rocking::ode::Tolerance;
 use rocking::pattern::Pattern;
 use rocking::{Column, EventKind, Excitation, Mode, Response, Scene};
 
@@ -70,12 +70,13 @@ pub fn per_block(pattern: &Pattern, x: &[f64]) -> (Vec<f64>, Vec<f64>) {
 /// The state of a mode after `span` seconds from angles and rates per block, with the ground at rest; `span < 0` goes back in time.
 pub fn drift(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64], span: f64) -> (Vec<f64>, Vec<f64>) {
     let mode = Mode::generic(column, pattern).expect("it moves");
-    let ground = Ground { x: 0.0, gravity: column.gravity() };
     let turn = span.signum();
     let mut x = links_of(pattern, theta, omega);
     x[pattern.dof()..].iter_mut().for_each(|rate| *rate *= turn);
-    let tolerance = Tolerance { rtol: 1e-14, atol: 1e-17 };
-    let mut states = mode.integrate(&x, |_| ground, &[0.0, span.abs()], tolerance).expect("smooth");
+    let mut options = IntegrateOptions::with_tolerances(1e-14, 1e-17);
+    options.gravity = column.gravity();
+    let still = Excitation::default().segments(span.abs().max(f64::MIN_POSITIVE));
+    let mut states = mode.integrate(&x, &still, &[0.0, span.abs()], &options).expect("smooth");
     let mut end = states.pop().expect("two times");
     end[pattern.dof()..].iter_mut().for_each(|rate| *rate *= turn);
     per_block(pattern, &end)
@@ -109,7 +110,8 @@ fn phase(
     found.phases += 1;
     let mode = Mode::generic(column, pattern).expect("it moves");
     let mut x = links_of(pattern, theta, omega);
-    let tolerance = Tolerance { rtol: 1e-13, atol: 1e-16 };
+    let mut options = IntegrateOptions::with_tolerances(1e-13, 1e-16);
+    options.gravity = column.gravity();
     for segment in segments.iter().filter(|segment| segment.end > *t && segment.start < event.t) {
         let (from, until) = (segment.start.max(*t), segment.end.min(event.t));
         let times: Vec<f64> = (0..=PLACES)
@@ -119,7 +121,7 @@ fn phase(
             continue;
         }
         let ground = |t: f64| Ground::at(segment, t, column.gravity());
-        let Some(states) = mode.integrate(&x, ground, &times, tolerance) else {
+        let Ok(states) = mode.integrate(&x, std::slice::from_ref(segment), &times, &options) else {
             found.state.lower(f64::NEG_INFINITY, from);
             return;
         };

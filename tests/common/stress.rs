@@ -270,7 +270,7 @@ pub fn violation(scene: &Scene, response: &Response) -> Option<String> {
             if sign * gap < -slack {
                 return Some(format!("interface {} has the gap {gap} at the event at t = {}", interface + 1, event.t));
             }
-            // Sticking is a projection of its own (MODEL.md section 5) and may turn the rate of an interface that has just opened:
+            // Sticking is a projection of its own (docs/book/model.md, section 5) and may turn the rate of an interface that has just opened:
             // that one strikes in the same instant then.
             let next = response.events.get(index + 1);
             let strikes_at_once = next.is_some_and(|next| next.t == event.t && next.kind == EventKind::Impact);
@@ -282,7 +282,7 @@ pub fn violation(scene: &Scene, response: &Response) -> Option<String> {
             }
             below = (event.theta[interface], event.omega_after[interface]);
         }
-        // Restitution may raise the energy by a share of 1e-12 (MODEL.md section 5), and sums over masses 1e6 apart round.
+        // Restitution may raise the energy by a share of 1e-12 (docs/book/model.md, section 5), and sums over masses 1e6 apart round.
         if event.kind == EventKind::Impact && !event.energy_lost.is_some_and(|lost| (-1e-9..=1.0).contains(&lost)) {
             return Some(format!("an impact loses the share {:?} of the energy at t = {}", event.energy_lost, event.t));
         }

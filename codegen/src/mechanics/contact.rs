@@ -1,4 +1,4 @@
-//! Contact forces at an interface by d'Alembert's principle (MODEL.md section 4).
+//! Contact forces at an interface by d'Alembert's principle (docs/book/model.md, section 4).
 //!
 //! The force on the stack above is `F = Σ m_j A_j` with `A_j` the centroid's acceleration less gravity. The moment about
 //! the centre of the contact is the virtual work per virtual rotation `ψ` of the upper part of the link, the angles of the

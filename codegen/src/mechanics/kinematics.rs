@@ -1,4 +1,4 @@
-//! Positions of the centroids (MODEL.md section 3) and their partial derivatives.
+//! Positions of the centroids (docs/book/model.md, section 3) and their partial derivatives.
 
 use crate::pattern::Linkage;
 use crate::symbolic::{Arena, Expr, Level, Unit};
@@ -75,7 +75,7 @@ impl Symbols {
 }
 
 /// Positions of the centroids relative to the moving ground, base first, length N:
-/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (MODEL.md section 3).
+/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (docs/book/model.md, section 3).
 ///
 /// Blocks of one link share an angle: their body vectors are added before they are turned, so the pivots of closed
 /// interfaces cancel. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.

@@ -1,4 +1,4 @@
-//! Kinetic and potential energy, and Euler-Lagrange by differentiation (MODEL.md section 3).
+//! Kinetic and potential energy, and Euler-Lagrange by differentiation (docs/book/model.md, section 3).
 
 use super::kinematics::{Symbols, Vector, block_angles, centroids, jacobian, time_derivative};
 use crate::pattern::Linkage;

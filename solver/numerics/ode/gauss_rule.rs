@@ -8,7 +8,6 @@ pub const NODES: usize = 8;
 /// A value for each node.
 pub type AtNodes = Lanes<NODES>;
 
-
 /// Nodes and weights on `[0, 1]`.
 pub struct Rule {
     /// In order.

@@ -16,9 +16,9 @@ impl Track {
     /// The first `s` in `(0, 1]` at which the function is not above zero; `start_roots` known roots at `s = 0` are left out.
     pub fn first_root(&self, start_roots: usize) -> Option<f64> {
         match self {
-            Track::Powers(powers) => {
-                powers.first_root(start_roots).unwrap_or_else(|| bernstein::first_root(&powers.bernstein(), start_roots))
-            }
+            Track::Powers(powers) => powers
+                .first_root(start_roots)
+                .unwrap_or_else(|| bernstein::first_root(&powers.bernstein(), start_roots)),
             Track::Bernstein(polynomial) => bernstein::first_root(polynomial, start_roots),
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! # It stands
 //!
-//! On a ground at rest the mechanical energy never rises: smooth phases conserve it, impacts do not add to it (MODEL.md section 5). With
+//! On a ground at rest the mechanical energy never rises: smooth phases conserve it, impacts do not add to it (docs/book/model.md, section 5). With
 //! `q_i = sin θ_i`, `q_0 = 0`, and for sizes of angles up to a right one, the potential energy above rest is
 //!
 //! ```text
@@ -144,7 +144,8 @@ impl Column {
     /// ```
     pub fn barrier(&self, overturn_angle: f64) -> Barrier {
         let stacks = || (0..self.len()).map(|block| self.stack(block));
-        let angles: PerBlock<f64> = stacks().map(|stack| stack.slenderness().min(overturn_angle).min(FRAC_PI_2)).collect();
+        let angles: PerBlock<f64> =
+            stacks().map(|stack| stack.slenderness().min(overturn_angle).min(FRAC_PI_2)).collect();
         let energies = stacks().zip(&angles).map(|(stack, angle)| {
             let (sin, cos) = libm::sincos(*angle);
             let lift = stack.half_width * sin - stack.centroid_height * sin * sin / (1.0 + cos);

@@ -1,6 +1,6 @@
 //! One block as one writes it by hand, for all peers that are compiled in.
 //!
-//! With `s` the side that it leans to and `w = α - s θ` the angle left to its balance, MODEL.md section 3 is
+//! With `s` the side that it leans to and `w = α - s θ` the angle left to its balance, docs/book/model.md, section 3 is
 //!
 //! ```text
 //!     ẅ = p² (sin w + s ẍ_g/g cos w)          rocks while w < α

@@ -1,4 +1,4 @@
-//! Three free angles as one writes them by hand: MODEL.md section 3 for the pattern (+, -, +), held both ways.
+//! Three free angles as one writes them by hand: docs/book/model.md, section 3 for the pattern (+, -, +), held both ways.
 //!
 //! With `d_k = (p_{k+1} - p_k, 2 h)`, `S_l = m_l (-p_l, h) + (Σ_{i>l} m_i) d_l` and `δ = θ_l - θ_k`, `k < l`,
 //!
