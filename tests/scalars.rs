@@ -13,7 +13,6 @@ use rocking::program::{EnergyProgram, Geometry, Scalar, StepProgram};
 use rocking::scalar::Dual;
 use rocking::{Column, GroundMotion};
 use std::ops::Add;
-use wide::{f64x4, f64x8};
 
 /// Accelerations of a pattern with three free angles, in any scalar: constants from the column, then the program.
 fn accelerations<S: Scalar>(geometry: &Geometry<S>, mask: usize, x: [S; 6], ground_x: S, gravity: S) -> [S; 3] {

@@ -34,6 +34,7 @@ fn kind(error: &SolveError) -> &'static str {
         SolveError::NotFinite { .. } => "not finite",
         SolveError::Stalled { .. } => "stalled",
         SolveError::SingularMass { .. } => "singular mass",
+        other => panic!("{other}"),
     }
 }
 
@@ -42,7 +43,10 @@ fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>)
     let scene = scenes::scene(seed);
     let since = Instant::now();
     let observed = catch_unwind(AssertUnwindSafe(|| {
-        simulate_observed(&scene, |t| assert!(since.elapsed() < longest, "no end in sight at t = {t}"))
+        simulate_observed(&scene, |t| {
+            assert!(since.elapsed() < longest, "no end in sight at t = {t}");
+            std::ops::ControlFlow::Continue(())
+        })
     }));
     let response = match observed {
         Err(cause) => {

@@ -203,7 +203,7 @@ impl<'a> Folder<'a> {
             min_normal_force: response.min_normal_force.to_vec(),
             separations: response.separations.iter().map(separation).collect(),
             work: response.work,
-            method: scene.method().name().into(),
+            method: scene.options.method.stepper().name().into(),
             used_generic: response.used_generic,
             wall_seconds,
             warnings: warnings.to_vec(),

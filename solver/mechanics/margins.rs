@@ -254,15 +254,15 @@ fn opening_of(terms: &[f64x2]) -> Opening {
 
 #[cfg(test)]
 mod tests {
-    use super::super::stepper::{Stepper, TaylorSeries};
+    use super::super::dynamics::{ContactForce, Interfaces};
+    use super::super::generic::GenericMode;
+    use super::super::integrator::{Forces, Steps, TaylorSteps};
     use super::*;
     use crate::column::Block;
-    use crate::dynamics::{ContactForce, Interfaces};
-    use crate::generic::GenericMode;
-    use crate::ode::Tolerance;
+    use crate::numerics::ode::control::{Part, Tolerance};
     use rocking_codegen::pattern::modes;
     use rocking_ground::{Piece, Segment};
-    use std::rc::Rc;
+    use std::sync::Arc;
 
     const TOLERANCE: Tolerance = Tolerance { rtol: 1e-14, atol: 1e-16 };
 
@@ -272,16 +272,16 @@ mod tests {
     }
 
     /// A step of a mode from a state that all angles and rates differ in, on a ground that moves both ways.
-    fn stepped(column: &Column, pattern: &Pattern, h: f64) -> TaylorSeries<GenericMode> {
-        let mode = Rc::new(GenericMode::new(column, pattern));
-        let mut series =
-            TaylorSeries::new(mode, Rc::new(Margins::new(column, pattern)), column.gravity(), TOLERANCE.rtol);
+    fn stepped(column: &Column, pattern: &Pattern, h: f64) -> TaylorSteps<GenericMode> {
+        let mode = Arc::new(GenericMode::new(column, pattern));
+        let mut series = TaylorSteps::new(mode, column.gravity(), TOLERANCE.rtol);
         let sine = |amplitude, phase| Piece::Sine { amplitude, omega: 5.0, start: 0.0, phase };
         let (horizontal, vertical) = (sine(3.0, 0.2), sine(2.0, 1.1));
-        series.enter(Segment { start: 0.0, end: 1.0, horizontal, vertical, jumps: false });
+        series.enter(&Segment { start: 0.0, end: 1.0, horizontal, vertical, jumps: false });
         let dof = pattern.dof();
         let x: Vec<f64> = (0..2 * dof).map(|i| 0.2 * libm::sin(3.0 + 2.0 * i as f64)).collect();
-        assert!(series.attempt(0.3, &x, h, h, TOLERANCE).is_good(), "{pattern}: the step is good");
+        series.begin(0.3, &x);
+        assert!(series.attempt(0.3, h, h, TOLERANCE).is_good(), "{pattern}: the step is good");
         series
     }
 
@@ -291,15 +291,15 @@ mod tests {
         for blocks in 1..=4 {
             let column = column(blocks);
             for (_, pattern) in modes(blocks) {
-                let mut series = stepped(&column, &pattern, h);
+                let (mut series, margins) = (stepped(&column, &pattern, h), Margins::new(&column, &pattern));
                 let closed = (0..blocks).filter(|i| !pattern.0[*i].is_open());
                 for (index, interface) in closed.enumerate() {
-                    let terms = series.margin_terms(index, h).expect("all terms");
+                    let terms = series.margin_terms(&margins, index, h).expect("all terms");
                     for s in [0.0, 0.4, 1.0] {
-                        let mut state = series.zero();
-                        series.state_inside(s, &mut state);
+                        let mut state = vec![0.0; 2 * pattern.dof()];
+                        series.state_inside(Part::Attempt, s, &mut state);
                         let mut forces = vec![ContactForce::default(); blocks];
-                        series.weigh(0.3 + s * h, &state, Interfaces::Closed, &mut forces);
+                        series.contact_forces(0.3 + s * h, &state, Interfaces::Closed, &mut forces);
                         let ContactForce { normal, moment, .. } = forces[interface];
                         let lever = column.contact_half_width(interface) * normal;
                         let found = terms.iter().rev().fold(f64x2::ZERO, |sum, c| sum * f64x2::splat(s) + *c);
@@ -320,8 +320,8 @@ mod tests {
             let column = column(blocks);
             let single = modes(blocks).map(|(_, pattern)| pattern).filter(|pattern| pattern.dof() == 1);
             for pattern in single.flat_map(|pattern| [pattern.mirror(), pattern]) {
-                let (mode, margins) = (Rc::new(GenericMode::new(&column, &pattern)), Margins::new(&column, &pattern));
-                let mut series = TaylorSeries::new(mode, Rc::new(margins.clone()), column.gravity(), TOLERANCE.rtol);
+                let (mode, margins) = (Arc::new(GenericMode::new(&column, &pattern)), Margins::new(&column, &pattern));
+                let mut series = TaylorSteps::new(mode, column.gravity(), TOLERANCE.rtol);
                 let sign = f64::from(pattern.0.iter().map(|interface| interface.sign()).sum::<i8>());
                 let pendulum = series.pendulum().expect("it is driven");
                 let start = pendulum.beyond(0.02 * sign, sign);
@@ -333,7 +333,7 @@ mod tests {
                         let rate = swing.rate_at(start + way).expect("it comes there");
                         let state = vec![pendulum.theta(start + way, sign), sign * rate];
                         let mut forces = vec![ContactForce::default(); blocks];
-                        series.weigh(0.0, &state, Interfaces::Closed, &mut forces);
+                        series.contact_forces(0.0, &state, Interfaces::Closed, &mut forces);
                         let ContactForce { normal, moment, .. } = forces[interface];
                         let lever = column.contact_half_width(interface) * normal;
                         let found = harmonics.from(libm::sincos(way)).start().to_array();

@@ -1,7 +1,8 @@
 //! `[excitation.horizontal]` and `[excitation.vertical]`: pulses by their parameters, records by their files.
 
+use super::error::SceneFileError;
+use super::reader::Reader;
 use super::table::{Table, Wrong};
-use super::{Reader, SceneFileError};
 use crate::column::Column;
 use crate::scene::LARGEST;
 use rocking_ground::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};

@@ -1,10 +1,6 @@
 //! A TOML table that knows where everything stands, and what has been asked for.
 
-mod edit;
-
-pub use edit::exclude_each_other;
-
-use super::template::Setting;
+use super::setting::Setting;
 use std::borrow::Cow;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
@@ -38,15 +34,15 @@ pub enum Cause {
 
 /// A value and its places.
 #[derive(Clone, Debug)]
-struct Entry {
-    key: Arc<str>,
-    key_place: Place,
-    value_place: Place,
-    value: Value,
+pub(crate) struct Entry {
+    pub(super) key: Arc<str>,
+    pub(super) key_place: Place,
+    pub(super) value_place: Place,
+    pub(super) value: Value,
 }
 
 #[derive(Clone, Debug)]
-enum Value {
+pub(crate) enum Value {
     Text(Arc<str>),
     Number(f64),
     Flag(bool),
@@ -94,12 +90,17 @@ pub struct Table {
     name: Arc<str>,
     place: Place,
     /// Shared: a table is read again for each scene of a sweep.
-    entries: Arc<Vec<Entry>>,
+    pub(super) entries: Arc<Vec<Entry>>,
     /// Keys that a reader has asked for: what a scene knows here.
     asked: Vec<Cow<'static, str>>,
 }
 
 impl Table {
+    /// A table without entries.
+    pub(super) fn empty(name: impl Into<Arc<str>>, place: Place) -> Table {
+        Table { name: name.into(), place, entries: Arc::default(), asked: Vec::new() }
+    }
+
     /// Reads TOML.
     pub fn parse(text: &str) -> Result<Table, Wrong> {
         let (tree, errors) = DeTable::parse_recoverable(text);
@@ -194,7 +195,7 @@ impl Table {
             Some((first, rest)) if !self.has(key) => (first, Some(rest)),
             _ => (key, None),
         };
-        match (self.entry(first).or_else(|| self.entry(edit::without_index(first))), rest) {
+        match (self.entry(first).or_else(|| self.entry(without_index(first))), rest) {
             (Some(Entry { value: Value::Table(table), .. }), Some(rest)) => table.find(rest),
             (Some(entry), _) => entry.key_place.start..entry.value_place.end.max(entry.key_place.end),
             (None, _) => self.place(),
@@ -231,7 +232,7 @@ impl Table {
         self.asked.push(key.into());
     }
 
-    fn entry(&self, key: &str) -> Option<&Entry> {
+    pub(super) fn entry(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| *entry.key == *key)
     }
 
@@ -410,6 +411,11 @@ impl Table {
         let (place, key) = (entry.key_place.clone(), self.dotted(&entry.key));
         Wrong { place, key, problem: "this key is unknown here".into(), remedy, cause: Cause::Key }
     }
+}
+
+/// `block` of `block[2]`.
+pub fn without_index(name: &str) -> &str {
+    name.split('[').next().unwrap_or(name)
 }
 
 fn dot(name: &str, key: &str) -> String {

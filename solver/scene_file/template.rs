@@ -1,34 +1,13 @@
 //! A scene file with some of its keys replaced: what sweeps are made of.
 
+use super::error::{SceneFileError, text};
 use super::excitation::set_amplitude;
+use super::reader::Reader;
+use super::records::Records;
+use super::setting::Setting;
 use super::table::{Cause, Table, Wrong};
-use super::{Reader, SceneFileError};
 use crate::scene::Scene;
-use rocking_ground::Record;
-use std::collections::HashMap;
-use std::fmt;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-
-/// A value that a key is given.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Setting {
-    /// In the unit of the key.
-    Number(f64),
-    /// A name, or the path of a file.
-    Text(String),
-}
-
-/// Numbers so that they read back exactly.
-impl fmt::Display for Setting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Setting::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => write!(f, "{number}"),
-            Setting::Number(number) => write!(f, "{number:?}"),
-            Setting::Text(text) => f.write_str(text),
-        }
-    }
-}
 
 /// A scene file read once, of which many scenes are made.
 #[derive(Debug)]
@@ -45,7 +24,7 @@ impl Template {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_file(file: &Path) -> Result<Template, SceneFileError> {
-        let text = super::text(file)?;
+        let text = text(file)?;
         let root = Table::parse(&text).map_err(|wrong| Reader { text: &text, file, records: None }.error(wrong))?;
         let template = Template { text, file: file.into(), root, records: Records::default() };
         template.with(std::iter::empty())?;
@@ -96,7 +75,7 @@ impl Template {
     }
 
     /// Whether the scene has a table of this dotted name.
-    pub(super) fn has_table(&self, name: &str) -> bool {
+    pub(crate) fn has_table(&self, name: &str) -> bool {
         self.root.has_table(name)
     }
 
@@ -185,29 +164,5 @@ impl<'t> Shaken<'t> {
         }
         self.amplitude = Some((key, setting));
         true
-    }
-}
-
-/// Records by their files and what was said of them, kept between scenes.
-#[derive(Debug, Default)]
-pub(super) struct Records(Mutex<HashMap<(PathBuf, String), Record>>);
-
-impl Records {
-    /// A record read before.
-    pub fn get(&self, key: &(PathBuf, String)) -> Option<Record> {
-        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(key).cloned()
-    }
-
-    fn files(&self) -> Vec<PathBuf> {
-        let records = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let mut files: Vec<PathBuf> = records.keys().map(|(file, _)| file.clone()).collect();
-        files.sort();
-        files.dedup();
-        files
-    }
-
-    /// Keeps a record.
-    pub fn keep(&self, key: (PathBuf, String), record: &Record) {
-        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(key, record.clone());
     }
 }

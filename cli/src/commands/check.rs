@@ -129,7 +129,7 @@ impl Findings {
             restitution_factors: scene.restitution.factors(column),
             horizontal,
             vertical: component(&scene.excitation.vertical),
-            method: scene.method().name(),
+            method: scene.options.method.stepper().name(),
             rows: scene.output_dt.map(|dt| (scene.options.t_end / dt * (1.0 + 4.0 * f64::EPSILON)) as u64 + 1),
             warnings: scene.excitation.warnings(),
         }

@@ -8,7 +8,7 @@ use crate::number::significant;
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use crate::{output, plot};
-use rocking::ground::{Measures, RecordFile, TextOptions, read_file};
+use rocking::ground::{Measures, RecordFile, TextOptions};
 use rocking::{DEFAULT_GRAVITY, Record, RecordError};
 use serde::Serialize;
 use std::fmt::Write as _;

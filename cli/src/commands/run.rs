@@ -11,6 +11,7 @@ use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// Runs a scene and writes its results; figures and a report of an earlier run are removed from their folder.
@@ -24,11 +25,11 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     let folder = Folder::open(out)?;
     let bar = Progress::of_run(scene.options.t_end, asked.quiet);
     let start = Instant::now();
-    let response = simulate_observed(&scene, |t| bar.reached_time(t)).map_err(|error| Failure::Solve {
-        scene: path.clone(),
-        out: out.clone(),
-        error,
-    })?;
+    let response = simulate_observed(&scene, |t| {
+        bar.reached_time(t);
+        ControlFlow::Continue(())
+    })
+    .map_err(|error| Failure::Solve { scene: path.clone(), out: out.clone(), error })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
     let mut warnings = scene.excitation.warnings();

@@ -74,6 +74,11 @@ pub(crate) trait ForTableau {
 }
 
 impl Method {
+    /// The method that takes the steps: [`Method::Auto`] takes them by Taylor series, where no closed form or multi-sample step applies.
+    pub fn stepper(self) -> Method {
+        if self == Method::Auto { Method::Taylor } else { self }
+    }
+
     /// Methods that choose their steps by the tolerance and reach any: all named methods but those of order 4.
     pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
 

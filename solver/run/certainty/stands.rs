@@ -183,7 +183,7 @@ mod tests {
             let mut scene = Scene::new(Column::new(blocks.collect(), 9.81).expect("positive sizes"));
             scene.options.wanted = crate::Wanted::Outcome;
             let turns: Vec<Turn> = theta.iter().map(|angle| Turn::new(*angle)).collect();
-            let prospects = Prospects::of(&scene).expect("nothing but the outcome is wanted");
+            let prospects = Prospects::new(&scene).expect("nothing but the outcome is wanted");
             (prospects.potential(&turns), potential(&scene.column, theta))
         };
         for theta in [[0.1, 0.2, -0.3], [-0.2, 0.1, 0.4], [0.3, 0.25, 0.1], [-0.1, -0.7, -0.2]] {

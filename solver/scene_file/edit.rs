@@ -1,7 +1,7 @@
 //! Tables with other values than their file has: keys under their dotted names, and which take each other's place.
 
-use super::{Entry, Table, Value};
-use crate::scene_file::Setting;
+use super::setting::Setting;
+use super::table::{Entry, Table, Value, without_index};
 use std::sync::Arc;
 
 impl Value {
@@ -42,7 +42,7 @@ impl Table {
         }
         if !self.has(name) && index.is_none() {
             let (place, dotted) = (self.place(), self.dotted(name));
-            let table = Table { name: dotted.into(), place: place.clone(), entries: Arc::default(), asked: Vec::new() };
+            let table = Table::empty(dotted, place.clone());
             let value = Value::Table(table);
             Arc::make_mut(&mut self.entries).push(Entry {
                 key: name.into(),
@@ -109,11 +109,6 @@ pub fn exclude_each_other(a: &str, b: &str) -> bool {
     };
     let ((table, name), (other_table, other_name)) = (parts(a), parts(b));
     table == other_table && name != other_name && are_alternatives(&name, &other_name)
-}
-
-/// `block` of `block[2]`.
-pub fn without_index(name: &str) -> &str {
-    name.split('[').next().unwrap_or(name)
 }
 
 fn are_alternatives(a: &str, b: &str) -> bool {

@@ -1,67 +1,15 @@
-//! Scene files: TOML in, a validated [`Scene`] out, or an error that names file, line, key and remedy.
+//! The scene of a file: column, restitution, initial state, solver and output.
 //!
-//! The file is read as a tree whose every key and value knows its place. `Table` hands out what a scene knows and, when it is
+//! The file is read as a tree whose every key and value knows its place. [`Table`] hands out what a scene knows and, when it is
 //! closed, refuses what nobody asked for. Units are converted here and nowhere else.
 
-mod excitation;
-mod sweep;
-mod table;
-mod template;
-
+use super::error::{SceneFileError, text};
+use super::records::Records;
+use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Block, Column};
 use crate::scene::{Method, Restitution, Scene, SceneError};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
-pub use table::Cause;
-use table::{Place, Table};
-use template::Records;
-pub(crate) use template::Shaken;
-pub use template::{Setting, Template};
-
-/// Why a scene file is refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SceneFileError {
-    /// The file cannot be read.
-    #[error("{}: {problem}", file.display())]
-    Unreadable {
-        /// The file.
-        file: PathBuf,
-        /// What the system says.
-        problem: String,
-    },
-    /// The scene is not as it should be.
-    #[error("{}, line {line}, key `{key}`: {problem}; {remedy}", file.display())]
-    Scene {
-        /// The scene file.
-        file: PathBuf,
-        /// From 1.
-        line: usize,
-        /// Offset and length in bytes of the place in the file.
-        span: (usize, usize),
-        /// Dotted key, e.g. `excitation.horizontal.amplitude`.
-        key: String,
-        /// What is wrong.
-        problem: String,
-        /// What to do.
-        remedy: String,
-        /// Key or value.
-        cause: Cause,
-    },
-    /// A record is not as it should be.
-    #[error("{}: {problem} (asked for by {}, line {line}, key `{key}`)", record.display(), file.display())]
-    Record {
-        /// The scene file.
-        file: PathBuf,
-        /// Line of the key in the scene, from 1.
-        line: usize,
-        /// Dotted key.
-        key: String,
-        /// The record's file.
-        record: PathBuf,
-        /// What is wrong, with line and column of the record, and what to do.
-        problem: String,
-    },
-}
+use std::path::Path;
 
 impl Scene {
     /// Reads a scene from a TOML file; records are found relative to it.
@@ -122,37 +70,17 @@ impl SceneFile {
     }
 }
 
-/// The text of a scene file.
-///
-/// # Errors
-/// [`SceneFileError::Unreadable`]
-pub fn text(file: &Path) -> Result<String, SceneFileError> {
-    let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
-        file: file.into(),
-        problem: format!("{error}; check the path and its permissions"),
-    };
-    let bytes = std::fs::read(file).map_err(unreadable)?;
-    let text = std::str::from_utf8(&bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
-        let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
-        SceneFileError::Unreadable { file: file.into(), problem }
-    })?;
-    Ok(text.into())
-}
-
-/// Something wrong at a place, before the file's name and line are put to it.
-type Wrong = table::Wrong;
-
-struct Reader<'t> {
-    text: &'t str,
-    file: &'t Path,
+/// A scene file while it is read.
+pub(crate) struct Reader<'t> {
+    pub text: &'t str,
+    pub file: &'t Path,
     /// Records read before, where scenes are read again and again.
-    records: Option<&'t Records>,
+    pub records: Option<&'t Records>,
 }
 
 impl Reader<'_> {
     /// The whole file.
-    fn read(&self, mut root: Table) -> Result<SceneFile, SceneFileError> {
+    pub fn read(&self, mut root: Table) -> Result<SceneFile, SceneFileError> {
         let mut derived = Vec::new();
         let scene = self.scene(&mut root, &mut derived)?;
         root.close().map_err(|wrong| self.error(wrong))?;
@@ -160,11 +88,11 @@ impl Reader<'_> {
         Ok(SceneFile { scene, derived })
     }
 
-    fn line(&self, place: &Place) -> usize {
+    pub fn line(&self, place: &Place) -> usize {
         self.text.as_bytes().iter().take(place.start).filter(|byte| **byte == b'\n').count() + 1
     }
 
-    fn error(&self, wrong: Wrong) -> SceneFileError {
+    pub fn error(&self, wrong: Wrong) -> SceneFileError {
         SceneFileError::Scene {
             file: self.file.into(),
             line: self.line(&wrong.place),
@@ -177,13 +105,13 @@ impl Reader<'_> {
     }
 
     /// An error of [`Scene::check`], at the key that it names.
-    fn refused(&self, root: &Table, error: SceneError) -> SceneFileError {
+    pub fn refused(&self, root: &Table, error: SceneError) -> SceneFileError {
         let place = root.find(&error.key);
         let cause = Cause::Value;
         self.error(Wrong { place, key: error.key, problem: error.problem, remedy: error.remedy, cause })
     }
 
-    fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, SceneFileError> {
+    pub fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let title = root.text("title").map_err(own)?.map(|(title, _)| title).unwrap_or_default();
         let gravity = root.number("gravity").map_err(own)?.map_or(crate::DEFAULT_GRAVITY, |(value, _)| value);

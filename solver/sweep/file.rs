@@ -1,9 +1,10 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
-use super::table::{Cause, Place, Table, Wrong, exclude_each_other};
-use super::template::{Setting, Template};
-use super::{Reader, SceneFileError};
-use crate::sweep::{Ask, Axis, Combine, Sweep};
+use super::points::{Ask, Axis, Combine, Sweep};
+use crate::scene_file::edit::exclude_each_other;
+use crate::scene_file::reader::Reader;
+use crate::scene_file::table::{Cause, Place, Table, Wrong};
+use crate::scene_file::{SceneFileError, Setting, Template, text};
 use std::path::Path;
 
 /// Points beyond which a sweep is taken for a mistake.
@@ -18,7 +19,7 @@ impl Sweep {
     /// # Errors
     /// [`SceneFileError`], with file, line, key and remedy.
     pub fn from_file(file: &Path) -> Result<Sweep, SceneFileError> {
-        let text = super::text(file)?;
+        let text = text(file)?;
         let reader = Reader { text: &text, file, records: None };
         let own = |wrong| reader.error(wrong);
         let mut root = Table::parse(&text).map_err(own)?;

@@ -1,0 +1,67 @@
+//! Why a scene file is refused.
+
+use super::table::Cause;
+use std::path::{Path, PathBuf};
+
+/// Why a scene file is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneFileError {
+    /// The file cannot be read.
+    #[error("{}: {problem}", file.display())]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        problem: String,
+    },
+    /// The scene is not as it should be.
+    #[error("{}, line {line}, key `{key}`: {problem}; {remedy}", file.display())]
+    Scene {
+        /// The scene file.
+        file: PathBuf,
+        /// From 1.
+        line: usize,
+        /// Offset and length in bytes of the place in the file.
+        span: (usize, usize),
+        /// Dotted key, e.g. `excitation.horizontal.amplitude`.
+        key: String,
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        remedy: String,
+        /// Key or value.
+        cause: Cause,
+    },
+    /// A record is not as it should be.
+    #[error("{}: {problem} (asked for by {}, line {line}, key `{key}`)", record.display(), file.display())]
+    Record {
+        /// The scene file.
+        file: PathBuf,
+        /// Line of the key in the scene, from 1.
+        line: usize,
+        /// Dotted key.
+        key: String,
+        /// The record's file.
+        record: PathBuf,
+        /// What is wrong, with line and column of the record, and what to do.
+        problem: String,
+    },
+}
+
+/// The text of a scene file.
+///
+/// # Errors
+/// [`SceneFileError::Unreadable`]
+pub fn text(file: &Path) -> Result<String, SceneFileError> {
+    let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
+        file: file.into(),
+        problem: format!("{error}; check the path and its permissions"),
+    };
+    let bytes = std::fs::read(file).map_err(unreadable)?;
+    let text = std::str::from_utf8(&bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
+        SceneFileError::Unreadable { file: file.into(), problem }
+    })?;
+    Ok(text.into())
+}

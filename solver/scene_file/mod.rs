@@ -1,0 +1,17 @@
+//! Scene files: TOML in, a validated [`Scene`](crate::Scene) out, or an error that names file, line, key and remedy.
+
+pub(crate) mod edit;
+mod error;
+mod excitation;
+pub(crate) mod reader;
+mod records;
+mod setting;
+pub(crate) mod table;
+mod template;
+
+pub use error::{SceneFileError, text};
+pub use reader::{Derived, MOST_BLOCKS, SceneFile};
+pub use setting::Setting;
+pub use table::Cause;
+pub(crate) use template::Shaken;
+pub use template::Template;
