@@ -107,9 +107,9 @@ fn a_circle_that_is_put_in_is_found() {
         (path.split("::").filter(|name| !name.is_empty()).map(String::from).collect(), text.to_string())
     };
     let sound = [
-        module("", "mod a; mod b; pub use a::A;"),
+        module("", "mod a;\nmod b;\npub use a::A;"),
         module("a", "use crate::b::{self, inner::{B, C as D}};\npub struct A;"),
-        module("b", "mod inner; pub use inner::B;"),
+        module("b", "mod inner;\npub use inner::B;"),
         module("b::inner", "pub struct B; pub struct C;"),
     ];
     assert_eq!(imports::circle(&sound.clone().into()), Vec::<String>::new());
