@@ -3,7 +3,7 @@
 use super::decision::Decision;
 use super::instant::{
     Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, is_rounding, largest, may_open, project,
-    relative,
+    relative, sizes,
 };
 use super::search::ContactProblem;
 use crate::column::Column;
@@ -64,7 +64,8 @@ fn impact_at<S: Size>(
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
     let mut plastic = project(&mechanism, &before);
     let projected = |candidate: &Mechanism<S>| project(candidate, &before);
-    let problem = ContactProblem { instant, free: &free, least_parting, answer: projected };
+    let problem =
+        ContactProblem { instant, free: &free, least_parting, answer: projected, given: |block| sizes(&before, block) };
     let mut separation = problem.solve(&mut mechanism, &mut plastic)?;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
@@ -85,7 +86,13 @@ fn impact_at<S: Size>(
 
     let free = instant.size.list_of(may_open(instant, &mechanism.states, &rates));
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, &rates, ground);
-    let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: forces };
+    let problem = ContactProblem {
+        instant,
+        free: &free,
+        least_parting: 0.0,
+        answer: forces,
+        given: |_| [ground.x.abs() + ground.gravity.abs(), 0.0],
+    };
     separation |= problem.solve(&mut mechanism, &mut forced)?;
     Ok(Decision {
         pattern: Pattern::from_states(&mechanism.states),

@@ -134,6 +134,12 @@ impl<S: Size> Motion<S> {
     }
 }
 
+/// Sizes of a block's velocity and rate.
+pub(super) fn sizes<S: Size>(motion: &Motion<S>, block: usize) -> [f64; 2] {
+    let [x, y] = motion.linear[block];
+    [x.abs() + y.abs(), motion.angular[block].abs()]
+}
+
 /// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (docs/book/model.md, section 5, item 1).
 #[inline(always)]
 pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Motion<S>) -> Answer<S> {

@@ -41,7 +41,8 @@ fn open_at<S: Size>(
     let mut mechanism = instant.mechanism(guess)?;
     let mut answer = accelerate(&mechanism, omega, ground);
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
-    let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces };
+    let given = |_: usize| [ground.x.abs() + ground.gravity.abs(), 0.0];
+    let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces, given };
     let mut separation = problem.solve(&mut mechanism, &mut answer)?;
     let tolerance = verge_acceleration(instant.column, &answer.motion, ground);
     let is_driven_back =
@@ -50,7 +51,7 @@ fn open_at<S: Size>(
         released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
         driven_back.iter().for_each(|&interface| free[interface] = true);
-        let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces };
+        let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces, given };
         separation = problem.solve(&mut mechanism, &mut answer)?;
     }
     let (pattern, omega) = (Pattern::from_states(&mechanism.states), PerBlock::from_slice(omega));

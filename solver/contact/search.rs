@@ -9,47 +9,69 @@ use rocking_codegen::pattern::Interface;
 /// admissible pattern is answered from those that the search has visited.
 const MOST_ENUMERATED: usize = 9;
 
-/// Resultants may leave a contact by this share: it is the rounding of a sum over a dozen blocks, a thousand times over. Smaller,
-/// and contacts on the verge are thrown open by rounding; larger, and they open visibly late.
-const VERGE: f64 = 1e-12;
+/// Resultants may leave a contact by this share of the terms that cancel in their moment: the rounding of a sum over a dozen blocks, a
+/// thousand times over. Smaller, and contacts whose resultant passes through a corner are thrown open by rounding; larger, and contacts open
+/// visibly late.
+const CRITICAL_SHARE: f64 = 1e-12;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
-pub(super) struct ContactProblem<'i, 'a, S: Size, F> {
+pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
     pub(super) instant: &'i Instant<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
     pub(super) free: &'i [bool],
     /// Relative motion above which an open interface parts: zero of accelerations, rounding of rates.
     pub(super) least_parting: f64,
     pub(super) answer: F,
+    /// Sizes of the given velocities, or accelerations, of a block, linear and angular: rounding in an answer is a share of them.
+    pub(super) given: T,
 }
 
-impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, S, F> {
+impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2]> ContactProblem<'_, 'a, S, F, T> {
     #[inline(always)]
     fn parts(&self, state: Interface, answer: &Answer<S>, interface: usize) -> bool {
         f64::from(state.sign()) * relative(&answer.motion, interface) >= self.least_parting
     }
 
-    /// What interface would rather be, if it is not content.
+    /// The state that an interface requires instead of its own, if its own is not admissible.
     #[inline(always)]
-    fn wish(&self, state: Interface, answer: &Answer<S>, interface: usize) -> Option<Interface> {
+    fn required(&self, state: Interface, answer: &Answer<S>, interface: usize) -> Option<Interface> {
         let contact = answer.resultants[interface];
-        let half_width = self.instant.column.contact_half_width(interface);
         match state {
             Interface::Closed => {
-                let reach = half_width * contact.normal;
-                (contact.moment.abs() > reach + VERGE * half_width * contact.normal.abs()).then_some(
-                    // The resultant acts at x = -M / N: a negative moment presses on the right corner.
-                    if contact.moment < 0.0 { Interface::Right } else { Interface::Left },
-                )
+                let half_width = self.instant.column.contact_half_width(interface);
+                let excess = contact.moment.abs() - half_width * contact.normal;
+                let is_outside = excess > CRITICAL_SHARE * half_width * contact.normal.abs()
+                    && excess > CRITICAL_SHARE * self.cancelling(answer, interface)[1];
+                // The resultant acts at x = -M / N: a negative moment presses on the right corner.
+                is_outside.then_some(if contact.moment < 0.0 { Interface::Right } else { Interface::Left })
             }
-            _ if !self.parts(state, answer, interface) || contact.normal < 0.0 => Some(Interface::Closed),
+            _ if !self.parts(state, answer, interface) => Some(Interface::Closed),
+            _ if contact.normal < 0.0 && -contact.normal > CRITICAL_SHARE * self.cancelling(answer, interface)[0] => {
+                Some(Interface::Closed)
+            }
             _ => None,
         }
     }
 
+    /// Bounds of the terms that cancel in the force at an interface, and in its moment about a corner of the contact.
+    #[inline(never)]
+    fn cancelling(&self, answer: &Answer<S>, interface: usize) -> [f64; 2] {
+        let column = self.instant.column;
+        let (mut reach, mut force, mut moment) = (column.contact_half_width(interface), 0.0, 0.0);
+        for (index, block) in column.blocks().iter().enumerate().skip(interface) {
+            reach += 2.0 * (block.half_height + block.half_width);
+            let ([linear, angular], change) = ((self.given)(index), &answer.change);
+            let [x, y] = change.linear[index];
+            let own = block.mass * (linear + x.abs() + y.abs());
+            force += own;
+            moment += reach * own + block.inertia * (angular + change.angular[index].abs());
+        }
+        [force, moment]
+    }
+
     #[inline(always)]
     fn is_admissible(&self, states: &[Interface], answer: &Answer<S>) -> bool {
-        chosen(self.free).all(|interface| self.wish(states[interface], answer, interface).is_none())
+        chosen(self.free).all(|interface| self.required(states[interface], answer, interface).is_none())
     }
 
     /// Puts the admissible pattern and its answer, or the nearest one whose opened interfaces part, in the place of a guess and its
@@ -72,10 +94,11 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, 
         let was_visited = |visited: &[S::List<Interface>], states: &[Interface]| visited.iter().any(|v| **v == *states);
         loop {
             let states = mechanism.states.clone();
-            let wishes = chosen(self.free).filter_map(|i| self.wish(states[i], answer, i).map(|state| (i, state)));
+            let required =
+                chosen(self.free).filter_map(|i| self.required(states[i], answer, i).map(|state| (i, state)));
             let mut next = states.clone();
             let mut lowest = None;
-            for (interface, state) in wishes {
+            for (interface, state) in required {
                 next[interface] = state;
                 lowest = lowest.or(Some((interface, state)));
             }
@@ -131,7 +154,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, 
 mod tests {
     use super::*;
     use crate::column::{Block, Column};
-    use crate::contact::instant::project;
+    use crate::contact::instant::{project, sizes};
     use crate::numerics::per_block::Any;
     use proptest::prelude::*;
     use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -174,7 +197,8 @@ mod tests {
             let before = instant.motion(&instant.posture(&states), &omega);
             let free = instant.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
             let answer = |candidate: &Mechanism<Any>| project(candidate, &before);
-            let problem = ContactProblem { instant, free: &free, least_parting: f64::MIN_POSITIVE, answer };
+            let given = |block: usize| sizes(&before, block);
+            let problem = ContactProblem { instant, free: &free, least_parting: f64::MIN_POSITIVE, answer, given };
             let mut admissible = Vec::new();
             for candidate in problem.all(&states) {
                 let mechanism = instant.mechanism(candidate).expect("solvable");

@@ -67,9 +67,11 @@ impl Recorder {
         if !problem.is_recorded() {
             return;
         }
-        let is_whole = problem.records_forces() || self.next_row(problem).is_some_and(|t| t < stretch.end);
-        let request = Request { is_whole, known_peak: self.peak_theta[0] };
-        stretch.inside.refine(problem, request, &mut |finer| self.read_inside(problem, finer));
+        if stretch.is_coarse {
+            let is_whole = problem.records_forces() || self.next_row(problem).is_some_and(|t| t < stretch.end);
+            let request = Request { is_whole, known_peak: self.peak_theta[0] };
+            stretch.inside.refine(problem, request, &mut |finer| self.read_inside(problem, finer));
+        }
         self.read_inside(problem, stretch);
     }
 

@@ -77,7 +77,7 @@ impl Motion for Rest {
             }
         };
         self.until = (t, index);
-        Ok(Stretch { end: t, ended: Some(ended), inside: self })
+        Ok(Stretch { end: t, ended: Some(ended), is_coarse: false, inside: self })
     }
 
     fn take_work(&mut self) -> Work {

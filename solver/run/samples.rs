@@ -212,7 +212,7 @@ impl Phase {
             self.work.steps += 1;
             let end = if h == segment_end - t { segment_end } else { t + h };
             self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
-            visit(&mut Stretch { end, ended: None, inside: self });
+            visit(&mut Stretch { end, ended: None, is_coarse: false, inside: self });
             self.advance(problem);
             if end == segment_end {
                 if self.segment == last {

@@ -42,6 +42,8 @@ pub(crate) struct Stretch<'m> {
     pub end: f64,
     /// Why it ended; `None` if the motion continues.
     pub ended: Option<Ended>,
+    /// Whether finer stretches answer what is requested of the inside: of a step over several samples.
+    pub is_coarse: bool,
     /// What lies between.
     pub inside: &'m mut dyn Inside,
 }
@@ -57,10 +59,8 @@ pub(crate) trait Inside {
     /// Calls `note` with contact forces at start, middle and end of panels so short that forces are parabolas over them.
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3]));
 
-    /// Visits finer stretches in place of this one, where its own inside does not answer what is requested; `true` if it did so.
-    fn refine(&mut self, _problem: &Problem, _request: Request, _visit: &mut dyn FnMut(&mut Stretch)) -> bool {
-        false
-    }
+    /// Visits finer stretches in place of a coarse one, as far as they are requested.
+    fn refine(&mut self, _problem: &Problem, _request: Request, _visit: &mut dyn FnMut(&mut Stretch)) {}
 
     /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
     fn end(&mut self, after: Box<State>) -> Box<State>;

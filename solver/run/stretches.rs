@@ -173,7 +173,7 @@ impl Motion for Phase {
             Kind::Swing(swing) => swing.until,
             Kind::Samples(step) => problem.ground[step.last_segment].end,
         };
-        Ok(Stretch { end, ended, inside: self })
+        Ok(Stretch { end, ended, is_coarse: matches!(self.stretch, Kind::Samples(_)), inside: self })
     }
 
     fn take_work(&mut self) -> Work {
@@ -229,13 +229,9 @@ impl Inside for Phase {
         }
     }
 
-    fn refine(&mut self, problem: &Problem, request: Request, visit: &mut dyn FnMut(&mut Stretch)) -> bool {
-        match self.stretch {
-            Kind::Samples(step) => {
-                self.refine_samples(problem, step, request, visit);
-                true
-            }
-            _ => false,
+    fn refine(&mut self, problem: &Problem, request: Request, visit: &mut dyn FnMut(&mut Stretch)) {
+        if let Kind::Samples(step) = self.stretch {
+            self.refine_samples(problem, step, request, visit);
         }
     }
 
