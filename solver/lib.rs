@@ -10,15 +10,20 @@
 //! `i`; `s_i = sign φ_i` its state; `c_i` contact half-width; `N, T, M` contact force and moment on the stack above. Blocks and
 //! interfaces are counted from 1 in text and files, from 0 in code, always base first.
 //!
-//! # The step, with `x⁻` before and `x⁺` after
+//! # A run, with `x⁻` before and `x⁺` after an event
 //!
 //! ```text
-//! loop
-//!     at rest:      t  <- first zero of  c_i (g + ÿ_g) ± h_i ẍ_g               rest.rs
-//!     in a mode:    x⁻ <- integrate ẋ = f_mode(t, x) until a guard is zero      phase.rs
-//!     impact:       s, ω⁺ <- nearest admissible motion to ω⁻;  θ⁺ = θ⁻          contact.rs
-//!     opening:      s <- admissible pattern of the forces;     x⁺ = x⁻          contact.rs
-//!     overturned, or nothing can start it again, or t_end:     stop            simulate.rs
+//! x⁺, motion  <- initial state, by the laws of contact                                         run/transition.rs
+//! loop                                                                                         run/simulator.rs
+//!     stretch <- motion.next:  rest, free swing, step over samples, or one step of a method    run/rest.rs, stretches.rs
+//!     recorder reads the stretch: rows, peaks, forces                                          run/recorder.rs
+//!     no event:                                                            continue
+//!     x⁻      <- end of the stretch
+//!     over (overturned, at rest, end of time, outcome certain):            stop
+//!     x⁺      <- impact:   nearest admissible motion to ω⁻;  θ⁺ = θ⁻                           contact/impact.rs
+//!                opening:  admissible pattern of the forces;  x⁺ = x⁻ but for it               contact/opening.rs
+//!     recorder records the event
+//!     motion  <- rest or the mode of x⁺                                                        run/modes.rs
 //! ```
 //!
 //! # Example

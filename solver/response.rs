@@ -15,7 +15,7 @@ pub enum StopReason {
     Overturned,
     /// All interfaces are closed and the excitation up to `t_end` does not start one again.
     AtRest,
-    /// The time asked for is over.
+    /// The run reached `t_end`.
     EndOfTime,
     /// It cannot overturn any more, by energy, though it may still rock; only where nothing but the outcome is wanted.
     Stands,
@@ -288,7 +288,7 @@ fn four_digits(value: f64) -> String {
     format!("{value:.*}", decimals as usize)
 }
 
-/// The name of a pattern's mode: its label, `rest` where nothing moves.
+/// The name of a mode: its label, `rest` where nothing moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ModeName(Option<ModeLabel>);
 
@@ -296,7 +296,7 @@ impl ModeName {
     /// At rest.
     pub const REST: ModeName = ModeName(None);
 
-    /// That of a pattern; mirror images have the same.
+    /// The name of a pattern's mode; mirror images share it.
     pub fn of(pattern: &Pattern) -> ModeName {
         ModeName(pattern.mode().map(|(label, _)| label))
     }

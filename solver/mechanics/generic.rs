@@ -21,7 +21,7 @@ pub struct GenericMode {
     dof: usize,
     /// Per free angle, in its link's axes: the first moment of all that it carries about its pivot `[kg m]`.
     moment: Vec<Vec2>,
-    /// Per free angle, in its link's axes: from its pivot to the next one `[m]`.
+    /// Lever per free angle, in its link's axes: from the pivot of its link to the pivot above `[m]`.
     lever: Vec<Vec2>,
 }
 

@@ -14,8 +14,8 @@ pub(crate) struct Harmonics {
     second: [f64x2; 2],
 }
 
-/// Way of a swing over which a trigonometric polynomial of degree two is its Taylor polynomial to rounding: `1.2^19 / 19! < 3e-16`. On a
-/// longer one it is not; shorter ones are more pieces.
+/// Longest piece of a swing `[rad]` on which the Taylor polynomial of a trigonometric polynomial of degree two is exact to rounding:
+/// `1.2^19 / 19! < 3e-16`. Longer pieces lose digits, shorter ones cost more pieces.
 const LONGEST_WAY: f64 = 0.6;
 
 /// Share of the terms below which their rounding tells on a margin: those of a very slender column, and of any on the verge. Lower, and

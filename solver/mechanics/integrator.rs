@@ -23,7 +23,7 @@ use std::sync::Arc;
 pub(crate) trait Steps {
     /// Begins at a state; what earlier steps have taught of step lengths is forgotten.
     fn begin(&mut self, t: f64, x: &[f64]);
-    /// Continues from another state.
+    /// Continues from another state; step lengths learnt so far are kept.
     fn restart(&mut self, t: f64, x: &[f64]);
     /// State at the start of the next step.
     fn start(&self) -> &[f64];
@@ -45,7 +45,7 @@ pub(crate) trait Steps {
     fn state_inside(&mut self, part: Part, s: f64, state: &mut [f64]);
     /// A linear function of the angles inside the step; exactly zero at its start where that is known.
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
-    /// A bound of how far angles, or the difference of two, move from their start in the step; infinite where the track is the cheapest bound.
+    /// A bound of how far angles, or the difference of two, move from their start in the step; infinite where no bound is cheaper than the track.
     fn reach(&self, _angles: Difference) -> f64 {
         f64::INFINITY
     }
@@ -67,7 +67,7 @@ pub(crate) trait Forces {
     fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]);
     /// Whether a closed interface opens within `reach` `[s]` of the start of the last attempt; `index` is its place among the closed ones.
     fn opening(&self, margins: &Margins, index: usize, reach: f64) -> Opening;
-    /// The mode, of one free angle, on a ground that does not move.
+    /// The closed form of the mode on a ground at rest; `None` unless one angle is free.
     fn pendulum(&self) -> Option<Pendulum>;
     /// The mode, of one free angle, on a ground that moves to the side.
     fn rocker(&self) -> Option<Rocker>;
@@ -371,7 +371,7 @@ impl<D: Dynamics> Steps for TaylorSteps<D> {
         self.system.driven.calls += self.series.known_at(t, &self.start) - known;
     }
 
-    /// Any length: the first attempt finds the length of the step at the cost of no new coefficients.
+    /// No estimate is needed: the first attempt finds its step length from its coefficients.
     fn first_step(&self, _: Tolerance) -> f64 {
         LONGEST_FIRST_STEP
     }

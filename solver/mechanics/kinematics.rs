@@ -43,7 +43,7 @@ pub(crate) struct Turn {
 }
 
 impl Turn {
-    /// The ground's.
+    /// The turn of the ground: angle zero.
     const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
 
     pub fn new(angle: f64) -> Turn {
@@ -183,7 +183,7 @@ impl<'a, S: Size> Posture<'a, S> {
         })
     }
 
-    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof; where it is larger, links that do not move have unit mass.
+    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof; in a matrix wider than dof, the other links have unit mass.
     #[inline(always)]
     pub fn mass_matrix(&self) -> S::Table<f64> {
         let width = self.width();
@@ -255,7 +255,7 @@ impl<'a, S: Size> Posture<'a, S> {
         })
     }
 
-    /// `½ Σ m v² + I ω²` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.
+    /// `½ Σ (m v² + I ω²)` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.
     #[inline(always)]
     pub fn kinetic_energy(&self, linear: &[Vec2], angular: &[f64]) -> f64 {
         let blocks = self.blocks().iter().zip(linear.iter().zip(angular));

@@ -35,9 +35,9 @@ struct Corners {
     base: [f64x2; 2],
     /// `Σ m r × d` and `Σ m r · d`, `r` from the corner and `d` from the link's pivot `[kg m²]`.
     own: [f64x2; 2],
-    /// From the corner to the pivot of the next link `[m]`.
+    /// Lever from the corner to the pivot of the next link `[m]`.
     top: [f64x2; 2],
-    /// Of the link's blocks above the interface, about their centroids `[kg m²]`.
+    /// Inertia of the link's blocks above the interface, about their centroids `[kg m²]`.
     inertia: f64x2,
 }
 

@@ -51,7 +51,7 @@ impl Pendulum {
         self.rate
     }
 
-    /// What is left of the balance's angle, up to this distance from it.
+    /// Size of the angle `[rad]` at `distance` short of the balance.
     pub fn short_of_balance(&self, distance: f64) -> f64 {
         self.balance.abs() - distance
     }

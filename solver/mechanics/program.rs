@@ -114,7 +114,7 @@ pub fn slope<S: Scalar, P: StepProgram<S>>(
 pub trait EnergyProgram<S: Scalar> {
     /// One value per free angle.
     type Vector;
-    /// dof × dof.
+    /// Mass matrix, dof × dof, a row per free angle.
     type Matrix: AsRef<[Self::Vector]>;
     /// Scene constants, in the order of the program's doc.
     type Constants: for<'a> TryFrom<&'a [S]> + Clone;

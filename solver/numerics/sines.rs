@@ -35,7 +35,7 @@ const COS_POWERS: [f64; 6] = [
 const SIN: [f64; 6] = adapted(SIN_POWERS);
 const COS: [f64; 6] = adapted(COS_POWERS);
 
-/// From the coefficients `p` of powers of `z` to the first two, the last, `a`, `b` and `c` of
+/// Returns the first two coefficients, the last, `a`, `b` and `c` of
 /// `p₁ + p₂ z + p₆ z² ((z + a)(z² + b) + c)`, which is the same polynomial.
 const fn adapted(p: [f64; 6]) -> [f64; 6] {
     let (a, b) = (p[4] / p[5], p[3] / p[5]);

@@ -276,7 +276,7 @@ fn collocate<F: LinearlyForced>(
     }
 }
 
-/// Accelerations at the nodes, with the forcing's share in the second, integrated twice up to each of them.
+/// Double integral of the acceleration up to each node; the second list of values is multiplied by the forcing.
 #[inline(always)]
 fn twice_integrated([own, shaken]: [AtNodes; 2], forcing: &Forcing) -> AtNodes {
     let (own, shaken) = (stored(own), stored(shaken));

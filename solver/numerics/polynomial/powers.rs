@@ -12,7 +12,7 @@ pub struct Powers {
     degree: usize,
 }
 
-/// Rounds of Halley's rule, which makes three digits of one: five are enough for doubles, the rest is for guesses far off.
+/// Most rounds of Halley's rule, each of which triples the digits; five suffice, the rest is for poor guesses.
 const ROUNDS: usize = 40;
 
 /// Where Newton's step to a root is shorter than this share of the way there, Halley's leaves less than rounding, or, where the slope is nearly

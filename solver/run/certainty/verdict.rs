@@ -45,7 +45,7 @@ pub(crate) fn stands(
     prospects.stays(energy, impulse, slack(problem))
 }
 
-/// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, overturns before the run ends.
+/// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, is certain to overturn before the run ends.
 pub(crate) fn falls(fall: &Fall, problem: &Problem, (segment, t): (usize, f64), x: [f64; 2], sign: f64) -> bool {
     let Some(excess) = fall.excess(x, sign, slack(problem)) else { return false };
     let has_fallen_by = |end: f64, push: f64| fall.latest(excess, push).is_some_and(|latest| t + latest < end);
