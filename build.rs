@@ -9,6 +9,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=ROCKING_MAX_BLOCKS");
     println!("cargo::rerun-if-env-changed=ROCKING_DUMP_DIR");
+    // Tests that compare with independent runs are ignored, visibly, where these are not beside the project.
+    println!("cargo::rustc-check-cfg=cfg(has_shared)");
+    if std::path::Path::new("../shared").is_dir() {
+        println!("cargo::rustc-cfg=has_shared");
+    }
     let has_feature = |blocks: &usize| std::env::var_os(format!("CARGO_FEATURE_BLOCKS_{blocks}")).is_some();
     let max_blocks = match std::env::var("ROCKING_MAX_BLOCKS") {
         Ok(text) => text.trim().parse().map_err(|_| format!("ROCKING_MAX_BLOCKS = `{text}` is not a whole number"))?,

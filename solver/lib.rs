@@ -15,7 +15,7 @@
 //! ```text
 //! x⁺, motion  <- initial state, by the laws of contact                                         run/transition.rs
 //! loop                                                                                         run/simulator.rs
-//!     stretch <- motion.next:  rest, free swing, step over samples, or one step of a method    run/rest.rs, stretches.rs
+//!     stretch <- motion.next:  rest, free swing, step over samples, or one step of a method    run/rest.rs, phase_motion.rs
 //!     recorder reads the stretch: rows, peaks, forces                                          run/recorder.rs
 //!     no event:                                                            continue
 //!     x⁻      <- end of the stretch
@@ -60,7 +60,7 @@ pub use column::{Block, Column, ColumnError, Stack};
 pub use mechanics::mode::{IntegrateError, IntegrateOptions, Mode};
 pub use mechanics::{dynamics, generated, generic, kinematics, program};
 pub use numerics::per_block::PerBlock;
-pub use numerics::scalars as scalar;
+pub use numerics::scalar_types as scalar;
 pub use response::{Event, EventKind, Impulse, ModeName, Response, Sample, StopReason, Work};
 pub use rocking_codegen::{GroundMotion, pattern};
 pub use rocking_ground as ground;

@@ -199,6 +199,9 @@ pub struct Response {
     /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
     /// Empty if the scene's options ask for no forces.
     pub friction_demand: Vec<f64>,
+    /// Largest `|P_T| / P_N` of the impulses at impacts per interface, dimensionless; infinite where a contact transmits no compression. Empty if the
+    /// scene's options ask for no forces.
+    pub impulse_friction_demand: Vec<f64>,
     /// Smallest normal force per interface `[N]`. Empty if the scene's options ask for no forces.
     pub min_normal_force: Vec<f64>,
     /// Contact problems without admissible pattern.

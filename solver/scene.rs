@@ -122,6 +122,9 @@ impl Default for SolveOptions {
 /// Tightest relative tolerance: below it, rounding alone exceeds the error asked for.
 pub const TIGHTEST_RTOL: f64 = 1e-14;
 
+/// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
+pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
+
 /// Loosest tolerances: beyond, a step may err by more than a block turns.
 const LOOSEST: f64 = 1e-2;
 
@@ -222,6 +225,10 @@ impl Scene {
         if options.rtol < TIGHTEST_RTOL {
             let problem = format!("{:e} is below what double precision can keep", options.rtol);
             return error("solver.rtol", problem, "give at least 1e-14");
+        }
+        if options.stick_angle < SMALLEST_STICK_ANGLE {
+            let problem = format!("{:e} rad is below what rounding can hold", options.stick_angle);
+            return error("solver.stick_angle", problem, "give at least 1e-20");
         }
         if self.output_dt.is_some_and(|dt| options.t_end / dt > MOST_ROWS) {
             let problem = format!("{:e} rows up to t_end are too many", options.t_end / self.output_dt.unwrap_or(1.0));

@@ -1,7 +1,7 @@
 //! The scenes that ship with the project run as they stand and show what the README says of them; real records run too.
 
 use rocking::{Column, EventKind, Excitation, Motion, Record, Response, Scene, StopReason, simulate};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 #[path = "../examples/synthetic_record.rs"]
 mod synthetic_record;
@@ -59,12 +59,9 @@ fn three_blocks_of_the_paper_never_overturn() {
 }
 
 #[test]
+#[cfg_attr(not(has_shared), ignore = "needs ../shared")]
 fn real_records_run_with_impacts_and_without_separation() {
     let folder = root().join("../shared/records");
-    if !folder.is_dir() {
-        println!("skipped: {} is not there", folder.display());
-        return;
-    }
     for (name, samples, peak) in
         [("RSN125_FRIULI.A_A-TMZ000.AT2", 7277, 0.3571), ("NORTHR_1994_Rinaldi228.AT2", 1991, 0.8741)]
     {
@@ -84,30 +81,6 @@ fn real_records_run_with_impacts_and_without_separation() {
             assert!(events.clone().all(|pair| pair[0].t <= pair[1].t && pair[0].after == pair[1].before));
             assert_eq!(response.events[0].kind, EventKind::Start);
         }
-    }
-}
-
-#[test]
-fn every_record_beside_the_project_has_its_peak() {
-    let folder: PathBuf = root().join("../shared/records");
-    if !folder.is_dir() {
-        println!("skipped: {} is not there", folder.display());
-        return;
-    }
-    let peaks = [
-        ("RSN125_FRIULI.A_A-TMZ000.AT2", 0.3571),
-        ("RSN125_FRIULI.A_A-TMZ270.AT2", 0.3151),
-        ("RSN6_IMPVALL.I_I-ELC180.AT2", 0.2808),
-        ("RSN77_SFERN_PUL164.AT2", 1.2190),
-        ("NORTHR_1994_Rinaldi228.AT2", 0.8741),
-        ("FEMA_P695_120711_KOBE_NIS000.txt", 0.5093),
-    ];
-    for (name, peak) in peaks {
-        let text = std::fs::read_to_string(folder.join(name)).expect("readable");
-        let units = name.ends_with(".txt").then_some(rocking::ground::AccelerationUnit::G);
-        let options = rocking::ground::TextOptions { units, ..Default::default() };
-        let record = Record::from_text(&text, options).expect("valid");
-        assert!((record.peak() / 9.81 - peak).abs() < 5e-5, "{name}: {}", record.peak() / 9.81);
     }
 }
 

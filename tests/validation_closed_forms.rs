@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 const GRAVITY: f64 = 9.81;
 
 /// Hops as small as the block makes them are followed: the closed forms have no rest either `[rad]`.
-const NO_STICKING: f64 = 1e-300;
+const NO_STICKING: f64 = 1e-20;
 
 /// Relative tolerance of a step in free rocking: the tightest there is.
 const RTOL: f64 = 1e-14;

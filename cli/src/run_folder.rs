@@ -46,6 +46,9 @@ pub struct Summary<Given = Inputs> {
     /// Dimensionless; infinite where a contact parts with a force along it.
     #[serde(deserialize_with = "numbers")]
     pub friction_demand: Vec<f64>,
+    /// The same of the impulses at impacts; empty in a folder of an earlier version.
+    #[serde(default, deserialize_with = "numbers")]
+    pub impulse_friction_demand: Vec<f64>,
     /// `[N]`
     #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
@@ -200,6 +203,7 @@ impl<'a> Folder<'a> {
             impacts: response.impacts,
             time_in_mode: response.time_in_mode.clone(),
             friction_demand: response.friction_demand.to_vec(),
+            impulse_friction_demand: response.impulse_friction_demand.to_vec(),
             min_normal_force: response.min_normal_force.to_vec(),
             separations: response.separations.iter().map(separation).collect(),
             work: response.work,
@@ -302,7 +306,7 @@ impl Results {
         let ColumnData { blocks, gravity } = &read.given.column;
         let column = Column::new(blocks.clone(), *gravity).map_err(|error| broken(error.to_string()))?;
         let length = column.len();
-        let lists = [&read.friction_demand, &read.min_normal_force];
+        let lists = [&read.friction_demand, &read.impulse_friction_demand, &read.min_normal_force];
         if read.peak_theta.len() != length || lists.iter().any(|list| !list.is_empty() && list.len() != length) {
             return Err(broken(format!("peaks or forces are not of {length} block(s)")));
         }

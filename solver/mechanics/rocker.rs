@@ -2,7 +2,7 @@
 
 use super::dynamics::{Dynamics, Ground};
 use crate::numerics::ode::gauss_rule::AtNodes;
-use crate::numerics::ode::samples::LinearlyForced;
+use crate::numerics::ode::collocation::LinearlyForced;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::state_vector::StateVector;
 

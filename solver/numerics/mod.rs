@@ -8,6 +8,6 @@ pub mod ode;
 pub mod per_block;
 pub mod polynomial;
 pub mod scalar;
-pub mod scalars;
+pub mod scalar_types;
 pub mod sines;
 pub mod state_vector;

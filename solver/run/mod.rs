@@ -8,12 +8,12 @@ mod phase;
 mod problem;
 mod recorder;
 mod rest;
-mod samples;
+mod multi_sample_step;
 mod simulator;
 mod state;
 mod step;
 mod stretch;
-mod stretches;
+mod phase_motion;
 mod swing;
 mod transition;
 

@@ -1,6 +1,6 @@
 //! A smooth phase of a mode: its integrator, its guards, and the data of its last stretch.
 //!
-//! `stretches.rs` says which stretch comes next; the kinds of stretches are `step.rs`, `swing.rs` and `samples.rs`.
+//! `phase_motion.rs` says which stretch comes next; the kinds of stretches are `step.rs`, `swing.rs` and `multi_sample_step.rs`.
 
 use super::certainty::falls::Fall;
 use super::problem::Problem;
@@ -14,7 +14,7 @@ use crate::mechanics::mode::Mode;
 use crate::mechanics::pendulum::{self, Pendulum};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::control::Part;
-use crate::numerics::ode::samples::GAPS;
+use crate::numerics::ode::collocation::GAPS;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;

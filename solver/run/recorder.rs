@@ -15,6 +15,9 @@ use std::collections::BTreeMap;
 /// Room made for events when the first one comes.
 const USUAL_EVENTS: usize = 16;
 
+/// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
+const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
+
 /// The record of a run under way.
 pub(crate) struct Recorder {
     samples: Vec<Sample>,
@@ -27,6 +30,8 @@ pub(crate) struct Recorder {
     peak_theta: PerBlock<f64>,
     /// Per interface.
     friction_demand: PerBlock<f64>,
+    /// The same of impulses at impacts.
+    impulse_friction_demand: PerBlock<f64>,
     /// Per interface `[N]`.
     min_normal_force: PerBlock<f64>,
     events: Vec<Event>,
@@ -49,6 +54,7 @@ impl Recorder {
             pattern: start.pattern.clone(),
             peak_theta: PerBlock::filled(0.0, blocks),
             friction_demand: PerBlock::filled(0.0, blocks),
+            impulse_friction_demand: PerBlock::filled(0.0, blocks),
             min_normal_force: PerBlock::filled(f64::INFINITY, blocks),
             events: Vec::new(),
             impacts: 0,
@@ -119,7 +125,9 @@ impl Recorder {
             let least = -crest([a, b, c].map(|force| -force.normal));
             let demand = [a, b, c].map(|force| friction(&force));
             let is_finite = demand.iter().all(|demand| demand.is_finite());
-            let most = if is_finite { crest(demand) } else { f64::INFINITY };
+            // Between the places the contact may part with a force along it.
+            let parts = least <= 0.0 && [a, b, c].iter().any(|force| force.tangential != 0.0);
+            let most = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
             self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
             self.friction_demand[interface] = self.friction_demand[interface].max(most);
         }
@@ -138,11 +146,25 @@ impl Recorder {
         if problem.scene.output_dt.is_some() {
             self.pattern.clone_from(&after.pattern);
         }
+        if problem.records_forces() {
+            self.record_impulses(&transition.decision.impulses);
+        }
         if transition.is_event {
             if self.events.is_empty() {
                 self.events.reserve(USUAL_EVENTS);
             }
             for_size!(before.theta.len(), size => self.events.push(event(size, before, transition, after)));
+        }
+    }
+
+    /// Records the friction that the impulses of an impact ask for.
+    fn record_impulses(&mut self, impulses: &[ContactForce]) {
+        let size = |impulse: &ContactForce| impulse.normal.abs().max(impulse.tangential.abs());
+        let largest = impulses.iter().map(size).fold(0.0, f64::max);
+        for (own, impulse) in self.impulse_friction_demand.iter_mut().zip(impulses) {
+            if size(impulse) > NEGLIGIBLE_IMPULSE * largest {
+                *own = own.max(friction(impulse));
+            }
         }
     }
 
@@ -203,6 +225,7 @@ impl Recorder {
             peak_theta: if_recorded(problem.is_recorded(), self.peak_theta),
             time_in_mode,
             friction_demand: if_recorded(problem.records_forces(), self.friction_demand),
+            impulse_friction_demand: if_recorded(problem.records_forces(), self.impulse_friction_demand),
             min_normal_force: if_recorded(problem.records_forces(), self.min_normal_force),
             separations: self.separations,
             work,

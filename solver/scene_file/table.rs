@@ -463,21 +463,5 @@ fn hint(message: &str, line: &str) -> &'static str {
 /// Whether `written` may be a slip for `key`, or the end of its name.
 fn is_slip(key: &str, written: &str) -> bool {
     let is_end = key.strip_suffix(written).is_some_and(|start| start.ends_with('_'));
-    is_end || distance(key, written) <= 1 + written.len() / 4
-}
-
-/// Edit distance of two short keys.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, c) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, d) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(c != *d);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
+    is_end || strsim::levenshtein(key, written) <= 1 + written.len() / 4
 }

@@ -9,6 +9,6 @@ pub mod explicit;
 pub mod gauss_rule;
 pub mod interpolant;
 pub mod methods;
-pub mod samples;
+pub mod collocation;
 pub mod tableaus;
 pub mod taylor;

@@ -1,7 +1,7 @@
 //! The stretches of a phase: which one comes next, and how it is read.
 //!
 //! The next stretch is the first of these that applies: a free swing in closed form (`swing.rs`), a step over several samples of a record
-//! (`samples.rs`), a step of the method (`step.rs`).
+//! (`multi_sample_step.rs`), a step of the method (`step.rs`).
 
 use super::certainty::verdict;
 use super::error::SolveError;

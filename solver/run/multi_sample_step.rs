@@ -1,4 +1,4 @@
-//! A step over several samples of a record as a stretch, for one block ([`crate::numerics::ode::samples`]), where nothing can happen in between.
+//! A step over several samples of a record as a stretch, for one block ([`crate::numerics::ode::collocation`]), where nothing can happen in between.
 //!
 //! Between nodes an angle leaves the straight line, and its rate the mean, by no more than the largest acceleration allows. That shows, for
 //! most of a record, that the block neither lands nor overturns in a step; where it might, steps go from sample to sample. Where
@@ -13,7 +13,7 @@ use super::stretch::{Request, Stretch};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::control::Part;
 use crate::numerics::ode::gauss_rule::NODES;
-use crate::numerics::ode::samples::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
+use crate::numerics::ode::collocation::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
 
 impl Crests {
     /// The first and last share of the step between which the angle may have a crest above `peak`.
