@@ -28,7 +28,7 @@ fn energy_is_constant_between_impacts() {
             let start = mode.energy(&x, ground.gravity).total();
             for state in states {
                 let energy = mode.energy(&state, ground.gravity).total();
-                assert!((energy - start).abs() <= 1e-12 * start.abs(), "{pattern}: {energy} from {start}");
+                approx::assert_relative_eq!(energy, start, max_relative = 1e-12);
             }
         }
     }
