@@ -1,6 +1,7 @@
-//! `cargo bench`: one right-hand side for 1 to 5 degrees of freedom, alone and in lanes, and one whole run, generated against generic.
+//! `cargo bench --bench speed`: one right-hand side for 1 to 5 degrees of freedom, one of a baked column, and one whole run: generated
+//! against generic equations.
 //!
-//! Both codes must give the same answer before anything is timed. Criterion measures; the medians are written with commit,
+//! All codes must give the same answer before anything is timed. Criterion measures; the medians are written with commit,
 //! compiler and machine to `target/bench/speed.csv`, and their ratios printed. What biases the figures: the right-hand side is
 //! called with the same state over and over (sines of one argument, warm caches); the whole run includes setting up modes and
 //! recording events but no rows; the generic code allocates.
@@ -11,7 +12,6 @@ use criterion::{BenchmarkId, Criterion};
 use rocking::dynamics::{Dynamics, Ground};
 use rocking::generated::{GeneratedMode, Program, equations};
 use rocking::generic::GenericMode;
-use rocking::lanes::{Ensemble, EnsembleProgram};
 use rocking::pattern::Pattern;
 use rocking::{Column, DynamicsSource, GroundMotion, Motion, Restitution, Scene, simulate};
 use std::hint::black_box;
@@ -33,7 +33,7 @@ fn state(dof: usize) -> Vec<f64> {
 fn right_hand_side<P>(criterion: &mut Criterion, dof: usize)
 where
     GeneratedMode<P>: Dynamics,
-    P: Program + EnsembleProgram,
+    P: Program,
 {
     let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
     let generated =
@@ -57,27 +57,8 @@ where
     group.bench_function(BenchmarkId::new("generic", dof), |bencher| {
         bencher.iter(|| generic.derivative(black_box(&values), black_box(GROUND), &mut other));
     });
-
-    // A whole ensemble, its states in lanes.
-    let pattern = pattern(dof);
-    let modes = [(&column, &pattern); SCENES];
-    let ensemble = Ensemble::<P>::new(&modes, GroundMotion::Horizontal, equations::linkage::<f64>);
-    let ensemble = ensemble.expect("the build has it");
-    let states = ensemble.pack(&values.repeat(SCENES), 2 * dof);
-    let ground = ensemble.pack(&[GROUND.x, GROUND.gravity].repeat(SCENES), 2);
-    let mut slopes = states.clone();
-    ensemble.slopes(&states, &ground, &mut slopes);
-    for lanes in ensemble.unpack(&slopes, 2 * dof).chunks(2 * dof) {
-        assert_eq!(lanes, rocking::dynamics::StateVector::as_slice(&slope), "bit for bit");
-    }
-    group.bench_function(BenchmarkId::new("lanes", dof), |bencher| {
-        bencher.iter(|| ensemble.slopes(black_box(&states), black_box(&ground), &mut slopes));
-    });
     group.finish();
 }
-
-/// Scenes of an ensemble: those of some lanes, and few enough for the nearest cache.
-const SCENES: usize = 64;
 
 /// Generic, generated and baked side by side: one mode of the example's column with three free angles.
 fn baked_column(criterion: &mut Criterion) {
@@ -106,13 +87,13 @@ fn baked_column(criterion: &mut Criterion) {
         assert!((a[i] - c[i]).abs() <= size && (b[i] - c[i]).abs() <= size, "{a:?} {b:?} {c:?}");
     }
     let mut group = criterion.benchmark_group("baked-column");
-    group.bench_function("baked", |bencher| {
+    group.bench_function(BenchmarkId::new("baked", 3), |bencher| {
         bencher.iter(|| baked.derivative(black_box(&x), black_box(GROUND), &mut a));
     });
-    group.bench_function("generated", |bencher| {
+    group.bench_function(BenchmarkId::new("generated", 3), |bencher| {
         bencher.iter(|| generated.derivative(black_box(&x), black_box(GROUND), &mut b));
     });
-    group.bench_function("generic", |bencher| {
+    group.bench_function(BenchmarkId::new("generic", 3), |bencher| {
         bencher.iter(|| generic.derivative(black_box(&values), black_box(GROUND), &mut c));
     });
     group.finish();
@@ -147,21 +128,23 @@ fn median(group: &str, name: &str, dof: usize) -> Option<f64> {
 
 fn report() -> std::io::Result<()> {
     let circumstances = common::circumstances();
-    let mut csv = String::from("benchmark,dof,generated_ns,generic_ns,ratio,lanes_ns_per_scene,lanes_ratio,");
-    csv.push_str(common::CIRCUMSTANCES);
-    csv.push('\n');
-    let rows = (1..=5).map(|dof| ("right-hand-side", dof)).chain([("three-blocks-pulse-10-s", 3)]);
+    let mut csv =
+        format!("benchmark,dof,generated_ns,generic_ns,ratio,baked_ns,baked_ratio,{}\n", common::CIRCUMSTANCES);
+    let rows = (1..=5).map(|dof| ("right-hand-side", dof)).chain([("baked-column", 3), ("three-blocks-pulse-10-s", 3)]);
     for (group, dof) in rows {
-        let (Some(a), Some(b)) = (median(group, "generated", dof), median(group, "generic", dof)) else { continue };
-        println!("{group}, {dof} free angle(s): generated {a:.1} ns, generic {b:.1} ns, ratio {:.1}", b / a);
-        csv.push_str(&format!("{group},{dof},{a:.2},{b:.2},{:.2},", b / a));
-        match median(group, "lanes", dof).map(|all| all / SCENES as f64) {
-            Some(lanes) => {
-                println!("{:>32}eight lanes {lanes:.2} ns a scene, {:.1} times the scenes", "", a / lanes);
-                csv.push_str(&format!("{lanes:.3},{:.2},{circumstances}\n", a / lanes));
-            }
-            None => csv.push_str(&format!(",,{circumstances}\n")),
+        let [generated, generic, baked] = ["generated", "generic", "baked"].map(|name| median(group, name, dof));
+        let (Some(generated), Some(generic)) = (generated, generic) else { continue };
+        let ratio = generic / generated;
+        print!("{group}, {dof} free angle(s): generated {generated:.1} ns, generic {generic:.1} ns, ratio {ratio:.1}");
+        let mut baked_columns = String::from(",");
+        if let Some(baked) = baked {
+            print!("; baked {baked:.1} ns, ratio {:.1}", generic / baked);
+            baked_columns = format!("{baked:.2},{:.2}", generic / baked);
         }
+        println!();
+        csv.push_str(&format!(
+            "{group},{dof},{generated:.2},{generic:.2},{ratio:.2},{baked_columns},{circumstances}\n"
+        ));
     }
     common::write("speed.csv", &csv)
 }
@@ -179,5 +162,5 @@ fn main() -> std::io::Result<()> {
     baked_column(&mut criterion);
     whole_run(&mut criterion);
     criterion.final_summary();
-    report()
+    if common::is_timed() { report() } else { Ok(()) }
 }

@@ -1,10 +1,15 @@
-//! What benchmarks share: where their figures go, and the circumstances written beside them.
+//! What benchmarks share: whether they measure, where their figures go, and the circumstances written beside them.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 /// Columns of a CSV file that [`circumstances`] fills.
 pub const CIRCUMSTANCES: &str = "commit,compiler,machine";
+
+/// Whether times are measured, as under `cargo bench`. Under `cargo test --benches` only the answers are checked.
+pub fn is_timed() -> bool {
+    std::env::args().any(|argument| argument == "--bench")
+}
 
 /// Commit, compiler and machine, without commas of their own.
 pub fn circumstances() -> String {

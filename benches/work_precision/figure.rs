@@ -3,19 +3,30 @@
 //! Colours are those of Okabe & Ito, told apart by the colour-blind; methods differ in their markers too. Generated equations
 //! are solid, generic ones dashed and hollow.
 
-use crate::sweep::{Code, Point};
+use crate::sweep::{Code, METHODS, Point};
 use crate::tables::curve;
 use rocking::Method;
 use std::fmt::Write;
 
-/// Colour and name of a method.
-fn style(method: Method) -> (&'static str, &'static str) {
+/// How a method is drawn.
+struct Style {
+    name: &'static str,
+    colour: &'static str,
+    /// Corners of its marker; none for a circle.
+    marker: &'static [[f64; 2]],
+}
+
+fn style(method: Method) -> Style {
+    let style = |name, colour, marker| Style { name, colour, marker };
     match method {
-        Method::Auto | Method::Dop853 => ("#0072B2", "DOP853"),
-        Method::DormandPrince54 => ("#E69F00", "Dormand-Prince 5(4)"),
-        Method::Taylor => ("#D55E00", "Taylor series"),
-        Method::KuttaMerson => ("#009E73", "Kutta-Merson 4"),
-        Method::RungeKutta4 => ("#CC79A7", "Runge-Kutta 4, fixed steps"),
+        Method::Dop853 => style("DOP853", "#0072B2", &[]),
+        Method::DormandPrince54 => {
+            style("Dormand-Prince 5(4)", "#E69F00", &[[-2.7, -2.7], [2.7, -2.7], [2.7, 2.7], [-2.7, 2.7]])
+        }
+        Method::Taylor => style("Taylor series", "#D55E00", &[[0.0, -3.8], [3.5, 2.5], [-3.5, 2.5]]),
+        Method::KuttaMerson => style("Kutta-Merson 4", "#009E73", &[[0.0, -3.8], [3.8, 0.0], [0.0, 3.8], [-3.8, 0.0]]),
+        Method::RungeKutta4 => style("Runge-Kutta 4, fixed steps", "#CC79A7", &[[0.0, 3.8], [3.5, -2.5], [-3.5, -2.5]]),
+        other => unreachable!("{} is not compared", other.name()),
     }
 }
 
@@ -45,22 +56,15 @@ impl Axes {
 }
 
 fn marker(svg: &mut String, method: Method, code: Code, [x, y]: [f64; 2]) {
-    let colour = style(method).0;
+    let Style { colour, marker, .. } = style(method);
     let fill = if code == Code::Generated { colour } else { "#ffffff" };
     let paint = format!("fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.2\"");
-    let path = |svg: &mut String, points: &[(f64, f64)]| {
-        let points: Vec<String> = points.iter().map(|(u, v)| format!("{:.1},{:.1}", x + u, y + v)).collect();
-        let _ = writeln!(svg, "<polygon points=\"{}\" {paint}/>", points.join(" "));
+    let _ = if marker.is_empty() {
+        writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" {paint}/>")
+    } else {
+        let corners: Vec<String> = marker.iter().map(|[u, v]| format!("{:.1},{:.1}", x + u, y + v)).collect();
+        writeln!(svg, "<polygon points=\"{}\" {paint}/>", corners.join(" "))
     };
-    match method {
-        Method::Auto | Method::Dop853 => {
-            let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" {paint}/>");
-        }
-        Method::DormandPrince54 => path(svg, &[(-2.7, -2.7), (2.7, -2.7), (2.7, 2.7), (-2.7, 2.7)]),
-        Method::Taylor => path(svg, &[(0.0, -3.8), (3.5, 2.5), (-3.5, 2.5)]),
-        Method::KuttaMerson => path(svg, &[(0.0, -3.8), (3.8, 0.0), (0.0, 3.8), (-3.8, 0.0)]),
-        Method::RungeKutta4 => path(svg, &[(0.0, 3.8), (3.5, -2.5), (-3.5, -2.5)]),
-    }
 }
 
 fn line(svg: &mut String, method: Method, code: Code, points: &[[f64; 2]]) {
@@ -69,7 +73,7 @@ fn line(svg: &mut String, method: Method, code: Code, points: &[[f64; 2]]) {
     }
     let places: Vec<String> = points.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
     let dashes = if code == Code::Generic { " stroke-dasharray=\"4 3\"" } else { "" };
-    let (colour, places) = (style(method).0, places.join(" "));
+    let (colour, places) = (style(method).colour, places.join(" "));
     let _ =
         writeln!(svg, "<polyline points=\"{places}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.4\"{dashes}/>");
     points.iter().for_each(|place| marker(svg, method, code, *place));
@@ -113,7 +117,7 @@ fn panel(svg: &mut String, axes: &Axes, name: &str, points: &[Point], is_left: b
         PANEL[0], PANEL[1]
     );
     for code in [Code::Generic, Code::Generated] {
-        for method in Method::NAMED {
+        for method in METHODS {
             let curve = curve(points, name, method, code);
             let places = curve.iter().filter(|p| p.angle_error.is_finite());
             let places: Vec<[f64; 2]> = places.map(|p| [axes.x(p.best), axes.y(p.angle_error.max(1e-300))]).collect();
@@ -123,13 +127,13 @@ fn panel(svg: &mut String, axes: &Axes, name: &str, points: &[Point], is_left: b
 }
 
 fn legend(svg: &mut String, [left, top]: [f64; 2]) {
-    let entries = Method::NAMED.map(|method| (method, Code::Generated, style(method).1));
+    let entries = METHODS.map(|method| (method, Code::Generated, style(method).name));
     let codes = [
         (Method::Dop853, Code::Generated, "solid: generated equations"),
         (Method::Dop853, Code::Generic, "dashed: generic equations"),
     ];
     for (row, (method, code, name)) in entries.into_iter().chain(codes).enumerate() {
-        let y = top + 16.0 + 22.0 * row as f64 + if row >= Method::NAMED.len() { 10.0 } else { 0.0 };
+        let y = top + 16.0 + 22.0 * row as f64 + if row >= METHODS.len() { 10.0 } else { 0.0 };
         line(svg, method, code, &[[left + 12.0, y], [left + 42.0, y]]);
         text(svg, [left + 52.0, y + 4.0], "start", name);
     }

@@ -38,8 +38,7 @@ const QUICK: [usize; 3] = [0, 3, 5];
 const RATE_CHANGE: f64 = 1e-20;
 
 fn main() -> std::io::Result<()> {
-    let is_given = |name: &str| std::env::args().any(|argument| argument == name);
-    let is_quick = is_given("--quick") || !is_given("--bench");
+    let is_quick = !common::is_timed() || std::env::args().any(|argument| argument == "--quick");
     let plan = if is_quick { Plan::quick() } else { Plan::full() };
     let scenes = scenes::all().into_iter().enumerate().filter(|(place, _)| !is_quick || QUICK.contains(place));
 
@@ -59,7 +58,7 @@ fn main() -> std::io::Result<()> {
             reference.impacts.len()
         );
         sweep::check(name, &scene, &reference);
-        if is_given("--bench") {
+        if common::is_timed() {
             points.extend(sweep::sweep(name, &scene, &reference, &plan));
         }
     }

@@ -13,7 +13,7 @@
 //!
 //! What is shared with the library: the generated equations, the pattern decisions, the data of the ground motion. Not shared:
 //! integration, event location, dense output, Jacobians, solves. A wrong decision would go unnoticed here; what decides between
-//! patterns is tested elsewhere (`solver/contact.rs`, `cli/tests/validation_reference.rs`).
+//! patterns is tested elsewhere (`solver/contact/`, `cli/tests/validation_reference.rs`).
 
 use crate::double::{Double, ZERO};
 use crate::impact;

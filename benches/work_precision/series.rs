@@ -1,6 +1,6 @@
 //! One mode in double-doubles: generated equations, and their Taylor series at a state.
 //!
-//! The recurrences are those of `solver/ode/taylor/series.rs`, written once more, order by order and without its economies. With
+//! The recurrences are those of `solver/numerics/ode/taylor/series.rs`, written once more, order by order and without its economies. With
 //! `c, s, ω` the coefficients of cosine, sine and rate of an angle, and `C, S` those of the generated weights,
 //!
 //! ```text

@@ -1,6 +1,6 @@
 //! What the points say: error reached against tolerance asked, and the fastest way to a given error.
 
-use crate::sweep::{Code, Point};
+use crate::sweep::{Code, METHODS, Point};
 use rocking::Method;
 
 /// Rounding counts for more than the tolerance below this one.
@@ -74,7 +74,7 @@ pub fn fastest(points: &[Point]) {
         for digits in 4..=12 {
             let level = 10f64.powi(-digits);
             let time = |method, code| time_to(&curve(points, scene, method, code), level);
-            let best = Method::NAMED.into_iter().filter_map(|method| Some((method, time(method, Code::Generated)?)));
+            let best = METHODS.into_iter().filter_map(|method| Some((method, time(method, Code::Generated)?)));
             let best = best.min_by(|a, b| a.1.total_cmp(&b.1));
             match (best, time(Method::Dop853, Code::Generic)) {
                 (Some((method, own)), Some(generic)) => {

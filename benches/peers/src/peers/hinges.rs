@@ -29,7 +29,7 @@ const SIGNS: [f64; 3] = [1.0, -1.0, 1.0];
 
 impl Hinges {
     /// Three equal blocks of unit density, half-sizes `[m]`.
-    pub fn new(half_width: f64, half_height: f64, theta: [f64; 3], ground: [f64; 2]) -> Hinges {
+    pub fn new(half_width: f64, half_height: f64, start: [f64; 6], ground: [f64; 2]) -> Hinges {
         let (b, h) = (half_width, half_height);
         let mass = 4.0 * b * h;
         let inertia = mass * (b * b + h * h) / 3.0;
@@ -45,7 +45,6 @@ impl Hinges {
             let ([x, y], [u, v]) = (link[k], weight[l]);
             [x * u + y * v, x * v - y * u]
         });
-        let start = [theta[0], theta[1], theta[2], 0.0, 0.0, 0.0];
         Hinges { diagonal, coupling, weight, ground, start }
     }
 

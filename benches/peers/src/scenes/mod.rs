@@ -46,7 +46,8 @@ fn with_row_at_end(scene: &Scene) -> Scene {
 /// `rocking` with every method that chooses its steps and with `auto`, which swings in closed form and passes several samples of a record
 /// at once besides, at all tolerances. What is timed is without the row at the end that the answer needs, by a simulator that has its modes, as heyoka has its compiled integrator.
 fn ours(scene: &Scene) -> Vec<Contender<'static>> {
-    let settings = Method::ACCURATE.into_iter().chain([Method::Auto]).flat_map(|method| OUR_TOLERANCES.map(|rtol| (method, rtol)));
+    let settings =
+        Method::ACCURATE.into_iter().chain([Method::Auto]).flat_map(|method| OUR_TOLERANCES.map(|rtol| (method, rtol)));
     settings
         .map(|(method, rtol)| {
             let mut scene = scene.clone();
