@@ -1,6 +1,6 @@
 //! The machine code of a right-hand side: no allocation, no bounds check, no panic, no cost of being generic over the scalar.
 //!
-//! The generated text is compiled by `rustc` alone, with the traits of `solver/program.rs` and a stand-in for the rest of the
+//! The generated text is compiled by `rustc` alone, with the traits of `solver/mechanics/program.rs` and a stand-in for the rest of the
 //! library, and the assembly of one function per program is read. The only call allowed is that of the sine and cosine.
 
 use std::path::{Path, PathBuf};
@@ -68,10 +68,12 @@ fn programs() -> impl Iterator<Item = (String, usize)> {
 
 /// Assembly of the probes for a generated text.
 fn assembly(folder: &Path, equations: &str) -> String {
-    let traits = Path::new(env!("CARGO_MANIFEST_DIR")).join("solver/program.rs");
+    let solver = Path::new(env!("CARGO_MANIFEST_DIR")).join("solver");
+    let (traits, scalar) = (solver.join("mechanics/program.rs"), solver.join("numerics/scalar.rs"));
     let probes: String = programs().map(|(program, dof)| probe(&program, dof)).collect();
-    let text =
-        format!("{STAND_IN}\n#[path = {traits:?}]\npub mod program;\npub mod equations {{\n{equations}\n}}\n{probes}");
+    let text = format!(
+        "{STAND_IN}\npub mod numerics {{ #[path = {scalar:?}] pub mod scalar; }}\n#[path = {traits:?}]\npub mod program;\npub mod equations {{\n{equations}\n}}\n{probes}"
+    );
     let (source, output) = (folder.join("probe.rs"), folder.join("probe.s"));
     std::fs::write(&source, text).expect("the temporary folder can be written");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

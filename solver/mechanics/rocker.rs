@@ -1,8 +1,8 @@
 //! One free angle on a ground that moves to the side: the equation of one block, for steps over several samples of a record.
 
 use super::dynamics::{Dynamics, Ground};
-use crate::numerics::ode::gauss_rule::AtNodes;
 use crate::numerics::ode::collocation::LinearlyForced;
+use crate::numerics::ode::gauss_rule::AtNodes;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::state_vector::StateVector;
 

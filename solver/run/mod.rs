@@ -4,16 +4,16 @@ pub mod certainty;
 mod diagnostics;
 mod error;
 mod modes;
+mod multi_sample_step;
 mod phase;
+mod phase_motion;
 mod problem;
 mod recorder;
 mod rest;
-mod multi_sample_step;
 mod simulator;
 mod state;
 mod step;
 mod stretch;
-mod phase_motion;
 mod swing;
 mod transition;
 

@@ -11,9 +11,9 @@ use super::phase::{Crests, Kind, Phase, SampleStep, StepEnd};
 use super::problem::Problem;
 use super::stretch::{Request, Stretch};
 use crate::mechanics::rocker::Rocker;
+use crate::numerics::ode::collocation::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
 use crate::numerics::ode::control::Part;
 use crate::numerics::ode::gauss_rule::NODES;
-use crate::numerics::ode::collocation::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
 
 impl Crests {
     /// The first and last share of the step between which the angle may have a crest above `peak`.

@@ -147,6 +147,9 @@ impl Phase {
                 first = Some((Guard::Contact { interface: self.closed[index] }, s));
             }
         }
+        if !problem.skips.forces && !problem.records_forces() {
+            self.evaluate_end_forces(problem, end);
+        }
         if first.is_none()
             && reach >= 1.0
             && let Some((_, margins)) = samples.iter().find(|(place, _)| *place == 1.0)

@@ -4,11 +4,11 @@
 //! in second derivatives; [`samples`] steps over several samples of a forcing at once. Nothing here knows blocks, modes or impacts: a caller
 //! takes a step, inspects its inside, and keeps it, shortens it, or continues elsewhere.
 
+pub mod collocation;
 pub mod control;
 pub mod explicit;
 pub mod gauss_rule;
 pub mod interpolant;
 pub mod methods;
-pub mod collocation;
 pub mod tableaus;
 pub mod taylor;
