@@ -343,7 +343,7 @@ impl Table {
 
     /// The error that a key's text is none of those known.
     pub fn no_such(&self, key: &str, what: &str, text: &str, known: &[&str]) -> Wrong {
-        let nearest = known.iter().min_by_key(|name| distance(name, text)).filter(|name| is_slip(name, text));
+        let nearest = known.iter().min_by_key(|name| strsim::levenshtein(name, text)).filter(|name| is_slip(name, text));
         let guess = nearest.map_or(String::new(), |name| format!("did you mean `{name}`? "));
         let remedy = format!("{guess}choose one of {}", known.join(", "));
         self.wrong(key, format!("there is no {what} `{text}`"), &remedy)
@@ -399,7 +399,7 @@ impl Table {
     /// Refuses keys that nobody asked for.
     pub fn close(&self) -> Result<(), Wrong> {
         let Some(unknown) = self.entries.iter().find(|entry| !self.has_asked(&entry.key)) else { return Ok(()) };
-        let nearest = self.asked.iter().min_by_key(|known| distance(known, &unknown.key));
+        let nearest = self.asked.iter().min_by_key(|known| strsim::levenshtein(known, &unknown.key));
         let remedy = match nearest.filter(|known| is_slip(known, &unknown.key)) {
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("remove it; known here are {}", self.asked.join(", ")),
