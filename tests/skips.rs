@@ -182,5 +182,5 @@ fn counters_tell_what_was_left_out() {
     assert!(simulate(&scene).expect("solved").work.ended_early);
     let work = Simulator::with_skips(Skips::NOTHING).run(&scene).expect("solved").work;
     assert!(work.swings == 0 && work.waits == 0 && !work.ended_early, "{work:?}");
-    assert!(work.force_calls > work.steps && work.with_vertical && work.modes_entered <= 2, "{work:?}");
+    assert!(work.force_calls >= work.steps && work.with_vertical && work.modes_entered <= 2, "{work:?}");
 }

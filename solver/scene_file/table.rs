@@ -343,7 +343,8 @@ impl Table {
 
     /// The error that a key's text is none of those known.
     pub fn no_such(&self, key: &str, what: &str, text: &str, known: &[&str]) -> Wrong {
-        let nearest = known.iter().min_by_key(|name| strsim::levenshtein(name, text)).filter(|name| is_slip(name, text));
+        let nearest =
+            known.iter().min_by_key(|name| strsim::levenshtein(name, text)).filter(|name| is_slip(name, text));
         let guess = nearest.map_or(String::new(), |name| format!("did you mean `{name}`? "));
         let remedy = format!("{guess}choose one of {}", known.join(", "));
         self.wrong(key, format!("there is no {what} `{text}`"), &remedy)
