@@ -148,11 +148,16 @@ fn run(
         if let Ended::Over(over) = ended {
             return Ok(recorder.finish(problem, &before, over, modes));
         }
-        let next = transition(problem, &before, &ended)?;
+        // By reference: a transition is large, and `?` would copy it.
+        let next = transition(problem, &before, &ended);
+        let next = match &next {
+            Ok(next) => next,
+            Err(error) => return Err(error.clone()),
+        };
         after = next.after(&before, spare);
-        recorder.transition(problem, &before, &next, &after);
+        recorder.transition(problem, &before, next, &after);
         spare = before;
-        if let Some(forced) = break_circle(problem, &next, &after)? {
+        if let Some(forced) = break_circle(problem, next, &after)? {
             let closed = forced.after(&after, spare);
             recorder.transition(problem, &after, &forced, &closed);
             (spare, after) = (after, closed);

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::rest;
 use super::state::{ContactMemory, State};
 use super::stretch::Ended;
-use crate::contact::{self, Decision, ImpactLaw};
+use crate::contact::{self, Decision, ImpactLaw, SingularMass};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
@@ -43,8 +43,10 @@ impl Transition {
         (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
         after.theta.clone_from(&before.theta);
         after.omega.clone_from(&self.decision.omega);
-        after.pattern.clone_from(&self.decision.pattern);
-        after.contact.released.clone_from(&self.released);
+        after.pattern = self.decision.pattern.clone();
+        if !(after.contact.released.is_empty() && self.released.is_empty()) {
+            after.contact.released.clone_from(&self.released);
+        }
         after.contact.hold = if self.decision.separation { hold.after_separation(before.t) } else { hold };
         after.contact.last_events = if self.is_event { [last_events[1], before.t] } else { last_events };
         after.contact.events_at_once = match (self.is_counted, is_same_instant) {
@@ -115,15 +117,17 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
         is_recorded: problem.is_recorded(),
     };
     let column = &problem.scene.column;
-    Ok(Transition {
-        decision: contact::impact(column, &before.pattern, theta, omega, closing, ground(problem, before), law)
-            .map_err(|_| singular(before))?,
-        kind: EventKind::Impact,
-        is_event: true,
-        interfaces: PerBlock::from_slice(closing),
-        released: Vec::new(),
-        is_counted: true,
-    })
+    match contact::impact(column, &before.pattern, theta, omega, closing, ground(problem, before), law) {
+        Ok(decision) => Ok(Transition {
+            decision,
+            kind: EventKind::Impact,
+            is_event: true,
+            interfaces: PerBlock::from_slice(closing),
+            released: Vec::new(),
+            is_counted: true,
+        }),
+        Err(SingularMass) => Err(singular(before)),
+    }
 }
 
 /// Interfaces that had opened while critical are driven back before they have moved: no impact, they are closed again, and those
