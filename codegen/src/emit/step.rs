@@ -52,7 +52,7 @@ fn describe(title: &str, program: &Program) -> TokenStream {
         text.push_str("\n\nScene constants, in order:\n");
     }
     for constant in &program.constants {
-        text.push_str(&format!("\n- `{}` [{}]: {}", constant.name, constant.unit, meaning(&constant.name)));
+        text.push_str(&format!("\n- `{}` `[{}]`: {}", constant.name, constant.unit, meaning(&constant.name)));
     }
     doc(&text)
 }
