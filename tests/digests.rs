@@ -1,4 +1,4 @@
-//! Every bit of the results of 2,400 runs, as digests: a change of the code that is to change no result changes none of them.
+//! Every bit of the results of 5,192 runs, as digests: a change of the code that is to change no result changes none of them.
 //!
 //! `tests/digests/*.txt` have a line per run: its name, the digest of its numbers (rows, events, peaks, forces, times in modes,
 //! separations, outcome) and the digest of its warnings. What a run cost (`Work`) is left out. `BLESS=1` writes the files anew: only a
@@ -12,6 +12,8 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+#[path = "common/reference.rs"]
+mod reference;
 #[path = "common/stress.rs"]
 mod stress;
 
@@ -177,40 +179,13 @@ fn shipped_scenes_give_what_they_gave() {
     hold("scenes", &lines(sorted(&root().join("scenes"), "toml").into_iter().flat_map(scene)));
 }
 
-/// A scene file of a reference run.
-fn reference(run: &Value) -> String {
-    let mut text = format!("gravity = {}\n", run["gravity"]);
-    let column = &run["column"];
-    for block in 0..column["mass"].as_array().expect("a list").len() {
-        text.push_str("[[block]]\n");
-        for key in ["half_width", "half_height", "mass", "inertia"] {
-            let _ = writeln!(text, "{key} = {}", column[key][block]);
-        }
-    }
-    if run["restitution"]["eta"].is_number() {
-        let _ = writeln!(text, "[restitution]\neta = {}", run["restitution"]["eta"]);
-    }
-    for (component, motion) in run["excitation"].as_object().expect("an excitation") {
-        let _ = writeln!(text, "[excitation.{component}]");
-        for (key, value) in motion.as_object().expect("a motion") {
-            let _ = writeln!(text, "{key} = {value}");
-        }
-    }
-    if run["initial_theta"].is_array() {
-        let _ = writeln!(text, "[initial]\ntheta = {}", run["initial_theta"]);
-    }
-    let (t_end, stick_angle) = (&run["t_end"], &run["stick_angle"]);
-    let _ = writeln!(text, "[solver]\nt_end = {t_end}\nstick_angle = {stick_angle}\n[output]\ndt = 0.05");
-    text
-}
-
 #[test]
 #[cfg_attr(not(has_shared), ignore = "needs ../shared")]
 fn reference_runs_give_what_they_gave() {
     let folder = root().join("../shared/reference");
     let scene = |path: PathBuf| {
         let run: Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("readable")).expect("JSON");
-        variants(&stem(&path), &Scene::from_toml(&reference(&run), &path).expect("valid"))
+        variants(&stem(&path), &Scene::from_toml(&reference::scene(&run, ""), &path).expect("valid"))
     };
     hold("references", &lines(sorted(&folder, "json").into_iter().flat_map(scene)));
 }

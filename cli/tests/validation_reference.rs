@@ -4,9 +4,10 @@
 //! with Taylor series.
 
 mod common;
+#[path = "../../tests/common/reference.rs"]
+mod reference;
 
 use serde_json::Value;
-use std::fmt::Write;
 use std::path::Path;
 
 /// Angles `[rad]`.
@@ -18,35 +19,6 @@ const ISOLATED: f64 = 1e-6;
 
 fn floats(value: &Value) -> Vec<f64> {
     value.as_array().map(|list| list.iter().filter_map(Value::as_f64).collect()).unwrap_or_default()
-}
-
-fn scene(run: &Value, method: &str) -> String {
-    let mut text = format!("gravity = {:?}\n", run["gravity"].as_f64().expect("gravity"));
-    let column = ["half_width", "half_height", "mass", "inertia"].map(|key| (key, floats(&run["column"][key])));
-    for block in 0..column[0].1.len() {
-        text.push_str("[[block]]\n");
-        for (key, values) in &column {
-            let _ = writeln!(text, "{key} = {:?}", values[block]);
-        }
-    }
-    if let Some(eta) = run["restitution"]["eta"].as_f64() {
-        let _ = writeln!(text, "[restitution]\neta = {eta:?}");
-    }
-    for (component, motion) in run["excitation"].as_object().expect("an excitation") {
-        let _ = writeln!(text, "[excitation.{component}]");
-        for (key, value) in motion.as_object().expect("a motion") {
-            let _ = writeln!(text, "{key} = {value}");
-        }
-    }
-    if run["initial_theta"].is_array() {
-        let _ = writeln!(text, "[initial]\ntheta = {}", run["initial_theta"]);
-    }
-    let _ = writeln!(
-        text,
-        "[solver]\nt_end = {}\nstick_angle = {}\nrtol = 1e-12\natol = 1e-14\nmethod = \"{method}\"\n[output]\ndt = 0.05",
-        run["t_end"], run["stick_angle"]
-    );
-    text
 }
 
 fn json(path: &Path) -> Value {
@@ -63,7 +35,8 @@ fn rows(path: &Path, blocks: usize) -> Vec<(f64, Vec<f64>)> {
 
 fn compare(name: &str, run: &Value, dynamics: &str, method: &str) {
     let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("scene.toml"), scene(run, method)).expect("written");
+    let solver = format!("rtol = 1e-12\natol = 1e-14\nmethod = \"{method}\"\n");
+    std::fs::write(folder.path().join("scene.toml"), reference::scene(run, &solver)).expect("written");
     common::succeeds(folder.path(), &["run", "scene.toml", "--out", "out", "--dynamics", dynamics, "--quiet"]);
     let out = folder.path().join("out");
 
