@@ -36,9 +36,8 @@ where
     P: Program,
 {
     let column = Column::equal_blocks(dof, 0.4, 0.52 * dof as f64, 1.0, 9.81).expect("a valid column");
-    let generated =
-        GeneratedMode::<P>::new(&column, &pattern(dof), GroundMotion::Horizontal, equations::linkage::<f64>)
-            .expect("the build has it");
+    let generated = GeneratedMode::<P>::new(&column, &pattern(dof), GroundMotion::Horizontal, equations::LINKAGES)
+        .expect("the build has it");
     let generic = GenericMode::new(&column, &pattern(dof));
     let values = state(dof);
     let mut x = generated.zero_state();
@@ -69,11 +68,10 @@ fn baked_column(criterion: &mut Criterion) {
         &column,
         &pattern,
         ground,
-        baked_column::column::linkage::<f64>,
+        baked_column::column::LINKAGES,
     );
     let baked = baked.expect("it is this column");
-    let generated =
-        GeneratedMode::<equations::HorizontalDof3>::new(&column, &pattern, ground, equations::linkage::<f64>);
+    let generated = GeneratedMode::<equations::HorizontalDof3>::new(&column, &pattern, ground, equations::LINKAGES);
     let generated = generated.expect("the build has it");
     let generic = GenericMode::new(&column, &pattern);
     let values = state(3);

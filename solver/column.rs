@@ -2,13 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-/// One rigid block. SI; masses may be per unit thickness.
+/// One rigid block, symmetric about its axis. SI; masses may be per unit thickness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Block {
-    /// Half of its width `[m]`.
-    pub half_width: f64,
-    /// Half of its height `[m]`; the centroid is at mid-height.
+    /// Half of the width of its base `[m]`.
+    pub bottom_half_width: f64,
+    /// Half of the width of its top face `[m]`.
+    pub top_half_width: f64,
+    /// Half of its height `[m]`.
     pub half_height: f64,
+    /// Height of the centroid above the base, on the axis `[m]`.
+    pub centroid_height: f64,
     /// `[kg]`
     pub mass: f64,
     /// Centroidal moment of inertia `[kg m²]`.
@@ -30,16 +34,123 @@ impl Block {
 
     /// A homogeneous rectangle of this mass `[kg]`.
     pub fn with_mass(half_width: f64, half_height: f64, mass: f64) -> Block {
-        let inertia = mass * (half_width * half_width + half_height * half_height) / 3.0;
-        Block { half_width, half_height, mass, inertia }
+        Block::of_shape(Shape::Prism, [half_width; 2], half_height, mass)
+    }
+
+    /// A homogeneous body with these half-widths `[m]` of base and top, half-height `[m]` and mass `[kg]`.
+    ///
+    /// With `a`, `b` the half-widths, `H` the height and `e` the height of the centroid (docs/book/model.md, section 1),
+    ///
+    /// ```text
+    /// prism:   e = H (a + 2b) / 3(a + b),       I = m ((a² + b²)/6 + H² (a² + 4ab + b²) / 18(a + b)²)
+    /// frustum: e = H (a² + 2ab + 3b²) / 4 s₂,   I = m (3 s₄ / 20 s₂ + 3 H² (a⁴ + 4a³b + 10a²b² + 4ab³ + b⁴) / 80 s₂²)
+    ///          s₂ = a² + ab + b²,               s₄ = a⁴ + a³b + a²b² + ab³ + b⁴
+    /// ```
+    ///
+    /// ```
+    /// use rocking::{Block, column::Shape};
+    /// let drum = Block::of_shape(Shape::Drum, [0.5, 0.5], 0.4, 100.0);
+    /// assert!((drum.inertia - 100.0 * (3.0 * 0.25 + 0.64) / 12.0).abs() < 1e-13);
+    /// assert!((Block::of_shape(Shape::Prism, [0.5, 0.0], 0.3, 1.0).centroid_height - 0.2).abs() < 1e-16);
+    /// ```
+    pub fn of_shape(shape: Shape, [bottom, top]: [f64; 2], half_height: f64, mass: f64) -> Block {
+        let (a, b, height) = (bottom, top, 2.0 * half_height);
+        let (centroid_height, inertia) = match shape {
+            Shape::Prism if a == b => (half_height, mass * (a * a + half_height * half_height) / 3.0),
+            Shape::Prism => {
+                let sum = a + b;
+                let across = (a * a + b * b) / 6.0;
+                let along = height * height * (a * a + 4.0 * a * b + b * b) / (18.0 * sum * sum);
+                (height * (a + 2.0 * b) / (3.0 * sum), mass * (across + along))
+            }
+            Shape::Drum if a == b => (half_height, mass * (3.0 * a * a + height * height) / 12.0),
+            Shape::Drum => {
+                let (squares, fourth) = (a * a + a * b + b * b, |x: f64, y: f64| x * x * x * x + x * x * x * y);
+                let across = 3.0 * (fourth(a, b) + a * a * b * b + fourth(b, a)) / (20.0 * squares);
+                let moments =
+                    a * a * a * a + 4.0 * a * a * a * b + 10.0 * a * a * b * b + 4.0 * a * b * b * b + b * b * b * b;
+                let along = 3.0 * height * height * moments / (80.0 * squares * squares);
+                (height * (a * a + 2.0 * a * b + 3.0 * b * b) / (4.0 * squares), mass * (across + along))
+            }
+        };
+        Block { bottom_half_width: a, top_half_width: b, half_height, centroid_height, mass, inertia }
+    }
+
+    /// Half of the largest width `[m]`.
+    pub fn half_width(&self) -> f64 {
+        self.bottom_half_width.max(self.top_half_width)
+    }
+
+    /// Whether base and top are equally wide and the centroid is at mid-height.
+    pub fn is_rectangular(&self) -> bool {
+        self.bottom_half_width == self.top_half_width && self.centroid_height == self.half_height
+    }
+}
+
+/// The solid of which a block is the side view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// The same trapezoid at every depth.
+    #[default]
+    Prism,
+    /// A cylinder or frustum: half-widths are radii.
+    Drum,
+}
+
+impl Shape {
+    /// Measure of the body with these half-widths `[m]` of base and top and this half-height `[m]`: the area of a prism's side `[m²]`,
+    /// the volume of a drum `[m³]`.
+    ///
+    /// ```
+    /// use rocking::column::Shape;
+    /// assert!((Shape::Drum.measure([0.5, 0.5], 0.4) - std::f64::consts::PI * 0.25 * 0.8).abs() < 1e-15);
+    /// ```
+    pub fn measure(self, [bottom, top]: [f64; 2], half_height: f64) -> f64 {
+        match self {
+            Shape::Prism => 2.0 * (bottom + top) * half_height,
+            Shape::Drum => {
+                let squares = bottom * bottom + bottom * top + top * top;
+                std::f64::consts::PI * squares * 2.0 * half_height / 3.0
+            }
+        }
     }
 }
 
 /// A stack of blocks in a gravity field, base first.
+///
+/// Blocks may stand displaced: the slide `u_i` of an interface is how far the middle of the block's base is to the right of the middle
+/// of the face below. Drawn for `u > 0`, `x⁻` and `x⁺` the ends of the contact:
+///
+/// ```text
+///             .___________.
+///             |     |     |
+///             |_____|_____|
+///       .___________.            contact from x⁻ to x⁺, half-length c, its centre in between
+///       |     |     |
+///          x⁻ ^     ^ x⁺
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Column {
     blocks: Vec<Block>,
     gravity: f64,
+    /// Slides `u_i [m]`, base first, length N.
+    slides: Vec<f64>,
+    #[serde(skip)]
+    seats: Vec<Seat>,
+}
+
+/// How a block sits on what is below it: lengths along the block's axes `[m]`, from the centre of the contact below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Seat {
+    /// Half-length `c_i` of the contact below.
+    pub half_width: f64,
+    /// Centre of the contact below, from the middle of the face below.
+    pub on_lower: f64,
+    /// Centroid.
+    pub centroid: [f64; 2],
+    /// Centre of the contact above; of the top block, the middle of the top face.
+    pub top: [f64; 2],
 }
 
 /// Why a column is refused.
@@ -57,6 +168,44 @@ pub enum ColumnError {
         quantity: &'static str,
         /// What was given.
         value: f64,
+    },
+    /// A block with a size that a face or a centroid does not have.
+    #[error("block {block} (from the base): {quantity} = {value} {problem}")]
+    Shape {
+        /// From 1, base first.
+        block: usize,
+        /// Which one.
+        quantity: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A list of slides of another length than the column's.
+    #[error("{slides} slide(s) for {interfaces} interface(s)")]
+    SlideCount {
+        /// Slides given.
+        slides: usize,
+        /// Interfaces of the column.
+        interfaces: usize,
+    },
+    /// A slide that is no number.
+    #[error("slide {value} m at interface {interface} is out of range")]
+    Slide {
+        /// From 1, base first.
+        interface: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// A block that does not stand on the one below.
+    #[error("a slide of {slide} m puts block {interface} off its support, which ends at {limit} m")]
+    OffSupport {
+        /// From 1, base first.
+        interface: usize,
+        /// What was given `[m]`.
+        slide: f64,
+        /// Slide at which the contact's length is zero `[m]`.
+        limit: f64,
     },
     /// Gravity must hold the column down.
     #[error("gravity = {value} must be a finite number above zero (m/s²)")]
@@ -77,19 +226,58 @@ impl Column {
         }
         for (index, block) in blocks.iter().enumerate() {
             let quantities = [
-                ("half_width", block.half_width),
                 ("half_height", block.half_height),
                 ("mass", block.mass),
                 ("inertia", block.inertia),
+                ("half_width", block.half_width()),
             ];
             if let Some(&(quantity, value)) = quantities.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
                 return Err(ColumnError::NotPositive { block: index + 1, quantity, value });
+            }
+            let wrong =
+                |quantity, value, problem| Err(ColumnError::Shape { block: index + 1, quantity, value, problem });
+            let faces = [("bottom_half_width", block.bottom_half_width), ("top_half_width", block.top_half_width)];
+            // A block may end in an edge where nothing stands on it.
+            let is_last = index + 1 == blocks.len();
+            for (quantity, value) in faces {
+                let may_be_zero = is_last && quantity == "top_half_width";
+                if !(value.is_finite() && (value > 0.0 || value == 0.0 && may_be_zero)) {
+                    return wrong(quantity, value, "leaves no width to stand on");
+                }
+            }
+            let height = 2.0 * block.half_height;
+            if !(block.centroid_height > 0.0 && block.centroid_height < height) {
+                return wrong("centroid_height", block.centroid_height, "is not inside the block");
             }
         }
         if !(gravity.is_finite() && gravity > 0.0) {
             return Err(ColumnError::Gravity { value: gravity });
         }
-        Ok(Column { blocks, gravity })
+        let slides = vec![0.0; blocks.len()];
+        let seats = seats(&blocks, &slides)?;
+        Ok(Column { blocks, gravity, slides, seats })
+    }
+
+    /// The column with its blocks displaced by these slides `u_i [m]`, base first, length N: block `i` stands `u_i` to the right of the
+    /// block below, the lowest block of the origin on the ground.
+    ///
+    /// ```
+    /// let column = rocking::Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81)?.displaced(vec![0.0, 0.1])?;
+    /// assert!((column.contact_half_width(1) - 0.35).abs() < 1e-15);
+    /// // The contact reaches from -0.3 m to 0.4 m: its centre is 0.05 m to the left of the upper block's axis.
+    /// assert!((column.centroid_offset(1) - 0.05).abs() < 1e-15);
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ColumnError`] if there are more or fewer slides than blocks, one is not finite, or a block is off its support.
+    pub fn displaced(mut self, slides: Vec<f64>) -> Result<Column, ColumnError> {
+        if slides.len() != self.blocks.len() {
+            return Err(ColumnError::SlideCount { slides: slides.len(), interfaces: self.blocks.len() });
+        }
+        self.seats = seats(&self.blocks, &slides)?;
+        self.slides = slides;
+        Ok(self)
     }
 
     /// `count` equal rectangles that together are `half_width` and `half_height` (of the whole) in half-size `[m]`.
@@ -126,10 +314,37 @@ impl Column {
         self.gravity
     }
 
-    /// Contact half-width `c_i [m]` of an interface, from zero: `c_1 = b_1`, `c_i = min(b_{i-1}, b_i)`.
+    /// Slides `u_i [m]`, base first, length N.
+    pub fn slides(&self) -> &[f64] {
+        &self.slides
+    }
+
+    /// Contact half-width `c_i [m]` of an interface, from zero: half of the length over which its faces overlap; aligned, `c_1 = b_1`,
+    /// `c_i = min(b_{i-1}, b_i)`.
     pub fn contact_half_width(&self, interface: usize) -> f64 {
-        let own = self.blocks[interface].half_width;
-        if interface == 0 { own } else { own.min(self.blocks[interface - 1].half_width) }
+        self.seats[interface].half_width
+    }
+
+    /// Ends `[x⁻, x⁺] [m]` of the contact at an interface (from zero), from the middle of the face below.
+    pub fn contact(&self, interface: usize) -> [f64; 2] {
+        let Seat { half_width, on_lower, .. } = self.seats[interface];
+        [on_lower - half_width, on_lower + half_width]
+    }
+
+    /// How the blocks sit on each other, base first, length N.
+    #[inline(always)]
+    pub(crate) fn seats(&self) -> &[Seat] {
+        &self.seats
+    }
+
+    /// Whether every contact is centred on both of its faces and every centroid at mid-height: the equations of such columns have fewer
+    /// constants.
+    pub(crate) fn is_plain(&self) -> bool {
+        let is_top = |index: usize| index + 1 == self.len();
+        let has_plain_seat = |(index, (seat, block)): (usize, (&Seat, &Block))| {
+            seat.centroid == [0.0, block.half_height] && (seat.top[0] == 0.0 || is_top(index))
+        };
+        self.seats.iter().zip(&self.blocks).enumerate().all(has_plain_seat)
     }
 
     /// Mass of the stack above an interface, from zero `[kg]`.
@@ -137,31 +352,45 @@ impl Column {
         self.blocks[interface..].iter().map(|block| block.mass).sum()
     }
 
+    /// First moment `[kg m]` of the stack above an interface (from zero) about the centre of its contact.
+    fn moment_above(&self, interface: usize) -> [f64; 2] {
+        let (mut place, mut moment) = ([0.0, 0.0], [0.0, 0.0]);
+        for (block, seat) in self.blocks.iter().zip(&self.seats).skip(interface) {
+            for axis in 0..2 {
+                moment[axis] += block.mass * (place[axis] + seat.centroid[axis]);
+                place[axis] += seat.top[axis];
+            }
+        }
+        moment
+    }
+
     /// Height `h_Pi [m]` of the centre of gravity of the stack above an interface (from zero) above that interface.
     pub fn centroid_height(&self, interface: usize) -> f64 {
-        let mut base = 0.0;
-        let mut moment = 0.0;
-        for block in &self.blocks[interface..] {
-            moment += block.mass * (base + block.half_height);
-            base += 2.0 * block.half_height;
-        }
-        moment / self.mass_above(interface)
+        self.moment_above(interface)[1] / self.mass_above(interface)
+    }
+
+    /// How far the centre of gravity of the stack above an interface (from zero) is to the right of the centre of the contact `[m]`:
+    /// zero for aligned blocks.
+    pub fn centroid_offset(&self, interface: usize) -> f64 {
+        self.moment_above(interface)[0] / self.mass_above(interface)
     }
 
     /// The blocks above an interface (from zero) as one body; that above interface 0 is the whole column.
     pub fn stack(&self, interface: usize) -> Stack {
-        let half_width = self.contact_half_width(interface);
-        let mut base = 0.0;
-        let mut inertia = 0.0;
-        for block in &self.blocks[interface..] {
-            let height = base + block.half_height;
-            inertia += block.inertia + block.mass * (half_width * half_width + height * height);
-            base += 2.0 * block.half_height;
+        let (contact, offset) = (self.contact_half_width(interface), self.centroid_offset(interface));
+        let near = f64::copysign(contact, offset);
+        let (mut base, mut inertia) = ([0.0, 0.0], 0.0);
+        for (block, seat) in self.blocks.iter().zip(&self.seats).skip(interface) {
+            let lever = near - (base[0] + seat.centroid[0]);
+            let height = base[1] + seat.centroid[1];
+            inertia += block.inertia + block.mass * (lever * lever + height * height);
+            base = [base[0] + seat.top[0], base[1] + seat.top[1]];
         }
         Stack {
             mass: self.mass_above(interface),
-            height: base,
-            half_width,
+            height: base[1],
+            half_width: contact - offset.abs(),
+            contact_half_width: contact,
             centroid_height: self.centroid_height(interface),
             inertia,
             gravity: self.gravity,
@@ -190,6 +419,40 @@ impl Column {
     }
 }
 
+/// The seats of the blocks with these slides.
+fn seats(blocks: &[Block], slides: &[f64]) -> Result<Vec<Seat>, ColumnError> {
+    // Ends of each contact on the face below, and the same from the middle of the base above.
+    let mut centres = Vec::with_capacity(blocks.len());
+    for (index, (block, &slide)) in blocks.iter().zip(slides).enumerate() {
+        let own = block.bottom_half_width;
+        if !slide.is_finite() {
+            return Err(ColumnError::Slide { interface: index + 1, value: slide });
+        }
+        // The ground is unbounded: the lowest block stands on all of its base.
+        let (half_width, on_lower) = match index.checked_sub(1).map(|below| blocks[below].top_half_width) {
+            None => (own, slide),
+            Some(face) => {
+                let [left, right] = [(-face).max(slide - own), face.min(slide + own)];
+                (0.5 * (right - left), 0.5 * (left + right))
+            }
+        };
+        if half_width <= 0.0 {
+            let limit = own + blocks[index - 1].top_half_width;
+            return Err(ColumnError::OffSupport { interface: index + 1, slide, limit });
+        }
+        centres.push((half_width, on_lower));
+    }
+    let seat = |(index, block): (usize, &Block)| {
+        let (half_width, on_lower) = centres[index];
+        // From the centre of the contact below to the block's axis.
+        let to_axis = slides[index] - on_lower;
+        let above = centres.get(index + 1).map_or(0.0, |(_, on_lower)| *on_lower);
+        let (centroid, top) = ([to_axis, block.centroid_height], [to_axis + above, 2.0 * block.half_height]);
+        Seat { half_width, on_lower, centroid, top }
+    };
+    Ok(blocks.iter().enumerate().map(seat).collect())
+}
+
 /// The blocks above an interface as one body that rocks on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Stack {
@@ -197,11 +460,14 @@ pub struct Stack {
     pub mass: f64,
     /// From the interface to the top `[m]`.
     pub height: f64,
-    /// Half-width `c_i` of the contact below `[m]`.
+    /// Lever of the weight: from the centre of gravity to the nearer end of the contact below, `c_i` where the blocks are aligned; below
+    /// zero where the stack does not stand by itself `[m]`.
     pub half_width: f64,
+    /// Half-width `c_i` of the contact below `[m]`.
+    pub contact_half_width: f64,
     /// Height `h_Pi` of the centre of gravity above the contact `[m]`.
     pub centroid_height: f64,
-    /// Moment of inertia `I_O` about a corner of the contact `[kg m²]`.
+    /// Moment of inertia `I_O` about the nearer end of the contact `[kg m²]`.
     pub inertia: f64,
     /// `[m/s²]`
     pub gravity: f64,
@@ -228,9 +494,12 @@ impl Stack {
         self.half_width * self.gravity / self.centroid_height
     }
 
-    /// Housner's ratio `ω⁺/ω⁻` of an impact, `1 - 2 m c² / I_O`; for one homogeneous rectangle `1 - 3/2 sin² α`.
+    /// Housner's ratio `ω⁺/ω⁻` of an impact, `1 - 2 m c² / I_O`; for one homogeneous rectangle `1 - 3/2 sin² α`. Of displaced blocks,
+    /// with the centre of gravity moved over the centre of the contact.
     pub fn housner_ratio(&self) -> f64 {
-        1.0 - 2.0 * self.mass * self.half_width * self.half_width / self.inertia
+        let (lever, contact) = (self.half_width, self.contact_half_width);
+        let inertia = self.inertia + self.mass * (contact * contact - lever * lever);
+        1.0 - 2.0 * self.mass * contact * contact / inertia
     }
 }
 

@@ -9,6 +9,7 @@ use proptest::strategy::ValueTree;
 use rocking::dynamics::Ground;
 use rocking::pattern::{Interface, Linkage, Pattern};
 use rocking::{Column, GroundMotion, Mode};
+use rocking_codegen::mechanics::Bodies;
 use rocking_codegen::symbolic::Environment;
 use rocking_codegen::{Derivation, Plan};
 use std::collections::HashMap;
@@ -24,7 +25,7 @@ fn acceleration_bound(column: &Column, pattern: &Pattern, x: &[f64], ground: Gro
     let matrix = DMatrix::from_row_slice(dof, dof, &generic.mass_matrix(x));
     let eigenvalues = matrix.symmetric_eigenvalues();
     let (least, most) = (eigenvalues.min(), eigenvalues.max());
-    let height: f64 = column.blocks().iter().map(|b| 2.0 * b.half_height + 2.0 * b.half_width).sum();
+    let height: f64 = column.blocks().iter().map(|b| 2.0 * b.half_height + 2.0 * b.half_width()).sum();
     let mass: f64 = column.blocks().iter().map(|b| b.mass).sum();
     let rates = x[dof..].iter().fold(0.0f64, |m, w| m.max(w.abs()));
     let push = ground.x.abs() + ground.gravity.abs() + dof as f64 * rates * rates * height;
@@ -39,7 +40,7 @@ fn compare(column: &Column, pattern: &Pattern, x: &[f64], ground: Ground) {
 
     let matrix = DMatrix::from_row_slice(dof, dof, &generic.mass_matrix(x));
     let ours = generated.mass_matrix(x);
-    let height: f64 = column.blocks().iter().map(|b| 2.0 * b.half_height + 2.0 * b.half_width).sum();
+    let height: f64 = column.blocks().iter().map(|b| 2.0 * b.half_height + 2.0 * b.half_width()).sum();
     let mass: f64 = column.blocks().iter().map(|b| b.mass).sum();
     for (a, b) in ours.iter().zip(matrix.transpose().iter()) {
         assert!((a - b).abs() <= ROUNDINGS * mass * height * height, "{pattern}: mass matrix {a} against {b}");
@@ -80,12 +81,12 @@ fn compare(column: &Column, pattern: &Pattern, x: &[f64], ground: Ground) {
     }
 }
 
-fn check(blocks: usize, cases: u32) {
+fn check(blocks: usize, cases: u32, column: impl Fn() -> BoxedStrategy<Column>) {
     for pattern in common::patterns(blocks) {
         let dof = pattern.dof();
         let angle = prop::collection::vec(-1.5f64..1.5, dof);
         let rate = prop::collection::vec(-6.0f64..6.0, dof);
-        let strategy = (common::column(blocks), angle, rate, -20.0f64..20.0, 1.0f64..25.0);
+        let strategy = (column(), angle, rate, -20.0f64..20.0, 1.0f64..25.0);
         common::runner(cases)
             .run(&strategy, |(column, angle, rate, x, gravity)| {
                 compare(&column, &pattern, &[angle, rate].concat(), Ground { x, gravity });
@@ -98,8 +99,35 @@ fn check(blocks: usize, cases: u32) {
 #[test]
 fn every_mode_of_up_to_five_blocks_agrees() {
     for blocks in 1..=5.min(rocking::generated::MAX_BLOCKS) {
-        check(blocks, 1000);
+        check(blocks, 1000, || common::column(blocks).boxed());
     }
+}
+
+/// They run on other scene constants, of links that are any rigid bodies.
+#[test]
+fn every_mode_of_tapered_and_displaced_blocks_agrees() {
+    for blocks in 1..=5.min(rocking::generated::MAX_BLOCKS) {
+        check(blocks, 300, || common::tapered_and_displaced(blocks).boxed());
+    }
+}
+
+/// Closed interfaces join blocks to links, so that larger columns than the build's have generated equations if few interfaces are open.
+#[test]
+fn larger_columns_with_few_open_interfaces_agree() {
+    let strategy =
+        (common::tapered_and_displaced(9), prop::collection::vec(0usize..3, 3), prop::collection::vec(0usize..9, 3));
+    let states = prop::collection::vec(-1.0f64..1.0, 6);
+    let check = |((column, digits, places), x): ((Column, Vec<usize>, Vec<usize>), Vec<f64>)| {
+        let mut pattern = Pattern::rest(9);
+        for (digit, place) in digits.iter().zip(places) {
+            pattern.0[place] = Interface::ORDER[*digit];
+        }
+        if pattern.dof() > 0 {
+            compare(&column, &pattern, &x[..2 * pattern.dof()], Ground { x: 3.0, gravity: 8.0 });
+        }
+        Ok(())
+    };
+    common::runner(1000).run(&(strategy, states), check).expect("generated and generic equations agree");
 }
 
 /// Random modes of larger columns: the compiled ones where the build has them, else the same programs evaluated expression by
@@ -134,7 +162,7 @@ fn a_thousand_random_modes_of_six_to_eight_blocks_agree() {
         let linkage = pattern.linkage();
         let derivation = derivations
             .entry(linkage.clone())
-            .or_insert_with(|| rocking_codegen::derive_in_form(&linkage, &plans[dof - 1]));
+            .or_insert_with(|| rocking_codegen::derive_in_form(&linkage, Bodies::Rectangles, &plans[dof - 1]));
         let generic = Mode::generic(&column, &pattern).expect("not at rest").derivative(&state, ground);
         let ours = evaluate(derivation, &column, &pattern, &state, ground);
         let bound = acceleration_bound(&column, &pattern, &state, ground);

@@ -74,7 +74,7 @@ fn similar_columns_have_equal_angles() {
     let small = shaken(3, 1.0, DynamicsSource::Generated);
     let mut large = small.clone();
     let blocks = small.column.blocks().iter();
-    let blocks = blocks.map(|b| Block::rectangle(4.0 * b.half_width, 4.0 * b.half_height, 2700.0)).collect();
+    let blocks = blocks.map(|b| Block::rectangle(4.0 * b.half_width(), 4.0 * b.half_height, 2700.0)).collect();
     large.column = Column::new(blocks, 9.81).expect("valid");
     large.excitation.horizontal = Some(Motion::SinePulse { amplitude: 8.0, omega: 4.5, start: 0.2 });
     large.excitation.vertical = Some(Motion::Harmonic { amplitude: 1.5, omega: 10.0, start: 0.0, phase: 0.4 });

@@ -33,7 +33,7 @@ pub mod generated {
         _: &crate::Column,
         _: &crate::pattern::Pattern,
         _: crate::GroundMotion,
-        _: fn(usize, usize) -> Option<LinkageEquations<f64>>,
+        _: Linkages,
     ) -> Option<crate::Mode> {
         None
     }

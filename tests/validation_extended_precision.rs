@@ -71,7 +71,7 @@ fn validation_the_reference_lands_when_elliptic_integrals_say() {
     let reference = replay(&scene, &tightest(&scene), Settings::default());
 
     let block = scene.column.blocks()[0];
-    let [b, h, mass, inertia] = [block.half_width, block.half_height, block.mass, block.inertia].map(lift);
+    let [b, h, mass, inertia] = [block.half_width(), block.half_height, block.mass, block.inertia].map(lift);
     let radius2 = b * b + h * h;
     let radius = radius2.sqrt();
     let about_corner = inertia + mass * radius2;

@@ -146,7 +146,7 @@ impl Stack {
     }
 
     fn unmirrored<S: Number>(&self, free: [S; 2]) -> [[S; 2]; 2] {
-        let [(b1, h1), (b2, h2)] = self.blocks.map(|block| (block.half_width, block.half_height));
+        let [(b1, h1), (b2, h2)] = self.blocks.map(|block| (block.half_width(), block.half_height));
         let [theta1, theta2] = self.of_blocks(free);
         // Half-width of the upper contact: the narrower block ends it, wherever the other one's corners are.
         let c = if b2 < b1 { b2 } else { b1 };
@@ -264,7 +264,7 @@ fn validation_spanos_accelerations_follow_from_the_values_of_t_and_v() {
     let (mut wider, mut worst, mut worst_relative) = (0, 0.0f64, 0.0f64);
     for case in 0..COLUMNS {
         let blocks = [random.block(), random.block()];
-        wider += usize::from(blocks[1].half_width > blocks[0].half_width);
+        wider += usize::from(blocks[1].half_width() > blocks[0].half_width());
         let column = Column::new(blocks.to_vec(), 9.81).expect("positive sizes");
         let mut state = [0.0; 4];
         state
@@ -278,7 +278,7 @@ fn validation_spanos_accelerations_follow_from_the_values_of_t_and_v() {
             let (mass, expected) = stack.accelerations(state, ground);
             let x: Vec<f64> = state[..dof].iter().chain(&state[2..2 + dof]).copied().collect();
 
-            let height: f64 = blocks.iter().map(|block| 2.0 * block.half_height + 2.0 * block.half_width).sum();
+            let height: f64 = blocks.iter().map(|block| 2.0 * block.half_height + 2.0 * block.half_width()).sum();
             let total: f64 = blocks.iter().map(|block| block.mass).sum();
             let trace = mass[0][0] + mass[1][1];
             let spread = (mass[0][0] - mass[1][1]).hypot(2.0 * mass[0][1]);

@@ -43,6 +43,12 @@ fn trimmed(text: &str) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text.into() }
 }
 
+/// Width of a block in m with so many digits: of base and top, where they differ.
+pub fn widths(block: &rocking::Block, digits: usize) -> String {
+    let [bottom, top] = [block.bottom_half_width, block.top_half_width].map(|half| significant(2.0 * half, digits));
+    if bottom == top { bottom } else { format!("{bottom} to {top}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -127,6 +127,7 @@ pub struct Options {
 struct ColumnData {
     blocks: Vec<Block>,
     gravity: f64,
+    slides: Vec<f64>,
 }
 
 /// An event of `events.json`, as far as it is read. Lists have N entries, base first.
@@ -303,8 +304,10 @@ impl Results {
         let [response, events, summary] = FILES.map(|name| folder.join(name));
         let broken = |problem: String| FolderError::Read(summary.clone(), problem);
         let read: Summary = json(&summary)?;
-        let ColumnData { blocks, gravity } = &read.given.column;
-        let column = Column::new(blocks.clone(), *gravity).map_err(|error| broken(error.to_string()))?;
+        let ColumnData { blocks, gravity, slides } = &read.given.column;
+        let aligned = Column::new(blocks.clone(), *gravity);
+        let column = aligned.and_then(|column| column.displaced(slides.clone()));
+        let column = column.map_err(|error| broken(error.to_string()))?;
         let length = column.len();
         let lists = [&read.friction_demand, &read.impulse_friction_demand, &read.min_normal_force];
         if read.peak_theta.len() != length || lists.iter().any(|list| !list.is_empty() && list.len() != length) {
@@ -318,7 +321,7 @@ impl Results {
         if !all_plausible(read.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Err(broken("an angle or a time is out of range".into()));
         }
-        let of_block = |block: &Block| [block.half_width, block.half_height, block.mass, block.inertia];
+        let of_block = |block: &Block| [block.half_width(), block.half_height, block.mass, block.inertia];
         if blocks.iter().flat_map(of_block).chain([*gravity]).any(|size| !SIZES.contains(&size)) {
             return Err(broken("the column's sizes are out of range".into()));
         }

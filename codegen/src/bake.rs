@@ -8,7 +8,7 @@ use crate::derivation::Plan;
 use crate::error::GenerateError;
 pub use crate::error::LARGEST_BAKED;
 use crate::ground::GroundMotion;
-use crate::mechanics::{Symbols, equations_of_motion};
+use crate::mechanics::{Bodies, Symbols, equations_of_motion};
 use crate::optimise::{Form, Parts, Program, acceleration_program};
 use crate::pattern::{ModeLabel, Pattern, linkages, modes};
 use crate::symbolic::{Arena, Environment, Expr};
@@ -129,7 +129,8 @@ pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateE
     column.check()?;
     let blocks = column.blocks.len();
     let plans: Vec<Plan> = (1..=blocks).map(Plan::new).collect();
-    let shared = catalogue_of(blocks, linkages(blocks), &plans)?;
+    // Displaced or tapered blocks are no baked column: its linkages are those of rectangles.
+    let shared = catalogue_of(blocks, linkages(blocks), &plans, &[])?;
     let modes = modes(blocks).map(|(label, pattern)| {
         let plan = &plans[pattern.dof() - 1];
         let accelerations = GroundMotion::ALL.map(|ground| bake(column, &pattern, ground, plan.form(ground)));
@@ -142,7 +143,7 @@ pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateE
 fn bake(column: &BakedColumn, pattern: &Pattern, ground: GroundMotion, form: Form) -> (Program, HashMap<String, f64>) {
     let linkage = pattern.linkage();
     let mut arena = Arena::new();
-    let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof());
+    let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof(), Bodies::Rectangles);
     let equations = equations_of_motion(&mut arena, &symbols, &linkage);
     let parts = Parts::new(&mut arena, &symbols, &equations);
     let mut program = acceleration_program(&mut arena, &symbols, &parts, ground, form);

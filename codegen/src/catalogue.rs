@@ -1,7 +1,8 @@
 //! The linkages of all columns up to a size, with the distinct programs that they share.
 
-use crate::derivation::{Plan, derive_in_form};
+use crate::derivation::{Derivation, Plan, derive_forces, derive_in_form};
 use crate::error::{GenerateError, LARGEST};
+use crate::mechanics::Bodies;
 use crate::optimise::{Constant, Program};
 use crate::pattern::{Linkage, linkages};
 use crate::symbolic::Arena;
@@ -24,6 +25,29 @@ pub struct LinkageRecord {
     pub interfaces: Vec<(usize, Vec<Constant>)>,
 }
 
+/// The linkage of links that are any rigid bodies: it serves all patterns with one number of free angles, of tapered and displaced blocks.
+///
+/// Its first body stands on the ground, every other is a link.
+#[derive(Debug)]
+pub struct CompositeRecord {
+    /// The linkage with its constants.
+    pub linkage: LinkageRecord,
+    /// Per link: the contact forces at a closed interface inside it. The linkage of those is that of the links alone, the one with the
+    /// interface in two bodies.
+    pub inside: Vec<InsideRecord>,
+}
+
+/// Contact forces at a closed interface inside a link.
+#[derive(Debug)]
+pub struct InsideRecord {
+    /// Owner of the constants' formulas.
+    pub arena: Arena,
+    /// Index of the program in [`Catalogue::forces`].
+    pub program: usize,
+    /// Scene constants.
+    pub constants: Vec<Constant>,
+}
+
 /// The linkages of all columns up to a size, with the distinct programs that they share.
 #[derive(Debug)]
 pub struct Catalogue {
@@ -31,6 +55,8 @@ pub struct Catalogue {
     pub max_blocks: usize,
     /// All linkages, small columns first.
     pub linkages: Vec<LinkageRecord>,
+    /// Linkages of any rigid bodies, by degrees of freedom.
+    pub composites: Vec<CompositeRecord>,
     /// Acceleration programs per ground motion, by degrees of freedom; found by comparison, not assumed.
     pub accelerations: [Vec<Program>; 2],
     /// Programs of mass matrix and energies, by degrees of freedom.
@@ -58,19 +84,29 @@ pub fn catalogue(max_blocks: usize) -> Result<Catalogue, GenerateError> {
         return Err(GenerateError::Size { max_blocks });
     }
     let plans: Vec<Plan> = (1..=max_blocks).map(Plan::new).collect();
-    catalogue_of(max_blocks, (1..=max_blocks).flat_map(linkages), &plans)
+    let dofs: Vec<usize> = (1..=max_blocks).collect();
+    catalogue_of(max_blocks, (1..=max_blocks).flat_map(linkages), &plans, &dofs)
 }
 
-/// The catalogue of some linkages, in the forms planned for their degrees of freedom.
+/// The catalogue of some linkages, and of any rigid bodies with these numbers of free angles, in the forms planned for their degrees of
+/// freedom.
 pub(crate) fn catalogue_of(
     max_blocks: usize,
     linkages: impl Iterator<Item = Linkage>,
     plans: &[Plan],
+    composite_dofs: &[usize],
 ) -> Result<Catalogue, GenerateError> {
     let [mut horizontal, mut vertical, mut energies, mut series, mut forces] = <[Distinct; 5]>::default();
     let linkages: Vec<Linkage> = linkages.collect();
-    let derivations = map_in_order(&linkages, |linkage| derive_in_form(linkage, &plans[linkage.dof() - 1]));
-    let records = derivations.into_iter().map(|derivation| {
+    let derivations =
+        map_in_order(&linkages, |linkage| derive_in_form(linkage, Bodies::Rectangles, &plans[linkage.dof() - 1]));
+    let of_any = map_in_order(composite_dofs, |&dof| {
+        let closed_at = |interface: usize| Linkage { open: (0..=dof).map(|i| i != interface).collect() };
+        let whole = derive_in_form(&closed_at(0), Bodies::Any, &plans[dof - 1]);
+        let inside: Vec<_> = (1..=dof).map(|interface| derive_forces(&closed_at(interface), interface)).collect();
+        (whole, inside)
+    });
+    let mut record = |derivation: Derivation, forces: &mut Distinct| {
         let [of_horizontal, of_vertical] = derivation.accelerations;
         LinkageRecord {
             linkage: derivation.linkage,
@@ -78,10 +114,19 @@ pub(crate) fn catalogue_of(
             accelerations: [enlist(&mut horizontal, of_horizontal).1, enlist(&mut vertical, of_vertical).1],
             energies: enlist(&mut energies, derivation.energies).1,
             series: enlist(&mut series, derivation.series).1,
-            interfaces: derivation.forces.into_iter().map(|program| enlist(&mut forces, program)).collect(),
+            interfaces: derivation.forces.into_iter().map(|program| enlist(forces, program)).collect(),
         }
+    };
+    let linkages = derivations.into_iter().map(|derivation| record(derivation, &mut forces)).collect();
+    let composites = of_any.into_iter().map(|(whole, inside)| {
+        let linkage = record(whole, &mut forces);
+        let inside = inside.into_iter().map(|(arena, program)| {
+            let (program, constants) = enlist(&mut forces, program);
+            InsideRecord { arena, program, constants }
+        });
+        CompositeRecord { linkage, inside: inside.collect() }
     });
-    let linkages = records.collect();
+    let composites = composites.collect();
     let one_for_each = |distinct: Distinct| match distinct.programs.len() {
         found if found == max_blocks => {
             let mut programs = distinct.programs;
@@ -93,6 +138,7 @@ pub(crate) fn catalogue_of(
     Ok(Catalogue {
         max_blocks,
         linkages,
+        composites,
         accelerations: [one_for_each(horizontal)?, one_for_each(vertical)?],
         energies: one_for_each(energies)?,
         series: one_for_each(series)?,

@@ -1,7 +1,9 @@
 //! From a linkage to its programs.
 
 use crate::ground::GroundMotion;
-use crate::mechanics::{Equations, Symbols, equations_of_motion, interface_forces, weight_form};
+use crate::mechanics::{
+    Bodies, Equations, Symbols, block_angles, centroids, equations_of_motion, interface_forces, weight_form,
+};
 use crate::optimise::{self, Form, Operations, Parts, Program};
 use crate::pattern::Linkage;
 use crate::symbolic::Arena;
@@ -23,7 +25,7 @@ impl Plan {
     pub fn new(dof: usize) -> Plan {
         let linkage = Linkage { open: vec![true; dof] };
         let mut arena = Arena::new();
-        let symbols = Symbols::declare(&mut arena, dof, dof);
+        let symbols = Symbols::declare(&mut arena, dof, dof, Bodies::Rectangles);
         let equations = equations_of_motion(&mut arena, &symbols, &linkage);
         let parts = Parts::new(&mut arena, &symbols, &equations);
         let candidates = GroundMotion::ALL.map(|ground| optimise::admitted(&mut arena, &symbols, &parts, ground));
@@ -90,16 +92,16 @@ impl Derivation {
 /// # Panics
 /// If no interface is open: a column at rest has no equations of motion.
 pub fn derive(linkage: &Linkage) -> Derivation {
-    derive_in_form(linkage, &Plan::new(linkage.dof()))
+    derive_in_form(linkage, Bodies::Rectangles, &Plan::new(linkage.dof()))
 }
 
-/// From a linkage to its programs, in the forms planned for its degrees of freedom.
+/// From a linkage of such bodies to its programs, in the forms planned for its degrees of freedom.
 ///
 /// # Panics
 /// If the linkage has other degrees of freedom than the plan, or the forms do not give its equations.
-pub fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
+pub fn derive_in_form(linkage: &Linkage, bodies: Bodies, plan: &Plan) -> Derivation {
     let mut arena = Arena::new();
-    let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof());
+    let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof(), bodies);
     let equations = equations_of_motion(&mut arena, &symbols, linkage);
     let parts = Parts::new(&mut arena, &symbols, &equations);
     let accelerations = GroundMotion::ALL.map(|ground| {
@@ -119,4 +121,14 @@ pub fn derive_in_form(linkage: &Linkage, plan: &Plan) -> Derivation {
         .collect();
     let (linkage, forms) = (linkage.clone(), plan.forms);
     Derivation { linkage, arena, symbols, equations, parts, forms, accelerations, energies, series, forces }
+}
+
+/// The contact forces at one interface (from zero) of a linkage of any bodies, and the owner of their constants' formulas.
+pub fn derive_forces(linkage: &Linkage, interface: usize) -> (Arena, Program) {
+    let mut arena = Arena::new();
+    let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof(), Bodies::Any);
+    let positions = centroids(&mut arena, &symbols, &block_angles(&symbols, linkage));
+    let forces = interface_forces(&mut arena, &symbols, linkage, &positions, interface);
+    let program = optimise::force_program(&mut arena, &symbols, &forces);
+    (arena, program)
 }

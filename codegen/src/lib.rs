@@ -23,8 +23,8 @@ pub mod pattern;
 pub mod report;
 pub mod symbolic;
 
-pub use catalogue::{Catalogue, LinkageRecord, catalogue};
-pub use derivation::{Derivation, Plan, derive, derive_in_form};
+pub use catalogue::{Catalogue, CompositeRecord, InsideRecord, LinkageRecord, catalogue};
+pub use derivation::{Derivation, Plan, derive, derive_forces, derive_in_form};
 pub use error::{GenerateError, LARGEST};
 pub use ground::GroundMotion;
 

@@ -59,7 +59,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
         let column = self.instant.column;
         let (mut reach, mut force, mut moment) = (column.contact_half_width(interface), 0.0, 0.0);
         for (index, block) in column.blocks().iter().enumerate().skip(interface) {
-            reach += 2.0 * (block.half_height + block.half_width);
+            reach += 2.0 * (block.half_height + block.half_width());
             let ([linear, angular], change) = ((self.given)(index), &answer.change);
             let [x, y] = change.linear[index];
             let own = block.mass * (linear + x.abs() + y.abs());

@@ -24,11 +24,12 @@
 //! # Ok::<(), rocking::ColumnError>(())
 //! ```
 
+use super::composite::Links;
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use super::mode::Mode;
 use super::program::{
-    ContactForces, EnergyProgram, Geometry, LinkageEquations, Scalar, SceneConstants, SeriesProgram, StepProgram,
-    slope, split,
+    CompositeEquations, ContactForces, EnergyProgram, Geometry, InterfaceEquations, Linkages, Scalar, SceneConstants,
+    SeriesProgram, StepProgram, slope, split,
 };
 use crate::column::{Block, Column};
 use rocking_codegen::GroundMotion;
@@ -71,9 +72,6 @@ impl PartialEq for Equations {
         self.name == other.name
     }
 }
-
-/// The linkages of a generated module: by number of blocks and mask of open interfaces.
-pub type Linkages = fn(usize, usize) -> Option<LinkageEquations<f64>>;
 
 /// The pattern's bits: bit `i` is set where interface `i + 1` is open.
 pub(crate) fn mask(pattern: &Pattern) -> usize {
@@ -149,18 +147,33 @@ impl<P: Program> GeneratedMode<P> {
         ground: GroundMotion,
         linkages: Linkages,
     ) -> Option<GeneratedMode<P>> {
-        let equations = linkages(column.len(), mask(pattern))?;
+        let offset = |interface: usize| pivot(column, pattern, interface);
+        let forces =
+            |equations: &InterfaceEquations<f64>, geometry: &Geometry<f64>, interface: usize| InterfaceForces {
+                constants: (equations.constants)(geometry),
+                forces: equations.forces,
+                pivot: offset(interface),
+            };
+        let (equations, geometry, interfaces): (_, _, Vec<_>) = if column.is_plain() {
+            let equations = (linkages.rectangles)(column.len(), mask(pattern))?;
+            let geometry = geometry(column, pattern);
+            let interfaces = equations.interfaces.iter().enumerate();
+            let interfaces = interfaces.map(|(index, interface)| forces(interface, &geometry, index)).collect();
+            (equations, geometry, interfaces)
+        } else {
+            let CompositeEquations { linkage, inside } = (linkages.composite)(pattern.dof())?;
+            let links = Links::new(column, pattern);
+            let interfaces = (0..column.len()).map(|index| {
+                let (equations, geometry) = links.at_interface(index, &linkage.interfaces, &inside);
+                forces(&equations, &geometry, index)
+            });
+            let interfaces = interfaces.collect();
+            (linkage, links.whole(), interfaces)
+        };
         if equations.dof != <P as StepProgram<f64>>::DOF {
             return None;
         }
-        let geometry = geometry(column, pattern);
         let constants = (equations.accelerations[ground as usize])(&geometry);
-        let interfaces = equations.interfaces.iter().zip(&geometry.pivot).map(|(interface, &pivot)| InterfaceForces {
-            constants: (interface.constants)(&geometry),
-            forces: interface.forces,
-            pivot,
-        });
-        let interfaces = interfaces.collect();
         Some(GeneratedMode {
             constants: TryFrom::try_from(&constants[..]).ok()?,
             geometry,
@@ -191,10 +204,13 @@ pub fn is_column(column: &Column, gravity: f64, sizes: &[[f64; 4]]) -> bool {
     let blocks = column.blocks();
     let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_SIZE * b.abs();
     let is_block = |(block, size): (&Block, &[f64; 4])| {
-        let own = [block.half_width, block.half_height, block.mass, block.inertia];
-        own.iter().zip(size).all(|(a, b)| is_same(*a, *b))
+        let own = [block.bottom_half_width, block.half_height, block.mass, block.inertia];
+        block.is_rectangular() && own.iter().zip(size).all(|(a, b)| is_same(*a, *b))
     };
-    is_same(column.gravity(), gravity) && blocks.len() == sizes.len() && blocks.iter().zip(sizes).all(is_block)
+    column.is_plain()
+        && is_same(column.gravity(), gravity)
+        && blocks.len() == sizes.len()
+        && blocks.iter().zip(sizes).all(is_block)
 }
 
 /// The mirror image of a program: angles, rates and horizontal ground acceleration negated. Baked modes need it, whose sides
@@ -336,14 +352,23 @@ impl<P: Program> Dynamics for GeneratedMode<P> {
     }
 }
 
-/// The column as the generated equations read it.
+/// Pivot offset of an interface (from zero) from the centre of its contact `[m]`, zero where it is closed.
+fn pivot(column: &Column, pattern: &Pattern, interface: usize) -> f64 {
+    f64::from(pattern.0[interface].sign()) * column.contact_half_width(interface)
+}
+
+/// The aligned rectangles of a column as the generated equations read them.
 pub fn geometry(column: &Column, pattern: &Pattern) -> Geometry<f64> {
     let blocks = column.blocks();
     Geometry {
         gravity: column.gravity(),
-        pivot: pattern.0.iter().enumerate().map(|(i, s)| f64::from(s.sign()) * column.contact_half_width(i)).collect(),
+        pivot: (0..column.len()).map(|interface| pivot(column, pattern, interface)).collect(),
         half_height: blocks.iter().map(|block| block.half_height).collect(),
         mass: blocks.iter().map(|block| block.mass).collect(),
         inertia: blocks.iter().map(|block| block.inertia).collect(),
+        centroid_lateral: Vec::new(),
+        centroid_axial: Vec::new(),
+        top_lateral: Vec::new(),
+        top_axial: Vec::new(),
     }
 }

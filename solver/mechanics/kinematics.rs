@@ -93,24 +93,23 @@ impl<'a, S: Size> Posture<'a, S> {
         let (mut link, mut dof) = (size.list(0), 0);
         let (mut pivots, mut centroid) = (size.list([0.0, 0.0]), size.list([0.0, 0.0]));
         let (mut lower, mut contact_centre) = (size.list(Turn::NONE), size.list([0.0, 0.0]));
-        let (mut centre, mut below) = ([0.0, 0.0], Turn::NONE);
-        let (blocks, states) = (&column.blocks()[..size.blocks()], &states[..size.blocks()]);
+        let (seats, states) = (&column.seats()[..size.blocks()], &states[..size.blocks()]);
+        let (mut centre, mut below) = ([seats[0].on_lower, 0.0], Turn::NONE);
         for index in 0..size.blocks() {
             contact_centre[index] = centre;
             lower[index] = below;
             let own = turns[index];
             let mut base = centre;
             if states[index].is_open() {
-                let offset = f64::from(states[index].sign()) * column.contact_half_width(index);
+                let offset = f64::from(states[index].sign()) * seats[index].half_width;
                 let pivot = plus(centre, below.rotate([offset, 0.0]));
                 pivots[dof] = pivot;
                 dof += 1;
                 base = minus(pivot, own.rotate([offset, 0.0]));
             }
             link[index] = dof;
-            let half_height = blocks[index].half_height;
-            centroid[index] = plus(base, own.rotate([0.0, half_height]));
-            centre = plus(base, own.rotate([0.0, 2.0 * half_height]));
+            centroid[index] = plus(base, own.rotate(seats[index].centroid));
+            centre = plus(base, own.rotate(seats[index].top));
             below = own;
         }
         let width = size.links(dof);
@@ -327,7 +326,7 @@ pub struct Outline {
     pub pivot: Option<Vec2>,
 }
 
-/// Outlines of the blocks, base first, length N, with the origin at the centre of the base on the ground; angles as in
+/// Outlines of the blocks, base first, length N, with the origin on the ground where an aligned column has the centre of its base; angles as in
 /// [`Posture::new`]. For pictures: no equation of motion uses them.
 ///
 /// ```
@@ -342,12 +341,14 @@ pub struct Outline {
 pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outline> {
     let posture = Posture::new(column, pattern, theta);
     let outline = |(index, block): (usize, &Block)| {
-        let (b, h) = (block.half_width, block.half_height);
+        let (bottom, top) = (block.bottom_half_width, block.top_half_width);
+        let (below, above) = (-block.centroid_height, 2.0 * block.half_height - block.centroid_height);
         let corner = |offset: Vec2| plus(posture.centroid[index], Turn::new(theta[index]).rotate(offset));
         let state = pattern.0[index];
         let offset = f64::from(state.sign()) * column.contact_half_width(index);
         let pivot = plus(posture.contact_centre[index], posture.lower[index].rotate([offset, 0.0]));
-        Outline { corners: [[-b, -h], [b, -h], [b, h], [-b, h]].map(corner), pivot: state.is_open().then_some(pivot) }
+        let corners = [[-bottom, below], [bottom, below], [top, above], [-top, above]].map(corner);
+        Outline { corners, pivot: state.is_open().then_some(pivot) }
     };
     column.blocks().iter().enumerate().map(outline).collect()
 }

@@ -13,14 +13,17 @@ pub(crate) fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec
     let (mut moments, mut levers) = (Vec::new(), Vec::new());
     for own in 1..=pattern.dof() {
         let (mut moment, mut lever) = ([0.0, 0.0], [0.0, 0.0]);
-        let mut first = None;
-        for (i, block) in column.blocks().iter().enumerate().filter(|(i, _)| link[*i] >= own) {
+        // Centre of the next contact, from the pivot of the link.
+        let mut contact = None;
+        let blocks = column.blocks().iter().zip(column.seats()).enumerate();
+        for (i, (block, seat)) in blocks.filter(|(i, _)| link[*i] >= own) {
             if link[i] == own {
-                let first = *first.get_or_insert(i);
-                moment[0] -= block.mass * pivot(first);
-                moment[1] += block.mass * (lever[1] + block.half_height);
-                lever[1] += 2.0 * block.half_height;
-                lever[0] = if i + 1 < link.len() { pivot(i + 1) - pivot(first) } else { 0.0 };
+                let [u, v] = *contact.get_or_insert_with(|| [-pivot(i), 0.0]);
+                moment[0] += block.mass * (u + seat.centroid[0]);
+                moment[1] += block.mass * (v + seat.centroid[1]);
+                let above = [u + seat.top[0], v + seat.top[1]];
+                contact = Some(above);
+                lever = if i + 1 < link.len() { [above[0] + pivot(i + 1), above[1]] } else { [0.0, above[1]] };
             } else {
                 moment[0] += block.mass * lever[0];
                 moment[1] += block.mass * lever[1];

@@ -188,17 +188,22 @@ impl Corners {
         let pivot_of_link = pivot(first);
         let side = |sign: f64| {
             let (mut base, mut own, mut top, mut inertia) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
-            let height_of = |blocks: std::ops::Range<usize>| -> f64 {
-                column.blocks()[blocks].iter().map(|block| 2.0 * block.half_height).sum()
+            // Centre of the contact of a block of this link, from the link's pivot.
+            let contact = |block: usize| {
+                let seats = column.seats()[first..block].iter();
+                seats.fold([-pivot_of_link, 0.0], |[u, v], seat| [u + seat.top[0], v + seat.top[1]])
             };
-            let corner = [sign * column.contact_half_width(interface) - pivot_of_link, height_of(first..interface)];
+            let [u, v] = contact(interface);
+            let corner = [sign * column.contact_half_width(interface) + u, v];
             for (j, block) in column.blocks().iter().enumerate().skip(interface) {
                 let place = if links[j] == link {
                     inertia += block.inertia;
-                    [-pivot_of_link, height_of(first..j) + block.half_height]
+                    let ([u, v], centroid) = (contact(j), column.seats()[j].centroid);
+                    [u + centroid[0], v + centroid[1]]
                 } else {
                     let next = links.iter().position(|own| *own == link + 1).unwrap_or(j);
-                    let place = [pivot(next) - pivot_of_link, height_of(first..next)];
+                    let [u, v] = contact(next);
+                    let place = [pivot(next) + u, v];
                     top = [place[0] - corner[0], place[1] - corner[1]];
                     place
                 };

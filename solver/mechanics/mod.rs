@@ -7,6 +7,7 @@ pub mod kinematics;
 pub mod mode;
 pub mod program;
 
+mod composite;
 pub(crate) mod harmonics;
 pub(crate) mod integrator;
 pub(crate) mod links;

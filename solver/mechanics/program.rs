@@ -12,12 +12,21 @@ pub struct Geometry<S> {
     pub gravity: S,
     /// Pivot offsets `s_i c_i [m]`, zero at closed interfaces, length N.
     pub pivot: Vec<S>,
-    /// Half-heights `[m]`, length N.
+    /// Half-heights `[m]`, length N; none for links that are any rigid bodies.
     pub half_height: Vec<S>,
     /// Masses `[kg]`, length N.
     pub mass: Vec<S>,
     /// Centroidal moments of inertia `[kg m²]`, length N.
     pub inertia: Vec<S>,
+    /// Centroids `[m]` of links that are any rigid bodies, to the right of the centre of the contact below; none for rectangles.
+    pub centroid_lateral: Vec<S>,
+    /// The same, upwards.
+    pub centroid_axial: Vec<S>,
+    /// Centres `[m]` of the contacts above links that are any rigid bodies, to the right of the centre of the contact below; none for
+    /// rectangles.
+    pub top_lateral: Vec<S>,
+    /// The same, upwards.
+    pub top_axial: Vec<S>,
 }
 
 impl<S: Scalar> Geometry<S> {
@@ -26,7 +35,20 @@ impl<S: Scalar> Geometry<S> {
         let mut all = |values: &[S]| values.iter().map(|value| lift(*value)).collect();
         let (pivot, half_height) = (all(&self.pivot), all(&self.half_height));
         let (mass, inertia) = (all(&self.mass), all(&self.inertia));
-        Geometry { gravity: lift(self.gravity), pivot, half_height, mass, inertia }
+        let (centroid_lateral, centroid_axial) = (all(&self.centroid_lateral), all(&self.centroid_axial));
+        let (top_lateral, top_axial) = (all(&self.top_lateral), all(&self.top_axial));
+        let gravity = lift(self.gravity);
+        Geometry {
+            gravity,
+            pivot,
+            half_height,
+            mass,
+            inertia,
+            centroid_lateral,
+            centroid_axial,
+            top_lateral,
+            top_axial,
+        }
     }
 }
 
@@ -148,6 +170,15 @@ pub struct InterfaceEquations<S> {
     pub forces: ContactForces<S>,
 }
 
+/// Generated equations of links that are any rigid bodies, on a body that stands on the ground.
+#[derive(Clone, Debug)]
+pub struct CompositeEquations<S> {
+    /// The linkage; its first interface is that below the body on the ground.
+    pub linkage: LinkageEquations<S>,
+    /// Per link, base first: a closed interface inside it, which divides it in two bodies.
+    pub inside: Vec<InterfaceEquations<S>>,
+}
+
 /// Generated equations of one linkage.
 #[derive(Clone, Debug)]
 pub struct LinkageEquations<S> {
@@ -161,4 +192,13 @@ pub struct LinkageEquations<S> {
     pub series: SceneConstants<S>,
     /// Per interface, base first.
     pub interfaces: Vec<InterfaceEquations<S>>,
+}
+
+/// The linkages of a generated module.
+#[derive(Clone, Copy, Debug)]
+pub struct Linkages {
+    /// Of aligned rectangles: by number of blocks and mask of open interfaces.
+    pub rectangles: fn(usize, usize) -> Option<LinkageEquations<f64>>,
+    /// Of links that are any rigid bodies: by their number.
+    pub composite: fn(usize) -> Option<CompositeEquations<f64>>,
 }

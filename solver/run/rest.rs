@@ -122,7 +122,8 @@ impl Inside for Rest {
 
 /// The horizontal acceleration that opens some interface where nothing else moves `[m/s²]`.
 fn least_uplift(column: &Column) -> f64 {
-    let own = |i: usize| column.gravity() * column.contact_half_width(i) / column.centroid_height(i);
+    let lever = |i: usize| column.contact_half_width(i) - column.centroid_offset(i).abs();
+    let own = |i: usize| column.gravity() * lever(i) / column.centroid_height(i);
     (0..column.len()).map(own).fold(f64::INFINITY, f64::min)
 }
 
@@ -195,9 +196,8 @@ fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> 
         let motion = Shaking::at(segment, column.gravity(), t);
         let mut step = f64::INFINITY;
         for interface in 0..column.len() {
-            let arm = [column.contact_half_width(interface), column.centroid_height(interface)];
             for side in [Interface::Right, Interface::Left] {
-                match motion.step_to_zero(arm, side) {
+                match motion.step_to_zero(arm(column, interface, side), side) {
                     Some(0.0) => return Some((t, interface, side)),
                     Some(own) => step = step.min(own),
                     None => {}
@@ -226,10 +226,23 @@ const CONTACT_PROBLEM_MARGIN: f64 = 1e-9;
 fn least_margin(problem: &Problem, segment: usize, t: f64) -> f64 {
     let (ground, column) = (problem.ground_at(segment, t), &problem.scene.column);
     let margin = |i: usize| {
-        let arms = [column.contact_half_width(i) * ground.gravity, column.centroid_height(i) * ground.x.abs()];
-        (arms[0] - arms[1]) / (arms[0].abs() + arms[1])
+        // The ground pushes towards one side, and away from the other.
+        let side = Interface::from_sign(if ground.x < 0.0 { 1 } else { -1 });
+        let margin = |side: Interface, push: f64| {
+            let [lever, height] = arm(column, i, side);
+            let arms = [lever * ground.gravity, height * push];
+            (arms[0] - arms[1]) / (arms[0].abs() + arms[1].abs())
+        };
+        margin(side, ground.x.abs()).min(margin(side.mirror(), -ground.x.abs()))
     };
     (0..column.len()).map(margin).fold(f64::INFINITY, f64::min)
+}
+
+/// Arms of the weight and of the ground's push about a corner of an interface: lever of the stack's centre of gravity and its height `[m]`.
+fn arm(column: &Column, interface: usize, side: Interface) -> [f64; 2] {
+    let sign = f64::from(side.sign());
+    let lever = column.contact_half_width(interface) - sign * column.centroid_offset(interface);
+    [lever, column.centroid_height(interface)]
 }
 
 /// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
@@ -286,7 +299,8 @@ pub fn contact_forces(column: &Column, ground: Ground) -> Vec<ContactForce> {
     let force = |interface: usize| {
         let mass = column.mass_above(interface);
         let (normal, tangential) = (mass * ground.gravity, mass * ground.x);
-        ContactForce { normal, tangential, moment: column.centroid_height(interface) * tangential }
+        let moment = column.centroid_height(interface) * tangential - column.centroid_offset(interface) * normal;
+        ContactForce { normal, tangential, moment }
     };
     (0..column.len()).map(force).collect()
 }

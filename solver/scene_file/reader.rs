@@ -6,8 +6,8 @@
 use super::error::{SceneFileError, text};
 use super::records::Records;
 use super::table::{Cause, Place, Table, Wrong};
-use crate::column::{Block, Column};
-use crate::scene::{Method, Restitution, Scene, SceneError};
+use crate::column::{Block, Column, ColumnError, Shape};
+use crate::scene::{Initial, Method, Restitution, Scene, SceneError};
 use serde::Serialize;
 use std::path::Path;
 
@@ -123,21 +123,13 @@ impl Reader<'_> {
         let blocks = blocks(root, derived).map_err(own)?;
         let column = Column::new(blocks, gravity)
             .map_err(|error| own(root.wrong("block", error.to_string(), "correct the block")))?;
+        let (column, initial) = initial(root, column).map_err(own)?;
         let mut scene = Scene::new(column);
         scene.title = title;
+        scene.initial = initial;
         scene.friction = root.number("friction").map_err(own)?.map(|(value, _)| value);
         scene.restitution = restitution(root).map_err(own)?;
         scene.excitation = self.excitation(root, &scene.column)?;
-        if let Some(mut initial) = root.table("initial").map_err(own)? {
-            for (key, values) in [("theta", &mut scene.initial.theta), ("omega", &mut scene.initial.omega)] {
-                *values = initial.numbers(key).map_err(own)?.unwrap_or_default();
-                if initial.has(key) && values.is_empty() {
-                    let problem = format!("0 number(s) for {} block(s)", scene.column.len());
-                    return Err(own(initial.wrong(key, problem, "give one per block, base first, or leave it out")));
-                }
-            }
-            initial.close().map_err(own)?;
-        }
         solver(root, &mut scene).map_err(own)?;
         if let Some(mut output) = root.table("output").map_err(own)? {
             scene.output_dt = output.number("dt").map_err(own)?.map(|(value, _)| value);
@@ -164,7 +156,7 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
             cause: Cause::Key,
         }),
         (Some(mut tables), None) if !tables.is_empty() => {
-            tables.iter_mut().map(|table| block(table, 1.0, derived)).collect()
+            tables.iter_mut().map(|table| block(table, derived)).collect()
         }
         (None, Some(mut column)) => {
             let (count, place) = match column.number("blocks")? {
@@ -176,7 +168,7 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
                 let problem = format!("{count} is no number of blocks");
                 return Err(Wrong { place, key: "column.blocks".into(), problem, remedy, cause: Cause::Value });
             }
-            Ok(vec![block(&mut column, count, derived)?; count as usize])
+            cut(&mut column, count as usize, derived)
         }
         _ => Err(root.missing("block", "add a [[block]] with half_width and half_height for each block, base first")),
     }
@@ -185,55 +177,222 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wr
 /// Blocks of `[column]` beyond which a scene is taken for a mistake.
 pub const MOST_BLOCKS: usize = 100;
 
-/// A block, or one of `count` equal parts of a column whose half-height is given as a whole.
-fn block(table: &mut Table, count: f64, derived: &mut Vec<Derived>) -> Result<Block, Wrong> {
+/// Sizes of a block, or of a whole column.
+struct Sizes {
+    shape: Shape,
+    /// Of base and top `[m]`.
+    half_widths: [f64; 2],
+    half_height: f64,
+    amount: Amount,
+}
+
+/// How much of the material there is.
+enum Amount {
+    /// `[kg]`
+    Mass(f64),
+    /// Of a side view `[kg/m²]`, or of a solid `[kg/m³]`; `None` for one that is not given.
+    Density { density: Option<f64>, depth: Option<f64> },
+}
+
+impl Amount {
+    /// The mass of a part `[kg]`, and the formula in words.
+    fn mass(&self, shape: Shape, half_widths: [f64; 2], half_height: f64) -> Option<(f64, String)> {
+        let Amount::Density { density, depth } = *self else { return None };
+        let is_tapered = half_widths[0] != half_widths[1];
+        let measure = match (shape, is_tapered) {
+            (Shape::Prism, false) => "4 · half_width · half_height",
+            (Shape::Prism, true) => "2 · (bottom_half_width + top_half_width) · half_height",
+            (Shape::Drum, false) => "2 π · half_width² · half_height",
+            (Shape::Drum, true) => "2 π/3 · (a² + a b + b²) · half_height with a, b the half-widths",
+        };
+        let unit = if shape == Shape::Drum || depth.is_some() { "kg/m³" } else { "kg/m²" };
+        let named = density.map_or(format!("1 {unit} (nothing is given)"), |density| format!("{density} {unit}"));
+        let value = density.unwrap_or(1.0) * depth.unwrap_or(1.0);
+        let mass = match shape {
+            // As [`Block::rectangle`] multiplies.
+            Shape::Prism if !is_tapered => 4.0 * value * half_widths[0] * half_height,
+            _ => value * shape.measure(half_widths, half_height),
+        };
+        let depth = depth.map_or(String::new(), |depth| format!(" · depth {depth} m"));
+        Some((mass, format!("{measure}{depth} · {named}")))
+    }
+}
+
+/// Shape, sizes and material.
+fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
+    let shape = match table.text("shape")?.map(|(shape, _)| shape).as_deref() {
+        None | Some("prism") => Shape::Prism,
+        Some("drum") => Shape::Drum,
+        Some(other) => return Err(table.no_such("shape", "shape", other, &["prism", "drum"])),
+    };
+    let both = table.positive("half_width")?;
+    let bottom = table.positive("bottom_half_width")?;
+    let top = table.number("top_half_width")?.map(|(value, _)| value);
+    if let Some(value) = top.filter(|value| *value < 0.0) {
+        return Err(table.wrong(
+            "top_half_width",
+            format!("{value} is out of range"),
+            "give a finite number, zero or above",
+        ));
+    }
+    if both.is_some() && bottom.is_some() {
+        return Err(table.clash("bottom_half_width", "half_width"));
+    }
+    let half_widths = match (bottom.or(both), top.or(both)) {
+        (Some(bottom), Some(top)) => [bottom, top],
+        (None, None) => return Err(table.missing("half_width", "give it in m")),
+        (None, Some(_)) => return Err(table.missing("bottom_half_width", "give it in m, or half_width")),
+        (Some(_), None) => return Err(table.missing("top_half_width", "give it in m, or half_width for both")),
+    };
+    let half_height = match table.positive("half_height")? {
+        Some(value) => value,
+        None => return Err(table.missing("half_height", "give it in m")),
+    };
+    let depth = table.positive("depth")?;
+    if depth.is_some() && shape == Shape::Drum {
+        return Err(table.wrong(
+            "depth",
+            "a drum is as deep as it is wide".into(),
+            "leave it out, or shape = \"drum\"",
+        ));
+    }
+    let amount = match (table.positive("density")?, table.positive("mass")?) {
+        (Some(_), Some(_)) => return Err(table.clash("mass", "density")),
+        (None, Some(_)) if depth.is_some() => return Err(table.clash("mass", "depth")),
+        (_, Some(mass)) => Amount::Mass(mass),
+        (density, None) => Amount::Density { density, depth },
+    };
+    Ok(Sizes { shape, half_widths, half_height, amount })
+}
+
+/// A block of `[[block]]`.
+fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<Block, Wrong> {
+    let Sizes { shape, half_widths, half_height, amount } = sizes(table)?;
     let mut derive = |key: String, value: f64, unit: &'static str, from: String| {
         derived.push(Derived { key, value, unit, from });
     };
-    let size = |table: &mut Table, key: &'static str| match table.positive(key)? {
-        Some(value) => Ok(value),
-        None => Err(table.missing(key, "give it in m")),
+    let mass = match (&amount, amount.mass(shape, half_widths, half_height)) {
+        (Amount::Mass(mass), _) => *mass,
+        (_, Some((mass, from))) => {
+            derive(table.dotted("mass"), mass, "kg", from);
+            mass
+        }
+        (Amount::Density { .. }, None) => unreachable!("a density gives a mass"),
     };
-    let half_width = size(table, "half_width")?;
-    let half_height = size(table, "half_height")? / count;
-    let (density, mass) = (table.positive("density")?, table.positive("mass")?);
-    let mut block = match (density, mass) {
-        (Some(_), Some(_)) => {
-            return Err(table.clash("mass", "density"));
+    let mut block = Block::of_shape(shape, half_widths, half_height, mass);
+    match table.positive("centroid_height")? {
+        Some(height) if height >= 2.0 * half_height => {
+            let problem = format!("{height} m is above the block, which is {} m high", 2.0 * half_height);
+            return Err(table.wrong(
+                "centroid_height",
+                problem,
+                "give the height of the centroid above the block's base",
+            ));
         }
-        (_, Some(mass)) => Block::with_mass(half_width, half_height, mass / count),
-        (density, None) => Block::rectangle(half_width, half_height, density.unwrap_or(1.0)),
-    };
-    if count > 1.0 {
-        derive(table.dotted("half_height"), half_height, "m", format!("of each block: the whole over {count}"));
+        Some(height) => block.centroid_height = height,
+        None if block.centroid_height != half_height => {
+            derive(table.dotted("centroid_height"), block.centroid_height, "m", homogeneous(shape, half_widths).into());
+        }
+        None => {}
     }
-    match (density, mass) {
-        (_, Some(_)) if count == 1.0 => {}
-        (_, Some(_)) => {
-            derive(table.dotted("mass"), block.mass, "kg", format!("of each block: the whole over {count}"))
-        }
-        (density, None) => {
-            let density = density.map_or("1 kg/m² (nothing is given)".into(), |density| format!("{density} kg/m²"));
-            derive(table.dotted("mass"), block.mass, "kg", format!("4 · half_width · half_height · {density}"));
-        }
-    }
-    // A column's inertia as a whole is no block's.
-    let inertia = if count == 1.0 { table.positive("inertia")? } else { None };
-    match inertia {
+    match table.positive("inertia")? {
         Some(inertia) => block.inertia = inertia,
-        None => {
-            let from = "mass · (half_width² + half_height²) / 3: a homogeneous rectangle";
-            derive(table.dotted("inertia"), block.inertia, "kg m²", from.into());
-        }
+        None => derive(table.dotted("inertia"), block.inertia, "kg m²", homogeneous(shape, half_widths).into()),
     }
-    let is_sound = |value: f64| value.is_finite() && value > 0.0;
-    if !(is_sound(block.mass) && is_sound(block.inertia)) {
-        let problem =
-            format!("mass {:e} kg and inertia {:e} kg m² leave the range of doubles", block.mass, block.inertia);
-        return Err(table.wrong("half_width", problem, "give sizes, density or mass nearer to those of blocks"));
-    }
+    check_range(table, &block)?;
     table.close()?;
     Ok(block)
+}
+
+/// The homogeneous body from which inertia and centroid follow.
+fn homogeneous(shape: Shape, [bottom, top]: [f64; 2]) -> &'static str {
+    match (shape, bottom == top) {
+        (Shape::Prism, true) => "mass · (half_width² + half_height²) / 3: a homogeneous rectangle",
+        (Shape::Prism, false) => "a homogeneous trapezoid",
+        (Shape::Drum, true) => "mass · (3 half_width² + (2 half_height)²) / 12: a homogeneous cylinder",
+        (Shape::Drum, false) => "a homogeneous frustum of a cone",
+    }
+}
+
+fn check_range(table: &Table, block: &Block) -> Result<(), Wrong> {
+    let is_sound = |value: f64| value.is_finite() && value > 0.0;
+    if is_sound(block.mass) && is_sound(block.inertia) {
+        return Ok(());
+    }
+    let problem = format!("mass {:e} kg and inertia {:e} kg m² leave the range of doubles", block.mass, block.inertia);
+    let key = if table.has("half_width") { "half_width" } else { "bottom_half_width" };
+    Err(table.wrong(key, problem, "give sizes, density or mass nearer to those of blocks"))
+}
+
+/// The blocks of `[column]`: equal heights, the sides of the whole straight.
+fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wrong> {
+    if count == 1 {
+        return Ok(vec![block(table, derived)?]);
+    }
+    let Sizes { shape, half_widths, half_height, amount } = sizes(table)?;
+    let [bottom, top] = half_widths;
+    let parts = count as f64;
+    let half_height = half_height / parts;
+    let at = |joint: usize| match joint {
+        0 => bottom,
+        _ if joint == count => top,
+        _ => bottom + (top - bottom) * (joint as f64 / parts),
+    };
+    let whole = shape.measure(half_widths, half_height * parts);
+    let of_part = |index: usize| {
+        let half_widths = [at(index), at(index + 1)];
+        let mass = match (&amount, amount.mass(shape, half_widths, half_height)) {
+            (Amount::Mass(mass), _) if bottom == top => mass / parts,
+            (Amount::Mass(mass), _) => mass * (shape.measure(half_widths, half_height) / whole),
+            (_, Some((mass, _))) => mass,
+            (Amount::Density { .. }, None) => unreachable!("a density gives a mass"),
+        };
+        Block::of_shape(shape, half_widths, half_height, mass)
+    };
+    let blocks: Vec<Block> = (0..count).map(of_part).collect();
+    let mut derive = |key: &str, value: f64, unit: &'static str, from: String| {
+        derived.push(Derived { key: table.dotted(key), value, unit, from });
+    };
+    derive("half_height", half_height, "m", format!("of each block: the whole over {count}"));
+    let (lowest, part) = (&blocks[0], if bottom == top { "each block" } else { "the lowest block" });
+    match amount.mass(shape, [at(0), at(1)], half_height) {
+        None if bottom == top => derive("mass", lowest.mass, "kg", format!("of each block: the whole over {count}")),
+        None => derive("mass", lowest.mass, "kg", "of the lowest block: its share of the whole".into()),
+        Some((_, from)) if bottom == top => derive("mass", lowest.mass, "kg", from),
+        Some((_, from)) => derive("mass", lowest.mass, "kg", format!("of {part}: {from}")),
+    }
+    let from = homogeneous(shape, [at(0), at(1)]);
+    let from = if bottom == top { from.into() } else { format!("of {part}: {from}") };
+    derive("inertia", lowest.inertia, "kg m²", from);
+    for block in &blocks {
+        check_range(table, block)?;
+    }
+    table.close()?;
+    Ok(blocks)
+}
+
+/// The state at `t = 0`, and the column as it stands then.
+fn initial(root: &mut Table, mut column: Column) -> Result<(Column, Initial), Wrong> {
+    let mut initial = Initial::default();
+    let Some(mut table) = root.table("initial")? else { return Ok((column, initial)) };
+    for (key, values) in [("theta", &mut initial.theta), ("omega", &mut initial.omega)] {
+        *values = table.numbers(key)?.unwrap_or_default();
+        if table.has(key) && values.is_empty() {
+            let problem = format!("0 number(s) for {} block(s)", column.len());
+            return Err(table.wrong(key, problem, "give one per block, base first, or leave it out"));
+        }
+    }
+    if let Some(slides) = table.numbers("slide")? {
+        column = column.displaced(slides).map_err(|error| {
+            let remedy = match error {
+                ColumnError::OffSupport { .. } => "give slides that leave the faces some overlap",
+                _ => "give one slide per interface, base first, or leave it out",
+            };
+            table.wrong("slide", error.to_string(), remedy)
+        })?;
+    }
+    table.close()?;
+    Ok((column, initial))
 }
 
 fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {

@@ -89,9 +89,10 @@ impl Template {
         let (name, item) = key.split_at(key.find('[').unwrap_or(key.len()));
         let table = match name {
             "title" | "gravity" | "friction" => return Some(key.into()),
-            "blocks" | "half_width" | "half_height" | "density" | "mass" | "inertia" => "column",
+            "blocks" | "half_width" | "bottom_half_width" | "top_half_width" | "half_height" | "centroid_height"
+            | "shape" | "depth" | "density" | "mass" | "inertia" => "column",
             "eta" | "factors" | "law" => "restitution",
-            "theta" => "initial",
+            "theta" | "slide" => "initial",
             "t_end" | "method" | "rtol" | "atol" | "step" | "stick_angle" | "overturn_angle" => "solver",
             _ => "excitation.horizontal",
         };

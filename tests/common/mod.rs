@@ -32,3 +32,19 @@ pub fn runner(cases: u32) -> proptest::test_runner::TestRunner {
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha))
 }
+
+/// The blocks of [`column`] with other tops and centroids, displaced by up to two thirds of the way off their supports.
+pub fn tapered_and_displaced(blocks: usize) -> impl Strategy<Value = Column> {
+    let shares = (0.3f64..1.5, 0.3f64..1.7, -0.67f64..0.67);
+    (column(blocks), prop::collection::vec(shares, blocks)).prop_map(|(column, shares)| {
+        let changed = |(block, (top, centroid, _)): (&Block, &(f64, f64, f64))| Block {
+            top_half_width: block.bottom_half_width * top,
+            centroid_height: block.half_height * centroid,
+            ..*block
+        };
+        let blocks: Vec<Block> = column.blocks().iter().zip(&shares).map(changed).collect();
+        let support = |i: usize| blocks[i].bottom_half_width + if i == 0 { 0.0 } else { blocks[i - 1].top_half_width };
+        let slides = shares.iter().enumerate().map(|(i, (_, _, share))| share * support(i)).collect();
+        Column::new(blocks.clone(), 9.81).and_then(|column| column.displaced(slides)).expect("valid sizes")
+    })
+}

@@ -3,7 +3,7 @@
 use crate::commands::{inputs, sweep, thresholds};
 use crate::error::Failure;
 use crate::ground;
-use crate::number::{fixed, significant};
+use crate::number::{fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use rocking::scene_file::{Derived, SceneFile};
@@ -179,9 +179,9 @@ impl Findings {
         for (index, block) in self.blocks.iter().enumerate() {
             let _ = writeln!(
                 text,
-                "{:<6} {:<10.4} {:<11.4} {:<13} {}",
+                "{:<6} {:<10} {:<11.4} {:<13} {}",
                 index + 1,
-                2.0 * block.half_width,
+                widths(block, 4),
                 2.0 * block.half_height,
                 significant(block.mass, 6),
                 significant(block.inertia, 6)
@@ -202,7 +202,7 @@ impl Findings {
                 text,
                 "{:<10} {:<8.4} {:<8.4} {:<12.4} {:<10.4} {:<16.4} {:<8.4} {:.4}",
                 stack.interface,
-                stack.stack.half_width,
+                stack.stack.contact_half_width,
                 stack.stack.centroid_height,
                 stack.slenderness,
                 stack.frequency_parameter,

@@ -159,7 +159,7 @@ const SKETCH_EDGE: Stroke = Stroke::solid("#222", 0.9);
 pub fn sketch(column: &Column, pattern: &Pattern) -> String {
     let theta = posture(pattern, SKETCH_TILT_DEG.min(LEAN_DEG / column.len() as f64));
     let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
-    let widest = column.blocks().iter().map(|block| block.half_width).fold(0.0, f64::max);
+    let widest = column.blocks().iter().map(|block| block.half_width()).fold(0.0, f64::max);
     let scale = SKETCH_HEIGHT / height;
     let (width, base) = ((2.0 * (SKETCH_ROOM * height + widest) * scale).ceil(), SKETCH_HEIGHT + 4.0);
     let mut sheet = Sheet::new("");

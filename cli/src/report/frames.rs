@@ -12,7 +12,7 @@ use crate::report::outcome::closed;
 use crate::run_folder::{Event, Results};
 use rocking::Record;
 use rocking::pattern::Pattern;
-use rocking::{EventKind, StopReason};
+use rocking::{Block, EventKind, StopReason};
 use serde_json::json;
 
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
@@ -147,8 +147,14 @@ pub fn json(results: &Results) -> String {
         })
         .collect();
     let blocks = 0..column.len();
-    let contact: Vec<f64> = blocks.clone().map(|interface| column.contact_half_width(interface)).collect();
-    let sizes: Vec<[f64; 2]> = column.blocks().iter().map(|block| [block.half_width, block.half_height]).collect();
+    let contact = |interface: usize| {
+        let ([left, right], slide) = (column.contact(interface), column.slides()[interface]);
+        let centre = 0.5 * (left + right);
+        [column.contact_half_width(interface), centre, centre - slide]
+    };
+    let contact: Vec<[f64; 3]> = blocks.clone().map(contact).collect();
+    let size = |block: &Block| [block.bottom_half_width, block.top_half_width, block.half_height];
+    let sizes: Vec<[f64; 3]> = column.blocks().iter().map(size).collect();
     let patterns: Vec<_> = patterns
         .iter()
         .map(|pattern| {

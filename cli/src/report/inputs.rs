@@ -1,7 +1,7 @@
 //! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
-use crate::number::{percent, significant};
+use crate::number::{percent, significant, widths};
 use crate::report::html::definitions;
 use crate::run_folder::Results;
 use crate::text::escape;
@@ -45,7 +45,7 @@ fn blocks(results: &Results) -> String {
             rows,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
             index + 1,
-            significant(2.0 * block.half_width, 5),
+            widths(block, 5),
             significant(2.0 * block.half_height, 5),
             significant(block.mass, 5),
             significant(block.inertia, 5)

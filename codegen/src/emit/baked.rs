@@ -26,6 +26,7 @@ pub fn baked_module(catalogue: &BakedCatalogue) -> String {
     let programs = catalogue.modes.iter().flat_map(|mode| GroundMotion::ALL.map(|ground| program(mode, ground)));
     let shared = shared_programs(&catalogue.shared);
     let table = linkage::table(&catalogue.shared.linkages, |_, _| format_ident!("no_constants"));
+    let composites = linkage::composite_table(&catalogue.shared.composites);
     let name = format!("baked column of {blocks} block(s), sizes {:016x}", catalogue.column.digest());
     let blocks = count(blocks);
     let items = format(quote! {
@@ -57,6 +58,7 @@ pub fn baked_module(catalogue: &BakedCatalogue) -> String {
         #(#programs)*
         #shared
         #table
+        #composites
     });
     let functions = texts(&catalogue.shared.linkages, linkage::force_and_energy_functions);
     head("`rocking_codegen::generate_baked`", &contents) + &items + &functions
@@ -78,10 +80,10 @@ fn arms(mode: &BakedMode) -> TokenStream {
         let mirrored = mode.pattern.mirror().signs().into_iter().map(Literal::i8_unsuffixed);
         quote! {
             (&[#(#signs),*], GroundMotion::#variant) => {
-                generated_mode::<#program>(column, pattern, ground, linkage)
+                generated_mode::<#program>(column, pattern, ground, LINKAGES)
             }
             (&[#(#mirrored),*], GroundMotion::#variant) => {
-                generated_mode::<Mirrored<#program>>(column, pattern, ground, linkage)
+                generated_mode::<Mirrored<#program>>(column, pattern, ground, LINKAGES)
             }
         }
     });

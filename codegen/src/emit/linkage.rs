@@ -3,11 +3,11 @@
 use super::expression::{Style, Writer};
 use super::layout::{count, doc};
 use super::step::{force_name, step_type, words};
-use crate::catalogue::{Catalogue, LinkageRecord};
+use crate::catalogue::{Catalogue, CompositeRecord, LinkageRecord};
 use crate::ground::GroundMotion;
 use crate::optimise::Constant;
 use crate::pattern::Linkage;
-use crate::symbolic::{Arena, Expr, Node};
+use crate::symbolic::{Arena, Expr, Node, Rational};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::HashMap;
@@ -32,23 +32,52 @@ fn links(linkage: &Linkage) -> String {
 
 /// All functions of one linkage.
 pub fn functions(record: &LinkageRecord) -> TokenStream {
-    let stem = stem(&record.linkage);
+    let (stem, links) = (stem(&record.linkage), links(&record.linkage));
+    let (accelerations, others) = (accelerations(record, &stem, &links), forces_and_energies(record, &stem, &links));
+    quote! { #accelerations #others }
+}
+
+/// The functions of one linkage but those of the accelerations, which a baked column has as literals.
+pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
+    forces_and_energies(record, &stem(&record.linkage), &links(&record.linkage))
+}
+
+/// `links_2`: the name of the linkage of so many links that are any rigid bodies.
+fn composite_stem(record: &CompositeRecord) -> String {
+    format!("links_{}", record.linkage.linkage.dof())
+}
+
+/// All functions of a linkage of any rigid bodies.
+pub fn composite_functions(record: &CompositeRecord) -> TokenStream {
+    let (stem, dof) = (composite_stem(record), record.linkage.linkage.dof());
+    let links = format!("{dof} link(s) on a body that stands on the ground, body 1");
+    let accelerations = accelerations(&record.linkage, &stem, &links);
+    let others = forces_and_energies(&record.linkage, &stem, &links);
+    let inside = record.inside.iter().enumerate().map(|(index, inside)| {
+        let link = index + 1;
+        let title = format!(
+            "Scene constants of the contact forces at a closed interface inside link {link} of {dof}: bodies {link} and {} are that link below and above it.",
+            link + 1
+        );
+        scene_constants(&format_ident!("forces_inside_{link}_{stem}"), &title, &inside.arena, &inside.constants, &[])
+    });
+    quote! { #accelerations #others #(#inside)* }
+}
+
+fn accelerations(record: &LinkageRecord, stem: &str, links: &str) -> TokenStream {
     let accelerations = GroundMotion::ALL.map(|ground| {
         scene_constants(
-            &accelerations_name(&stem, ground),
-            &format!("Scene constants of the accelerations{}; {}.", words(ground), links(&record.linkage)),
+            &accelerations_name(stem, ground),
+            &format!("Scene constants of the accelerations{}; {links}.", words(ground)),
             &record.arena,
             &record.accelerations[ground as usize],
             &record.energies,
         )
     });
-    let others = force_and_energy_functions(record);
-    quote! { #(#accelerations)* #others }
+    quote! { #(#accelerations)* }
 }
 
-/// The functions of one linkage but those of the accelerations, which a baked column has as literals.
-pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
-    let (stem, links) = (stem(&record.linkage), links(&record.linkage));
+fn forces_and_energies(record: &LinkageRecord, stem: &str, links: &str) -> TokenStream {
     let function = |kind: &str, of: &str, constants: &[Constant]| {
         let title = format!("Scene constants of {of}; {links}.");
         scene_constants(&format_ident!("{kind}_{stem}"), &title, &record.arena, constants, &record.energies)
@@ -125,6 +154,9 @@ impl Style for SceneNames<'_> {
             return Some(words.collect::<Vec<_>>().join("_times_"));
         }
         let terms = arena.terms(part);
+        if let Some(lever) = body_lever(arena, &terms) {
+            return Some(lever);
+        }
         let mut heights = Vec::new();
         for (coefficient, term) in &terms {
             let (family, block) = split(arena.symbol_name(*term)?);
@@ -146,6 +178,10 @@ impl Style for SceneNames<'_> {
             (_, Some("gravity")) => Some("g".into()),
             (_, Some(name)) => Some(match split(name) {
                 ("inertia", block) => format!("I_{block}"),
+                ("centroid_lateral", block) => format!("e_x{block}"),
+                ("centroid_axial", block) => format!("e_{block}"),
+                ("top_lateral", block) => format!("t_x{block}"),
+                ("top_axial", block) => format!("t_{block}"),
                 (family, block) => format!("{}_{block}", &family[..1]),
             }),
             (Some(name), _) if expr != value => Some(name.to_string()),
@@ -158,6 +194,25 @@ impl Style for SceneNames<'_> {
     }
 }
 
+/// `lateral_to_centroid_of_body_2`: the name of a sum of levers of bodies, by the body where they end.
+fn body_lever(arena: &Arena, terms: &[(Rational, Expr)]) -> Option<String> {
+    let parts = terms.iter().map(|(_, term)| arena.symbol_name(*term).map(split)).collect::<Option<Vec<_>>>()?;
+    let of = |family: &str| parts.iter().filter(|part| part.0 == family).map(|part| part.1).max();
+    for (family, name) in [
+        ("centroid_lateral", "lateral_to_centroid"),
+        ("centroid_axial", "axial_to_centroid"),
+        ("top_lateral", "lateral_to_top"),
+        ("top_axial", "axial_to_top"),
+    ] {
+        if let Some(body) = of(family) {
+            let first = parts.iter().map(|part| part.1).min().filter(|first| *first < body);
+            let from = first.map_or(String::new(), |first| format!("_from_{first}"));
+            return Some(format!("{name}_of_body_{body}{from}"));
+        }
+    }
+    None
+}
+
 /// `half_height_2` in its parts.
 fn split(symbol: &str) -> (&str, usize) {
     let (family, block) = symbol.rsplit_once('_').expect("block symbols are named family_block");
@@ -168,24 +223,9 @@ fn split(symbol: &str) -> (&str, usize) {
 pub fn table(linkages: &[LinkageRecord], accelerations: impl Fn(&str, GroundMotion) -> Ident) -> TokenStream {
     let arms = linkages.iter().map(|record| {
         let mask = record.linkage.open.iter().rev().fold(0usize, |mask, &open| 2 * mask + usize::from(open));
-        let stem = stem(&record.linkage);
-        let accelerations = GroundMotion::ALL.map(|ground| accelerations(&stem, ground));
-        let (energies, series) = (format_ident!("energies_{stem}"), format_ident!("series_{stem}"));
-        let [blocks, mask, dof] = [record.linkage.blocks(), mask, record.linkage.dof()].map(count);
-        let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {
-            let constants = format_ident!("forces_{}_{stem}", interface + 1);
-            let forces = force_name(*program);
-            quote! { InterfaceEquations { constants: #constants, forces: #forces } }
-        });
-        quote! {
-            (#blocks, #mask) => LinkageEquations {
-                dof: #dof,
-                accelerations: [#(#accelerations),*],
-                energies: #energies,
-                series: #series,
-                interfaces: Vec::from([#(#interfaces),*]),
-            },
-        }
+        let [blocks, mask] = [record.linkage.blocks(), mask].map(count);
+        let equations = equations(record, &stem(&record.linkage), &accelerations);
+        quote! { (#blocks, #mask) => #equations, }
     });
     let doc = doc(
         "The equations of a linkage: `blocks` of the column, bit `i` of `mask` set where interface `i + 1` is open; `None` for linkages that this module does not cover.",
@@ -198,13 +238,69 @@ pub fn table(linkages: &[LinkageRecord], accelerations: impl Fn(&str, GroundMoti
     }
 }
 
+/// The value `LinkageEquations { .. }` of a linkage.
+fn equations(record: &LinkageRecord, stem: &str, accelerations: &impl Fn(&str, GroundMotion) -> Ident) -> TokenStream {
+    let accelerations = GroundMotion::ALL.map(|ground| accelerations(stem, ground));
+    let (energies, series) = (format_ident!("energies_{stem}"), format_ident!("series_{stem}"));
+    let dof = count(record.linkage.dof());
+    let interfaces = record.interfaces.iter().enumerate().map(|(interface, (program, _))| {
+        interface_equations(&format_ident!("forces_{}_{stem}", interface + 1), *program)
+    });
+    quote! {
+        LinkageEquations {
+            dof: #dof,
+            accelerations: [#(#accelerations),*],
+            energies: #energies,
+            series: #series,
+            interfaces: Vec::from([#(#interfaces),*]),
+        }
+    }
+}
+
+fn interface_equations(constants: &Ident, program: usize) -> TokenStream {
+    let forces = force_name(program);
+    quote! { InterfaceEquations { constants: #constants, forces: #forces } }
+}
+
+/// `fn composite(dof)`: the equations of links that are any rigid bodies, by their number.
+pub fn composite_table(composites: &[CompositeRecord]) -> TokenStream {
+    let arms = composites.iter().map(|record| {
+        let stem = composite_stem(record);
+        let dof = count(record.linkage.linkage.dof());
+        let whole = equations(&record.linkage, &stem, &accelerations_name);
+        let inside = record.inside.iter().enumerate().map(|(index, inside)| {
+            interface_equations(&format_ident!("forces_inside_{}_{stem}", index + 1), inside.program)
+        });
+        quote! { #dof => CompositeEquations { linkage: #whole, inside: Vec::from([#(#inside),*]) }, }
+    });
+    let doc = doc(
+        "The equations of `dof` links that are any rigid bodies: of tapered and displaced blocks; `None` for more links than this module covers.",
+    );
+    let function = if composites.is_empty() {
+        quote! { pub fn composite<S: Scalar>(_: usize) -> Option<CompositeEquations<S>> { None } }
+    } else {
+        quote! {
+            pub fn composite<S: Scalar>(dof: usize) -> Option<CompositeEquations<S>> {
+                Some(match dof { #(#arms)* _ => return None })
+            }
+        }
+    };
+    quote! {
+        #doc
+        #function
+
+        /// The equations of all linkages.
+        pub const LINKAGES: Linkages = Linkages { rectangles: linkage, composite };
+    }
+}
+
 /// `fn mode(column, pattern, ground)` and the constant by which the solver is given it.
 pub fn modes(catalogue: &Catalogue) -> TokenStream {
     let max_blocks = catalogue.max_blocks;
     let arms = (1..=max_blocks).flat_map(|dof| {
         GroundMotion::ALL.map(|ground| {
             let (program, dof, ground) = (step_type(dof, ground), count(dof), ground_name(ground));
-            quote! { (#dof, GroundMotion::#ground) => generated_mode::<#program>(column, pattern, ground, linkage), }
+            quote! { (#dof, GroundMotion::#ground) => generated_mode::<#program>(column, pattern, ground, LINKAGES), }
         })
     });
     let name = format!("generated for up to {max_blocks} block(s)");

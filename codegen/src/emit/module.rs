@@ -4,7 +4,7 @@ use super::layout::{count, format, heading};
 use super::linkage;
 use super::quantity::{NOTATION, PROGRAM_UNITS};
 use super::step;
-use crate::catalogue::{Catalogue, LinkageRecord, map_in_order};
+use crate::catalogue::{Catalogue, map_in_order};
 use crate::derivation::Derivation;
 use crate::ground::GroundMotion;
 use proc_macro2::TokenStream;
@@ -27,6 +27,7 @@ pub fn module(catalogue: &Catalogue) -> String {
     });
     let programs = shared_programs(catalogue);
     let table = linkage::table(&catalogue.linkages, linkage::accelerations_name);
+    let composites = linkage::composite_table(&catalogue.composites);
     let shared = format(quote! {
         #uses
 
@@ -36,8 +37,10 @@ pub fn module(catalogue: &Catalogue) -> String {
         #(#steps)*
         #programs
         #table
+        #composites
     });
-    let functions = texts(&catalogue.linkages, linkage::functions);
+    let functions =
+        texts(&catalogue.linkages, linkage::functions) + &texts(&catalogue.composites, linkage::composite_functions);
     head(&format!("`rocking_codegen::generate({max_blocks})`"), &contents) + &shared + &functions
 }
 
@@ -59,7 +62,7 @@ pub fn shared_programs(catalogue: &Catalogue) -> TokenStream {
 }
 
 /// Items of every linkage as text: the longest part of a module, each linkage laid out by itself.
-pub fn texts(linkages: &[LinkageRecord], items: impl Fn(&LinkageRecord) -> TokenStream + Sync) -> String {
+pub fn texts<R: Sync>(linkages: &[R], items: impl Fn(&R) -> TokenStream + Sync) -> String {
     map_in_order(linkages, |record| format(items(record))).concat()
 }
 
@@ -68,7 +71,7 @@ pub fn uses() -> TokenStream {
     quote! {
         use rocking::generated::{Equations, generated_mode};
         use rocking::pattern::Pattern;
-        use rocking::program::{EnergyProgram, Geometry, InterfaceEquations, LinkageEquations, Scalar, SeriesProgram, StepProgram};
+        use rocking::program::{CompositeEquations, EnergyProgram, Geometry, InterfaceEquations, LinkageEquations, Linkages, Scalar, SeriesProgram, StepProgram};
         use rocking::{Column, GroundMotion, Mode};
     }
 }

@@ -4,6 +4,8 @@
 pub const NOTATION: &str = "
 Blocks are counted from the base. In comments, p_i, h_i, m_i and I_i are the pivot offset, half-height, mass and centroidal moment of inertia of BLOCK i, and g is gravity; the code reads them as `column.pivot[i - 1]` and so on. The pivot offset is positive at the right corner, negative at the left corner, zero at a closed interface.
 
+Functions whose names end in `links_n` serve n links that are any rigid bodies: of tapered and displaced blocks, or several blocks that move as one. There p_i, m_i and I_i are those of BODY i, (e_xi, e_i) is its centroid and (t_xi, t_i) the centre of the contact above it, to the right and upwards from the centre of the contact below, in the axes of the body.
+
 Links are the rigid runs of blocks between open interfaces, counted from the lowest that moves. The number in a NAME is that of a LINK: `omega_2` is the rate of link 2. A name with two numbers belongs to a pair of links; names of blocks say so, as `mass_of_block_2`. Link 0 is the ground.
 
 Angles are absolute and clockwise positive. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector (lateral, axial) of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link: names with x and y are such derivatives. The stack of an interface is the blocks above it; a contact is the centre of a closed interface.

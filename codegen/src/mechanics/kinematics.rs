@@ -1,7 +1,7 @@
 //! Positions of the centroids (docs/book/model.md, section 3) and their partial derivatives.
 
 use crate::pattern::Linkage;
-use crate::symbolic::{Arena, Expr, Level, Unit};
+use crate::symbolic::{Arena, Expr, Level, Rational, Unit};
 
 /// A vector of the plane, `[x, y]`.
 pub type Vector = [Expr; 2];
@@ -29,17 +29,31 @@ pub struct Symbols {
     pub psi: Expr,
     /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
     pub pivot: Vec<Expr>,
-    /// Half-heights `h_i [m]`, length N.
+    /// Half-heights `h_i [m]` of rectangles, length N.
     pub half_height: Vec<Expr>,
+    /// Centroids in the axes of the blocks `[m]`, from the centre of the contact below, length N: `(0, h_i)` for rectangles.
+    pub centroid: Vec<Vector>,
+    /// Centres of the contacts above in the axes of the blocks `[m]`, from the centre of the contact below, length N: `(0, 2 h_i)` for
+    /// rectangles.
+    pub top: Vec<Vector>,
     /// Masses `m_i [kg]`, length N.
     pub mass: Vec<Expr>,
     /// Centroidal moments of inertia `I_i [kg m²]`, length N.
     pub inertia: Vec<Expr>,
 }
 
+/// What the blocks of a derivation are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bodies {
+    /// Aligned rectangles.
+    Rectangles,
+    /// Any rigid bodies: tapered or displaced blocks, or several joined ones.
+    Any,
+}
+
 impl Symbols {
     /// Declares the symbols of a column of `blocks` blocks with `dof` free angles; state before scene.
-    pub fn declare(arena: &mut Arena, blocks: usize, dof: usize) -> Symbols {
+    pub fn declare(arena: &mut Arena, blocks: usize, dof: usize, bodies: Bodies) -> Symbols {
         let mut family = |name: &str, count: usize, level: Level, unit: Unit| -> Vec<Expr> {
             (1..=count).map(|index| arena.symbol(format!("{name}_{index}"), level, unit)).collect()
         };
@@ -49,13 +63,31 @@ impl Symbols {
         let cos_ddot = family("cos_ddot", dof, Level::State, Unit(0, 0, -2));
         let sin_ddot = family("sin_ddot", dof, Level::State, Unit(0, 0, -2));
         let pivot = family("pivot", blocks, Level::Scene, Unit(1, 0, 0));
-        let half_height = family("half_height", blocks, Level::Scene, Unit(1, 0, 0));
+        let mut length = |name: &str| family(name, blocks, Level::Scene, Unit(1, 0, 0));
+        let (half_height, of_any) = match bodies {
+            Bodies::Rectangles => (length("half_height"), None),
+            Bodies::Any => {
+                let sizes = ["centroid_lateral", "centroid_axial", "top_lateral", "top_axial"];
+                (Vec::new(), Some(sizes.map(length)))
+            }
+        };
         let mass = family("mass", blocks, Level::Scene, Unit(0, 1, 0));
         let inertia = family("inertia", blocks, Level::Scene, Unit(2, 1, 0));
         let ground_x = arena.symbol("ground_x", Level::State, Unit(1, 0, -2));
         let gravity = arena.symbol("gravity", Level::State, Unit(1, 0, -2));
         let steady_gravity = arena.symbol("gravity", Level::Scene, Unit(1, 0, -2));
         let psi = arena.symbol("psi", Level::State, Unit::default());
+        let (centroid, top) = match of_any {
+            Some([centroid_u, centroid_v, top_u, top_v]) => {
+                let pair = |u: Vec<Expr>, v: Vec<Expr>| u.into_iter().zip(v).map(|(u, v)| [u, v]).collect();
+                (pair(centroid_u, centroid_v), pair(top_u, top_v))
+            }
+            None => {
+                let (zero, two) = (arena.zero(), Rational::new(2, 1));
+                let centroid = half_height.iter().map(|&half| [zero, half]).collect();
+                (centroid, half_height.iter().map(|&half| [zero, arena.scale(two, half)]).collect())
+            }
+        };
         Symbols {
             theta,
             omega,
@@ -68,6 +100,8 @@ impl Symbols {
             psi,
             pivot,
             half_height,
+            centroid,
+            top,
             mass,
             inertia,
         }
@@ -75,7 +109,8 @@ impl Symbols {
 }
 
 /// Positions of the centroids relative to the moving ground, base first, length N:
-/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (docs/book/model.md, section 3).
+/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (docs/book/model.md, section 3), for other bodies with
+/// their `top` and `centroid` instead of `(0, 2 h)` and `(0, h)`.
 ///
 /// Blocks of one link share an angle: their body vectors are added before they are turned, so the pivots of closed
 /// interfaces cancel. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
@@ -89,9 +124,10 @@ pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<
             chain.push((angle, [zero, zero]));
         }
         let own = chain.len() - 1;
-        let (below, half) = (symbols.pivot[block], symbols.half_height[block]);
+        let ([centroid_u, centroid_v], [top_u, top_v]) = (symbols.centroid[block], symbols.top[block]);
         let [u, v] = chain[own].1;
-        let to_centroid = [arena.sub(u, below), arena.add(v, half)];
+        let base = arena.sub(u, symbols.pivot[block]);
+        let to_centroid = [arena.add(base, centroid_u), arena.add(v, centroid_v)];
         let mut position = [zero, zero];
         for (link, (angle, vector)) in chain.iter().enumerate() {
             let turned = rotate(arena, *angle, if link == own { to_centroid } else { *vector });
@@ -99,8 +135,8 @@ pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<
         }
         positions.push(position);
         if let Some(&above) = symbols.pivot.get(block + 1) {
-            let across = arena.add(to_centroid[0], above);
-            chain[own].1 = [across, arena.add(to_centroid[1], half)];
+            let across = arena.add(base, top_u);
+            chain[own].1 = [arena.add(across, above), arena.add(v, top_v)];
         }
     }
     positions
@@ -115,7 +151,7 @@ fn rotate(arena: &mut Arena, angle: Option<Expr>, [u, v]: Vector) -> Vector {
 }
 
 /// Angle symbols of the blocks of a linkage, base first.
-pub(super) fn block_angles(symbols: &Symbols, linkage: &Linkage) -> Vec<Option<Expr>> {
+pub(crate) fn block_angles(symbols: &Symbols, linkage: &Linkage) -> Vec<Option<Expr>> {
     linkage.link_of_block().iter().map(|&link| link.checked_sub(1).map(|index| symbols.theta[index])).collect()
 }
 

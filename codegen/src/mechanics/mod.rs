@@ -10,6 +10,7 @@ mod series;
 
 pub(crate) use contact::normal_and_tangent;
 pub use contact::{InterfaceForces, interface_forces};
-pub use kinematics::{Symbols, Vector, centroids};
+pub(crate) use kinematics::block_angles;
+pub use kinematics::{Bodies, Symbols, Vector, centroids};
 pub use lagrange::{Equations, equations_of_motion};
 pub use series::{WeightForm, weight_form};

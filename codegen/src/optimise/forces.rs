@@ -53,7 +53,8 @@ fn contact_constant(own: &str, factors: &[String], arena: &Arena, constant: Expr
     let angles = factors.iter().filter_map(|factor| factor.strip_prefix("cos_").or(factor.strip_prefix("sin_")));
     let angles: Vec<&str> = angles.collect();
     let other = angles.iter().copied().find(|link| *link != own);
-    let is_lateral = arena.any(constant, &|part| arena.symbol_name(part).is_some_and(|name| name.starts_with("pivot")));
+    let is_across = |name: &str| name.starts_with("pivot") || name.contains("_lateral_");
+    let is_lateral = arena.any(constant, &|part| arena.symbol_name(part).is_some_and(is_across));
     let axis = if is_lateral { "lateral" } else { "axial" };
     let is_negative = arena.terms(constant).first()?.0.is_negative();
     // The next pivot is at the right of the contact where its offset is positive, and lateral is to the left.

@@ -3,6 +3,7 @@
 use super::text::title;
 use crate::derivation::{Derivation, Plan, derive_in_form};
 use crate::ground::GroundMotion;
+use crate::mechanics::Bodies;
 use crate::optimise::{Operations, count_expressions, count_hoisted};
 use crate::pattern::Pattern;
 use crate::symbolic::Expr;
@@ -15,7 +16,7 @@ use std::fmt::Write;
 pub fn counts(pattern: &Pattern) -> String {
     let linkage = pattern.linkage();
     let plan = Plan::new(linkage.dof());
-    let derivation = derive_in_form(&linkage, &plan);
+    let derivation = derive_in_form(&linkage, Bodies::Rectangles, &plan);
     let mut out = String::new();
     let mut row = |what: &str, operations: Operations| {
         let Operations { additions, multiplications, divisions } = operations;

@@ -38,6 +38,10 @@
 //! a level below `a_k`, the first to do so; it is among blocks of equal `q` between `i` and `k`, and so the level is `a_l` for an `l >= i`. In
 //! both cases `V >= g ∫₀^{a_l} f_i dt` with `a_l <= q_i <= a_i`, hence `α_l <= α_i`, and `F_l <= F_i`: so `f_i >= f_l`, and `V >= E_l`. ∎
 //!
+//! Blocks that are displaced or taper add `- Σ D_i (q_i - q_{i-1})` to V, with `D_i` the first moment of the sub-stack about the centre of its
+//! contact. V is no less than without it and with `M_i c_i - |D_i|` for `M_i c_i`: the proof holds with the lever of the weight, to the
+//! nearer end of the contact, for `c_i`, and with `B_i = m_i e_i + 2 h_i M_{i+1}`. A sub-stack that does not stand by itself has no barrier.
+//!
 //! A column that counts as overturned at an angle `β` before it is past its balance has a smaller box, `a_i = sin min(α_i, β)`, and `E_i` is the
 //! energy there. The proof holds: where `a_l = sin β` is cut off, `a_i` is no smaller, hence as large, and `V >= E_i` at once.
 //!
@@ -74,8 +78,8 @@ pub struct Barrier {
 #[derive(Clone, Debug)]
 pub(crate) struct Prospects {
     pub barrier: Barrier,
-    /// `g M_i c_i` and `g B_i` of each block `[J]`: what `V` is made of.
-    weights: PerBlock<[f64; 2]>,
+    /// `g M_i c_i`, `g B_i` and `g D_i` of each block `[J]`: what `V` is made of.
+    weights: PerBlock<[f64; 3]>,
     /// What a ground's acceleration must come to, to take the column from rest over the barrier `[m/s]`.
     pub impulse: f64,
     /// How fast one block that may fall early runs away from its balance `[1/s]`.
@@ -89,9 +93,13 @@ impl Prospects {
         let barrier = is_outcome_all.then(|| scene.column.barrier(scene.options.overturn_angle))?;
         let (column, impulse) = (&scene.column, (2.0 * barrier.energy / barrier.mass).sqrt());
         let weights = column.blocks().iter().enumerate().map(|(i, block)| {
-            let above = column.mass_above(i) - block.mass;
-            let lifted = column.mass_above(i) * column.contact_half_width(i);
-            [lifted, block.half_height * (block.mass + 2.0 * above)].map(|moment| column.gravity() * moment)
+            let (whole, above) = (column.mass_above(i), column.mass_above(i) - block.mass);
+            let lowered = match block.centroid_height == block.half_height {
+                true => block.half_height * (block.mass + 2.0 * above),
+                false => block.centroid_height * block.mass + 2.0 * block.half_height * above,
+            };
+            let moments = [whole * column.contact_half_width(i), lowered, whole * column.centroid_offset(i)];
+            moments.map(|moment| column.gravity() * moment)
         });
         Some(Prospects { weights: weights.collect(), barrier, impulse, growth: growth_rate(scene) })
     }
@@ -105,8 +113,9 @@ impl Prospects {
     /// themselves would be rounding where a light block stands on heavy ones.
     pub fn potential(&self, turns: &[Turn]) -> f64 {
         let mut below = 0.0;
-        let terms = turns.iter().zip(&self.weights).map(|(Turn { sin, cos }, [lifted, lowered])| {
-            lifted * (sin - std::mem::replace(&mut below, *sin)).abs() - lowered * (sin * sin / (1.0 + cos))
+        let terms = turns.iter().zip(&self.weights).map(|(Turn { sin, cos }, [lifted, lowered, displaced])| {
+            let across = sin - std::mem::replace(&mut below, *sin);
+            lifted * across.abs() - lowered * (sin * sin / (1.0 + cos)) - displaced * across
         });
         terms.sum()
     }
@@ -145,14 +154,14 @@ impl Column {
     pub fn barrier(&self, overturn_angle: f64) -> Barrier {
         let stacks = || (0..self.len()).map(|block| self.stack(block));
         let angles: PerBlock<f64> =
-            stacks().map(|stack| stack.slenderness().min(overturn_angle).min(FRAC_PI_2)).collect();
+            stacks().map(|stack| stack.slenderness().max(0.0).min(overturn_angle).min(FRAC_PI_2)).collect();
         let energies = stacks().zip(&angles).map(|(stack, angle)| {
             let (sin, cos) = libm::sincos(*angle);
             let lift = stack.half_width * sin - stack.centroid_height * sin * sin / (1.0 + cos);
             stack.mass * self.gravity() * lift
         });
         let base = &self.blocks()[0];
-        let steiner = base.mass * (self.contact_half_width(0).powi(2) + base.half_height * base.half_height);
+        let steiner = base.mass * (self.contact_half_width(0).powi(2) + base.centroid_height * base.centroid_height);
         let mass = base.mass * steiner / (base.inertia + steiner) + (self.mass_above(0) - base.mass);
         Barrier { energy: energies.fold(f64::INFINITY, f64::min), angles, mass }
     }

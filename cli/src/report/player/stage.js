@@ -41,7 +41,7 @@ const FREE = [0.5, 0.15];
 // All of the motion in the picture, as far as that leaves the column large; where the ground goes far, the view goes with it.
 function frameView() {
   const { width, height } = sharp(stage);
-  const tall = 2 * run.blocks.reduce((sum, [, h]) => sum + h, 0), wide = Math.max(...run.blocks.map(([b]) => b));
+  const tall = 2 * run.blocks.reduce((sum, [, , h]) => sum + h, 0), wide = Math.max(...run.blocks.map(([bottom, top]) => Math.max(bottom, top)));
   let [low, high, up] = [-1.6 * wide, 1.6 * wide, tall];
   const ground = [[0, 0], [0, 0]];
   const step = Math.max(1, Math.floor(last / LOOKED_AT));

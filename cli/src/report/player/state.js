@@ -1,7 +1,7 @@
 // Plays a run: the column on a canvas, its curves on another, and the controls.
 //
 // What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
-//   blocks [[b, h]] half-sizes m; contact [c] half-widths m; gravity m/s²; fills per link
+//   blocks [[half-widths of base and top, half-height]] m; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
 //   angles rad, the largest that the curves show, null for all
 //   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0, mode after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
@@ -75,16 +75,17 @@ function stateAt(t) {
 // ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below.
 function outlines(theta, signs) {
   const turn = (angle, u, v) => [u * Math.cos(angle) + v * Math.sin(angle), v * Math.cos(angle) - u * Math.sin(angle)];
-  let centre = [0, 0], below = 0;
-  return run.blocks.map(([b, h], i) => {
-    const own = theta[i], offset = signs[i] * run.contact[i];
+  // Middle of the face below, and its angle.
+  let face = [0, 0], below = 0;
+  return run.blocks.map(([bottom, top, h], i) => {
+    const [half, onLower, onUpper] = run.contact[i], own = theta[i], offset = signs[i] * half;
     const from = (point, u, v) => { const [x, y] = turn(own, u, v); return [point[0] + x, point[1] + y]; };
-    const [px, py] = turn(below, offset, 0);
-    const pivot = [centre[0] + px, centre[1] + py];
-    const base = signs[i] === 0 ? centre : from(pivot, -offset, 0);
-    const contact = [-1, 1].map(side => { const [x, y] = turn(below, side * run.contact[i], 0); return [centre[0] + x, centre[1] + y]; });
-    const corners = [[-b, 0], [b, 0], [b, 2 * h], [-b, 2 * h]].map(([u, v]) => from(base, u, v));
-    centre = from(base, 0, 2 * h);
+    const onFace = u => { const [x, y] = turn(below, u, 0); return [face[0] + x, face[1] + y]; };
+    const pivot = onFace(onLower + offset);
+    const contact = [-1, 1].map(side => onFace(onLower + side * half));
+    const base = from(pivot, -offset - onUpper, 0);
+    const corners = [[-bottom, 0], [bottom, 0], [top, 2 * h], [-top, 2 * h]].map(([u, v]) => from(base, u, v));
+    face = from(base, 0, 2 * h);
     below = own;
     return { corners, pivot: signs[i] === 0 ? null : pivot, contact };
   });
