@@ -36,10 +36,26 @@ impl Block {
 }
 
 /// A stack of blocks in a gravity field, base first.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Column {
     blocks: Vec<Block>,
     gravity: f64,
+}
+
+/// A column as it is read, before [`Column::new`].
+#[derive(Deserialize)]
+struct Unchecked {
+    blocks: Vec<Block>,
+    gravity: f64,
+}
+
+impl TryFrom<Unchecked> for Column {
+    type Error = ColumnError;
+
+    fn try_from(Unchecked { blocks, gravity }: Unchecked) -> Result<Column, ColumnError> {
+        Column::new(blocks, gravity)
+    }
 }
 
 /// Why a column is refused.

@@ -48,10 +48,12 @@ struct Readme;
 
 pub mod column;
 pub mod contact;
+pub mod json;
 mod mechanics;
 mod numerics;
 pub mod response;
 mod run;
+pub mod run_folder;
 pub mod scene;
 pub mod scene_file;
 pub mod sweep;

@@ -1,9 +1,11 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
+use crate::json::{number, numbers};
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::{ModeLabel, Pattern};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -45,23 +47,23 @@ pub enum EventKind {
 }
 
 /// A change of the pattern, or an impact. Patterns are signs per interface, base first.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
     /// `[s]`
     pub t: f64,
     /// What happened.
     pub kind: EventKind,
     /// The interface that closed or opened, from 1; the lowest where several did.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that closed in the same instant, from 1, where there are several.
-    #[serde(skip_serializing_if = "is_empty")]
+    #[serde(default, skip_serializing_if = "is_empty")]
     pub interfaces: PerBlock<usize>,
     /// Pattern before.
-    #[serde(serialize_with = "signs")]
+    #[serde(serialize_with = "signs", deserialize_with = "pattern")]
     pub before: Pattern,
     /// Pattern after.
-    #[serde(serialize_with = "signs")]
+    #[serde(serialize_with = "signs", deserialize_with = "pattern")]
     pub after: Pattern,
     /// Mode before; mirrored patterns have their twin's label.
     pub mode_before: ModeName,
@@ -76,21 +78,24 @@ pub struct Event {
     /// Rates after `[rad/s]`, per block.
     pub omega_after: PerBlock<f64>,
     /// Kinetic energy lost over that before, 0 to 1; impacts only.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "known_number")]
     pub energy_lost: Option<f64>,
     /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
-    #[serde(skip_serializing_if = "is_empty")]
+    #[serde(default, skip_serializing_if = "is_empty")]
     pub impulses: PerBlock<Impulse>,
 }
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Impulse {
     /// Normal part `[N s]`, compression positive.
+    #[serde(deserialize_with = "number")]
     pub normal: f64,
     /// Tangential part `[N s]`, positive to the right.
+    #[serde(deserialize_with = "number")]
     pub tangential: f64,
     /// Clockwise moment about the contact's centre `[N m s]`.
+    #[serde(deserialize_with = "number")]
     pub moment: f64,
 }
 
@@ -106,6 +111,18 @@ fn is_empty<T: Copy>(list: &PerBlock<T>) -> bool {
 
 fn signs<S: serde::Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(pattern.0.iter().map(|interface| interface.sign()))
+}
+
+fn pattern<'de, D: Deserializer<'de>>(from: D) -> Result<Pattern, D::Error> {
+    let signs = Vec::<i8>::deserialize(from)?;
+    match signs.iter().find(|sign| sign.abs() > 1) {
+        Some(sign) => Err(D::Error::custom(format!("{sign} is no sign of a pattern"))),
+        None => Ok(Pattern::from_signs(&signs)),
+    }
+}
+
+fn known_number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    number(from).map(Some)
 }
 
 /// The column at an output time.
@@ -124,7 +141,8 @@ pub struct Sample {
 }
 
 /// What a run cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Work {
     /// Steps taken.
     pub steps: usize,
@@ -168,16 +186,18 @@ impl Work {
 }
 
 /// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Separation {
     /// `[s]`
     pub t: f64,
-    /// What was going on.
+    /// The kind of event at which the contact problem arose.
     pub during: EventKind,
 }
 
-/// The response of a column to a scene.
-#[derive(Clone, Debug, PartialEq)]
+/// The response of a column to a scene. Lists have N entries, per block or interface, base first.
+///
+/// Serialised it has neither samples nor events: these are files of their own in the folder of a run ([`crate::run_folder`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Response {
     /// Why the run ended.
     pub status: StopReason,
@@ -186,8 +206,10 @@ pub struct Response {
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
     /// The column at the output times.
+    #[serde(skip)]
     pub samples: Vec<Sample>,
     /// Events in order of time; none where nothing but the outcome is wanted.
+    #[serde(skip)]
     pub events: Vec<Event>,
     /// Number of impacts.
     pub impacts: usize,
@@ -196,17 +218,21 @@ pub struct Response {
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
     /// rest for good is in it until `t_end`. Empty where nothing but the outcome is wanted.
     pub time_in_mode: BTreeMap<String, f64>,
-    /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
+    /// Largest `|T| / N` per interface, dimensionless; infinite where a contact parts with a force along it.
     /// Empty if the scene's options ask for no forces.
+    #[serde(deserialize_with = "numbers")]
     pub friction_demand: Vec<f64>,
     /// Largest `|P_T| / P_N` of the impulses at impacts per interface, dimensionless; infinite where a contact transmits no compression. Empty if the
     /// scene's options ask for no forces.
+    #[serde(default, deserialize_with = "numbers")]
     pub impulse_friction_demand: Vec<f64>,
     /// Smallest normal force per interface `[N]`. Empty if the scene's options ask for no forces.
+    #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
     /// Contact problems without admissible pattern.
     pub separations: Vec<Separation>,
     /// What it cost.
+    #[serde(default)]
     pub work: Work,
     /// Modes without generated equations in this build ran on the generic ones.
     pub used_generic: bool,
@@ -216,6 +242,13 @@ impl Response {
     /// Time of overturning `[s]`.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
+    }
+
+    /// Times in the modes `[s]`, the longest first.
+    pub fn modes_by_time(&self) -> Vec<(&str, f64)> {
+        let mut modes: Vec<_> = self.time_in_mode.iter().map(|(mode, time)| (mode.as_str(), *time)).collect();
+        modes.sort_by(|a, b| b.1.total_cmp(&a.1));
+        modes
     }
 
     /// What a user must know before believing the run: separation, tension, and friction beyond `friction`.
@@ -317,6 +350,17 @@ impl fmt::Display for ModeName {
 impl Serialize for ModeName {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for ModeName {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<ModeName, D::Error> {
+        match &*String::deserialize(from)? {
+            "rest" => Ok(ModeName::REST),
+            text => ModeLabel::parse(text)
+                .map(|label| ModeName(Some(label)))
+                .ok_or_else(|| D::Error::custom(format!("`{text}` is no mode"))),
+        }
     }
 }
 

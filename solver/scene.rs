@@ -5,11 +5,11 @@ use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
 use rocking_ground::Excitation;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// What impacts do beyond the plastic law of docs/book/model.md, section 5.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Restitution {
     /// Angular momentum about the new pivots is conserved, nothing rebounds.

@@ -1,8 +1,8 @@
 //! Why a command fails, with the place and the remedy.
 
-use crate::run_folder::FolderError;
 use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use rocking::run_folder::FolderError;
 use rocking::{RecordError, SceneFileError, SolveError};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub enum Failure {
     #[error("{}", .0.error)]
     Scene(Box<SceneFailure>),
     /// A run's folder cannot be written or read.
-    #[error(transparent)]
+    #[error("{}", .0.to_string().replace(CHOOSE, &format!("{CHOOSE} with --out")))]
     Folder(#[from] FolderError),
     /// An output folder cannot be written.
     #[error("{}: {}; choose a folder that can be written to with --out", .0.display(), .1)]
@@ -90,6 +90,9 @@ pub enum Failure {
     #[error("standard output: {0}")]
     Print(String),
 }
+
+/// The library's remedy for a folder that cannot be written.
+const CHOOSE: &str = "choose a folder that can be written to";
 
 /// A refused scene with its text.
 #[derive(Debug)]

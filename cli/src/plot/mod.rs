@@ -24,8 +24,8 @@ mod style;
 pub mod terminal;
 mod time_history;
 
-use crate::run_folder::Results;
 use motion::Motion;
+use rocking::run_folder::Results;
 
 pub use motion::FALL;
 pub use record::record;

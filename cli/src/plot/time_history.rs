@@ -6,7 +6,6 @@ use super::motion::{FALL, Motion, Stretch, over_time};
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
-use crate::run_folder::longest_first;
 use rocking::Sample;
 
 /// Heights `[px]`.
@@ -203,7 +202,7 @@ fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
 /// The modes of a run, those that last longest first; `rest` last.
 fn modes(motion: &Motion) -> Vec<String> {
     let (resting, moving): (Vec<_>, Vec<_>) =
-        longest_first(&motion.results.summary.time_in_mode).into_iter().partition(|(mode, _)| *mode == "rest");
+        motion.results.response.modes_by_time().into_iter().partition(|(mode, _)| *mode == "rest");
     moving.into_iter().chain(resting).map(|(mode, _)| mode.to_string()).collect()
 }
 
@@ -215,7 +214,7 @@ fn mode_fill(mode: &str, rank: usize) -> &'static str {
 const LISTED: usize = 24;
 
 fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
-    let times = &motion.results.summary.time_in_mode;
+    let times = &motion.results.response.time_in_mode;
     let total: f64 = times.values().sum();
     let share = |time: f64| percent(time / total);
     let modes = modes(motion);
@@ -250,7 +249,7 @@ fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
 }
 
 fn caption(motion: &Motion) -> String {
-    let summary = &motion.results.summary;
+    let response = &motion.results.response;
     let blocks = motion.results.column.len();
     let mut caption = if blocks == 1 {
         "Angle of the block over its slenderness α".to_string()
@@ -272,10 +271,10 @@ fn caption(motion: &Motion) -> String {
         let verb = if motion.overturned() { "" } else { "is " };
         caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
     }
-    if motion.results.events.is_empty() {
+    if motion.results.response.events.is_empty() {
         caption.push_str(" Nothing sets the column in motion.");
     } else {
-        caption.push_str(&format!(" {} impact(s).", summary.impacts));
+        caption.push_str(&format!(" {} impact(s).", response.impacts));
     }
     caption
 }
