@@ -60,6 +60,7 @@ impl TryFrom<Unchecked> for Column {
 
 /// Why a column is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ColumnError {
     /// There is nothing to rock.
     #[error("a column needs at least one block")]

@@ -12,6 +12,7 @@ use std::fmt;
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum StopReason {
     /// Some angle reached the overturning angle.
     Overturned,
@@ -35,6 +36,7 @@ impl StopReason {
 /// What happened at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum EventKind {
     /// The column at rest began to move.
     Start,
@@ -48,6 +50,7 @@ pub enum EventKind {
 
 /// A change of the pattern, or an impact. Patterns are signs per interface, base first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Event {
     /// `[s]`
     pub t: f64,
@@ -87,6 +90,7 @@ pub struct Event {
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Impulse {
     /// Normal part `[N s]`, compression positive.
     #[serde(deserialize_with = "number")]
@@ -127,6 +131,7 @@ fn known_number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Er
 
 /// The column at an output time.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// `[s]`
     pub t: f64,
@@ -140,9 +145,17 @@ pub struct Sample {
     pub pattern: Pattern,
 }
 
+impl Sample {
+    /// The column at a time `[s]` with these angles `[rad]` and rates `[rad/s]`, on a ground without acceleration.
+    pub fn new(t: f64, theta: Vec<f64>, omega: Vec<f64>, pattern: Pattern) -> Sample {
+        Sample { t, theta, omega, ground: [0.0; 2], pattern }
+    }
+}
+
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
+#[non_exhaustive]
 pub struct Work {
     /// Steps taken.
     pub steps: usize,
@@ -187,6 +200,7 @@ impl Work {
 
 /// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Separation {
     /// `[s]`
     pub t: f64,
@@ -198,6 +212,7 @@ pub struct Separation {
 ///
 /// Serialised it has neither samples nor events: these are files of their own in the folder of a run ([`crate::run_folder`]).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Response {
     /// Why the run ended.
     pub status: StopReason,

@@ -11,6 +11,7 @@ use std::f64::consts::FRAC_PI_2;
 /// What impacts do beyond the plastic law of docs/book/model.md, section 5.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Restitution {
     /// Angular momentum about the new pivots is conserved, nothing rebounds.
     #[default]
@@ -37,8 +38,9 @@ impl Restitution {
     }
 }
 
-/// State at `t = 0`.
+/// State at `t = 0`: `Initial::default()` with fields of its own.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Initial {
     /// Angles `[rad]`, base first, length N; empty for zero.
     pub theta: Vec<f64>,
@@ -49,6 +51,7 @@ pub struct Initial {
 /// Whose right-hand sides are used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum DynamicsSource {
     /// Generated equations, generic ones for what the build has not got.
     #[default]
@@ -64,6 +67,7 @@ pub enum DynamicsSource {
 /// What a run is to find.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
@@ -76,8 +80,9 @@ pub enum Wanted {
     Overturns,
 }
 
-/// How a scene is solved.
+/// How a scene is solved: `SolveOptions::default()` with fields of its own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SolveOptions {
     /// End of the run `[s]`.
     pub t_end: f64,
@@ -134,8 +139,9 @@ const SHORTEST_RUN: f64 = 1e-9;
 /// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
 pub(crate) const LARGEST: f64 = 1e6;
 
-/// What is simulated.
+/// What is simulated: [`Scene::new`] with fields of its own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Scene {
     /// Free text.
     pub title: String,
@@ -158,6 +164,7 @@ pub struct Scene {
 /// Why a scene is refused by [`Scene::check`]; the file reader finds the same with lines and keys.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{key}: {problem}; {remedy}")]
+#[non_exhaustive]
 pub struct SceneError {
     /// The key as in a scene file, e.g. `solver.t_end`.
     pub key: String,

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a scene file is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SceneFileError {
     /// The file cannot be read.
     #[error("{}: {problem}", file.display())]

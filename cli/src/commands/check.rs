@@ -221,7 +221,7 @@ impl Findings {
                 text,
                 "impacts: eta = {eta} for the column as one body, {factors} of the plastic relative rate at each interface"
             ),
-            Restitution::Factors(_) => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
+            _ => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
         };
     }
 

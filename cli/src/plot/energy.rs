@@ -24,7 +24,7 @@ pub fn draw(motion: &Motion) -> Figure {
     let column = &motion.results.column;
     let pattern = Pattern::rest(column.len());
     let still = vec![0.0; column.len()];
-    let rest = Sample { t: 0.0, theta: still.clone(), omega: still, ground: [0.0; 2], pattern };
+    let rest = Sample::new(0.0, still.clone(), still, pattern);
     let level = rest.energy(column).potential;
     // After the fall has begun, energies show only how far the column has fallen.
     let fall = motion.falls_at().unwrap_or(f64::INFINITY);

@@ -161,13 +161,9 @@ fn at_event(event: &Event) -> Knot<'_> {
 impl Knot<'_> {
     /// The knot as rows, one for each side of an event. No ground motion: nothing that needs it is asked of them.
     pub fn rows(&self) -> impl Iterator<Item = Sample> {
-        std::iter::once(&self.before).chain(&self.after).map(|(omega, pattern)| Sample {
-            t: self.t,
-            theta: self.theta.to_vec(),
-            omega: omega.to_vec(),
-            ground: [0.0; 2],
-            pattern: pattern.clone(),
-        })
+        std::iter::once(&self.before)
+            .chain(&self.after)
+            .map(|(omega, pattern)| Sample::new(self.t, self.theta.to_vec(), omega.to_vec(), pattern.clone()))
     }
 }
 

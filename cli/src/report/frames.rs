@@ -164,7 +164,7 @@ pub fn json(results: &Results) -> String {
         .response
         .events
         .iter()
-        .map(|event| json!({ "t": event.t, "kind": kind(event.kind), "at": interfaces(event), "mode": event.mode }))
+        .map(|event| json!({ "t": event.t, "kind": event.kind, "at": interfaces(event), "mode": event.mode }))
         .collect();
     let head = json!({
         "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
@@ -197,15 +197,6 @@ fn largest_shown(results: &Results) -> Option<f64> {
     let column = &results.column;
     let slenderness = (0..column.len()).map(|interface| column.stack(interface).slenderness());
     (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
-}
-
-fn kind(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Start => "start",
-        EventKind::Opening => "opening",
-        EventKind::Impact => "impact",
-        EventKind::Jump => "jump",
-    }
 }
 
 /// Interfaces, from 0, that closed in an impact, or else changed.

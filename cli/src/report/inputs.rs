@@ -75,6 +75,7 @@ fn restitution(law: &Restitution, housner: f64) -> String {
             let factors: Vec<String> = factors.iter().map(|one| significant(*one, 5)).collect();
             format!("factors of the plastic relative rate, base first: {}", factors.join(", "))
         }
+        law => escape(&format!("{law:?}")),
     }
 }
 

@@ -37,7 +37,7 @@ pub fn sentence(results: &Results) -> String {
         StopReason::EndOfTime if results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
-        StopReason::EndOfTime => (
+        _ => (
             "rocking",
             format!(
                 "The column <strong>stands</strong>, but is still rocking at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
