@@ -411,9 +411,12 @@ fn all_plausible(numbers: impl IntoIterator<Item = f64>) -> bool {
 fn text(path: &Path) -> Result<String, FolderError> {
     let read = || {
         let found = std::fs::metadata(path)?;
-        if !found.is_file() || found.len() > LARGEST_FILE {
-            let problem = format!("it is no regular file of at most {LARGEST_FILE} bytes");
-            return Err(Error::new(ErrorKind::InvalidInput, problem));
+        let refused = |problem: String| Err(Error::new(ErrorKind::InvalidInput, problem));
+        if !found.is_file() {
+            return refused("it is a folder, a device or a pipe and no regular file".into());
+        }
+        if found.len() > LARGEST_FILE {
+            return refused(format!("it has {} bytes, and at most {LARGEST_FILE} are read", found.len()));
         }
         let mut text = String::new();
         File::open(path)?.take(LARGEST_FILE).read_to_string(&mut text)?;

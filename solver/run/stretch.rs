@@ -21,6 +21,15 @@ pub(crate) enum Ended {
     Over(Over),
 }
 
+/// What a way of passing time has found.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Found {
+    /// No stretch: the way does not apply, or its step was rejected.
+    Nothing,
+    /// A stretch, and why the phase ends with it; `None` if it continues.
+    Stretch(Option<Ended>),
+}
+
 /// Why a run is over. Blocks are counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Over {
