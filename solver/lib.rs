@@ -71,6 +71,6 @@ pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordErro
 pub use run::Skips;
 pub use run::certainty::stands as outcome;
 pub use run::{Simulator, SolveError, simulate, simulate_observed};
-pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions, Wanted};
+pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SceneErrors, SolveOptions, Wanted};
 pub use scene_file::SceneFileError;
 pub use sweep::Sweep;
