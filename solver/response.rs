@@ -174,11 +174,14 @@ pub struct Work {
     /// Smooth phases: how often the integrator was entered.
     pub phases: usize,
     /// Swings in closed form instead of steps.
-    pub swings: usize,
-    /// Steps over several samples of a record at once.
-    pub leaps: usize,
+    #[serde(alias = "swings")]
+    pub closed_form_swings: usize,
+    /// Multi-sample steps: steps over several samples of a record at once.
+    #[serde(alias = "leaps")]
+    pub multi_sample_steps: usize,
     /// Stretches of ground motion passed at rest without a step.
-    pub waits: usize,
+    #[serde(alias = "waits")]
+    pub rest_stretches: usize,
     /// Whether the run ended before its time because nothing could start it again, or its outcome was certain.
     pub ended_early: bool,
 }
@@ -192,9 +195,9 @@ impl Work {
         self.rhs_calls += other.rhs_calls;
         self.force_calls += other.force_calls;
         self.phases += other.phases;
-        self.swings += other.swings;
-        self.leaps += other.leaps;
-        self.waits += other.waits;
+        self.closed_form_swings += other.closed_form_swings;
+        self.multi_sample_steps += other.multi_sample_steps;
+        self.rest_stretches += other.rest_stretches;
     }
 }
 

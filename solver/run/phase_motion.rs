@@ -8,7 +8,7 @@ use super::error::SolveError;
 use super::phase::{Kind, Phase, StepEnd, Swing};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Ended, Found, Inside, Motion, Over, Request, Stretch};
+use super::stretch::{Ended, Flow, Found, Inside, Over, Request, Stretch};
 use crate::column::Column;
 use crate::contact::verge_acceleration;
 use crate::mechanics::dynamics::ContactForce;
@@ -133,7 +133,7 @@ impl Phase {
     }
 }
 
-impl Motion for Phase {
+impl Flow for Phase {
     fn enter(&mut self, problem: &Problem, after: &State) {
         self.calls = self.integrator.rhs_calls();
         self.work.phases += 1;

@@ -85,7 +85,7 @@ pub(crate) struct Request {
 }
 
 /// What moves a column from one event to the next: the column at rest, or a mode.
-pub(crate) trait Motion: Send {
+pub(crate) trait Flow: Send {
     /// Enters with `x⁺`.
     fn enter(&mut self, problem: &Problem, after: &State);
 

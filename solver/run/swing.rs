@@ -66,7 +66,7 @@ impl Phase {
                 }
             }
         }
-        self.work.swings += 1;
+        self.work.closed_form_swings += 1;
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
         let until = if is_cut { segment.end } else { self.t + end.time };

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, brief, span};
 use super::curve::{self, Point};
-use super::motion::Motion;
+use super::drawn_run::DrawnRun;
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
@@ -28,7 +28,7 @@ struct Contact {
 }
 
 /// The figure.
-pub fn draw(motion: &Motion) -> Figure {
+pub fn draw(motion: &DrawnRun) -> Figure {
     let contacts = contacts(motion);
     let response = &motion.results.response;
     let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time");
@@ -72,7 +72,7 @@ pub fn draw(motion: &Motion) -> Figure {
     Figure::new("forces", caption(motion, &contacts, &friction), sheet)
 }
 
-fn contacts(motion: &Motion) -> Vec<Contact> {
+fn contacts(motion: &DrawnRun) -> Vec<Contact> {
     let column = &motion.results.column;
     let weights: Vec<f64> =
         (0..column.len()).map(|interface| column.mass_above(interface) * column.gravity()).collect();
@@ -99,7 +99,7 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
 }
 
 /// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
-fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) -> f64 {
+fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64) -> f64 {
     let response = &motion.results.response;
     let available = motion.results.friction.map(|friction| format!("friction coefficient {}", brief(friction)));
     // Below the panel and not along its line: there the name would lie on the curves.
@@ -118,7 +118,7 @@ fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) 
     if entries.is_empty() { top } else { sheet.legend(top, &entries) }
 }
 
-fn caption(motion: &Motion, contacts: &[Contact], panel: &Panel) -> String {
+fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
     let mut caption = String::from(
         "At output times: normal force of each interface over the weight above it (dashed: 1), and below the friction \
          coefficient it asks for",

@@ -36,7 +36,7 @@ pub struct Stretch {
 
 /// The part of a run that is drawn.
 #[derive(Debug)]
-pub struct Motion<'a> {
+pub struct DrawnRun<'a> {
     pub results: &'a Results,
     /// The rows that are drawn: those after overturning only fill the file.
     pub samples: &'a [Sample],
@@ -52,9 +52,9 @@ const AFTERMATH: f64 = 0.04;
 /// Curves of angles end at so many times the slenderness where the column overturns: the fall would flatten the rest.
 pub const FALL: f64 = 2.0;
 
-impl Motion<'_> {
+impl DrawnRun<'_> {
     /// Sorts a run for drawing.
-    pub fn of(results: &Results) -> Motion<'_> {
+    pub fn of(results: &Results) -> DrawnRun<'_> {
         let response = &results.response;
         let last = results.response.samples.last().map_or(0.0, |sample| sample.t);
         let (mut count, mut end) = (results.response.samples.len(), last.max(results.options.t_end));
@@ -64,7 +64,7 @@ impl Motion<'_> {
             end = end.min(response.t_final * (1.0 + AFTERMATH));
         }
         let samples = &results.response.samples[..count];
-        Motion { results, samples, knots: knots(samples, &results.response.events), end: end.max(1e-9) }
+        DrawnRun { results, samples, knots: knots(samples, &results.response.events), end: end.max(1e-9) }
     }
 
     /// Times of the impacts `[s]`.
