@@ -130,7 +130,8 @@ impl Shape {
 ///       |     |     |
 ///          x⁻ ^     ^ x⁺
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Column {
     blocks: Vec<Block>,
     gravity: f64,
@@ -153,8 +154,25 @@ pub(crate) struct Seat {
     pub top: [f64; 2],
 }
 
+/// A column as it is read, before [`Column::new`] and [`Column::displaced`].
+#[derive(Deserialize)]
+struct Unchecked {
+    blocks: Vec<Block>,
+    gravity: f64,
+    slides: Vec<f64>,
+}
+
+impl TryFrom<Unchecked> for Column {
+    type Error = ColumnError;
+
+    fn try_from(Unchecked { blocks, gravity, slides }: Unchecked) -> Result<Column, ColumnError> {
+        Column::new(blocks, gravity)?.displaced(slides)
+    }
+}
+
 /// Why a column is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ColumnError {
     /// There is nothing to rock.
     #[error("a column needs at least one block")]

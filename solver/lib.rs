@@ -48,10 +48,12 @@ struct Readme;
 
 pub mod column;
 pub mod contact;
+pub mod json;
 mod mechanics;
 mod numerics;
 pub mod response;
 mod run;
+pub mod run_folder;
 pub mod scene;
 pub mod scene_file;
 pub mod sweep;
@@ -69,6 +71,6 @@ pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordErro
 pub use run::Skips;
 pub use run::certainty::stands as outcome;
 pub use run::{Simulator, SolveError, simulate, simulate_observed};
-pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SolveOptions, Wanted};
+pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SceneErrors, SolveOptions, Wanted};
 pub use scene_file::SceneFileError;
 pub use sweep::Sweep;

@@ -1,15 +1,18 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
+use crate::json::{number, numbers};
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::{ModeLabel, Pattern};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum StopReason {
     /// Some angle reached the overturning angle.
     Overturned,
@@ -33,6 +36,7 @@ impl StopReason {
 /// What happened at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum EventKind {
     /// The column at rest began to move.
     Start,
@@ -45,23 +49,24 @@ pub enum EventKind {
 }
 
 /// A change of the pattern, or an impact. Patterns are signs per interface, base first.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Event {
     /// `[s]`
     pub t: f64,
     /// What happened.
     pub kind: EventKind,
     /// The interface that closed or opened, from 1; the lowest where several did.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that closed in the same instant, from 1, where there are several.
-    #[serde(skip_serializing_if = "is_empty")]
+    #[serde(default, skip_serializing_if = "is_empty")]
     pub interfaces: PerBlock<usize>,
     /// Pattern before.
-    #[serde(serialize_with = "signs")]
+    #[serde(serialize_with = "signs", deserialize_with = "pattern")]
     pub before: Pattern,
     /// Pattern after.
-    #[serde(serialize_with = "signs")]
+    #[serde(serialize_with = "signs", deserialize_with = "pattern")]
     pub after: Pattern,
     /// Mode before; mirrored patterns have their twin's label.
     pub mode_before: ModeName,
@@ -76,21 +81,25 @@ pub struct Event {
     /// Rates after `[rad/s]`, per block.
     pub omega_after: PerBlock<f64>,
     /// Kinetic energy lost over that before, 0 to 1; impacts only.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "known_number")]
     pub energy_lost: Option<f64>,
     /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
-    #[serde(skip_serializing_if = "is_empty")]
+    #[serde(default, skip_serializing_if = "is_empty")]
     pub impulses: PerBlock<Impulse>,
 }
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Impulse {
     /// Normal part `[N s]`, compression positive.
+    #[serde(deserialize_with = "number")]
     pub normal: f64,
     /// Tangential part `[N s]`, positive to the right.
+    #[serde(deserialize_with = "number")]
     pub tangential: f64,
     /// Clockwise moment about the contact's centre `[N m s]`.
+    #[serde(deserialize_with = "number")]
     pub moment: f64,
 }
 
@@ -108,8 +117,21 @@ fn signs<S: serde::Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok
     serializer.collect_seq(pattern.0.iter().map(|interface| interface.sign()))
 }
 
+fn pattern<'de, D: Deserializer<'de>>(from: D) -> Result<Pattern, D::Error> {
+    let signs = Vec::<i8>::deserialize(from)?;
+    match signs.iter().find(|sign| sign.abs() > 1) {
+        Some(sign) => Err(D::Error::custom(format!("{sign} is no sign of a pattern"))),
+        None => Ok(Pattern::from_signs(&signs)),
+    }
+}
+
+fn known_number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    number(from).map(Some)
+}
+
 /// The column at an output time.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// `[s]`
     pub t: f64,
@@ -123,8 +145,17 @@ pub struct Sample {
     pub pattern: Pattern,
 }
 
+impl Sample {
+    /// The column at a time `[s]` with these angles `[rad]` and rates `[rad/s]`, on a ground without acceleration.
+    pub fn new(t: f64, theta: Vec<f64>, omega: Vec<f64>, pattern: Pattern) -> Sample {
+        Sample { t, theta, omega, ground: [0.0; 2], pattern }
+    }
+}
+
 /// What a run cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
 pub struct Work {
     /// Steps taken.
     pub steps: usize,
@@ -143,11 +174,14 @@ pub struct Work {
     /// Smooth phases: how often the integrator was entered.
     pub phases: usize,
     /// Swings in closed form instead of steps.
-    pub swings: usize,
-    /// Steps over several samples of a record at once.
-    pub leaps: usize,
+    #[serde(alias = "swings")]
+    pub closed_form_swings: usize,
+    /// Multi-sample steps: steps over several samples of a record at once.
+    #[serde(alias = "leaps")]
+    pub multi_sample_steps: usize,
     /// Stretches of ground motion passed at rest without a step.
-    pub waits: usize,
+    #[serde(alias = "waits")]
+    pub rest_stretches: usize,
     /// Whether the run ended before its time because nothing could start it again, or its outcome was certain.
     pub ended_early: bool,
 }
@@ -161,23 +195,27 @@ impl Work {
         self.rhs_calls += other.rhs_calls;
         self.force_calls += other.force_calls;
         self.phases += other.phases;
-        self.swings += other.swings;
-        self.leaps += other.leaps;
-        self.waits += other.waits;
+        self.closed_form_swings += other.closed_form_swings;
+        self.multi_sample_steps += other.multi_sample_steps;
+        self.rest_stretches += other.rest_stretches;
     }
 }
 
 /// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Separation {
     /// `[s]`
     pub t: f64,
-    /// What was going on.
+    /// The kind of event at which the contact problem arose.
     pub during: EventKind,
 }
 
-/// The response of a column to a scene.
-#[derive(Clone, Debug, PartialEq)]
+/// The response of a column to a scene. Lists have N entries, per block or interface, base first.
+///
+/// Serialised it has neither samples nor events: these are files of their own in the folder of a run ([`crate::run_folder`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Response {
     /// Why the run ended.
     pub status: StopReason,
@@ -186,8 +224,10 @@ pub struct Response {
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
     /// The column at the output times.
+    #[serde(skip)]
     pub samples: Vec<Sample>,
     /// Events in order of time; none where nothing but the outcome is wanted.
+    #[serde(skip)]
     pub events: Vec<Event>,
     /// Number of impacts.
     pub impacts: usize,
@@ -196,17 +236,21 @@ pub struct Response {
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
     /// rest for good is in it until `t_end`. Empty where nothing but the outcome is wanted.
     pub time_in_mode: BTreeMap<String, f64>,
-    /// Largest `|T| / N` per interface, dimensionless; infinite (in JSON `null`) where a contact parts with a force along it.
+    /// Largest `|T| / N` per interface, dimensionless; infinite where a contact parts with a force along it.
     /// Empty if the scene's options ask for no forces.
+    #[serde(deserialize_with = "numbers")]
     pub friction_demand: Vec<f64>,
     /// Largest `|P_T| / P_N` of the impulses at impacts per interface, dimensionless; infinite where a contact transmits no compression. Empty if the
     /// scene's options ask for no forces.
+    #[serde(default, deserialize_with = "numbers")]
     pub impulse_friction_demand: Vec<f64>,
     /// Smallest normal force per interface `[N]`. Empty if the scene's options ask for no forces.
+    #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
     /// Contact problems without admissible pattern.
     pub separations: Vec<Separation>,
     /// What it cost.
+    #[serde(default)]
     pub work: Work,
     /// Modes without generated equations in this build ran on the generic ones.
     pub used_generic: bool,
@@ -216,6 +260,13 @@ impl Response {
     /// Time of overturning `[s]`.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
+    }
+
+    /// Times in the modes `[s]`, the longest first.
+    pub fn modes_by_time(&self) -> Vec<(&str, f64)> {
+        let mut modes: Vec<_> = self.time_in_mode.iter().map(|(mode, time)| (mode.as_str(), *time)).collect();
+        modes.sort_by(|a, b| b.1.total_cmp(&a.1));
+        modes
     }
 
     /// What a user must know before believing the run: separation, tension, and friction beyond `friction`.
@@ -317,6 +368,17 @@ impl fmt::Display for ModeName {
 impl Serialize for ModeName {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for ModeName {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<ModeName, D::Error> {
+        match &*String::deserialize(from)? {
+            "rest" => Ok(ModeName::REST),
+            text => ModeLabel::parse(text)
+                .map(|label| ModeName(Some(label)))
+                .ok_or_else(|| D::Error::custom(format!("`{text}` is no mode"))),
+        }
     }
 }
 

@@ -5,12 +5,13 @@ use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
 use rocking_ground::Excitation;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// What impacts do beyond the plastic law of docs/book/model.md, section 5.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Restitution {
     /// Angular momentum about the new pivots is conserved, nothing rebounds.
     #[default]
@@ -37,8 +38,10 @@ impl Restitution {
     }
 }
 
-/// State at `t = 0`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+/// State at `t = 0`: `Initial::default()` with fields of its own.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
 pub struct Initial {
     /// Angles `[rad]`, base first, length N; empty for zero.
     pub theta: Vec<f64>,
@@ -47,8 +50,9 @@ pub struct Initial {
 }
 
 /// Whose right-hand sides are used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum DynamicsSource {
     /// Generated equations, generic ones for what the build has not got.
     #[default]
@@ -56,14 +60,15 @@ pub enum DynamicsSource {
     /// Hand-written equations for any N.
     Generic,
     /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones for
-    /// what they have not got.
-    #[serde(untagged)]
+    /// what they have not got. Serialised they are a name, which cannot be read back.
+    #[serde(untagged, skip_deserializing)]
     Supplied(Equations),
 }
 
 /// What a run is to find.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
@@ -76,8 +81,10 @@ pub enum Wanted {
     Overturns,
 }
 
-/// How a scene is solved.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// How a scene is solved: `SolveOptions::default()` with fields of its own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
 pub struct SolveOptions {
     /// End of the run `[s]`.
     pub t_end: f64,
@@ -134,30 +141,43 @@ const SHORTEST_RUN: f64 = 1e-9;
 /// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
 pub(crate) const LARGEST: f64 = 1e6;
 
-/// What is simulated.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// What is simulated: [`Scene::new`] with fields of its own.
+///
+/// Serialised it has all of its numbers, samples of records included, and reads back as an equal scene. Column and records are checked when
+/// they are read, all else by [`Scene::check`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Scene {
     /// Free text.
+    #[serde(default)]
     pub title: String,
     /// The column.
     pub column: Column,
     /// Friction coefficient between the blocks; a run that needs more warns.
+    #[serde(default)]
     pub friction: Option<f64>,
     /// Beyond the plastic impact.
+    #[serde(default)]
     pub restitution: Restitution,
     /// Ground motion.
+    #[serde(default)]
     pub excitation: Excitation,
     /// State at `t = 0`.
+    #[serde(default)]
     pub initial: Initial,
     /// Solver options.
+    #[serde(default)]
     pub options: SolveOptions,
     /// Interval of the samples returned `[s]`; `None` for none.
+    #[serde(default)]
     pub output_dt: Option<f64>,
 }
 
-/// Why a scene is refused by [`Scene::check`]; the file reader finds the same with lines and keys.
+/// A fault of a scene; the file reader finds the same with lines and keys.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{key}: {problem}; {remedy}")]
+#[non_exhaustive]
 pub struct SceneError {
     /// The key as in a scene file, e.g. `solver.t_end`.
     pub key: String,
@@ -165,6 +185,36 @@ pub struct SceneError {
     pub problem: String,
     /// What to do.
     pub remedy: String,
+}
+
+/// Why a scene is refused by [`Scene::check`]: all its faults, at least one, at most one a key; a line each.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", lines(.0))]
+pub struct SceneErrors(Vec<SceneError>);
+
+impl SceneErrors {
+    /// The faults.
+    pub fn faults(&self) -> &[SceneError] {
+        &self.0
+    }
+}
+
+/// A line each.
+pub(crate) fn lines<T: ToString>(faults: &[T]) -> String {
+    faults.iter().map(T::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// Faults as they are found.
+#[derive(Default)]
+struct Faults(Vec<SceneError>);
+
+impl Faults {
+    /// Notes a fault; a later one of the same key follows from the first.
+    fn note(&mut self, key: &str, problem: String, remedy: &str) {
+        if self.0.iter().all(|fault| fault.key != key) {
+            self.0.push(SceneError { key: key.into(), problem, remedy: remedy.into() });
+        }
+    }
 }
 
 impl Scene {
@@ -185,12 +235,17 @@ impl Scene {
     /// Checks what the types do not: ranges, lengths, finite numbers. A scene from a file has passed.
     ///
     /// # Errors
-    /// [`SceneError`], the first thing found.
-    pub fn check(&self) -> Result<(), SceneError> {
-        let blocks = self.column.len();
-        let error = |key: &str, problem: String, remedy: &str| {
-            Err(SceneError { key: key.into(), problem, remedy: remedy.into() })
-        };
+    /// [`SceneErrors`], everything found.
+    pub fn check(&self) -> Result<(), SceneErrors> {
+        let mut faults = Faults::default();
+        self.check_options(&mut faults);
+        self.check_excitation(&mut faults);
+        self.check_restitution(&mut faults);
+        self.check_initial(&mut faults);
+        if faults.0.is_empty() { Ok(()) } else { Err(SceneErrors(faults.0)) }
+    }
+
+    fn check_options(&self, faults: &mut Faults) {
         let options = &self.options;
         let positive = [
             ("solver.t_end", options.t_end),
@@ -203,86 +258,92 @@ impl Scene {
         ];
         for (key, value) in positive {
             if !(value.is_finite() && value > 0.0) {
-                return error(key, format!("{value} is out of range"), "give a finite number above zero");
+                faults.note(key, format!("{value} is out of range"), "give a finite number above zero");
             }
         }
-        if self.friction.is_some_and(|friction| !(friction.is_finite() && friction >= 0.0)) {
-            let problem = format!("{} is out of range", self.friction.unwrap_or_default());
-            return error("friction", problem, "give a finite number, zero or above");
+        if let Some(friction) = self.friction.filter(|friction| !(friction.is_finite() && *friction >= 0.0)) {
+            faults.note("friction", format!("{friction} is out of range"), "give a finite number, zero or above");
         }
         if options.t_end < SHORTEST_RUN {
-            return error("solver.t_end", format!("{:e} s is too short", options.t_end), "give at least 1e-9 s");
+            faults.note("solver.t_end", format!("{:e} s is too short", options.t_end), "give at least 1e-9 s");
         }
         let loosest =
             [("solver.rtol", options.rtol), ("solver.atol", options.atol), ("solver.stick_angle", options.stick_angle)];
-        if let Some((key, value)) = loosest.into_iter().find(|(_, value)| *value > LOOSEST) {
-            return error(key, format!("{value} is too loose for an answer"), "give at most 0.01");
+        for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LOOSEST) {
+            faults.note(key, format!("{value} is too loose for an answer"), "give at most 0.01");
         }
         if options.overturn_angle > std::f64::consts::PI {
             let problem = format!("{} rad is beyond upside down", options.overturn_angle);
-            return error("solver.overturn_angle", problem, "give at most pi");
+            faults.note("solver.overturn_angle", problem, "give at most pi");
         }
         if options.rtol < TIGHTEST_RTOL {
             let problem = format!("{:e} is below what double precision can keep", options.rtol);
-            return error("solver.rtol", problem, "give at least 1e-14");
+            faults.note("solver.rtol", problem, "give at least 1e-14");
         }
         if options.stick_angle < SMALLEST_STICK_ANGLE {
             let problem = format!("{:e} rad is below what rounding can hold", options.stick_angle);
-            return error("solver.stick_angle", problem, "give at least 1e-20");
+            faults.note("solver.stick_angle", problem, "give at least 1e-20");
         }
-        if self.output_dt.is_some_and(|dt| options.t_end / dt > MOST_ROWS) {
-            let problem = format!("{:e} rows up to t_end are too many", options.t_end / self.output_dt.unwrap_or(1.0));
-            return error("output.dt", problem, "give output.dt a larger value, or lower solver.t_end");
+        let rows = options.t_end / self.output_dt.unwrap_or(f64::INFINITY);
+        if options.t_end.is_finite() && rows > MOST_ROWS {
+            let problem = format!("{rows:e} rows up to t_end are too many");
+            faults.note("output.dt", problem, "give output.dt a larger value, or lower solver.t_end");
         }
+    }
+
+    fn check_excitation(&self, faults: &mut Faults) {
         let components = [("horizontal", &self.excitation.horizontal), ("vertical", &self.excitation.vertical)];
         for (component, motion) in components {
             if let Some((name, value)) = motion.as_ref().and_then(|motion| motion.invalid(LARGEST)) {
-                let key = format!("excitation.{component}.{name}");
-                return error(
-                    &key,
-                    format!("{value} is out of range"),
-                    "give a size up to 1e6, above zero for omega and dt",
-                );
+                let remedy = "give a size up to 1e6, above zero for omega and dt";
+                faults.note(&format!("excitation.{component}.{name}"), format!("{value} is out of range"), remedy);
             }
         }
+    }
+
+    fn check_restitution(&self, faults: &mut Faults) {
+        let blocks = self.column.len();
         match &self.restitution {
             Restitution::Plastic => {}
             Restitution::Eta(eta) if !(0.0..=1.0).contains(eta) => {
-                return error("restitution.eta", format!("{eta} is out of range"), "give a number from 0 to 1");
+                faults.note("restitution.eta", format!("{eta} is out of range"), "give a number from 0 to 1");
             }
             Restitution::Eta(_) if self.column.housner_ratio() <= 0.0 => {
                 let problem = format!(
                     "the column as one body is so squat that it does not rock on after an impact (ratio {:.3})",
                     self.column.housner_ratio()
                 );
-                return error("restitution.eta", problem, "leave it out, or give `factors` per interface");
+                faults.note("restitution.eta", problem, "leave it out, or give `factors` per interface");
             }
             Restitution::Eta(_) => {}
+            Restitution::Factors(factors) if factors.len() != blocks => {
+                let problem = format!("{} number(s) for {blocks} interface(s)", factors.len());
+                faults.note("restitution.factors", problem, "give one per interface, base first");
+            }
             Restitution::Factors(factors) => {
-                if factors.len() != blocks {
-                    let problem = format!("{} number(s) for {blocks} interface(s)", factors.len());
-                    return error("restitution.factors", problem, "give one per interface, base first");
-                }
                 if let Some(factor) = factors.iter().find(|factor| !(factor.is_finite() && **factor >= 0.0)) {
                     let problem = format!("{factor} is out of range");
-                    return error("restitution.factors", problem, "give finite numbers, zero or above");
+                    faults.note("restitution.factors", problem, "give finite numbers, zero or above");
                 }
             }
         }
+    }
+
+    fn check_initial(&self, faults: &mut Faults) {
+        let blocks = self.column.len();
         for (key, values) in [("initial.theta", &self.initial.theta), ("initial.omega", &self.initial.omega)] {
             if !values.is_empty() && values.len() != blocks {
                 let problem = format!("{} number(s) for {blocks} block(s)", values.len());
-                return error(key, problem, "give one per block, base first");
+                faults.note(key, problem, "give one per block, base first");
             }
             if let Some(value) = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST) {
-                return error(key, format!("{value:?} is out of range"), "give sizes up to 1e6");
+                faults.note(key, format!("{value:?} is out of range"), "give sizes up to 1e6");
             }
         }
-        if let Some(angle) = self.initial.theta.iter().find(|angle| angle.abs() >= options.overturn_angle) {
+        if let Some(angle) = self.initial.theta.iter().find(|angle| angle.abs() >= self.options.overturn_angle) {
             let problem = format!("a block starts at {angle} rad, which is overturned");
-            return error("initial.theta", problem, "give angles below solver.overturn_angle");
+            faults.note("initial.theta", problem, "give angles below solver.overturn_angle");
         }
-        Ok(())
     }
 }
 

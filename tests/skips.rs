@@ -77,15 +77,15 @@ fn on_noise(seed: u64) -> Scene {
 /// Steps over several samples of a record end where those from sample to sample do, to the tolerance: the same events, peaks and outcome.
 #[test]
 fn steps_over_samples_end_where_steps_between_them_do() {
-    let (mut compared, mut leaps, mut overturned, mut peaks, mut others) = (0, 0, 0, 0, Vec::new());
+    let (mut compared, mut long_steps, mut overturned, mut peaks, mut others) = (0, 0, 0, 0, Vec::new());
     let mut each_sample = Simulator::with_skips(Skips { samples: false, ..Skips::default() });
     for seed in 0..160 {
         let scene = on_noise(seed);
         let mut tight = scene.clone();
         (tight.options.rtol, tight.options.atol) = (1e-13, 1e-16);
         let (a, b) = (simulate(&scene).expect("solved"), each_sample.run(&tight).expect("solved"));
-        assert_eq!(b.work.leaps, 0);
-        leaps += a.work.leaps;
+        assert_eq!(b.work.multi_sample_steps, 0);
+        long_steps += a.work.multi_sample_steps;
         overturned += usize::from(a.overturned_block.is_some());
         // Errors grow from impact to impact: those of the first ones are some tolerances.
         let rtol = scene.options.rtol;
@@ -107,7 +107,7 @@ fn steps_over_samples_end_where_steps_between_them_do() {
             others.push(format!("seed {seed}: peaks {a_peak} {b_peak}, {:?} {:?}", a.status, b.status));
         }
     }
-    assert!(compared > 500 && leaps > 4000, "{compared} events, {leaps} leaps");
+    assert!(compared > 500 && long_steps > 4000, "{compared} events, {long_steps} long_steps");
     assert!(overturned > 5 && peaks > 80, "{overturned} overturned, {peaks} the same to their end");
     assert!(others.is_empty(), "{} of 160\n{others:#?}", others.len());
 }
@@ -173,7 +173,7 @@ fn counters_tell_what_was_left_out() {
     let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.56, 1.0, 9.81).expect("valid"));
     scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 4.0, omega: 10.0, start: 1.0 });
     let work = simulate(&scene).expect("solved").work;
-    assert!(work.swings > 0 && work.waits > 1 && work.modes_entered <= 2, "{work:?}");
+    assert!(work.closed_form_swings > 0 && work.rest_stretches > 1 && work.modes_entered <= 2, "{work:?}");
     // One block has no closed interface while it rocks.
     scene.options.record_forces = false;
     let work = simulate(&scene).expect("solved").work;
@@ -181,6 +181,6 @@ fn counters_tell_what_was_left_out() {
     scene.options.wanted = Wanted::Outcome;
     assert!(simulate(&scene).expect("solved").work.ended_early);
     let work = Simulator::with_skips(Skips::NOTHING).run(&scene).expect("solved").work;
-    assert!(work.swings == 0 && work.waits == 0 && !work.ended_early, "{work:?}");
+    assert!(work.closed_form_swings == 0 && work.rest_stretches == 0 && !work.ended_early, "{work:?}");
     assert!(work.force_calls >= work.steps && work.with_vertical && work.modes_entered <= 2, "{work:?}");
 }

@@ -75,7 +75,7 @@ fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>)
         StopReason::Stands => "stands",
         StopReason::Falls => "falls",
         StopReason::AtRest => "at rest",
-        StopReason::EndOfTime => "end of time",
+        _ => "end of time",
     };
     let flight = if response.separations.is_empty() { "" } else { ", with separations" };
     (format!("{status}{flight}"), broken, None)

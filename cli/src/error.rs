@@ -1,8 +1,8 @@
 //! Why a command fails, with the place and the remedy.
 
-use crate::run_folder::FolderError;
 use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use rocking::run_folder::FolderError;
 use rocking::{RecordError, SceneFileError, SolveError};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub enum Failure {
     #[error("{}", .0.error)]
     Scene(Box<SceneFailure>),
     /// A run's folder cannot be written or read.
-    #[error(transparent)]
+    #[error("{}", .0.to_string().replace(CHOOSE, &format!("{CHOOSE} with --out")))]
     Folder(#[from] FolderError),
     /// An output folder cannot be written.
     #[error("{}: {}; choose a folder that can be written to with --out", .0.display(), .1)]
@@ -91,6 +91,9 @@ pub enum Failure {
     Print(String),
 }
 
+/// The library's remedy for a folder that cannot be written.
+const CHOOSE: &str = "choose a folder that can be written to";
+
 /// A refused scene with its text.
 #[derive(Debug)]
 pub struct SceneFailure {
@@ -115,8 +118,8 @@ pub fn at<E: ToString>(failure: fn(PathBuf, String) -> Failure, path: &Path) -> 
 impl Failure {
     /// The failure of reading a scene, with its text if it can be shown.
     pub fn scene(error: SceneFileError) -> Failure {
-        let source_text = match &error {
-            SceneFileError::Scene { file, .. } => std::fs::read_to_string(file)
+        let source_text = match places(&error).first() {
+            Some(SceneFileError::Scene { file, .. }) => std::fs::read_to_string(file)
                 .ok()
                 .map(|text| NamedSource::new(shown(file), same_length(&text)).with_language("toml")),
             _ => None,
@@ -127,6 +130,14 @@ impl Failure {
     /// 2 for input that must be corrected, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Failure::Solve { .. } | Failure::Print(_) | Failure::NoResult(..)) { 1 } else { 2 }
+    }
+}
+
+/// The faults of a scene file.
+fn places(error: &SceneFileError) -> &[SceneFileError] {
+    match error {
+        SceneFileError::Several { faults } => faults,
+        one => std::slice::from_ref(one),
     }
 }
 
@@ -158,8 +169,11 @@ impl Diagnostic for Report {
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let Failure::Scene(scene) = &self.0 else { return None };
-        let (SceneFileError::Scene { span, .. }, Some(_)) = (&scene.error, &scene.source_text) else { return None };
-        Some(Box::new(std::iter::once(LabeledSpan::new(Some("here".into()), span.0, span.1))))
+        scene.source_text.as_ref()?;
+        Some(Box::new(places(&scene.error).iter().filter_map(|fault| match fault {
+            SceneFileError::Scene { span, .. } => Some(LabeledSpan::new(Some("here".into()), span.0, span.1)),
+            _ => None,
+        })))
     }
 }
 

@@ -9,8 +9,6 @@ use tempfile::NamedTempFile;
 pub const LARGEST_SCENE: u64 = 64 << 20;
 /// Largest record that is read [bytes].
 pub const LARGEST_RECORD: u64 = 256 << 20;
-/// Largest file of a run's folder that is read [bytes].
-pub const LARGEST_RESULT: u64 = 1 << 30;
 /// Largest table of a sweep that is read, row by row [bytes].
 pub const LARGEST_TABLE: u64 = 1 << 40;
 

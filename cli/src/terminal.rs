@@ -1,8 +1,8 @@
 //! Standard output and standard error; what is written there has no control characters of users' text.
 
 use crate::error::Failure;
-use crate::json::Explicit;
 use crate::text::{is_unsafe, printable, printable_lines};
+use rocking::json::Explicit;
 use serde::Serialize;
 use std::io::Write as _;
 

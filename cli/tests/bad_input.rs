@@ -161,6 +161,15 @@ fn an_earlier_result_survives_a_refused_scene() {
 }
 
 #[test]
+fn all_values_out_of_range_are_named_at_once() {
+    let scene = with("t_end = 1.0", "t_end = -1.0\nrtol = 10.0").replace("amplitude = 3.0", "amplitude = 1e300");
+    refused(
+        &scene,
+        &["line 9", "`solver.t_end`", "line 10", "`solver.rtol`", "line 6", "`excitation.horizontal.amplitude`"],
+    );
+}
+
+#[test]
 fn numbers_out_of_all_range() {
     refused(&with("amplitude = 3.0", "amplitude = 1e300"), &["line 6", "amplitude", "1e300", "out of range"]);
     refused(&with("amplitude = 3.0", "amplitude_g = 1e308"), &["excitation.horizontal.amplitude", "out of range"]);

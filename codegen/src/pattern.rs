@@ -14,6 +14,7 @@
 
 use smallvec::{SmallVec, smallvec};
 use std::fmt;
+use std::ops::{Deref, DerefMut};
 
 /// State of one interface: the sign of the relative rotation `φ_i = θ_i - θ_{i-1}`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -59,27 +60,79 @@ impl Interface {
     }
 }
 
-/// States of all interfaces of a column, base first; length `N`. Patterns of up to 16 blocks need no allocation: they change with every impact.
+/// States of all interfaces of a column, base first; length `N`.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Pattern(pub SmallVec<[Interface; 16]>);
+pub struct Pattern(pub States);
 
-// Copies the states as one slice; the `Clone` of the list copies them one by one.
+// A derived `clone_from` would not reuse the list.
 impl Clone for Pattern {
     #[inline]
     fn clone(&self) -> Pattern {
-        Pattern::from_states(&self.0)
+        Pattern(self.0.clone())
     }
 
     fn clone_from(&mut self, other: &Pattern) {
+        self.0.clone_from(&other.0);
+    }
+}
+
+/// A list of states of interfaces: a slice that owns its entries. Up to 16 need no allocation: patterns change with every impact.
+#[derive(PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct States(SmallVec<[Interface; 16]>);
+
+// Copies the states as one slice; the `Clone` of the list copies them one by one.
+impl Clone for States {
+    #[inline]
+    fn clone(&self) -> States {
+        States(SmallVec::from_slice(&self.0))
+    }
+
+    fn clone_from(&mut self, other: &States) {
         self.0.clear();
         self.0.extend_from_slice(&other.0);
+    }
+}
+
+impl fmt::Debug for States {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl Deref for States {
+    type Target = [Interface];
+    #[inline(always)]
+    fn deref(&self) -> &[Interface] {
+        &self.0
+    }
+}
+
+impl DerefMut for States {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [Interface] {
+        &mut self.0
+    }
+}
+
+impl FromIterator<Interface> for States {
+    #[inline]
+    fn from_iter<I: IntoIterator<Item = Interface>>(states: I) -> States {
+        States(states.into_iter().collect())
+    }
+}
+
+impl<'l> IntoIterator for &'l States {
+    type Item = &'l Interface;
+    type IntoIter = std::slice::Iter<'l, Interface>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
     }
 }
 
 impl Pattern {
     /// The pattern at rest: every interface closed.
     pub fn rest(blocks: usize) -> Pattern {
-        Pattern(smallvec![Interface::Closed; blocks])
+        Pattern(States(smallvec![Interface::Closed; blocks]))
     }
 
     /// The pattern with these signs, base first.
@@ -90,7 +143,7 @@ impl Pattern {
     /// The pattern with these states, base first.
     #[inline]
     pub fn from_states(states: &[Interface]) -> Pattern {
-        Pattern(SmallVec::from_slice(states))
+        Pattern(States(SmallVec::from_slice(states)))
     }
 
     /// `+1`, `0`, `-1` per interface, base first.
@@ -191,7 +244,7 @@ impl ModeLabel {
         if self.lowest == 0 || self.lowest > blocks || self.number == 0 {
             return None;
         }
-        let mut states = smallvec![Interface::Closed; blocks];
+        let mut states = Pattern::rest(blocks).0;
         states[self.lowest - 1] = Interface::Right;
         let mut rank = self.number - 1;
         for state in states[self.lowest..].iter_mut().rev() {

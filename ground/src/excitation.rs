@@ -4,10 +4,11 @@ use crate::motion::Motion;
 use crate::piece::Piece;
 use crate::segment::Segment;
 use crate::spans::{divide, overlay};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Ground motion in both directions.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Excitation {
     /// Horizontal, positive to the right.
     pub horizontal: Option<Motion>,

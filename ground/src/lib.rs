@@ -25,7 +25,7 @@ pub use excitation::Excitation;
 pub use file::{LARGEST_FILE, read_file};
 pub use formats::{Format, RecordFile};
 pub use measures::Measures;
-pub use motion::Motion;
+pub use motion::{Description, Motion};
 pub use open::OpenError;
 pub use options::TextOptions;
 pub use piece::Piece;

@@ -10,7 +10,8 @@
 use crate::piece::Piece;
 use crate::record::Record;
 use crate::spans::{Span, Spans, overlay};
-use serde::Serialize;
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 use smallvec::smallvec;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
@@ -18,7 +19,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 ///
 /// Parameters: `amplitude [m/s²]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `duration [s]`, `phase [rad]`; `cycles` and `gamma` are
 /// dimensionless.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
@@ -74,7 +75,36 @@ const ANTISYMMETRIC_REACH: f64 = 6.5;
 /// Half-length of a Gabor wavelet in `ω(t - t_0)/γ`.
 const GABOR_REACH: f64 = 4.5;
 
+/// A motion, serialised without the samples of its records.
+#[derive(Clone, Copy, Debug)]
+pub struct Description<'a>(&'a Motion);
+
+impl Serialize for Description<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            Motion::Record(record) => {
+                let mut fields = serializer.serialize_struct("Motion", 11)?;
+                fields.serialize_field("kind", "record")?;
+                record.describe(&mut fields)?;
+                fields.end()
+            }
+            Motion::Sum { terms } => {
+                let mut fields = serializer.serialize_struct("Motion", 2)?;
+                fields.serialize_field("kind", "sum")?;
+                fields.serialize_field("terms", &terms.iter().map(Description).collect::<Vec<_>>())?;
+                fields.end()
+            }
+            motion => motion.serialize(serializer),
+        }
+    }
+}
+
 impl Motion {
+    /// The motion, to be serialised without the samples of its records.
+    pub fn description(&self) -> Description<'_> {
+        Description(self)
+    }
+
     /// The smooth pieces in order of time, without overlap; the acceleration is zero outside them.
     pub(crate) fn pieces(&self) -> Spans {
         let sine = |amplitude: f64, omega: f64, start: f64, phase: f64| Piece::Sine { amplitude, omega, start, phase };

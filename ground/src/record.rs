@@ -4,15 +4,17 @@ use crate::bounds::{LARGEST_ACCELERATION, LONGEST_INTERVAL, SHORTEST_INTERVAL};
 use crate::error::RecordError;
 use crate::piece::Piece;
 use crate::spans::Span;
-use serde::Serialize;
 use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 use std::sync::Arc;
 
 /// Ground acceleration sampled at equal intervals, linear between samples, zero outside.
 ///
-/// Serialised it is a description without the samples.
-#[derive(Clone, Debug, PartialEq)]
+/// Serialised it has its samples (`accel`) and reads back as an equal record, by the checks of [`Record::new`];
+/// [`Motion::description`](crate::Motion::description) has no samples.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Record {
     accel: Accelerations,
     /// Sampling interval `[s]`.
@@ -56,7 +58,8 @@ impl PartialEq for Accelerations {
 }
 
 /// Origin of a record; an unknown entry is empty.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 #[non_exhaustive]
 pub struct Source {
     /// Name of the file, as it was given.
@@ -71,18 +74,36 @@ pub struct Source {
 
 impl Serialize for Record {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_struct("Record", 10)?;
-        fields.serialize_field("samples", &self.accel.len())?;
-        fields.serialize_field("dt", &self.dt)?;
-        fields.serialize_field("start", &self.start)?;
-        fields.serialize_field("duration", &self.duration())?;
-        fields.serialize_field("peak", &self.peak())?;
-        fields.serialize_field("scale", &self.scale)?;
-        fields.serialize_field("file", &self.source.file)?;
-        fields.serialize_field("title", &self.source.title)?;
-        fields.serialize_field("station", &self.source.station)?;
-        fields.serialize_field("component", &self.source.component)?;
+        let mut fields = serializer.serialize_struct("Record", 12)?;
+        self.describe(&mut fields)?;
+        fields.serialize_field("warnings", &self.warnings)?;
+        fields.serialize_field("accel", &*self.accel)?;
         fields.end()
+    }
+}
+
+/// A record as it is read, before [`Record::new`].
+#[derive(Deserialize)]
+struct Unchecked {
+    accel: Vec<f64>,
+    dt: f64,
+    start: f64,
+    scale: f64,
+    #[serde(flatten)]
+    source: Source,
+    #[serde(default)]
+    warnings: Vec<String>,
+}
+
+impl TryFrom<Unchecked> for Record {
+    type Error = RecordError;
+
+    fn try_from(read: Unchecked) -> Result<Record, RecordError> {
+        if !read.scale.is_finite() {
+            return Err(RecordError::OutOfRange { name: "scale", value: read.scale, wanted: "a finite number" });
+        }
+        let record = Record::new(read.accel, read.dt, read.start)?;
+        Ok(Record { scale: read.scale, ..record.with_source(read.source, read.warnings) })
     }
 }
 
@@ -104,6 +125,20 @@ impl Record {
         }
         check_range(&accel)?;
         Ok(Record { accel: accel.into(), dt, start, scale: 1.0, source: Source::default(), warnings: Vec::new() })
+    }
+
+    /// Serialises all but samples and warnings.
+    pub(crate) fn describe<S: SerializeStruct>(&self, fields: &mut S) -> Result<(), S::Error> {
+        fields.serialize_field("samples", &self.accel.len())?;
+        fields.serialize_field("dt", &self.dt)?;
+        fields.serialize_field("start", &self.start)?;
+        fields.serialize_field("duration", &self.duration())?;
+        fields.serialize_field("peak", &self.peak())?;
+        fields.serialize_field("scale", &self.scale)?;
+        fields.serialize_field("file", &self.source.file)?;
+        fields.serialize_field("title", &self.source.title)?;
+        fields.serialize_field("station", &self.source.station)?;
+        fields.serialize_field("component", &self.source.component)
     }
 
     /// The record with its origin and the warnings of its file.

@@ -25,7 +25,7 @@ pub(super) struct Answer<S: Size> {
     pub(super) motion: S::List<f64>,
     pub(super) resultants: S::List<ContactForce>,
     /// By what the motion differs from that without contacts.
-    pub(super) change: Motion<S>,
+    pub(super) change: Velocities<S>,
 }
 
 /// The mass matrix of a pattern could not be factorised: its blocks differ beyond what rounding can hold.
@@ -70,10 +70,10 @@ impl<'a, S: Size> Instant<'a, S> {
         Ok(Mechanism { states, posture, mass })
     }
 
-    /// Motion in a posture at the blocks' rates.
+    /// Velocities in a posture at the blocks' rates.
     #[inline(always)]
-    pub(super) fn motion(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Motion<S> {
-        Motion { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.copied(omega) }
+    pub(super) fn motion(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Velocities<S> {
+        Velocities { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.copied(omega) }
     }
 }
 
@@ -119,15 +119,15 @@ pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground:
 
 /// Velocities of the centroids and the blocks' rates, or accelerations.
 #[derive(Clone)]
-pub(super) struct Motion<S: Size> {
+pub(super) struct Velocities<S: Size> {
     pub(super) linear: S::List<Vec2>,
     pub(super) angular: S::List<f64>,
 }
 
-impl<S: Size> Motion<S> {
+impl<S: Size> Velocities<S> {
     /// Less another one.
     #[inline(always)]
-    pub(super) fn less(mut self, other: &Motion<S>) -> Motion<S> {
+    pub(super) fn less(mut self, other: &Velocities<S>) -> Velocities<S> {
         self.linear.iter_mut().zip(&*other.linear).for_each(|(a, b)| *a = [a[0] - b[0], a[1] - b[1]]);
         self.angular.iter_mut().zip(&*other.angular).for_each(|(a, b)| *a -= b);
         self
@@ -135,19 +135,19 @@ impl<S: Size> Motion<S> {
 }
 
 /// Sizes of a block's velocity and rate.
-pub(super) fn sizes<S: Size>(motion: &Motion<S>, block: usize) -> [f64; 2] {
+pub(super) fn sizes<S: Size>(motion: &Velocities<S>, block: usize) -> [f64; 2] {
     let [x, y] = motion.linear[block];
     [x.abs() + y.abs(), motion.angular[block].abs()]
 }
 
 /// The `M`-orthogonal projection of `before` onto the motions of a pattern: `M' ω' = J'ᵀ m v⁻` (docs/book/model.md, section 5, item 1).
 #[inline(always)]
-pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Motion<S>) -> Answer<S> {
+pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Velocities<S>) -> Answer<S> {
     let posture = &mechanism.posture;
     let mut rates = posture.generalised(&before.linear, &before.angular);
     mechanism.mass.solve(&mut rates);
     let motion = posture.angular(&rates);
-    let change = Motion { linear: posture.linear(&rates), angular: motion.clone() }.less(before);
+    let change = Velocities { linear: posture.linear(&rates), angular: motion.clone() }.less(before);
     let resultants = posture.resultants(&change.linear, &change.angular);
     Answer { motion, resultants, change }
 }
@@ -161,7 +161,7 @@ pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], groun
     total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
     let motion = posture.angular(&alpha);
     let resultants = posture.resultants(&total, &motion);
-    Answer { change: Motion { linear: total, angular: motion.clone() }, motion, resultants }
+    Answer { change: Velocities { linear: total, angular: motion.clone() }, motion, resultants }
 }
 
 /// Whether an interface is closed, or has only just opened: it may choose its state anew.

@@ -72,6 +72,13 @@ impl<const W: usize> Scalar for Lanes<W> {
     }
 }
 
+impl<const W: usize> sines::Arithmetic for Lanes<W> {
+    #[inline(always)]
+    fn constant(value: f64) -> Lanes<W> {
+        Lanes([value; W])
+    }
+}
+
 /// Sines and cosines where an angle is beyond the polynomials.
 #[cold]
 #[inline(never)]

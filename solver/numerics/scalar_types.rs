@@ -51,28 +51,6 @@ impl Scalar for f64 {
     }
 }
 
-/// Two doubles, each lane with the result of `f64`.
-impl Scalar for f64x2 {
-    #[inline(always)]
-    fn from_f64(value: f64) -> f64x2 {
-        f64x2::splat(value)
-    }
-
-    #[inline(always)]
-    fn recip(self) -> f64x2 {
-        f64x2::splat(1.0) / self
-    }
-
-    #[inline(always)]
-    fn sin_cos(self) -> (f64x2, f64x2) {
-        if self.to_array().into_iter().all(sines::is_within_reach) {
-            return sines::kernels(self);
-        }
-        let [first, second] = self.to_array().map(sines::sin_cos);
-        (f64x2::new([first.0, second.0]), f64x2::new([first.1, second.1]))
-    }
-}
-
 /// A value with its derivatives by `P` parameters: forward-mode differentiation.
 ///
 /// ```

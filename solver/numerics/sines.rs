@@ -6,8 +6,28 @@
 //! last place (`tests/scalars.rs`). Sine is odd (but for the sign of zero) and cosine even exactly, as only `x²` is expanded. Beyond, where blocks have fallen, `libm`
 //! reduces the angle first.
 
-use crate::numerics::scalar::Scalar;
+use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
+
+/// What the polynomials need: one double, or several side by side.
+pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// The value in each lane.
+    fn constant(value: f64) -> Self;
+}
+
+impl Arithmetic for f64 {
+    #[inline(always)]
+    fn constant(value: f64) -> f64 {
+        value
+    }
+}
+
+impl Arithmetic for f64x2 {
+    #[inline(always)]
+    fn constant(value: f64) -> f64x2 {
+        f64x2::splat(value)
+    }
+}
 
 /// The largest angle of the polynomials `[rad]`: the last double whose upper half is that of π/4, where `libm` begins to reduce.
 pub const REACH: f64 = f64::from_bits(0x3fe9_21fb_ffff_ffff);
@@ -44,7 +64,7 @@ const fn adapted(p: [f64; 6]) -> [f64; 6] {
 
 /// The polynomial of adapted coefficients.
 #[inline(always)]
-fn polynomial<S: Scalar>(z: S, square: S, [p1, p2, p6, a, b, c]: [S; 6]) -> S {
+fn polynomial<S: Arithmetic>(z: S, square: S, [p1, p2, p6, a, b, c]: [S; 6]) -> S {
     p1 + z * p2 + square * p6 * ((z + a) * (square + b) + c)
 }
 
@@ -80,8 +100,8 @@ pub fn are_within_reach(angles: &[f64]) -> bool {
 
 /// Both polynomials. The sine of a negative zero is a positive one.
 #[inline(always)]
-pub fn kernels<S: Scalar>(x: S) -> (S, S) {
-    let (z, number) = (x * x, |value| x.like(value));
+pub fn kernels<S: Arithmetic>(x: S) -> (S, S) {
+    let (z, number) = (x * x, S::constant);
     let square = z * z;
     // One by one: a map over the array is a call, compiled for the plainest instructions.
     let of = |p: &[f64; 6]| [number(p[0]), number(p[1]), number(p[2]), number(p[3]), number(p[4]), number(p[5])];
@@ -99,8 +119,8 @@ fn kernels_of_one(x: f64) -> (f64, f64) {
 
 /// From what the polynomials add to `x` and to `1 - x²/2`.
 #[inline(always)]
-fn sum<S: Scalar>(x: S, z: S, square: S, [sin, cos]: [S; 2]) -> (S, S) {
-    let (one, half) = (x.like(1.0), x.like(0.5) * z);
+fn sum<S: Arithmetic>(x: S, z: S, square: S, [sin, cos]: [S; 2]) -> (S, S) {
+    let (one, half) = (S::constant(1.0), S::constant(0.5) * z);
     let first = one - half;
     // What `1 - x²/2` has lost to rounding is added to the small terms.
     (x + z * x * sin, first + (((one - first) - half) + square * cos))

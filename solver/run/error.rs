@@ -1,6 +1,6 @@
 //! Why a run could not be finished.
 
-use crate::scene::SceneError;
+use crate::scene::SceneErrors;
 
 /// Why a run could not be finished.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -8,7 +8,7 @@ use crate::scene::SceneError;
 pub enum SolveError {
     /// The scene is not valid. Scenes from files have been checked.
     #[error(transparent)]
-    Scene(#[from] SceneError),
+    Scene(#[from] SceneErrors),
     /// The error demanded cannot be met with steps that still advance the time.
     #[error("at t = {time} s in mode {mode}: the step has fallen to {step:e} s; loosen rtol and atol")]
     StepTooSmall {

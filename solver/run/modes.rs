@@ -4,7 +4,7 @@ use super::phase::Phase;
 use super::problem::{Problem, Skips};
 use super::rest::Rest;
 use super::state::State;
-use super::stretch::Motion;
+use super::stretch::Flow;
 use crate::column::Column;
 use crate::mechanics::generated;
 use crate::mechanics::mode::Mode;
@@ -76,7 +76,7 @@ impl Modes {
     pub const REST: usize = 0;
 
     /// Enters the motion of a state: its place among the motions, and the motion. Scene constants of a mode are computed when it is entered first.
-    pub fn enter(&mut self, problem: &Problem, after: &State) -> (usize, &mut dyn Motion) {
+    pub fn enter(&mut self, problem: &Problem, after: &State) -> (usize, &mut dyn Flow) {
         if after.pattern.dof() == 0 {
             self.rest.enter(problem, after);
             return (Modes::REST, &mut self.rest);

@@ -104,7 +104,7 @@ impl Phase {
         let rocker = samples.rocker;
         match self.longest_sample_step(problem, rocker) {
             Ok(step) => {
-                self.work.leaps += 1;
+                self.work.multi_sample_steps += 1;
                 self.work.steps += 1;
                 self.stretch = Kind::Samples(step);
                 true

@@ -8,7 +8,7 @@ use super::error::SolveError;
 use super::phase::{Kind, Phase, StepEnd, Swing};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Ended, Inside, Motion, Over, Request, Stretch};
+use super::stretch::{Ended, Flow, Found, Inside, Over, Request, Stretch};
 use crate::column::Column;
 use crate::contact::verge_acceleration;
 use crate::mechanics::dynamics::ContactForce;
@@ -91,13 +91,13 @@ impl Phase {
                 // On a ground at rest it is not going to change but by an event.
                 self.is_outcome_open = !segment.is_quiet();
             }
-            if let Some(ended) = self.swing(problem) {
+            if let Found::Stretch(ended) = self.swing(problem) {
                 return Ok(ended);
             }
             if self.step_over_samples(problem) {
                 return Ok(None);
             }
-            if let Some(ended) = self.step(problem, left)? {
+            if let Found::Stretch(ended) = self.step(problem, left)? {
                 return Ok(ended);
             }
         }
@@ -133,7 +133,7 @@ impl Phase {
     }
 }
 
-impl Motion for Phase {
+impl Flow for Phase {
     fn enter(&mut self, problem: &Problem, after: &State) {
         self.calls = self.integrator.rhs_calls();
         self.work.phases += 1;

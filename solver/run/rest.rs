@@ -8,7 +8,7 @@
 use super::error::SolveError;
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Ended, Inside, Motion, Over, Stretch};
+use super::stretch::{Ended, Flow, Inside, Over, Stretch};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
 use crate::numerics::per_block::PerBlock;
@@ -42,7 +42,7 @@ pub(crate) struct Rest {
     work: Work,
 }
 
-impl Motion for Rest {
+impl Flow for Rest {
     fn enter(&mut self, _: &Problem, after: &State) {
         self.blocks = after.theta.len();
         self.since = (after.t, after.segment);
@@ -59,7 +59,7 @@ impl Motion for Rest {
             if t < self.held_until {
                 t = self.held_until.min(segment.end);
             }
-            self.work.waits += usize::from(problem.skips.rests);
+            self.work.rest_stretches += usize::from(problem.skips.rests);
             if let Some((start, interface, side)) = earliest_start(problem, segment, t, limit) {
                 t = start;
                 self.last = index;

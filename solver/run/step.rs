@@ -12,7 +12,7 @@
 use super::error::SolveError;
 use super::phase::{Gap, Kind, Phase, StepEnd};
 use super::problem::Problem;
-use super::stretch::{Ended, Over};
+use super::stretch::{Ended, Found, Over};
 use crate::mechanics::dynamics::{ContactForce, Interfaces};
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
@@ -52,8 +52,8 @@ const MOST_PANELS: f64 = 64.0;
 type MarginSamples = SmallVec<[(f64, PerBlock<f64>); 6]>;
 
 impl Phase {
-    /// Attempts a step and ends it at its first event. `None` if the attempt is rejected; otherwise why the phase ends with it, if it does.
-    pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Option<Option<Ended>>, SolveError> {
+    /// Attempts a step and ends it at its first event; nothing is found if the attempt is rejected.
+    pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Found, SolveError> {
         let t = self.t;
         let held = self.held_until - t;
         let most = if held > 0.0 { left.min(held) } else { left }.min(self.longest);
@@ -63,7 +63,7 @@ impl Phase {
             self.work.rejected += 1;
             self.check_step(attempt)?;
             self.longest = self.wanted;
-            return Ok(None);
+            return Ok(Found::Nothing);
         }
         self.longest = f64::INFINITY;
         let h = attempt.h;
@@ -71,10 +71,8 @@ impl Phase {
         self.work.steps += 1;
         let end = if h == left { problem.ground[self.segment].end } else { t + h };
         self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
-        Ok(Some(match self.first_event(problem, h, end) {
-            Some((guard, s)) => self.cut_at(problem, guard, h, s),
-            None => None,
-        }))
+        let event = self.first_event(problem, h, end);
+        Ok(Found::Stretch(event.and_then(|(guard, s)| self.cut_at(problem, guard, h, s))))
     }
 
     #[cold]

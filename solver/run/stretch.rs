@@ -21,6 +21,15 @@ pub(crate) enum Ended {
     Over(Over),
 }
 
+/// What a way of passing time has found.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Found {
+    /// No stretch: the way does not apply, or its step was rejected.
+    Nothing,
+    /// A stretch, and why the phase ends with it; `None` if it continues.
+    Stretch(Option<Ended>),
+}
+
 /// Why a run is over. Blocks are counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Over {
@@ -76,7 +85,7 @@ pub(crate) struct Request {
 }
 
 /// What moves a column from one event to the next: the column at rest, or a mode.
-pub(crate) trait Motion: Send {
+pub(crate) trait Flow: Send {
     /// Enters with `x⁺`.
     fn enter(&mut self, problem: &Problem, after: &State);
 

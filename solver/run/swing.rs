@@ -6,7 +6,7 @@
 use super::phase::{Course, Kind, Phase, Swing};
 use super::problem::Problem;
 use super::step::PANELS_PER_TURN;
-use super::stretch::{Ended, Over};
+use super::stretch::{Ended, Found, Over};
 use crate::mechanics::dynamics::ContactForce;
 use crate::mechanics::harmonics::OnTheVerge;
 use crate::mechanics::pendulum::Pendulum;
@@ -43,14 +43,14 @@ impl Course {
 }
 
 impl Phase {
-    /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
-    pub(super) fn swing(&mut self, problem: &Problem) -> Option<Option<Ended>> {
+    /// Swings to the next event, or to the end of the segment; nothing is found where closed forms do not apply.
+    pub(super) fn swing(&mut self, problem: &Problem) -> Found {
         let segment = &problem.ground[self.segment];
         if !segment.is_quiet() || self.held_until > self.t {
-            return None;
+            return Found::Nothing;
         }
-        let pendulum = self.pendulum?;
-        let (course, mut end) = self.course(problem, pendulum)?;
+        let Some(pendulum) = self.pendulum else { return Found::Nothing };
+        let Some((course, mut end)) = self.course(problem, pendulum) else { return Found::Nothing };
         let left = segment.end - self.t;
         if !self.closed.is_empty() {
             let legs = course.legs(&end);
@@ -66,7 +66,7 @@ impl Phase {
                 }
             }
         }
-        self.work.swings += 1;
+        self.work.closed_form_swings += 1;
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
         let until = if is_cut { segment.end } else { self.t + end.time };
@@ -74,7 +74,7 @@ impl Phase {
         let [theta, omega] = course.state([psi, v]);
         let x = [if is_landed { 0.0 } else { theta }, omega];
         self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x });
-        Some((!is_cut).then_some(end.ended))
+        Found::Stretch((!is_cut).then_some(end.ended))
     }
 
     /// The swing from the start of the stretch, and how it ends if no interface opens.

@@ -1,10 +1,12 @@
 //! Why a scene file is refused.
 
 use super::table::Cause;
+use crate::scene::lines;
 use std::path::{Path, PathBuf};
 
 /// Why a scene file is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SceneFileError {
     /// The file cannot be read.
     #[error("{}: {problem}", file.display())]
@@ -31,6 +33,12 @@ pub enum SceneFileError {
         remedy: String,
         /// Key or value.
         cause: Cause,
+    },
+    /// Several values of a scene are not as they should be; a line each.
+    #[error("{}", lines(faults))]
+    Several {
+        /// A [`SceneFileError::Scene`] for each.
+        faults: Vec<SceneFileError>,
     },
     /// A record is not as it should be.
     #[error("{}: {problem} (asked for by {}, line {line}, key `{key}`)", record.display(), file.display())]

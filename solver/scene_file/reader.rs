@@ -84,7 +84,10 @@ impl Reader<'_> {
         let mut derived = Vec::new();
         let scene = self.scene(&mut root, &mut derived)?;
         root.close().map_err(|wrong| self.error(wrong))?;
-        scene.check().map_err(|error| self.refused(&root, error))?;
+        scene.check().map_err(|errors| {
+            let mut faults: Vec<_> = errors.faults().iter().map(|fault| self.refused(&root, fault)).collect();
+            if faults.len() == 1 { faults.remove(0) } else { SceneFileError::Several { faults } }
+        })?;
         Ok(SceneFile { scene, derived })
     }
 
@@ -104,11 +107,10 @@ impl Reader<'_> {
         }
     }
 
-    /// An error of [`Scene::check`], at the key that it names.
-    pub fn refused(&self, root: &Table, error: SceneError) -> SceneFileError {
-        let place = root.find(&error.key);
-        let cause = Cause::Value;
-        self.error(Wrong { place, key: error.key, problem: error.problem, remedy: error.remedy, cause })
+    /// A fault that [`Scene::check`] found, at the key that it names.
+    pub fn refused(&self, root: &Table, fault: &SceneError) -> SceneFileError {
+        let SceneError { key, problem, remedy, .. } = fault.clone();
+        self.error(Wrong { place: root.find(&key), key, problem, remedy, cause: Cause::Value })
     }
 
     pub fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, SceneFileError> {

@@ -151,7 +151,7 @@ impl<'t> Shaken<'t> {
         self.go_to(settings)?;
         let reader = self.template.reader();
         scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
-        scene.check().map_err(|error| reader.refused(&self.root, error))
+        scene.check().map_err(|errors| reader.refused(&self.root, &errors.faults()[0]))
     }
 
     /// The same where an amplitude is all that changes: nothing is read. `false` if it is not, or not a valid one.

@@ -24,6 +24,7 @@ pub struct Axis {
 
 /// How axes make points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Combine {
     /// Each value with each of the others; the last axis runs fastest.
     #[default]
@@ -45,6 +46,7 @@ impl Combine {
 
 /// What is asked of each run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Ask {
     /// Whether and how it overturns; a run ends when that is certain.
     #[default]
@@ -82,6 +84,7 @@ pub struct Sweep {
 
 /// What became of the column at one point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Fate {
     /// Nothing opened.
     NoUplift,
@@ -104,6 +107,7 @@ impl Fate {
 
 /// The result of one point.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Outcome {
     /// What became of it.
     pub fate: Fate,
@@ -122,6 +126,7 @@ pub struct Outcome {
 
 /// Why a point has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PointError {
     /// Its scene is not valid.
     #[error(transparent)]

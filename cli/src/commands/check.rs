@@ -9,7 +9,7 @@ use crate::text::{printable, shown};
 use rocking::scene_file::{Derived, SceneFile};
 use rocking::sweep::{Axis, Combine};
 use rocking::{Block, Motion, Restitution, Scene};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -97,6 +97,7 @@ struct Findings {
 #[derive(Debug, Serialize)]
 struct MotionFindings {
     #[serde(flatten)]
+    #[serde(serialize_with = "described")]
     motion: Motion,
     /// Largest acceleration, velocity and displacement of the ground until the end of the run `[m/s²]`, `[m/s]`, `[m]`.
     pga: f64,
@@ -110,6 +111,11 @@ struct MotionFindings {
 
 /// A column beyond this `[m]` has most likely been given in cm or mm; the tallest of stone have some thirty.
 const TALL: f64 = 60.0;
+
+/// Without the samples of records.
+fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::Error> {
+    motion.description().serialize(serializer)
+}
 
 impl Findings {
     fn of(scene: &Scene, derived: Vec<Derived>) -> Findings {
@@ -221,7 +227,7 @@ impl Findings {
                 text,
                 "impacts: eta = {eta} for the column as one body, {factors} of the plastic relative rate at each interface"
             ),
-            Restitution::Factors(_) => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
+            _ => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
         };
     }
 
@@ -233,7 +239,8 @@ impl Findings {
         }
         for (component, motion) in components {
             let Some(motion) = motion else { continue };
-            let words = ground::words(&serde_json::to_value(&motion.motion).unwrap_or_default(), gravity, 0.0);
+            let words =
+                ground::words(&serde_json::to_value(motion.motion.description()).unwrap_or_default(), gravity, 0.0);
             let _ = writeln!(text, "\n{component} ground motion: {words}");
             let _ = writeln!(
                 text,

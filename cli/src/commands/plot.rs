@@ -4,9 +4,9 @@ use crate::arguments::Picture;
 use crate::error::Failure;
 use crate::output;
 use crate::plot::{self, Figure};
-use crate::run_folder::Results;
 use crate::terminal::print;
 use crate::text::shown;
+use rocking::run_folder::Results;
 use std::fmt::Write as _;
 use std::path::Path;
 

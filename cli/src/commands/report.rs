@@ -3,9 +3,9 @@
 use crate::error::Failure;
 use crate::output;
 use crate::report;
-use crate::run_folder::Results;
 use crate::terminal::print;
 use crate::text::shown;
+use rocking::run_folder::Results;
 use std::path::Path;
 
 /// The page's name in a run's folder.

@@ -6,9 +6,9 @@ use crate::error::Failure;
 use crate::output;
 use crate::plot::NAMES;
 use crate::progress::Progress;
-use crate::run_folder::{Folder, Results, SceneText, longest_first};
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
+use rocking::run_folder::{Folder, Results, Run as Finished, SceneText};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -22,7 +22,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if asked.dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
-    let folder = Folder::open(out)?;
+    let folder = Folder::create(out)?;
     let bar = Progress::of_run(scene.options.t_end, asked.quiet);
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| {
@@ -32,12 +32,12 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     .map_err(|error| Failure::Solve { scene: path.clone(), out: out.clone(), error })?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
-    let mut warnings = scene.excitation.warnings();
-    warnings.extend(response.warnings(scene.friction));
-    let mut outdated: Vec<String> =
-        NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]).collect();
-    outdated.push(report::NAME.into());
-    folder.write(SceneText { file: path.clone(), text }, &scene, &response, seconds, &warnings, &outdated)?;
+    let mut finished = Finished::new(&scene, &response);
+    finished.scene_text = SceneText { file: path.clone(), text };
+    finished.wall_seconds = seconds;
+    finished.outdated = NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]).collect();
+    finished.outdated.push(report::NAME.into());
+    folder.write(&finished)?;
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
     if asked.plots || asked.report {
         // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
@@ -53,7 +53,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if asked.quiet {
         return Ok(());
     }
-    warn(&warnings);
+    warn(&finished.warnings);
     if asked.json {
         return json_text(&folder.summary()?);
     }
@@ -72,7 +72,7 @@ fn account(scene: &Scene, response: &Response) -> String {
         _ => format!("stands at t = {:.4} s, still rocking", response.t_final),
     };
     let peaks: Vec<String> = response.peak_theta.iter().map(|angle| format!("{angle:.5}")).collect();
-    let modes = longest_first(&response.time_in_mode);
+    let modes = response.modes_by_time();
     let (told, others) = modes.split_at(modes.len().min(MODES_PRINTED));
     let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
     if !others.is_empty() {

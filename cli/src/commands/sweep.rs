@@ -167,8 +167,8 @@ fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
             // A run that ends when its outcome is certain has not had all its impacts.
             let is_counted = match outcome.fate {
                 Fate::NoUplift => true,
-                Fate::Rocks => ask == Ask::Peaks,
                 Fate::Overturns => ask != Ask::Overturns,
+                _ => ask == Ask::Peaks,
             };
             cells.push(outcome.fate.name().into());
             cells.push(if is_counted { outcome.impacts.to_string() } else { String::new() });

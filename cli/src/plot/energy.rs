@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, brief};
 use super::curve::Point;
-use super::motion::Motion;
+use super::drawn_run::DrawnRun;
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
@@ -20,11 +20,11 @@ const KINDS: [(&str, Stroke); 3] = [
 ];
 
 /// The figure.
-pub fn draw(motion: &Motion) -> Figure {
+pub fn draw(motion: &DrawnRun) -> Figure {
     let column = &motion.results.column;
     let pattern = Pattern::rest(column.len());
     let still = vec![0.0; column.len()];
-    let rest = Sample { t: 0.0, theta: still.clone(), omega: still, ground: [0.0; 2], pattern };
+    let rest = Sample::new(0.0, still.clone(), still, pattern);
     let level = rest.energy(column).potential;
     // After the fall has begun, energies show only how far the column has fallen.
     let fall = motion.falls_at().unwrap_or(f64::INFINITY);
@@ -61,7 +61,7 @@ pub fn draw(motion: &Motion) -> Figure {
     Figure::new("energy", caption(motion, largest), sheet)
 }
 
-fn caption(motion: &Motion, largest: f64) -> String {
+fn caption(motion: &DrawnRun, largest: f64) -> String {
     let mut caption = String::from(
         "Energy relative to the moving ground, potential above that of the column at rest; impacts are the drops of the \
          total. Masses of blocks given by density are per metre of thickness, and so is their energy.",

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, brief, span};
 use super::curve::{self, Point};
-use super::motion::Motion;
+use super::drawn_run::DrawnRun;
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
@@ -28,9 +28,9 @@ struct Contact {
 }
 
 /// The figure.
-pub fn draw(motion: &Motion) -> Figure {
+pub fn draw(motion: &DrawnRun) -> Figure {
     let contacts = contacts(motion);
-    let summary = &motion.results.summary;
+    let response = &motion.results.response;
     let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time");
     let entries: Vec<(Key, String)> = (0..contacts.len())
         .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
@@ -50,9 +50,9 @@ pub fn draw(motion: &Motion) -> Figure {
     }
     mark_ending(&mut sheet, motion, &normal, Anchor::Start);
 
-    let [_, needed] = span(summary.friction_demand.iter().copied().chain(demands(&contacts)));
-    let most = LARGEST_DEMAND.max(summary.given.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
-    let least = summary.given.friction.unwrap_or(0.05) * 1.15;
+    let [_, needed] = span(response.friction_demand.iter().copied().chain(demands(&contacts)));
+    let most = LARGEST_DEMAND.max(motion.results.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
+    let least = motion.results.friction.unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
     let friction = Panel::wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
@@ -64,7 +64,7 @@ pub fn draw(motion: &Motion) -> Figure {
         });
         sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
     }
-    if let Some(available) = summary.given.friction {
+    if let Some(available) = motion.results.friction {
         sheet.level(&friction, available, &AVAILABLE);
     }
     let below = sheet.label_below(&friction);
@@ -72,7 +72,7 @@ pub fn draw(motion: &Motion) -> Figure {
     Figure::new("forces", caption(motion, &contacts, &friction), sheet)
 }
 
-fn contacts(motion: &Motion) -> Vec<Contact> {
+fn contacts(motion: &DrawnRun) -> Vec<Contact> {
     let column = &motion.results.column;
     let weights: Vec<f64> =
         (0..column.len()).map(|interface| column.mass_above(interface) * column.gravity()).collect();
@@ -99,15 +99,15 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
 }
 
 /// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
-fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) -> f64 {
-    let summary = &motion.results.summary;
-    let available = summary.given.friction.map(|friction| format!("friction coefficient {}", brief(friction)));
+fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64) -> f64 {
+    let response = &motion.results.response;
+    let available = motion.results.friction.map(|friction| format!("friction coefficient {}", brief(friction)));
     // Below the panel and not along its line: there the name would lie on the curves.
     let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
-    if !summary.friction_demand.is_empty() {
+    if !response.friction_demand.is_empty() {
         entries.push((Key::None, "Largest demand of the whole run (◂):".to_string()));
     }
-    for (interface, demand) in summary.friction_demand.iter().enumerate() {
+    for (interface, demand) in response.friction_demand.iter().enumerate() {
         let what = if demand.is_finite() { brief(*demand) } else { "no friction is enough".into() };
         entries.push((Key::Line(style::line(interface)), what));
         if panel.reaches(*demand) {
@@ -118,17 +118,17 @@ fn largest_demands(sheet: &mut Sheet, motion: &Motion, panel: &Panel, top: f64) 
     if entries.is_empty() { top } else { sheet.legend(top, &entries) }
 }
 
-fn caption(motion: &Motion, contacts: &[Contact], panel: &Panel) -> String {
+fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
     let mut caption = String::from(
         "At output times: normal force of each interface over the weight above it (dashed: 1), and below the friction \
          coefficient it asks for",
     );
-    match motion.results.summary.given.friction {
+    match motion.results.friction {
         Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
         None => caption.push_str("; the scene names no friction coefficient."),
     }
     let beyond = demands(contacts)
-        .chain(motion.results.summary.friction_demand.iter().copied().filter(|demand| demand.is_finite()));
+        .chain(motion.results.response.friction_demand.iter().copied().filter(|demand| demand.is_finite()));
     if beyond.into_iter().any(|demand| !panel.reaches(demand)) {
         caption.push_str(" Larger demands leave the panel.");
     }

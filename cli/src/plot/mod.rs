@@ -1,10 +1,10 @@
 //! Figures of a run, of a record and of a sweep, as SVG and PNG.
 //!
 //! ```text
-//! results ──> motion.rs ──> time_history.rs, phase_portrait.rs, energy.rs, forces.rs ──> sheet.rs ──> SVG, PNG
-//!             rows, events   what is drawn where                                          kuva
-//!                                record.rs ──────────────────────────────────────────────┤
-//! table of a sweep ────────────> spectrum.rs ────────────────────────────────────────────┘
+//! results ──> drawn_run.rs ──> time_history.rs, phase_portrait.rs, energy.rs, forces.rs ──> sheet.rs ──> SVG, PNG
+//!             rows, events     what is drawn where                                             kuva
+//!                                   record.rs ──────────────────────────────────────────────┤
+//! table of a sweep ───────────────> spectrum.rs ────────────────────────────────────────────┘
 //! ```
 //!
 //! No mechanics: energies and forces come from the library. A figure is made of a run's files alone, and is the same, byte for
@@ -12,10 +12,10 @@
 
 mod axis;
 mod curve;
+mod drawn_run;
 mod energy;
 mod forces;
 pub mod modes;
-mod motion;
 mod phase_portrait;
 mod record;
 mod sheet;
@@ -24,10 +24,10 @@ mod style;
 pub mod terminal;
 mod time_history;
 
-use crate::run_folder::Results;
-use motion::Motion;
+use drawn_run::DrawnRun;
+use rocking::run_folder::Results;
 
-pub use motion::FALL;
+pub use drawn_run::FALL;
 pub use record::record;
 pub use sheet::Figure;
 
@@ -36,6 +36,6 @@ pub const NAMES: [&str; 4] = ["time-history", "phase-portrait", "energy", "force
 
 /// All figures of a run, in the order in which they are read.
 pub fn figures(results: &Results) -> Vec<Figure> {
-    let motion = Motion::of(results);
+    let motion = DrawnRun::of(results);
     vec![time_history::draw(&motion), phase_portrait::draw(&motion), energy::draw(&motion), forces::draw(&motion)]
 }

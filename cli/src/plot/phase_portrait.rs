@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, subscript};
 use super::curve::{self, Frame, Ink, Point};
-use super::motion::{FALL, Motion};
+use super::drawn_run::{DrawnRun, FALL};
 use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
 use super::style::{self, Stroke};
 
@@ -17,7 +17,7 @@ const JUMP: Stroke = Stroke::dashed(style::IMPACT, 1.8, &[2.5, 3.5]);
 const CURVE: Stroke = Stroke::solid("#0072b2", 1.3);
 
 /// The figure.
-pub fn draw(motion: &Motion) -> Figure {
+pub fn draw(motion: &DrawnRun) -> Figure {
     let blocks = motion.results.column.len();
     let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) };
     let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps");
@@ -65,7 +65,7 @@ pub fn draw(motion: &Motion) -> Figure {
     Figure::new("phase-portrait", caption, sheet)
 }
 
-fn portrait(sheet: &mut Sheet, motion: &Motion, panel: &Panel, block: usize) {
+fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
     sheet.axes(panel);
     sheet.level(panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     let upright = panel.place_x(0.0);

@@ -2,11 +2,10 @@
 
 use super::axis::{Axis, brief, span, subscript};
 use super::curve::{Frame, Point};
-use super::motion::{FALL, Motion, Stretch, over_time};
+use super::drawn_run::{DrawnRun, FALL, Stretch, over_time};
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
-use crate::run_folder::longest_first;
 use rocking::Sample;
 
 /// Heights `[px]`.
@@ -19,7 +18,7 @@ const GAP: f64 = 14.0;
 const EDGE: f64 = 5.0;
 
 /// The figure.
-pub fn draw(motion: &Motion) -> Figure {
+pub fn draw(motion: &DrawnRun) -> Figure {
     let mut sheet = Sheet::new("Angles of the blocks over time, ground acceleration, impacts and modes");
     let top = ground_panel(&mut sheet, motion, GAP);
     let top = legend(&mut sheet, motion, top);
@@ -31,12 +30,12 @@ pub fn draw(motion: &Motion) -> Figure {
 }
 
 /// The axis of time.
-pub fn time_axis(motion: &Motion) -> Axis {
+pub fn time_axis(motion: &DrawnRun) -> Axis {
     Axis::over("Time [s]", [0.0, motion.end], 6)
 }
 
 /// Ground acceleration in parts of gravity, from `top` down. Returns where it ends.
-fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
+fn ground_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
     let gravity = motion.results.column.gravity();
     let directions: Vec<Vec<Point>> =
         [0, 1].map(|direction| over_time(motion.samples, |sample: &Sample| sample.ground[direction] / gravity)).into();
@@ -62,7 +61,7 @@ fn ground_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     panel.frame.bottom()
 }
 
-fn legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
+fn legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
     let entries: Vec<(Key, String)> = motion
         .slenderness()
         .iter()
@@ -79,7 +78,7 @@ fn legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     sheet.legend(top + 4.0, &entries)
 }
 
-fn angles_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
+fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
     let curves: Vec<Vec<Point>> = motion
         .slenderness()
         .iter()
@@ -102,7 +101,7 @@ fn angles_panel(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
 }
 
 /// A line where the run was over before its time, and what happened along it: to its upper `End`, or from its lower `Start`.
-pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, anchor: Anchor) {
+pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: Anchor) {
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
@@ -112,7 +111,7 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &Motion, panel: &Panel, anchor: An
 }
 
 /// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
-fn strip(sheet: &mut Sheet, motion: &Motion, top: f64) -> Panel {
+fn strip(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
     let panel = Panel::wide(top, TICKS + BAND, time_axis(motion), None);
     let band = Frame { top: top + TICKS, height: BAND, ..panel.frame };
     draw_band(sheet, motion, &panel, &band);
@@ -142,7 +141,7 @@ fn seen(mut ticks: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
 /// Columns of the band `[px]`: each shows the pattern that lasts longest in it.
 const GRAIN: f64 = 0.25;
 
-fn draw_band(sheet: &mut Sheet, motion: &Motion, panel: &Panel, band: &Frame) {
+fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) {
     let modes = modes(motion);
     let drawn = on_columns(&motion.stretches(), panel);
     for (rank, mode) in modes.iter().enumerate() {
@@ -201,9 +200,9 @@ fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
 }
 
 /// The modes of a run, those that last longest first; `rest` last.
-fn modes(motion: &Motion) -> Vec<String> {
+fn modes(motion: &DrawnRun) -> Vec<String> {
     let (resting, moving): (Vec<_>, Vec<_>) =
-        longest_first(&motion.results.summary.time_in_mode).into_iter().partition(|(mode, _)| *mode == "rest");
+        motion.results.response.modes_by_time().into_iter().partition(|(mode, _)| *mode == "rest");
     moving.into_iter().chain(resting).map(|(mode, _)| mode.to_string()).collect()
 }
 
@@ -214,8 +213,8 @@ fn mode_fill(mode: &str, rank: usize) -> &'static str {
 /// Modes without a fill of their own are named up to this many.
 const LISTED: usize = 24;
 
-fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
-    let times = &motion.results.summary.time_in_mode;
+fn modes_legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
+    let times = &motion.results.response.time_in_mode;
     let total: f64 = times.values().sum();
     let share = |time: f64| percent(time / total);
     let modes = modes(motion);
@@ -249,8 +248,8 @@ fn modes_legend(sheet: &mut Sheet, motion: &Motion, top: f64) -> f64 {
     sheet.legend(end, &explained)
 }
 
-fn caption(motion: &Motion) -> String {
-    let summary = &motion.results.summary;
+fn caption(motion: &DrawnRun) -> String {
+    let response = &motion.results.response;
     let blocks = motion.results.column.len();
     let mut caption = if blocks == 1 {
         "Angle of the block over its slenderness α".to_string()
@@ -272,10 +271,10 @@ fn caption(motion: &Motion) -> String {
         let verb = if motion.overturned() { "" } else { "is " };
         caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
     }
-    if motion.results.events.is_empty() {
+    if motion.results.response.events.is_empty() {
         caption.push_str(" Nothing sets the column in motion.");
     } else {
-        caption.push_str(&format!(" {} impact(s).", summary.impacts));
+        caption.push_str(&format!(" {} impact(s).", response.impacts));
     }
     caption
 }

@@ -9,9 +9,10 @@ use crate::plot;
 use crate::plot::modes::fill;
 use crate::report::html::script;
 use crate::report::outcome::closed;
-use crate::run_folder::{Event, Results};
+use rocking::Event;
 use rocking::Record;
 use rocking::pattern::Pattern;
+use rocking::run_folder::Results;
 use rocking::{Block, EventKind, StopReason};
 use serde_json::json;
 
@@ -42,15 +43,15 @@ struct Frame<'a> {
 
 /// Number of rows of which one is kept.
 fn stride(results: &Results) -> usize {
-    results.samples.len().div_ceil(MOST_ROWS)
+    results.response.samples.len().div_ceil(MOST_ROWS)
 }
 
 /// All frames in order of time.
 fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
-    let rows = &results.samples;
+    let rows = &results.response.samples;
     let stride = stride(results);
-    let mut frames = Vec::with_capacity(rows.len() / stride + 2 * results.events.len() + 1);
-    let mut events = results.events.iter().peekable();
+    let mut frames = Vec::with_capacity(rows.len() / stride + 2 * results.response.events.len() + 1);
+    let mut events = results.response.events.iter().peekable();
     let last = rows.len() - 1;
     for (index, row) in rows.iter().enumerate() {
         while let Some(event) = events.next_if(|event| event.t <= row.t) {
@@ -77,13 +78,8 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
 }
 
 fn sides(event: &Event, ground: [[f64; 2]; 2]) -> [Frame<'_>; 2] {
-    let side = |signs: &[i8], omega| Frame {
-        t: event.t,
-        theta: &event.theta,
-        omega,
-        pattern: Pattern::from_signs(signs),
-        ground,
-    };
+    let side =
+        |pattern: &Pattern, omega| Frame { t: event.t, theta: &event.theta, omega, pattern: pattern.clone(), ground };
     [side(&event.before, &event.omega_before), side(&event.after, &event.omega_after)]
 }
 
@@ -99,7 +95,7 @@ impl Ground {
     /// Takes the rows as a record that starts from rest, and takes out the mean velocity of the second half of the run where there is any: what a
     /// record's base line or a harmonic motion that starts from rest would carry away.
     fn new(results: &Results) -> Ground {
-        let rows = &results.samples;
+        let rows = &results.response.samples;
         let (mut displacement, mut drift) = (vec![[0.0; 2]; rows.len()], [0.0; 2]);
         for axis in 0..2 {
             // Rows are equally far apart: they are a record of the ground.
@@ -120,7 +116,7 @@ impl Ground {
 
     /// Acceleration and displacement at `t`, linear between the row `index` and the one before it.
     fn at(&self, results: &Results, index: usize, t: f64) -> [[f64; 2]; 2] {
-        let rows = &results.samples;
+        let rows = &results.response.samples;
         let before = index.saturating_sub(1);
         let dt = rows[index].t - rows[before].t;
         let share = if dt > 0.0 { ((t - rows[before].t) / dt).clamp(0.0, 1.0) } else { 1.0 };
@@ -171,9 +167,10 @@ pub fn json(results: &Results) -> String {
     let fills: Vec<&str> = (0..=column.len()).map(fill).collect();
     // The player's status line names each event.
     let events: Vec<_> = results
+        .response
         .events
         .iter()
-        .map(|event| json!({ "t": event.t, "kind": kind(event.kind), "at": interfaces(event), "mode": event.mode }))
+        .map(|event| json!({ "t": event.t, "kind": event.kind, "at": interfaces(event), "mode": event.mode }))
         .collect();
     let head = json!({
         "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
@@ -187,7 +184,7 @@ pub fn json(results: &Results) -> String {
     let omega = per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS));
     // `{:?}` is the shortest text that reads back to the same bits.
     let t = list(frames.iter().map(|frame| format!("{:?}", frame.t)).collect());
-    let peaks = results.peak_ground_acceleration();
+    let peaks = results.peak_ground_acceleration;
     let channel = |quantity: usize, axis: usize| match peaks[axis] > 0.0 {
         true => list(frames.iter().map(|frame| fixed(frame.ground[quantity][axis], GROUND_DIGITS)).collect()),
         false => "null".into(),
@@ -205,16 +202,7 @@ pub fn json(results: &Results) -> String {
 fn largest_shown(results: &Results) -> Option<f64> {
     let column = &results.column;
     let slenderness = (0..column.len()).map(|interface| column.stack(interface).slenderness());
-    (results.summary.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
-}
-
-fn kind(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Start => "start",
-        EventKind::Opening => "opening",
-        EventKind::Impact => "impact",
-        EventKind::Jump => "jump",
-    }
+    (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
 /// Interfaces, from 0, that closed in an impact, or else changed.
@@ -222,13 +210,13 @@ fn interfaces(event: &Event) -> Vec<usize> {
     if event.kind == EventKind::Impact {
         return closed(event);
     }
-    (0..event.after.len()).filter(|&interface| event.before.get(interface) != event.after.get(interface)).collect()
+    (0..event.after.0.len()).filter(|&interface| event.before.0[interface] != event.after.0[interface]).collect()
 }
 
 /// Notes below the player: drift of the ground that is taken out, rows that are left out.
 pub fn notes(results: &Results) -> String {
     let mut notes = Vec::new();
-    if results.peak_ground_acceleration() != [0.0; 2] {
+    if results.peak_ground_acceleration != [0.0; 2] {
         let Ground { drift, .. } = Ground::new(results);
         let name = |axis: usize| ["horizontal", "vertical"][axis];
         let taken: Vec<String> = (0..2)

@@ -3,36 +3,37 @@
 use crate::ground;
 use crate::number::{percent, significant, widths};
 use crate::report::html::definitions;
-use crate::run_folder::Results;
 use crate::text::escape;
+use rocking::Restitution;
+use rocking::run_folder::Results;
 use serde_json::Value;
 use std::fmt::Write as _;
 
 /// The inputs of a run.
 pub fn inputs(results: &Results) -> String {
-    let (summary, column) = (&results.summary, &results.column);
+    let column = &results.column;
     let mut text = blocks(results);
-    let peaks = results.peak_ground_acceleration();
+    let peaks = results.peak_ground_acceleration;
     let component = |name: &str, axis: usize| {
-        let motion = summary.given.excitation.get(name).unwrap_or(&Value::Null);
+        let motion = results.excitation.get(name).unwrap_or(&Value::Null);
         escape(&ground::words(motion, column.gravity(), peaks[axis]))
     };
     let mut rows = vec![
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
         ("Gravity", format!("{} m/s²", significant(column.gravity(), 6))),
-        ("Impacts", restitution(&summary.given.restitution, column.housner_ratio())),
-        ("Friction", summary.given.friction.map_or("not given".into(), |friction| significant(friction, 4))),
+        ("Impacts", restitution(&results.restitution, column.housner_ratio())),
+        ("Friction", results.friction.map_or("not given".into(), |friction| significant(friction, 4))),
         ("Ground, horizontal", component("horizontal", 0)),
         ("Ground, vertical", component("vertical", 1)),
     ];
     rows.extend(initial(results).map(|state| ("Initial state", state)));
-    rows.push(("Length of the run", format!("{} s", significant(summary.given.options.t_end, 6))));
+    rows.push(("Length of the run", format!("{} s", significant(results.options.t_end, 6))));
     text.push_str(&definitions(&rows));
     let _ = write!(
         text,
         "<details><summary>The scene file, <code>{}</code></summary>\n<pre tabindex=\"0\">{}</pre></details>\n",
-        escape(&summary.scene.file.display().to_string()),
-        escape(&summary.scene.text)
+        escape(&results.scene.file.display().to_string()),
+        escape(&results.scene.text)
     );
     text
 }
@@ -59,28 +60,28 @@ fn blocks(results: &Results) -> String {
 }
 
 /// The contact law; `housner` is the ratio of rates of the column as one body without restitution.
-fn restitution(law: &Value, housner: f64) -> String {
+fn restitution(law: &Restitution, housner: f64) -> String {
     let plastic = "angular momentum is conserved about the new pivots, nothing rebounds";
-    if law.as_str() == Some("plastic") {
-        return format!("plastic: {plastic}; as one body the column keeps {} of its rate", percent(housner));
-    }
-    if let Some(eta) = law.get("eta").and_then(Value::as_f64) {
-        return format!(
+    match law {
+        Restitution::Plastic => {
+            format!("plastic: {plastic}; as one body the column keeps {} of its rate", percent(housner))
+        }
+        Restitution::Eta(eta) => format!(
             "η = {}: the ratio of rates after and before of the column as one body ({} if plastic)",
-            significant(eta, 5),
+            significant(*eta, 5),
             significant(housner, 4)
-        );
+        ),
+        Restitution::Factors(factors) => {
+            let factors: Vec<String> = factors.iter().map(|one| significant(*one, 5)).collect();
+            format!("factors of the plastic relative rate, base first: {}", factors.join(", "))
+        }
+        law => escape(&format!("{law:?}")),
     }
-    if let Some(factors) = law.get("factors").and_then(Value::as_array) {
-        let factors: Vec<String> = factors.iter().filter_map(Value::as_f64).map(|one| significant(one, 5)).collect();
-        return format!("factors of the plastic relative rate, base first: {}", factors.join(", "));
-    }
-    escape(&law.to_string())
 }
 
 /// The state in the first row, unless it is the column at rest.
 fn initial(results: &Results) -> Option<String> {
-    let first = results.samples.first()?;
+    let first = results.response.samples.first()?;
     let list = |values: &[f64]| values.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");
     let is_zero = |values: &[f64]| values.iter().all(|value| *value == 0.0);
     let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s")]

@@ -15,20 +15,19 @@ mod frames;
 mod html;
 
 use crate::plot;
-use crate::run_folder::Results;
 use crate::text::escape;
+use rocking::run_folder::Results;
 use std::fmt::Write as _;
 
 /// The page of a run.
 pub fn page(results: &Results) -> String {
     let figures = plot::figures(results);
     let figures: Vec<_> = figures.iter().map(|one| (one.name, one.caption.as_str(), one.svg.as_str())).collect();
-    let summary = &results.summary;
-    let title = if summary.title.is_empty() { "A run of rocking" } else { &summary.title };
+    let title = if results.title.is_empty() { "A run of rocking" } else { &results.title };
     let parts = [
         ("title", escape(title)),
-        ("version", escape(&summary.version)),
-        ("file", escape(&summary.scene.file.display().to_string())),
+        ("version", escape(&results.version)),
+        ("file", escape(&results.scene.file.display().to_string())),
         ("outcome", outcome::sentence(results)),
         ("verdict", validity::verdict(results)),
         ("tiles", outcome::tiles(results)),

@@ -2,26 +2,27 @@
 
 use crate::number::{degrees, percent, significant};
 use crate::plot::modes::sketch;
-use crate::run_folder::{Event, Results, longest_first};
 use crate::text::escape;
+use rocking::Event;
 use rocking::pattern::{ModeLabel, Pattern};
+use rocking::run_folder::Results;
 use rocking::{EventKind, StopReason};
 use std::fmt::Write as _;
 
 /// The outcome with its sign.
 pub fn sentence(results: &Results) -> String {
-    let summary = &results.summary;
-    let t = significant(summary.t_final, 4);
-    let end = significant(summary.given.options.t_end, 4);
-    let (class, words) = match summary.status {
+    let response = &results.response;
+    let t = significant(response.t_final, 4);
+    let end = significant(results.options.t_end, 4);
+    let (class, words) = match response.status {
         StopReason::Overturned => {
-            let first = summary.overturned_block.map_or(String::new(), |block| match results.column.len() {
+            let first = response.overturned_block.map_or(String::new(), |block| match results.column.len() {
                 1 => String::new(),
                 _ => format!(", block {block} first"),
             });
             ("overturned", format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."))
         }
-        StopReason::AtRest if results.events.is_empty() && summary.t_final == 0.0 => {
+        StopReason::AtRest if results.response.events.is_empty() && response.t_final == 0.0 => {
             ("stands", format!("The column <strong>stands</strong>: nothing starts it in {end}&nbsp;s."))
         }
         StopReason::AtRest => {
@@ -33,10 +34,10 @@ pub fn sentence(results: &Results) -> String {
         StopReason::Falls => {
             ("overturned", "The column <strong>overturns</strong>: nothing can stop it any more.".to_string())
         }
-        StopReason::EndOfTime if results.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
+        StopReason::EndOfTime if results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
-        StopReason::EndOfTime => (
+        _ => (
             "rocking",
             format!(
                 "The column <strong>stands</strong>, but is still rocking at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
@@ -56,23 +57,23 @@ pub fn sentence(results: &Results) -> String {
 
 /// The figures that are asked for first.
 pub fn tiles(results: &Results) -> String {
-    let summary = &results.summary;
+    let response = &results.response;
     let mut tiles = Vec::new();
-    let largest = (0..results.column.len()).max_by(|a, b| summary.peak_theta[*a].total_cmp(&summary.peak_theta[*b]));
+    let largest = (0..results.column.len()).max_by(|a, b| response.peak_theta[*a].total_cmp(&response.peak_theta[*b]));
     if let Some(block) = largest {
-        let peak = summary.peak_theta[block];
+        let peak = response.peak_theta[block];
         let of =
             format!("{} rad; {} of the column's α", significant(peak, 4), percent(peak / results.column.slenderness()));
         tiles.push(("largest angle", degrees(peak), of));
     }
-    let starts = results.events.iter().filter(|event| event.kind != EventKind::Impact).count();
-    tiles.push(("impacts", summary.impacts.to_string(), format!("{starts} other event(s): starts, openings")));
-    let total: f64 = summary.time_in_mode.values().sum();
-    if let Some((mode, time)) = longest_first(&summary.time_in_mode).first().copied() {
+    let starts = results.response.events.iter().filter(|event| event.kind != EventKind::Impact).count();
+    tiles.push(("impacts", response.impacts.to_string(), format!("{starts} other event(s): starts, openings")));
+    let total: f64 = response.time_in_mode.values().sum();
+    if let Some((mode, time)) = response.modes_by_time().first().copied() {
         let name = if mode == "rest" { "at rest".to_string() } else { format!("mode {}", escape(mode)) };
         tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
     }
-    let peaks = results.peak_ground_acceleration();
+    let peaks = results.peak_ground_acceleration;
     let [x, y] = peaks.map(|peak| format!("{} g", significant(peak / results.column.gravity(), 3)));
     tiles.push(match peaks {
         [0.0, 0.0] => ("ground acceleration", "none".into(), "the ground does not move".into()),
@@ -92,7 +93,7 @@ pub fn peaks(results: &Results) -> String {
     let column = &results.column;
     let mut rows = String::new();
     for block in (0..column.len()).rev() {
-        let peak = results.summary.peak_theta[block];
+        let peak = results.response.peak_theta[block];
         let slenderness = column.stack(block).slenderness();
         let share = peak / slenderness;
         let _ = writeln!(
@@ -126,7 +127,7 @@ pub fn closed(event: &Event) -> Vec<usize> {
         let below = if interface == 0 { 0.0 } else { event.theta[interface - 1] };
         (event.theta[interface] - below).abs()
     };
-    let was_open = |interface: usize| event.before.get(interface).is_some_and(|state| *state != 0);
+    let was_open = |interface: usize| event.before.0[interface].is_open();
     (0..event.theta.len()).filter(|&interface| was_open(interface) && gap(interface) < CLOSED_GAP).collect()
 }
 
@@ -135,7 +136,7 @@ const CLOSED_GAP: f64 = 1e-12;
 
 /// Number of impacts, their interfaces, and the times of the first and the last.
 pub fn impacts(results: &Results) -> String {
-    let impacts: Vec<&Event> = results.events.iter().filter(|event| event.kind == EventKind::Impact).collect();
+    let impacts: Vec<&Event> = results.response.events.iter().filter(|event| event.kind == EventKind::Impact).collect();
     let (Some(first), Some(last)) = (impacts.first(), impacts.last()) else {
         return "<p>There is no impact in this run.</p>\n".into();
     };
@@ -167,8 +168,8 @@ const MODES_SHOWN: usize = 8;
 /// Time in each mode, the longest first.
 pub fn modes(results: &Results) -> String {
     let blocks = results.column.len();
-    let total: f64 = results.summary.time_in_mode.values().sum::<f64>().max(f64::MIN_POSITIVE);
-    let modes = longest_first(&results.summary.time_in_mode);
+    let total: f64 = results.response.time_in_mode.values().sum::<f64>().max(f64::MIN_POSITIVE);
+    let modes = results.response.modes_by_time();
     let row = |(mode, time): &(&str, f64)| {
         let pattern = match *mode {
             "rest" => Some(Pattern::rest(blocks)),

@@ -2,31 +2,31 @@
 
 use crate::number::{degrees, significant};
 use crate::report::html::definitions;
-use crate::run_folder::Results;
 use crate::text::escape;
+use rocking::run_folder::Results;
 
 /// The provenance of a run.
 pub fn provenance(results: &Results) -> String {
-    let (summary, options) = (&results.summary, &results.summary.given.options);
-    let generic = options.dynamics.as_str() == Some("generic");
+    let (response, options) = (&results.response, &results.options);
+    let generic = options.dynamics == "generic";
     let dynamics = match options.dynamics.as_str() {
-        Some("generated") if summary.used_generic => {
+        "generated" if response.used_generic => {
             "generated at build time; generic ones for modes that the build has not got".into()
         }
-        Some("generated") => "generated at build time".into(),
-        Some("generic") => "generic: hand-written, for any number of blocks".into(),
+        "generated" => "generated at build time".into(),
+        "generic" => "generic: hand-written, for any number of blocks".into(),
         _ => "supplied by the calling program".to_string(),
     };
-    let modes = summary.time_in_mode.keys().filter(|mode| *mode != "rest").count();
-    let interval = match results.samples.as_slice() {
+    let modes = response.time_in_mode.keys().filter(|mode| *mode != "rest").count();
+    let interval = match results.response.samples.as_slice() {
         [first, second, ..] => {
-            format!("every {} s, {} rows", significant(second.t - first.t, 6), results.samples.len())
+            format!("every {} s, {} rows", significant(second.t - first.t, 6), results.response.samples.len())
         }
         _ => "one row".into(),
     };
     let rows = [
-        ("Version", format!("rocking {}", escape(&summary.version))),
-        ("Method", format!("<code>{}</code>", escape(&summary.method))),
+        ("Version", format!("rocking {}", escape(&results.version))),
+        ("Method", format!("<code>{}</code>", escape(&results.method))),
         ("Relative tolerance", significant(options.rtol, 3)),
         ("Absolute tolerance", format!("{} rad, rad/s", significant(options.atol, 3))),
         (
@@ -40,7 +40,7 @@ pub fn provenance(results: &Results) -> String {
         ("Equations", format!("{dynamics}; {modes} mode(s) entered")),
         ("Output", interval),
     ];
-    let file = quoted(&summary.scene.file.display().to_string());
+    let file = quoted(&results.scene.file.display().to_string());
     let flag = if generic { " --dynamics generic" } else { "" };
     format!(
         "{}<p>To repeat the run and this page:</p>\n<pre tabindex=\"0\">rocking run {}{flag} --out out --report</pre>\n",

@@ -1,8 +1,8 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations.
 
 use crate::number::{percent, significant};
-use crate::run_folder::Results;
 use crate::text::escape;
+use rocking::run_folder::Results;
 use std::fmt::Write as _;
 
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
@@ -25,21 +25,21 @@ enum Verdict {
 
 /// The interface, from 0, that needs most friction, with its demand; infinite where none is enough.
 fn largest_demand(results: &Results) -> Option<(usize, f64)> {
-    results.summary.friction_demand.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+    results.response.friction_demand.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 fn judge(results: &Results) -> Verdict {
-    let summary = &results.summary;
+    let response = &results.response;
     let mut reasons = Vec::new();
-    if let Some(first) = summary.separations.first() {
-        let count = summary.separations.len();
+    if let Some(first) = response.separations.first() {
+        let count = response.separations.len();
         let times = if count == 1 { "once".into() } else { format!("{count} times, first") };
         reasons.push(format!(
             "a block would leave its contact ({times} at t = {} s); what comes after is not reliable",
             significant(first.t, 5)
         ));
     }
-    let forces = summary.min_normal_force.iter().enumerate();
+    let forces = response.min_normal_force.iter().enumerate();
     let parted: Vec<usize> = forces.filter(|(_, force)| **force < 0.0).map(|(at, _)| at).collect();
     if !parted.is_empty() {
         reasons.push(format!("{} would have to pull: the blocks would part", named(&parted)));
@@ -47,12 +47,12 @@ fn judge(results: &Results) -> Verdict {
     let Some((worst, demand)) = largest_demand(results) else {
         return if reasons.is_empty() { Verdict::Unknown } else { Verdict::Fails(reasons) };
     };
-    let demands = summary.friction_demand.iter().copied().enumerate();
+    let demands = response.friction_demand.iter().copied().enumerate();
     let beyond = |available: f64| demands.clone().filter(|(_, demand)| *demand > available).map(|(at, _)| at).collect();
     if demand.is_infinite() {
         let limitless: Vec<usize> = beyond(f64::MAX);
         reasons.push(format!("no friction coefficient is enough at {}: the blocks would slide", named(&limitless)));
-    } else if let Some(available) = summary.given.friction.filter(|available| demand > *available) {
+    } else if let Some(available) = results.friction.filter(|available| demand > *available) {
         let sliding: Vec<usize> = beyond(available);
         let (verb, most) = if sliding.len() == 1 { ("needs", "") } else { ("need", "up to ") };
         reasons.push(format!(
@@ -62,7 +62,7 @@ fn judge(results: &Results) -> Verdict {
             significant(available, 3)
         ));
     }
-    match (reasons.is_empty(), summary.given.friction) {
+    match (reasons.is_empty(), results.friction) {
         (false, _) => Verdict::Fails(reasons),
         (true, Some(available)) => Verdict::Holds(format!(
             "no block leaves its contact, and the joints need a friction coefficient of at most {} where the scene has {}",
@@ -119,13 +119,13 @@ pub fn verdict(results: &Results) -> String {
 
 /// Demands and forces per interface, the top one first, and what they mean.
 pub fn details(results: &Results) -> String {
-    let (summary, column) = (&results.summary, &results.column);
+    let (response, column) = (&results.response, &results.column);
     let mut rows = String::new();
-    for interface in (0..column.len().min(summary.friction_demand.len()).min(summary.min_normal_force.len())).rev() {
+    for interface in (0..column.len().min(response.friction_demand.len()).min(response.min_normal_force.len())).rev() {
         let weight = column.mass_above(interface) * column.gravity();
-        let demand = summary.friction_demand[interface];
-        let force = summary.min_normal_force[interface];
-        let slides = summary.given.friction.is_some_and(|available| demand > available);
+        let demand = response.friction_demand[interface];
+        let force = response.min_normal_force[interface];
+        let slides = results.friction.is_some_and(|available| demand > available);
         let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
         let share = known(format!("{} <span class=\"note\">{}</span>", significant(force, 4), percent(force / weight)));
         let _ = writeln!(
@@ -139,7 +139,7 @@ pub fn details(results: &Results) -> String {
     }
     let mut text = String::new();
     if !rows.is_empty() {
-        let available = summary.given.friction.map_or("the scene names no coefficient".into(), |friction| {
+        let available = results.friction.map_or("the scene names no coefficient".into(), |friction| {
             format!("the scene has {}", significant(friction, 3))
         });
         let _ = write!(
@@ -155,24 +155,24 @@ pub fn details(results: &Results) -> String {
          interface needs so as not to slide; a normal force that falls to zero is a block about to lift off. Peaks that last a \
          few milliseconds count in full.</p>\n",
     );
-    if summary.overturned_at.is_some() {
+    if response.overturned_at().is_some() {
         text.push_str(
             "<p>The column falls in this run, and the fall is included: its friction demand grows with the lean.</p>\n",
         );
     }
-    let separations = match summary.separations.len() {
+    let separations = match response.separations.len() {
         0 => "<p>Separations: none.</p>\n".to_string(),
         count => {
-            let times: Vec<String> = summary.separations.iter().take(5).map(|one| significant(one.t, 6)).collect();
+            let times: Vec<String> = response.separations.iter().take(5).map(|one| significant(one.t, 6)).collect();
             let more = if count > times.len() { ", …" } else { "" };
             format!("<p>Separations: {count}, at t = {}{more} s.</p>\n", times.join(", "))
         }
     };
     text.push_str(&separations);
-    if !summary.warnings.is_empty() {
-        let list: String = summary.warnings.iter().map(|warning| format!("<li>{}</li>", escape(warning))).collect();
+    if !results.warnings.is_empty() {
+        let list: String = results.warnings.iter().map(|warning| format!("<li>{}</li>", escape(warning))).collect();
         let list = format!("<ul class=\"warnings\">{list}</ul>");
-        let _ = match summary.warnings.len() {
+        let _ = match results.warnings.len() {
             0..=WARNINGS_SHOWN => writeln!(text, "<h3>Warnings of the run</h3>\n{list}"),
             count => writeln!(text, "<details><summary>{count} warnings of the run</summary>\n{list}</details>"),
         };

@@ -58,6 +58,17 @@ fn crest_guess([start, end]: [f64; 2], [start_bend, end_bend]: [f64; 2]) -> f64 
     if guess > 0.0 && guess < 1.0 { guess } else { t }
 }
 
+/// What bounds say of the first root of a polynomial in `(0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FirstRoot {
+    /// There is none.
+    Absent,
+    /// Its place.
+    At(f64),
+    /// Bounds do not decide.
+    Unknown,
+}
+
 impl Powers {
     /// A constant and the terms of higher powers, in order: no more than there is room for.
     #[inline(always)]
@@ -104,9 +115,8 @@ impl Powers {
         self.terms().iter().map(|c| c.abs()).sum()
     }
 
-    /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `roots` known roots at zero left out; `None` where
-    /// bounds do not tell.
-    pub fn first_root(&self, roots: usize) -> Option<Option<f64>> {
+    /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `roots` known roots at zero left out.
+    pub fn first_root(&self, roots: usize) -> FirstRoot {
         // Divided by the roots that are known. Sums of what its terms, and those of slope and bend, take away or add.
         let terms = &self.coefficients[roots..=self.degree.max(roots + 2)];
         let (first, slope, half_bend) = (terms[0], terms[1], terms[2]);
@@ -121,14 +131,14 @@ impl Powers {
             bend_rise += before * k * c.max(0.0);
         }
         if first + fall > 0.0 {
-            return Some(None);
+            return FirstRoot::Absent;
         }
         let (falls, is_bent_down) = (slope + slope_rise < 0.0, 2.0 * half_bend + bend_rise < 0.0);
         if !(first > 0.0 && (falls || is_bent_down)) {
-            return None;
+            return FirstRoot::Unknown;
         }
         if end > 0.0 {
-            return Some(None);
+            return FirstRoot::Absent;
         }
         // Above zero at first, falling or bent downwards throughout, and below at the end: one root.
         let (mut above, mut below, mut s) = (0.0, 1.0, root_guess([first, slope, end]));
@@ -141,12 +151,12 @@ impl Powers {
             }
             let next = s + bent_step(value, slope, half_bend);
             if slope < 0.0 && value.abs() <= NEAR_ROOT * s * slope.abs() {
-                return Some(Some(next.min(1.0)));
+                return FirstRoot::At(next.min(1.0));
             }
             // Before the crest steps lead elsewhere.
             s = if slope < 0.0 && next > above && next < below { next } else { 0.5 * (above + below) };
         }
-        Some(Some(s))
+        FirstRoot::At(s)
     }
 
     /// The largest size on `[0, 1]`, if it is above `known`, else `known`; `None` where bounds do not tell.
@@ -233,35 +243,40 @@ mod tests {
         Powers::with_terms(coefficients[0], coefficients[1..].iter().copied())
     }
 
+    fn at(root: FirstRoot) -> f64 {
+        let FirstRoot::At(s) = root else { panic!("{root:?}") };
+        s
+    }
+
     #[test]
     fn bounds_tell_what_they_can() {
         // 1 - 0.2 s - 0.3 s²: above 0.5.
-        assert_eq!(powers(&[1.0, -0.2, -0.3]).first_root(0), Some(None));
+        assert_eq!(powers(&[1.0, -0.2, -0.3]).first_root(0), FirstRoot::Absent);
         // s (1 - 2 s): the root at zero is left out.
-        assert_eq!(powers(&[0.0, 1.0, -2.0]).first_root(1), Some(Some(0.5)));
+        assert_eq!(powers(&[0.0, 1.0, -2.0]).first_root(1), FirstRoot::At(0.5));
         // 1 - s²/2: bent, and above at the end.
-        assert_eq!(powers(&[1.0, 0.9, -1.0]).first_root(0), Some(None));
+        assert_eq!(powers(&[1.0, 0.9, -1.0]).first_root(0), FirstRoot::Absent);
         // Where Halley's first step leads beyond zero.
         for (terms, expected) in [
             ([0.02, -1.0, -0.05, -0.15], 0.019_978_846_089_125_34),
             ([1e-3, -1.0, -1e-6, -0.3], 9.999_996_990_002_715e-4),
         ] {
-            let root = powers(&terms).first_root(0).expect("bent").expect("a root");
+            let root = at(powers(&terms).first_root(0));
             assert!((root / expected - 1.0).abs() < 1e-15, "{root}");
         }
         // A short hop.
-        let hop = powers(&[0.0, 1e-7, -1.0]).first_root(1).expect("bent").expect("a root");
+        let hop = at(powers(&[0.0, 1e-7, -1.0]).first_root(1));
         assert!((hop / 1e-7 - 1.0).abs() < 1e-15, "{hop:e}");
         // 1 - 2 s + s²/2 falls, though it is bent upwards; and so does what is left of a product with s² or s³.
         for roots in [0, 2, 3] {
             let terms = [vec![0.0; roots], vec![1.0, -2.0, 0.5]].concat();
-            let root = powers(&terms).first_root(roots).expect("falls").expect("a root");
+            let root = at(powers(&terms).first_root(roots));
             assert!((root - (2.0 - 2.0f64.sqrt())).abs() < 2e-16, "{root}");
         }
         // A double root inside: bent the other way.
-        assert_eq!(powers(&[0.25, -1.0, 1.0]).first_root(0), None);
+        assert_eq!(powers(&[0.25, -1.0, 1.0]).first_root(0), FirstRoot::Unknown);
         // One that ends on zero.
-        assert_eq!(powers(&[1.0, 0.0, -1.0]).first_root(0), Some(Some(1.0)));
+        assert_eq!(powers(&[1.0, 0.0, -1.0]).first_root(0), FirstRoot::At(1.0));
     }
 
     #[test]
@@ -279,7 +294,7 @@ mod tests {
             };
             powers(&(0..=18).map(term).collect::<Vec<f64>>())
         };
-        let root = series(0, 1.2).shifted(1.0, -libm::cos(1.08)).first_root(0).expect("bent").expect("a root");
+        let root = at(series(0, 1.2).shifted(1.0, -libm::cos(1.08)).first_root(0));
         assert!((root - 0.9).abs() < 4e-16, "{root}");
         let wave = series(1, 2.0);
         // sin 2s is largest at π/4, which the signs of its slope tell, not sizes; sin 6s goes up and down.

@@ -40,7 +40,9 @@ fn exact(scene: &Scene) -> Answer {
 }
 
 fn with_row_at_end(scene: &Scene) -> Scene {
-    Scene { output_dt: Some(scene.options.t_end), ..scene.clone() }
+    let mut scene = scene.clone();
+    scene.output_dt = Some(scene.options.t_end);
+    scene
 }
 
 /// `rocking` with every method that chooses its steps and with `auto`, which swings in closed form and passes several samples of a record

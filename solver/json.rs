@@ -1,6 +1,6 @@
 //! JSON in which a number that is not finite is a word: `"infinite"`, `"-infinite"` or `"not a number"`, never `null`.
 //!
-//! Every JSON that the command line writes or prints passes through [`Explicit`]. [`numbers`] reads such values back.
+//! The files of a run and what the command line prints pass through [`Explicit`]. [`number`] and [`numbers`] read such values back.
 
 use serde::de::Error as _;
 use serde::ser::{self, Serialize, Serializer};
@@ -124,24 +124,43 @@ parts! {
     SerializeMap: serialize_key(), serialize_value();
 }
 
-/// Reads a list of numbers. `null`, which earlier versions wrote for a number that is not finite, is infinite.
-pub fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Number {
-        Finite(f64),
-        Word(String),
-        Null(()),
+/// A number or its word.
+struct Number(f64);
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Number, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Finite(f64),
+            Word(String),
+            Null(()),
+        }
+        match Written::deserialize(from)? {
+            Written::Finite(number) => Ok(Number(number)),
+            Written::Word(word) if word == INFINITE => Ok(Number(f64::INFINITY)),
+            Written::Word(word) if word == MINUS_INFINITE => Ok(Number(f64::NEG_INFINITY)),
+            Written::Word(word) if word == NOT_A_NUMBER => Ok(Number(f64::NAN)),
+            Written::Word(word) => Err(D::Error::custom(format!("`{word}` is no number"))),
+            Written::Null(()) => Ok(Number(f64::INFINITY)),
+        }
     }
-    let number = |number| match number {
-        Number::Finite(number) => Ok(number),
-        Number::Word(word) if word == INFINITE => Ok(f64::INFINITY),
-        Number::Word(word) if word == MINUS_INFINITE => Ok(f64::NEG_INFINITY),
-        Number::Word(word) if word == NOT_A_NUMBER => Ok(f64::NAN),
-        Number::Word(word) => Err(D::Error::custom(format!("`{word}` is no number"))),
-        Number::Null(()) => Ok(f64::INFINITY),
-    };
-    Vec::<Number>::deserialize(from)?.into_iter().map(number).collect()
+}
+
+/// Reads a number. `null`, which earlier versions wrote for a number that is not finite, is infinite.
+///
+/// # Errors
+/// The deserializer's own, and any other word than the three above.
+pub fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Number::deserialize(from).map(|number| number.0)
+}
+
+/// Reads a list of numbers, each as by [`number`].
+///
+/// # Errors
+/// As [`number`].
+pub fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    Vec::<Number>::deserialize(from).map(|list| list.into_iter().map(|number| number.0).collect())
 }
 
 #[cfg(test)]

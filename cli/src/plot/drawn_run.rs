@@ -3,8 +3,9 @@
 //! Rows may lie far apart; events hold the angles and the rates on both sides of an impact, so that curves break where they must.
 
 use super::curve::Point;
-use crate::run_folder::{Event, Results};
+use rocking::Event;
 use rocking::pattern::Pattern;
+use rocking::run_folder::Results;
 use rocking::{EventKind, ModeName, Sample, StopReason};
 
 /// The column at a row or an event. Lengths N, base first.
@@ -35,7 +36,7 @@ pub struct Stretch {
 
 /// The part of a run that is drawn.
 #[derive(Debug)]
-pub struct Motion<'a> {
+pub struct DrawnRun<'a> {
     pub results: &'a Results,
     /// The rows that are drawn: those after overturning only fill the file.
     pub samples: &'a [Sample],
@@ -51,24 +52,24 @@ const AFTERMATH: f64 = 0.04;
 /// Curves of angles end at so many times the slenderness where the column overturns: the fall would flatten the rest.
 pub const FALL: f64 = 2.0;
 
-impl Motion<'_> {
+impl DrawnRun<'_> {
     /// Sorts a run for drawing.
-    pub fn of(results: &Results) -> Motion<'_> {
-        let summary = &results.summary;
-        let last = results.samples.last().map_or(0.0, |sample| sample.t);
-        let (mut count, mut end) = (results.samples.len(), last.max(summary.given.options.t_end));
-        if summary.status == StopReason::Overturned {
+    pub fn of(results: &Results) -> DrawnRun<'_> {
+        let response = &results.response;
+        let last = results.response.samples.last().map_or(0.0, |sample| sample.t);
+        let (mut count, mut end) = (results.response.samples.len(), last.max(results.options.t_end));
+        if response.status == StopReason::Overturned {
             // The first row after it holds the column as it was then.
-            count = (results.samples.partition_point(|sample| sample.t < summary.t_final) + 1).min(count);
-            end = end.min(summary.t_final * (1.0 + AFTERMATH));
+            count = (results.response.samples.partition_point(|sample| sample.t < response.t_final) + 1).min(count);
+            end = end.min(response.t_final * (1.0 + AFTERMATH));
         }
-        let samples = &results.samples[..count];
-        Motion { results, samples, knots: knots(samples, &results.events), end: end.max(1e-9) }
+        let samples = &results.response.samples[..count];
+        DrawnRun { results, samples, knots: knots(samples, &results.response.events), end: end.max(1e-9) }
     }
 
     /// Times of the impacts `[s]`.
     pub fn impacts(&self) -> impl Iterator<Item = f64> {
-        self.results.events.iter().filter(|event| event.kind == EventKind::Impact).map(|event| event.t)
+        self.results.response.events.iter().filter(|event| event.kind == EventKind::Impact).map(|event| event.t)
     }
 
     /// Slenderness of the stack that stands on each interface, base first `[rad]`: `α_i = atan(c_i / h_Pi)`.
@@ -79,7 +80,7 @@ impl Motion<'_> {
 
     /// Whether the column overturned.
     pub fn overturned(&self) -> bool {
-        self.results.summary.status == StopReason::Overturned
+        self.results.response.status == StopReason::Overturned
     }
 
     /// When the first angle passed [`FALL`] times its slenderness on the way to overturning `[s]`; none where the column stands.
@@ -92,14 +93,14 @@ impl Motion<'_> {
 
     /// Time `[s]` and name of the end of the run; none where the run lasted its whole time, or nothing moved.
     pub fn ending(&self) -> Option<(f64, String)> {
-        let summary = &self.results.summary;
-        match (summary.status, summary.overturned_block) {
+        let response = &self.results.response;
+        match (response.status, response.overturned_block) {
             (StopReason::Overturned, Some(block)) if self.results.column.len() > 1 => {
-                Some((summary.t_final, format!("overturned (block {block})")))
+                Some((response.t_final, format!("overturned (block {block})")))
             }
-            (StopReason::Overturned, _) => Some((summary.t_final, "overturned".into())),
-            (StopReason::AtRest, _) if summary.t_final > 0.0 && summary.t_final < self.end => {
-                Some((summary.t_final, "at rest".into()))
+            (StopReason::Overturned, _) => Some((response.t_final, "overturned".into())),
+            (StopReason::AtRest, _) if response.t_final > 0.0 && response.t_final < self.end => {
+                Some((response.t_final, "at rest".into()))
             }
             _ => None,
         }
@@ -107,18 +108,18 @@ impl Motion<'_> {
 
     /// The patterns of the run in order of time, from 0 to its end.
     pub fn stretches(&self) -> Vec<Stretch> {
-        let end = if self.overturned() { self.results.summary.t_final } else { self.end };
+        let end = if self.overturned() { self.results.response.t_final } else { self.end };
         let named = |pattern: &Pattern, from: f64| Stretch {
             from,
             to: end,
             mode: ModeName::of(pattern).to_string(),
             mirrored: pattern.is_mirrored(),
         };
-        let first = self.results.events.first().map(|event| Pattern::from_signs(&event.before));
+        let first = self.results.response.events.first().map(|event| event.before.clone());
         let first = first.unwrap_or_else(|| self.samples[0].pattern.clone());
         let mut stretches = vec![named(&first, 0.0)];
-        for event in &self.results.events {
-            let next = named(&Pattern::from_signs(&event.after), event.t);
+        for event in &self.results.response.events {
+            let next = named(&event.after, event.t);
             let current = stretches.last_mut().expect("there is a first");
             if (&current.mode, current.mirrored) != (&next.mode, next.mirrored) {
                 current.to = next.from;
@@ -152,21 +153,17 @@ fn at_event(event: &Event) -> Knot<'_> {
     Knot {
         t: event.t,
         theta: &event.theta,
-        before: (event.omega_before.as_slice(), Pattern::from_signs(&event.before)),
-        after: Some((event.omega_after.as_slice(), Pattern::from_signs(&event.after))),
+        before: (&event.omega_before[..], event.before.clone()),
+        after: Some((&event.omega_after[..], event.after.clone())),
     }
 }
 
 impl Knot<'_> {
     /// The knot as rows, one for each side of an event. No ground motion: nothing that needs it is asked of them.
     pub fn rows(&self) -> impl Iterator<Item = Sample> {
-        std::iter::once(&self.before).chain(&self.after).map(|(omega, pattern)| Sample {
-            t: self.t,
-            theta: self.theta.to_vec(),
-            omega: omega.to_vec(),
-            ground: [0.0; 2],
-            pattern: pattern.clone(),
-        })
+        std::iter::once(&self.before)
+            .chain(&self.after)
+            .map(|(omega, pattern)| Sample::new(self.t, self.theta.to_vec(), omega.to_vec(), pattern.clone()))
     }
 }
 

@@ -1,0 +1,464 @@
+//! The folder of a run: `response.csv`, `events.json` and `summary.json`, written and read back.
+//!
+//! The three files hold all of a run: scene, column, history and events. Figures and reports are made of them alone, so that those of an old
+//! run, or of one on another machine, are the same.
+//!
+//! ```
+//! use rocking::run_folder::{Folder, Results, Run};
+//!
+//! let scene = rocking::Scene::from_toml("[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n", "two.toml".as_ref())?;
+//! let response = rocking::simulate(&scene)?;
+//! # let path = std::env::temp_dir().join(format!("rocking-run-folder-{}", std::process::id()));
+//! Folder::create(&path)?.write(&Run::new(&scene, &response))?;
+//! assert!(Results::read(&path)?.response == response);
+//! # std::fs::remove_dir_all(&path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use crate::column::{Block, Column};
+use crate::json::Explicit;
+use crate::response::{Event, Response, Sample};
+use crate::scene::{Initial, Restitution, Scene, SolveOptions};
+use rocking_codegen::pattern::Pattern;
+use rocking_ground::{Description, Motion};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Error, ErrorKind, Read, Write};
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Why a folder is refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// The folder or a file of it cannot be written.
+    #[error("{}: {source}; choose a folder that can be written to", path.display())]
+    Write {
+        /// The folder or file.
+        path: PathBuf,
+        /// What the system says.
+        source: Error,
+    },
+    /// A folder has the name of a file.
+    #[error("{}: a folder has this name; choose a folder that can be written to", path.display())]
+    Taken {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file cannot be read.
+    #[error("{}: {source}; {AGAIN}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: Error,
+    },
+    /// A file is not the JSON of a run.
+    #[error("{}: {source}; {AGAIN}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with its line.
+        source: serde_json::Error,
+    },
+    /// A row of `response.csv` is none of a run.
+    #[error("{}: line {line}: {problem}; {AGAIN}", path.display())]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file holds what no run writes.
+    #[error("{}: {problem}; {AGAIN}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+/// Remedy for a folder that cannot be read.
+const AGAIN: &str = "give the folder of a finished `rocking run`, or run the scene again";
+
+/// The scene file as it was read: a run's folder says all that the run was.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+pub struct SceneText {
+    /// The path by which the file was named.
+    pub file: PathBuf,
+    /// Its text.
+    pub text: String,
+}
+
+/// A finished run, to be written.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Run<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its response.
+    pub response: &'a Response,
+    /// The file of the scene; empty for a scene without one.
+    pub scene_text: SceneText,
+    /// Duration of the computation `[s]`.
+    pub wall_seconds: f64,
+    /// Warnings about the records of the scene and about the run.
+    pub warnings: Vec<String>,
+    /// Names of files in the folder that were made of an earlier run, and are removed.
+    pub outdated: Vec<String>,
+}
+
+impl<'a> Run<'a> {
+    /// A run with its warnings, without scene file, duration, or outdated files.
+    pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
+        let mut warnings = scene.excitation.warnings();
+        warnings.extend(response.warnings(scene.friction));
+        let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, Vec::new());
+        Run { scene, response, scene_text, wall_seconds, warnings, outdated }
+    }
+}
+
+/// `summary.json` as it is written.
+#[derive(Serialize)]
+struct Summary<'a> {
+    title: &'a str,
+    version: &'a str,
+    scene: &'a SceneText,
+    #[serde(flatten)]
+    response: &'a Response,
+    /// `[s]`
+    overturned_at: Option<f64>,
+    method: &'a str,
+    wall_seconds: f64,
+    warnings: &'a [String],
+    options: &'a SolveOptions,
+    column: &'a Column,
+    friction: Option<f64>,
+    restitution: &'a Restitution,
+    excitation: BTreeMap<&'a str, Option<Description<'a>>>,
+    /// Horizontal and vertical, until `t_end` `[m/s²]`; the peak of the rows may be lower.
+    peak_ground_acceleration: [f64; 2],
+    initial: &'a Initial,
+}
+
+/// The files of a run, in the order in which they are put in place: the summary last, as a sign that the others are there.
+const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
+
+/// The folder of a run's results, proved to be writable.
+#[derive(Debug)]
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// Makes the folder where it is missing, and tries it before any work is done.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] or [`FolderError::Taken`]
+    pub fn create(path: &Path) -> Result<Folder, FolderError> {
+        std::fs::create_dir_all(path).map_err(|source| FolderError::Write { path: path.into(), source })?;
+        let folder = Folder(path.into());
+        folder.draft(|_| Ok(()))?;
+        match FILES.iter().map(|name| path.join(name)).find(|file| file.is_dir()) {
+            Some(path) => Err(FolderError::Taken { path }),
+            None => Ok(folder),
+        }
+    }
+
+    /// Writes the files of a run: none is put in place before all are written.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`]
+    pub fn write(&self, run: &Run) -> Result<(), FolderError> {
+        let Run { scene, response, .. } = *run;
+        let components = [("horizontal", &scene.excitation.horizontal), ("vertical", &scene.excitation.vertical)];
+        let peak = |motion: &Option<Motion>| {
+            let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
+            peaks.map_or(0.0, |[acceleration, ..]| acceleration)
+        };
+        let summary = Summary {
+            title: &scene.title,
+            version: env!("CARGO_PKG_VERSION"),
+            scene: &run.scene_text,
+            response,
+            overturned_at: response.overturned_at(),
+            method: scene.options.method.stepper().name(),
+            wall_seconds: run.wall_seconds,
+            warnings: &run.warnings,
+            options: &scene.options,
+            column: &scene.column,
+            friction: scene.friction,
+            restitution: &scene.restitution,
+            excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
+            peak_ground_acceleration: components.map(|(_, motion)| peak(motion)),
+            initial: &scene.initial,
+        };
+        let drafts = [
+            self.draft(|file| history(file, scene.column.len(), &response.samples))?,
+            self.draft(|file| events(file, &response.events))?,
+            self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&summary)).map_err(Into::into))?,
+        ];
+        let failed = |path: &Path, source: Error| FolderError::Write { path: path.into(), source };
+        for path in run.outdated.iter().map(|name| self.0.join(name)).filter(|path| path.is_file()) {
+            std::fs::remove_file(&path).map_err(|error| failed(&path, error))?;
+        }
+        for (name, draft) in FILES.into_iter().zip(drafts) {
+            let path = self.0.join(name);
+            std::fs::rename(&draft.0, &path).map_err(|error| failed(&path, error))?;
+        }
+        Ok(())
+    }
+
+    /// The text of `summary.json`.
+    ///
+    /// # Errors
+    /// [`FolderError::Read`]
+    pub fn summary(&self) -> Result<String, FolderError> {
+        text(&self.0.join("summary.json"))
+    }
+
+    /// A file in the folder under a name of its own, with all that `write` writes.
+    fn draft(&self, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<Draft, FolderError> {
+        let filled = || {
+            let (draft, file) = Draft::create(&self.0)?;
+            let mut writer = BufWriter::new(file);
+            write(&mut writer)?;
+            writer.flush()?;
+            Ok(draft)
+        };
+        filled().map_err(|source| FolderError::Write { path: self.0.clone(), source })
+    }
+}
+
+/// A file that is removed unless it was renamed.
+struct Draft(PathBuf);
+
+impl Draft {
+    fn create(folder: &Path) -> std::io::Result<(Draft, File)> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let name = format!(".rocking-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+            let path = folder.join(name);
+            match File::create_new(&path) {
+                Ok(file) => return Ok((Draft(path), file)),
+                // A process that was killed may have had the same number.
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // An error leaves a file behind, which harms nothing; after a renaming there is none to remove.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+/// A JSON list, one event per line.
+fn events(mut file: impl Write, events: &[Event]) -> std::io::Result<()> {
+    for (index, event) in events.iter().enumerate() {
+        file.write_all(if index == 0 { b"[\n" } else { b",\n" })?;
+        serde_json::to_writer(&mut file, &Explicit(event))?;
+    }
+    file.write_all(if events.is_empty() { b"[]\n" } else { b"\n]\n" })
+}
+
+/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time.
+fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::Result<()> {
+    write!(file, "t")?;
+    (1..=blocks).try_for_each(|block| write!(file, ",theta_{block}"))?;
+    (1..=blocks).try_for_each(|block| write!(file, ",omega_{block}"))?;
+    writeln!(file, ",ground_x,ground_y,pattern")?;
+    for sample in samples {
+        // `{:?}` is the shortest text that reads back to the same bits.
+        write!(file, "{:?}", sample.t)?;
+        let mut numbers = sample.theta.iter().chain(&sample.omega).chain(&sample.ground);
+        numbers.try_for_each(|number| write!(file, ",{number:?}"))?;
+        // A pattern with a comma is quoted.
+        let quote = if blocks > 1 { "\"" } else { "" };
+        writeln!(file, ",{quote}{}{quote}", sample.pattern)?;
+    }
+    Ok(())
+}
+
+/// A finished run, read back.
+#[derive(Debug, Deserialize)]
+#[non_exhaustive]
+pub struct Results {
+    /// The response, with its samples and events.
+    #[serde(flatten)]
+    pub response: Response,
+    /// Title of the scene.
+    pub title: String,
+    /// Version of rocking that ran the scene.
+    pub version: String,
+    /// The file of the scene.
+    pub scene: SceneText,
+    /// Name of the method that ran.
+    pub method: String,
+    /// Warnings, a sentence each.
+    pub warnings: Vec<String>,
+    /// The solver's options.
+    pub options: Options,
+    /// The column.
+    pub column: Column,
+    /// Friction coefficient of the scene.
+    pub friction: Option<f64>,
+    /// Law of impacts.
+    pub restitution: Restitution,
+    /// Description of the ground motion: `horizontal` and `vertical`, each with `kind` and parameters; a record without its samples.
+    pub excitation: serde_json::Value,
+    /// Horizontal and vertical, until `t_end` `[m/s²]`; of an earlier version those of the rows.
+    #[serde(default)]
+    pub peak_ground_acceleration: [f64; 2],
+}
+
+/// The solver's options, as far as they are read.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[non_exhaustive]
+pub struct Options {
+    /// `[s]`
+    pub t_end: f64,
+    /// Dimensionless.
+    pub rtol: f64,
+    /// `[rad]`, `[rad/s]`
+    pub atol: f64,
+    /// `[rad]`
+    pub stick_angle: f64,
+    /// `[rad]`
+    pub overturn_angle: f64,
+    /// `generated`, `generic`, or the name of supplied equations.
+    pub dynamics: String,
+}
+
+/// Beyond this size no angle `[rad]`, rate `[rad/s]`, time `[s]` or acceleration `[m/s²]` comes from a run: figures of such numbers
+/// would have axes that doubles cannot divide.
+const LARGEST_NUMBER: f64 = 1e12;
+
+/// Lengths `[m]`, masses `[kg]`, inertias `[kg m²]` and gravity `[m/s²]` of columns that figures are drawn of.
+const SIZES: RangeInclusive<f64> = 1e-40..=1e40;
+
+/// Largest file that is read `[bytes]`.
+const LARGEST_FILE: u64 = 1 << 30;
+
+impl Results {
+    /// Reads the folder of a run.
+    ///
+    /// # Errors
+    /// [`FolderError`] with the file, and its line where there is one, for what could not have been written by a run.
+    pub fn read(folder: &Path) -> Result<Results, FolderError> {
+        let [response, events, summary] = FILES.map(|name| folder.join(name));
+        let mut read: Results = json(&summary)?;
+        let length = read.column.len();
+        if let Some(problem) = read.damage() {
+            return Err(FolderError::Damaged { path: summary, problem });
+        }
+        read.response.samples = samples(&response, length)?;
+        let list: Vec<Event> = json(&events)?;
+        let is_event = |event: &Event| {
+            let states = [&event.before, &event.after];
+            let numbers = [&event.theta, &event.omega_before, &event.omega_after];
+            states.iter().all(|pattern| pattern.0.len() == length)
+                && numbers.iter().all(|list| list.len() == length && all_plausible(list.iter().copied()))
+                && (0.0..=LARGEST_NUMBER).contains(&event.t)
+        };
+        if let Some(event) = list.iter().find(|event| !is_event(event)) {
+            let problem =
+                format!("the event at t = {} s is not of {length} block(s), or a number is out of range", event.t);
+            return Err(FolderError::Damaged { path: events, problem });
+        }
+        if !list.is_sorted_by_key(|event| event.t) {
+            let problem = "the events are not in the order of time".into();
+            return Err(FolderError::Damaged { path: events, problem });
+        }
+        read.response.events = list;
+        if read.peak_ground_acceleration == [0.0; 2] {
+            let rows = &read.response.samples;
+            read.peak_ground_acceleration =
+                [0, 1].map(|axis: usize| rows.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max));
+        }
+        Ok(read)
+    }
+
+    /// What is wrong with a summary.
+    fn damage(&self) -> Option<String> {
+        let Results { response, column, options, .. } = self;
+        let length = column.len();
+        let lists = [&response.friction_demand, &response.impulse_friction_demand, &response.min_normal_force];
+        if response.peak_theta.len() != length || lists.iter().any(|list| !list.is_empty() && list.len() != length) {
+            return Some(format!("peaks or forces are not of {length} block(s)"));
+        }
+        if response.overturned_block.is_some_and(|block| !(1..=length).contains(&block)) {
+            return Some("`overturned_block` is no block of the column".into());
+        }
+        let times = || response.time_in_mode.values().chain([&options.t_end, &response.t_final]).copied();
+        if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
+            return Some("an angle or a time is out of range".into());
+        }
+        let of_block = |block: &Block| [block.half_width(), block.half_height, block.mass, block.inertia];
+        let sizes = column.blocks().iter().flat_map(of_block).chain([column.gravity()]);
+        sizes.into_iter().any(|size| !SIZES.contains(&size)).then(|| "the column's sizes are out of range".into())
+    }
+}
+
+fn all_plausible(numbers: impl IntoIterator<Item = f64>) -> bool {
+    numbers.into_iter().all(|number| number.abs() <= LARGEST_NUMBER)
+}
+
+fn text(path: &Path) -> Result<String, FolderError> {
+    let read = || {
+        let found = std::fs::metadata(path)?;
+        let refused = |problem: String| Err(Error::new(ErrorKind::InvalidInput, problem));
+        if !found.is_file() {
+            return refused("it is a folder, a device or a pipe and no regular file".into());
+        }
+        if found.len() > LARGEST_FILE {
+            return refused(format!("it has {} bytes, and at most {LARGEST_FILE} are read", found.len()));
+        }
+        let mut text = String::new();
+        File::open(path)?.take(LARGEST_FILE).read_to_string(&mut text)?;
+        Ok(text)
+    };
+    read().map_err(|source| FolderError::Read { path: path.into(), source })
+}
+
+fn json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
+    serde_json::from_str(&text(path)?).map_err(|source| FolderError::Json { path: path.into(), source })
+}
+
+/// The rows of `response.csv`: `t, theta_1.., omega_1.., ground_x, ground_y, pattern`.
+fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
+    let text = text(path)?;
+    let mut samples: Vec<Sample> = Vec::new();
+    for (index, row) in text.lines().enumerate().skip(1).filter(|(_, row)| !row.is_empty()) {
+        let broken = |problem: String| FolderError::Row { path: path.into(), line: index + 1, problem };
+        let mut numbers = Vec::with_capacity(2 * blocks + 3);
+        let mut rest = row;
+        while let (Some((number, after)), true) = (rest.split_once(','), numbers.len() < 2 * blocks + 3) {
+            let number = number.parse::<f64>().ok().filter(|number| all_plausible([*number]));
+            numbers.push(number.ok_or_else(|| broken("a number is missing, or not one of a run".into()))?);
+            rest = after;
+        }
+        let pattern = Pattern::parse(rest.trim_matches('"')).filter(|pattern| pattern.0.len() == blocks);
+        let (Some(pattern), true) = (pattern, numbers.len() == 2 * blocks + 3) else {
+            return Err(broken(format!("it is not {} numbers and a pattern of {blocks} block(s)", 2 * blocks + 3)));
+        };
+        if samples.last().is_some_and(|last| last.t >= numbers[0]) {
+            return Err(broken(format!("t = {} s is not after the row above", numbers[0])));
+        }
+        samples.push(Sample {
+            t: numbers[0],
+            theta: numbers[1..=blocks].to_vec(),
+            omega: numbers[blocks + 1..=2 * blocks].to_vec(),
+            ground: [numbers[2 * blocks + 1], numbers[2 * blocks + 2]],
+            pattern,
+        });
+    }
+    let none = || FolderError::Damaged { path: path.into(), problem: "there are no rows".into() };
+    if samples.is_empty() { Err(none()) } else { Ok(samples) }
+}
