@@ -79,7 +79,7 @@ impl Contact {
 pub struct Reaction {
     /// Along the axes of the ground, `x` and `y`.
     pub force: Vec2,
-    /// `N`, across the face that carries the contact (corner on corner: the lower one, unless it slides along the upper one).
+    /// `N`, across the face that carries the contact (corner on corner: the one along which it slides, the lower one where it sticks).
     pub normal: f64,
     /// `T`, along that face, positive to the right.
     pub tangential: f64,
@@ -217,20 +217,29 @@ struct Axes {
 #[derive(Clone, Debug)]
 struct Point {
     side: Side,
+    coinciding: Coinciding,
     place: Vec2,
     axes: Vec<Axes>,
 }
 
 impl Point {
-    /// The face along which it slides: of two, the lower one inwards and the upper one outwards.
+    /// The face along which it slides.
     fn carrying(&self, grip: Grip) -> &Axes {
         let outwards = grip.sign() * self.side.sign() > 0.0;
-        if outwards { &self.axes[self.axes.len() - 1] } else { &self.axes[0] }
+        if outwards == (self.coinciding == Coinciding::EitherFace) {
+            &self.axes[self.axes.len() - 1]
+        } else {
+            &self.axes[0]
+        }
     }
 
-    /// Whether, and how fast, it parts: past a corner on a corner there is way along either face.
+    /// Whether, and how fast, it parts from the face that it must part from.
     fn parting(&self, motion: &DVector<f64>) -> f64 {
-        self.axes.iter().map(|axes| axes.normal.of(motion)).fold(f64::NEG_INFINITY, f64::max)
+        let rates = self.axes.iter().map(|axes| axes.normal.of(motion));
+        match self.coinciding {
+            Coinciding::EitherFace => rates.fold(f64::NEG_INFINITY, f64::max),
+            Coinciding::BothFaces => rates.fold(f64::INFINITY, f64::min),
+        }
     }
 
     /// By how much a force lies inside the cone, in units of force: `μ N - |T|` for one face, the sum of both cones for two.
@@ -275,7 +284,12 @@ fn point(stack: &Stack, state: &State, interface: usize, touch: &Touch, biases: 
         (normal.bias, tangent.bias) = (bias[0], bias[1]);
         Axes { normal, tangent, angle: face.angle }
     };
-    Point { side: touch.side, place: touch.point, axes: touch.faces.iter().map(of_face).collect() }
+    Point {
+        side: touch.side,
+        coinciding: stack.coinciding,
+        place: touch.point,
+        axes: touch.faces.iter().map(of_face).collect(),
+    }
 }
 
 /// The states that an interface may take with these grips.
@@ -469,6 +483,9 @@ impl Problem {
                     margin = margin.min(point.in_cone(force, interface.friction.still) / weight);
                 } else if interface.starts {
                     margin = margin.min(slip * grip.sign() / self.scale);
+                    if point.coinciding == Coinciding::BothFaces {
+                        margin = margin.min(point.parting(&motion) / self.scale);
+                    }
                 }
                 // The first force of a point is the normal one. Corner on corner the sum of the cones bounds it.
                 if grip != Grip::Sticks || point.axes.len() == 1 || matches!(contact, Contact::Closed(_)) {

@@ -91,6 +91,25 @@ impl Friction {
     }
 }
 
+/// How a corner may leave the corner on which it stands.
+///
+/// ```text
+///      upper block \\  right corners coincide, φ > 0
+///     --------------o. . . .  lower face, prolonged
+///       lower block | ` - .   upper face, prolonged
+/// ```
+///
+/// The force that holds it may be any in the sum of both faces' cones under either rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coinciding {
+    /// Both faces hold, as two contacts with the faces prolonged: it slips outwards along the lower face or inwards along the upper one, and parts
+    /// from the other. Time stepping does so, and the reference runs do; random stacks have one answer each.
+    BothFaces,
+    /// Neither face is prolonged: it slips outwards along the upper face or inwards along the lower one. Stacks of equal drums may have
+    /// several answers. Where corners do part under forces, this is how the motion goes on an instant later.
+    EitherFace,
+}
+
 /// Blocks on the ground, base first.
 #[derive(Clone, Debug)]
 pub struct Stack {
@@ -100,6 +119,8 @@ pub struct Stack {
     pub friction: Vec<Friction>,
     /// `[m/s²]`
     pub gravity: f64,
+    /// Of corners that stand on corners.
+    pub coinciding: Coinciding,
 }
 
 /// Which end of a contact.

@@ -131,7 +131,7 @@ impl Face {
     }
 }
 
-/// A corner on a face, or a corner on a corner.
+/// A corner on a face, or a corner on a corner: the latter counts as two contacts, of either corner with the other's face prolonged.
 #[derive(Clone, Debug)]
 struct Contact {
     interface: usize,
@@ -236,28 +236,23 @@ impl Contact {
     /// The impulse of this contact alone, exactly, if its relative velocity without it is `free`.
     fn law(&self, free: Vec2, friction: f64) -> Vec2 {
         let faces = || self.lower.iter().chain(&self.upper);
-        // Past a corner on a corner there is way along either face.
-        if faces().any(|[_, normal]| dot(*normal, free) >= 0.0) {
+        if faces().all(|[_, normal]| dot(*normal, free) >= 0.0) {
             return [0.0, 0.0];
         }
         let stuck = self.stopping(free);
-        if faces().count() == 2 {
-            // In the sum of two cones: right of the left one's left edge, left of the right one's right edge.
-            let right_of = |[t, n]: &[Vec2; 2]| dot(stuck, *t) + friction * dot(stuck, *n) >= 0.0;
-            let left_of = |[t, n]: &[Vec2; 2]| friction * dot(stuck, *n) - dot(stuck, *t) >= 0.0;
-            if faces().any(right_of) && faces().any(left_of) && faces().any(|[_, n]| dot(stuck, *n) > 0.0) {
-                return stuck;
-            }
-        } else if dot(stuck, self.axes[0]).abs() <= friction * dot(stuck, self.axes[1]) {
+        // One cone, or the sum of two: right of the left one's left edge, left of the right one's right edge.
+        let right_of = |[t, n]: &[Vec2; 2]| dot(stuck, *t) + friction * dot(stuck, *n) >= 0.0;
+        let left_of = |[t, n]: &[Vec2; 2]| friction * dot(stuck, *n) - dot(stuck, *t) >= 0.0;
+        if faces().any(right_of) && faces().any(left_of) && faces().any(|[_, n]| dot(stuck, *n) > 0.0) {
             return stuck;
         }
         for sign in [1.0, -1.0] {
-            // Of two faces, it slides inwards on the lower one and outwards on the upper one.
-            let face = if sign * self.side < 0.0 { self.lower.or(self.upper) } else { self.upper.or(self.lower) };
+            // Of two faces neither may be entered: outwards it leaves the upper one along the lower one, inwards the other way round.
+            let face = if sign * self.side > 0.0 { self.lower.or(self.upper) } else { self.upper.or(self.lower) };
             let [tangent, normal] = face.unwrap_or(self.axes);
             let direction = plus(normal, -sign * friction, tangent);
             let opening = dot(normal, self.moved(direction));
-            if opening > 0.0 {
+            if opening > 0.0 && dot(normal, free) < 0.0 {
                 let impulse = direction.map(|part| -part * dot(normal, free) / opening);
                 if sign * dot(tangent, plus(free, 1.0, self.moved(impulse))) >= 0.0 {
                     return impulse;
