@@ -5,5 +5,6 @@ pub mod crate_differential_equations;
 pub mod crate_ode_solvers;
 pub mod henon;
 pub mod hinges;
+pub mod moreau_jean;
 pub mod python;
 pub mod rk4;
