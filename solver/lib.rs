@@ -48,6 +48,7 @@ struct Readme;
 
 pub mod column;
 pub mod contact;
+mod friction;
 pub mod json;
 mod mechanics;
 mod numerics;
@@ -59,6 +60,7 @@ pub mod scene_file;
 pub mod sweep;
 
 pub use column::{Block, Column, ColumnError, Stack};
+pub use friction::Friction;
 pub use mechanics::mode::{IntegrateError, IntegrateOptions, Mode};
 pub use mechanics::{dynamics, generated, generic, kinematics, program};
 pub use numerics::per_block::PerBlock;

@@ -24,6 +24,10 @@ pub enum StopReason {
     Stands,
     /// It overturns before `t_end`, though it has not yet; only where nothing but that is wanted.
     Falls,
+    /// A block has slid, or flown, off the one below; only with friction.
+    Collapsed,
+    /// No motion follows from the laws of contact with friction, or events follow each other without time going on; only with friction.
+    Undetermined,
 }
 
 impl StopReason {
@@ -46,6 +50,18 @@ pub enum EventKind {
     Impact,
     /// The ground acceleration jumped and the pattern changed with it.
     Jump,
+    /// A sticking contact began to slide; only with friction, as all that follow.
+    Slip,
+    /// A sliding contact came to rest.
+    Stick,
+    /// A contact parted.
+    Flight,
+    /// Blocks that had parted met again.
+    Landing,
+    /// A corner passed the end of the face that it stood on.
+    Edge,
+    /// A block lost its support.
+    Collapsed,
 }
 
 /// A change of the pattern, or an impact. Patterns are signs per interface, base first.
@@ -143,12 +159,16 @@ pub struct Sample {
     pub ground: [f64; 2],
     /// Interface states.
     pub pattern: Pattern,
+    /// Slides `u_i [m]` per interface, of a free one along the lower face; empty for a run without friction.
+    pub slide: Vec<f64>,
+    /// Gaps of free interfaces `[m]`, zero of others; empty for a run without friction.
+    pub gap: Vec<f64>,
 }
 
 impl Sample {
     /// The column at a time `[s]` with these angles `[rad]` and rates `[rad/s]`, on a ground without acceleration.
     pub fn new(t: f64, theta: Vec<f64>, omega: Vec<f64>, pattern: Pattern) -> Sample {
-        Sample { t, theta, omega, ground: [0.0; 2], pattern }
+        Sample { t, theta, omega, ground: [0.0; 2], pattern, slide: Vec::new(), gap: Vec::new() }
     }
 }
 
@@ -211,6 +231,50 @@ pub struct Separation {
     pub during: EventKind,
 }
 
+/// What a run with friction reports besides. Lists are per interface, base first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
+pub struct SlidingReport {
+    /// Largest slide from the aligned column `[m]`.
+    pub peak_slide: Vec<f64>,
+    /// Slide at the end `[m]`.
+    pub residual_slide: Vec<f64>,
+    /// Length of the way slid `[m]`.
+    pub way_slid: Vec<f64>,
+    /// Time in each kind of contact.
+    pub times: Vec<ContactTimes>,
+    /// Number of flights.
+    pub flights: Vec<usize>,
+    /// Largest gap of a flight `[m]`.
+    pub highest_flight: f64,
+    /// Work of friction at sliding contacts `[J]`, below zero.
+    pub friction_work: f64,
+    /// Energy lost at impacts `[J]`.
+    pub impact_losses: f64,
+    /// Work of the ground's inertial forces on the column `[J]`.
+    pub ground_work: f64,
+    /// Energy at the end less that at the start, relative to the ground `[J]`.
+    pub energy_change: f64,
+    /// Times at which several motions were admissible `[s]`.
+    pub ambiguous: Vec<f64>,
+    /// Times at which no acceleration was admissible `[s]`.
+    pub jammed: Vec<f64>,
+}
+
+/// Time that an interface spends in each kind of contact `[s]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
+pub struct ContactTimes {
+    /// `[s]`
+    pub sticking: f64,
+    /// `[s]`
+    pub sliding: f64,
+    /// `[s]`
+    pub free: f64,
+}
+
 /// The response of a column to a scene. Lists have N entries, per block or interface, base first.
 ///
 /// Serialised it has neither samples nor events: these are files of their own in the folder of a run ([`crate::run_folder`]).
@@ -254,6 +318,9 @@ pub struct Response {
     pub work: Work,
     /// Modes without generated equations in this build ran on the generic ones.
     pub used_generic: bool,
+    /// What slid and flew; `None` for a scene without friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sliding: Option<SlidingReport>,
 }
 
 impl Response {
@@ -270,8 +337,11 @@ impl Response {
     }
 
     /// What a user must know before believing the run: separation, tension, and friction beyond `friction`.
-    pub fn warnings(&self, friction: Option<f64>) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
+        if let Some(sliding) = &self.sliding {
+            return self.with_build(sliding.warnings(self.status, self.t_final));
+        }
         if let Some(first) = self.separations.first() {
             warnings.push(format!(
                 "{} separation(s), the first at t = {:.4} s: a block would leave its contact, which the model cannot follow; \
@@ -287,19 +357,6 @@ impl Response {
             warnings
                 .push(format!("{interfaces}: the normal force falls to {least} N: the contact would part, {model}"));
         }
-        let Some(available) = friction else { return self.with_build(warnings) };
-        let slides = |demand: &f64| demand.is_finite() && *demand > available;
-        if let Some((interfaces, _)) = worst(&self.friction_demand, |demand| demand.is_infinite(), |_, _| false) {
-            warnings.push(format!(
-                "{interfaces}: no friction coefficient is enough, as the contact parts: the blocks would slide, {model}"
-            ));
-        }
-        if let Some((interfaces, most)) = worst(&self.friction_demand, slides, |a, b| a > b) {
-            warnings.push(format!(
-                "{interfaces}: the run needs a friction coefficient of {most:.3}, the scene has {available}: the blocks would \
-                 slide, {model}"
-            ));
-        }
         self.with_build(warnings)
     }
 
@@ -311,6 +368,33 @@ impl Response {
                  (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
                 crate::mechanics::generated::MAX_BLOCKS
             ));
+        }
+        warnings
+    }
+}
+
+impl SlidingReport {
+    /// What a user must know before believing a run with friction.
+    fn warnings(&self, status: StopReason, t_final: f64) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let times = |list: &[f64]| list.first().map_or(0.0, |first| *first);
+        if !self.ambiguous.is_empty() {
+            warnings.push(format!(
+                "at {} instant(s), the first at t = {:.4} s, friction admits several motions: the one with the fewest changes was taken",
+                self.ambiguous.len(),
+                times(&self.ambiguous)
+            ));
+        }
+        if !self.jammed.is_empty() {
+            warnings.push(format!(
+                "at {} instant(s), the first at t = {:.4} s, friction admits no smooth motion: the blocks jam, and strike",
+                self.jammed.len(),
+                times(&self.jammed)
+            ));
+        }
+        if status == StopReason::Undetermined {
+            warnings
+                .push(format!("the run ends at t = {t_final:.4} s: no motion follows from the laws of contact there"));
         }
         warnings
     }

@@ -16,6 +16,7 @@
 //! ```
 
 use crate::column::{Block, Column};
+use crate::friction::Friction;
 use crate::json::Explicit;
 use crate::response::{Event, Response, Sample};
 use crate::scene::{Initial, Restitution, Scene, SolveOptions};
@@ -117,7 +118,7 @@ impl<'a> Run<'a> {
     /// A run with its warnings, without scene file, duration, or outdated files.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         let mut warnings = scene.excitation.warnings();
-        warnings.extend(response.warnings(scene.friction));
+        warnings.extend(response.warnings());
         let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, Vec::new());
         Run { scene, response, scene_text, wall_seconds, warnings, outdated }
     }
@@ -138,7 +139,7 @@ struct Summary<'a> {
     warnings: &'a [String],
     options: &'a SolveOptions,
     column: &'a Column,
-    friction: Option<f64>,
+    friction: Option<&'a Friction>,
     restitution: &'a Restitution,
     excitation: BTreeMap<&'a str, Option<Description<'a>>>,
     /// Horizontal and vertical, until `t_end` `[m/s²]`; the peak of the rows may be lower.
@@ -190,7 +191,7 @@ impl Folder {
             warnings: &run.warnings,
             options: &scene.options,
             column: &scene.column,
-            friction: scene.friction,
+            friction: scene.friction.as_ref(),
             restitution: &scene.restitution,
             excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
             peak_ground_acceleration: components.map(|(_, motion)| peak(motion)),
@@ -268,16 +269,22 @@ fn events(mut file: impl Write, events: &[Event]) -> std::io::Result<()> {
     file.write_all(if events.is_empty() { b"[]\n" } else { b"\n]\n" })
 }
 
-/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time.
+/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates.
 fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::Result<()> {
     write!(file, "t")?;
     (1..=blocks).try_for_each(|block| write!(file, ",theta_{block}"))?;
     (1..=blocks).try_for_each(|block| write!(file, ",omega_{block}"))?;
+    let has_slides = samples.iter().any(|sample| !sample.slide.is_empty());
+    if has_slides {
+        (1..=blocks).try_for_each(|block| write!(file, ",slide_{block}"))?;
+        (1..=blocks).try_for_each(|block| write!(file, ",gap_{block}"))?;
+    }
     writeln!(file, ",ground_x,ground_y,pattern")?;
     for sample in samples {
         // `{:?}` is the shortest text that reads back to the same bits.
         write!(file, "{:?}", sample.t)?;
-        let mut numbers = sample.theta.iter().chain(&sample.omega).chain(&sample.ground);
+        let angles = sample.theta.iter().chain(&sample.omega);
+        let mut numbers = angles.chain(&sample.slide).chain(&sample.gap).chain(&sample.ground);
         numbers.try_for_each(|number| write!(file, ",{number:?}"))?;
         // A pattern with a comma is quoted.
         let quote = if blocks > 1 { "\"" } else { "" };
@@ -307,8 +314,8 @@ pub struct Results {
     pub options: Options,
     /// The column.
     pub column: Column,
-    /// Friction coefficient of the scene.
-    pub friction: Option<f64>,
+    /// Coefficients of friction of the scene.
+    pub friction: Option<Friction>,
     /// Law of impacts.
     pub restitution: Restitution,
     /// Description of the ground motion: `horizontal` and `vertical`, each with `kind` and parameters; a record without its samples.
@@ -347,6 +354,11 @@ const SIZES: RangeInclusive<f64> = 1e-40..=1e40;
 const LARGEST_FILE: u64 = 1 << 30;
 
 impl Results {
+    /// The smallest coefficient of static friction of the scene, `None` for one without friction.
+    pub fn available_friction(&self) -> Option<f64> {
+        self.friction.as_ref().map(Friction::least)
+    }
+
     /// Reads the folder of a run.
     ///
     /// # Errors
@@ -431,22 +443,25 @@ fn json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
     serde_json::from_str(&text(path)?).map_err(|source| FolderError::Json { path: path.into(), source })
 }
 
-/// The rows of `response.csv`: `t, theta_1.., omega_1.., ground_x, ground_y, pattern`.
+/// The rows of `response.csv`, as [`history`] writes them.
 fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
     let text = text(path)?;
     let mut samples: Vec<Sample> = Vec::new();
+    // Slides and gaps stand between rates and ground.
+    let slides = if text.lines().next().is_some_and(|head| head.contains(",slide_1,")) { blocks } else { 0 };
+    let count = 2 * blocks + 2 * slides + 3;
     for (index, row) in text.lines().enumerate().skip(1).filter(|(_, row)| !row.is_empty()) {
         let broken = |problem: String| FolderError::Row { path: path.into(), line: index + 1, problem };
-        let mut numbers = Vec::with_capacity(2 * blocks + 3);
+        let mut numbers = Vec::with_capacity(count);
         let mut rest = row;
-        while let (Some((number, after)), true) = (rest.split_once(','), numbers.len() < 2 * blocks + 3) {
+        while let (Some((number, after)), true) = (rest.split_once(','), numbers.len() < count) {
             let number = number.parse::<f64>().ok().filter(|number| all_plausible([*number]));
             numbers.push(number.ok_or_else(|| broken("a number is missing, or not one of a run".into()))?);
             rest = after;
         }
         let pattern = Pattern::parse(rest.trim_matches('"')).filter(|pattern| pattern.0.len() == blocks);
-        let (Some(pattern), true) = (pattern, numbers.len() == 2 * blocks + 3) else {
-            return Err(broken(format!("it is not {} numbers and a pattern of {blocks} block(s)", 2 * blocks + 3)));
+        let (Some(pattern), true) = (pattern, numbers.len() == count) else {
+            return Err(broken(format!("it is not {count} numbers and a pattern of {blocks} block(s)")));
         };
         if samples.last().is_some_and(|last| last.t >= numbers[0]) {
             return Err(broken(format!("t = {} s is not after the row above", numbers[0])));
@@ -455,7 +470,9 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
             t: numbers[0],
             theta: numbers[1..=blocks].to_vec(),
             omega: numbers[blocks + 1..=2 * blocks].to_vec(),
-            ground: [numbers[2 * blocks + 1], numbers[2 * blocks + 2]],
+            slide: numbers[2 * blocks + 1..=2 * blocks + slides].to_vec(),
+            gap: numbers[2 * blocks + slides + 1..=2 * blocks + 2 * slides].to_vec(),
+            ground: [numbers[count - 2], numbers[count - 1]],
             pattern,
         });
     }

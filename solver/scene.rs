@@ -1,6 +1,7 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
 use crate::column::Column;
+use crate::friction::Friction;
 use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
@@ -47,6 +48,19 @@ pub struct Initial {
     pub theta: Vec<f64>,
     /// Rates `[rad/s]`, base first, length N; empty for zero.
     pub omega: Vec<f64>,
+    /// With friction: centroids in the frame of the moving ground, base first, length N `[m]`; empty for blocks that stand as `theta` and the
+    /// column's slides say.
+    #[serde(default)]
+    pub x: Vec<f64>,
+    /// Heights of the centroids above the ground `[m]`; given where `x` is.
+    #[serde(default)]
+    pub y: Vec<f64>,
+    /// Velocities of the centroids `[m/s]`; given where `x` is.
+    #[serde(default)]
+    pub vx: Vec<f64>,
+    /// Upwards `[m/s]`; given where `x` is.
+    #[serde(default)]
+    pub vy: Vec<f64>,
 }
 
 /// Whose right-hand sides are used.
@@ -154,9 +168,9 @@ pub struct Scene {
     pub title: String,
     /// The column.
     pub column: Column,
-    /// Friction coefficient between the blocks; a run that needs more warns.
+    /// Friction between the blocks: they slide and fly. `None` for the model without, in which contacts hold whatever the force.
     #[serde(default)]
-    pub friction: Option<f64>,
+    pub friction: Option<Friction>,
     /// Beyond the plastic impact.
     #[serde(default)]
     pub restitution: Restitution,
@@ -261,8 +275,10 @@ impl Scene {
                 faults.note(key, format!("{value} is out of range"), "give a finite number above zero");
             }
         }
-        if let Some(friction) = self.friction.filter(|friction| !(friction.is_finite() && *friction >= 0.0)) {
-            faults.note("friction", format!("{friction} is out of range"), "give a finite number, zero or above");
+        if let Some((key, problem, remedy)) =
+            self.friction.as_ref().and_then(|friction| friction.fault(self.column.len()))
+        {
+            faults.note(key, problem, remedy);
         }
         if options.t_end < SHORTEST_RUN {
             faults.note("solver.t_end", format!("{:e} s is too short", options.t_end), "give at least 1e-9 s");
@@ -331,7 +347,21 @@ impl Scene {
 
     fn check_initial(&self, faults: &mut Faults) {
         let blocks = self.column.len();
-        for (key, values) in [("initial.theta", &self.initial.theta), ("initial.omega", &self.initial.omega)] {
+        let Initial { theta, omega, x, y, vx, vy } = &self.initial;
+        let places = [("initial.x", x), ("initial.y", y), ("initial.vx", vx), ("initial.vy", vy)];
+        if let Some((given, _)) = places.iter().find(|(_, list)| !list.is_empty()) {
+            if self.friction.is_none() {
+                faults.note(
+                    given,
+                    "without friction, blocks stand on each other".into(),
+                    "give friction, or leave it out",
+                );
+            }
+            if let Some((missing, _)) = places.iter().find(|(_, list)| list.is_empty()) {
+                faults.note(missing, format!("it is missing beside {given}"), "give x, y, vx and vy together");
+            }
+        }
+        for (key, values) in [("initial.theta", theta), ("initial.omega", omega)].into_iter().chain(places) {
             if !values.is_empty() && values.len() != blocks {
                 let problem = format!("{} number(s) for {blocks} block(s)", values.len());
                 faults.note(key, problem, "give one per block, base first");

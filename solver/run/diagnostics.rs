@@ -40,7 +40,15 @@ mod tests {
 
     fn sample(theta: [f64; 2], omega: [f64; 2], signs: [i8; 2]) -> Sample {
         let pattern = Pattern::from_signs(&signs);
-        Sample { t: 0.0, theta: theta.to_vec(), omega: omega.to_vec(), ground: [1.5, 0.3], pattern }
+        Sample {
+            t: 0.0,
+            theta: theta.to_vec(),
+            omega: omega.to_vec(),
+            ground: [1.5, 0.3],
+            pattern,
+            slide: Vec::new(),
+            gap: Vec::new(),
+        }
     }
 
     fn column() -> Column {

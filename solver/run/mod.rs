@@ -3,6 +3,7 @@
 pub mod certainty;
 mod diagnostics;
 mod error;
+mod loose;
 mod modes;
 mod multi_sample_step;
 mod phase;
@@ -11,6 +12,7 @@ mod problem;
 mod recorder;
 mod rest;
 mod simulator;
+mod sliding;
 mod state;
 mod step;
 mod stretch;

@@ -108,7 +108,8 @@ impl Recorder {
         }
         let Segment { horizontal, vertical, .. } = &problem.ground[*cursor];
         let ground = [horizontal.value(t), vertical.value(t)];
-        self.samples.push(Sample { t, theta, omega, ground, pattern: self.pattern.clone() });
+        let (slide, gap) = (Vec::new(), Vec::new());
+        self.samples.push(Sample { t, theta, omega, ground, pattern: self.pattern.clone(), slide, gap });
         self.next_sample += 1;
     }
 
@@ -230,6 +231,7 @@ impl Recorder {
             separations: self.separations,
             work,
             used_generic: modes.used_generic(),
+            sliding: None,
         }
     }
 }

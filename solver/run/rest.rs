@@ -10,6 +10,7 @@ use super::problem::Problem;
 use super::state::State;
 use super::stretch::{Ended, Flow, Inside, Over, Stretch};
 use crate::column::Column;
+use crate::friction::guards::Guard;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
@@ -201,6 +202,33 @@ fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> 
                     Some(0.0) => return Some((t, interface, side)),
                     Some(own) => step = step.min(own),
                     None => {}
+                }
+            }
+        }
+        t += step;
+    }
+    None
+}
+
+/// The first instant in a segment from a time on at which an interface of a column at rest tips or slides, with the coefficients `fixed` of static
+/// friction: as [`earliest_start`], with the guards `μ (g + ÿ_g) ± ẍ_g` beside those of the corners.
+pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
+    let mut t = from;
+    while t < segment.end {
+        let motion = Shaking::at(segment, column.gravity(), t);
+        let mut step = f64::INFINITY;
+        for (interface, coefficient) in fixed.iter().enumerate() {
+            for side in [Interface::Right, Interface::Left] {
+                let guards = [
+                    ([*coefficient, 1.0], Guard::Cone(interface, side.sign())),
+                    (arm(column, interface, side), Guard::Tip(interface, side.sign())),
+                ];
+                for (arm, guard) in guards {
+                    match motion.step_to_zero(arm, side) {
+                        Some(0.0) => return Some((t, guard)),
+                        Some(own) => step = step.min(own),
+                        None => {}
+                    }
                 }
             }
         }

@@ -5,10 +5,12 @@ use super::error::SolveError;
 use super::modes::Modes;
 use super::problem::{Problem, Skips};
 use super::recorder::Recorder;
+use super::sliding;
 use super::stretch::Ended;
 use super::transition::{self, break_circle, transition};
+use crate::friction::Friction;
 use crate::response::Response;
-use crate::scene::Scene;
+use crate::scene::{Scene, Wanted};
 use rocking_ground::TimelineCache;
 use std::ops::ControlFlow;
 
@@ -105,6 +107,9 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
+        if let Some(friction) = &scene.friction {
+            return self.run_with_friction(scene, friction, progress);
+        }
         if self.modes.prepare(scene, self.skips) {
             self.prospects = if self.skips.certainty { Prospects::new(scene) } else { None };
         }
@@ -112,6 +117,32 @@ impl Simulator {
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
         let problem = Problem::new(scene, &ground, self.prospects.as_ref(), self.skips);
         run(&problem, &mut self.modes, progress)
+    }
+}
+
+impl Simulator {
+    /// A run with friction: that without, where no friction is used up and no contact pulls; otherwise one in which blocks slide and fly.
+    fn run_with_friction(
+        &mut self,
+        scene: &Scene,
+        friction: &Friction,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Response, SolveError> {
+        let coefficients = friction.per_interface(scene.column.len());
+        let mut sticking = Scene { friction: None, ..scene.clone() };
+        (sticking.options.wanted, sticking.options.record_forces) = (Wanted::Everything, true);
+        if scene.options.wanted != Wanted::Everything {
+            sticking.output_dt = None;
+        }
+        if let Ok(response) = self.run_valid(&sticking, &mut |_| ControlFlow::Continue(()))
+            && sliding::is_held(&scene.column, &coefficients, &response)
+        {
+            return Ok(sliding::held(&scene.column, response));
+        }
+        let lookahead = Default::default();
+        let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
+        let problem = Problem::new(scene, &ground, None, self.skips);
+        sliding::run(&problem, &coefficients, progress)
     }
 }
 

@@ -7,6 +7,7 @@ use super::error::{SceneFileError, text};
 use super::records::Records;
 use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Block, Column, ColumnError, Shape};
+use crate::friction::Friction;
 use crate::scene::{Initial, Method, Restitution, Scene, SceneError};
 use serde::Serialize;
 use std::path::Path;
@@ -129,7 +130,7 @@ impl Reader<'_> {
         let mut scene = Scene::new(column);
         scene.title = title;
         scene.initial = initial;
-        scene.friction = root.number("friction").map_err(own)?.map(|(value, _)| value);
+        scene.friction = friction(root).map_err(own)?;
         scene.restitution = restitution(root).map_err(own)?;
         scene.excitation = self.excitation(root, &scene.column)?;
         solver(root, &mut scene).map_err(own)?;
@@ -373,11 +374,36 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
     Ok(blocks)
 }
 
+/// `friction = 0.7`, or `[friction]` with `static` and `kinetic`, each a number or a list.
+fn friction(root: &mut Table) -> Result<Option<Friction>, Wrong> {
+    if !root.has_table("friction") {
+        return Ok(root.number("friction")?.map(|(value, _)| Friction::uniform(value)));
+    }
+    let Some(mut table) = root.table("friction")? else { return Ok(None) };
+    let fixed = table.number_or_numbers("static")?;
+    let kinetic = table.number_or_numbers("kinetic")?;
+    let friction = match (fixed, kinetic) {
+        (Some(fixed), kinetic) => Friction::new(fixed.clone(), kinetic.unwrap_or(fixed)),
+        (None, _) => {
+            return Err(table.missing("static", "give the coefficient of contacts that stick, or write friction = 0.7"));
+        }
+    };
+    table.close()?;
+    Ok(Some(friction))
+}
+
 /// The state at `t = 0`, and the column as it stands then.
 fn initial(root: &mut Table, mut column: Column) -> Result<(Column, Initial), Wrong> {
     let mut initial = Initial::default();
     let Some(mut table) = root.table("initial")? else { return Ok((column, initial)) };
-    for (key, values) in [("theta", &mut initial.theta), ("omega", &mut initial.omega)] {
+    for (key, values) in [
+        ("theta", &mut initial.theta),
+        ("omega", &mut initial.omega),
+        ("x", &mut initial.x),
+        ("y", &mut initial.y),
+        ("vx", &mut initial.vx),
+        ("vy", &mut initial.vy),
+    ] {
         *values = table.numbers(key)?.unwrap_or_default();
         if table.has(key) && values.is_empty() {
             let problem = format!("0 number(s) for {} block(s)", column.len());

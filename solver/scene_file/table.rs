@@ -331,6 +331,14 @@ impl Table {
         Ok(Some(numbers))
     }
 
+    /// A finite number, or a list of them.
+    pub fn number_or_numbers(&mut self, key: &'static str) -> Result<Option<Vec<f64>>, Wrong> {
+        match self.entry(key) {
+            Some(Entry { value: Value::Number(_), .. }) => Ok(self.number(key)?.map(|(value, _)| vec![value])),
+            _ => self.numbers(key),
+        }
+    }
+
     /// A whole number from `least` on.
     pub fn whole(&mut self, key: &'static str, least: u32) -> Result<Option<u64>, Wrong> {
         match self.number(key)? {

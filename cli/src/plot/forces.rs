@@ -51,8 +51,8 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     mark_ending(&mut sheet, motion, &normal, Anchor::Start);
 
     let [_, needed] = span(response.friction_demand.iter().copied().chain(demands(&contacts)));
-    let most = LARGEST_DEMAND.max(motion.results.friction.map_or(0.0, |friction| friction * 4.0 / 3.0));
-    let least = motion.results.friction.unwrap_or(0.05) * 1.15;
+    let most = LARGEST_DEMAND.max(motion.results.available_friction().map_or(0.0, |friction| friction * 4.0 / 3.0));
+    let least = motion.results.available_friction().unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
     let friction = Panel::wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
@@ -64,7 +64,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
         });
         sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
     }
-    if let Some(available) = motion.results.friction {
+    if let Some(available) = motion.results.available_friction() {
         sheet.level(&friction, available, &AVAILABLE);
     }
     let below = sheet.label_below(&friction);
@@ -101,7 +101,8 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
 /// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
 fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64) -> f64 {
     let response = &motion.results.response;
-    let available = motion.results.friction.map(|friction| format!("friction coefficient {}", brief(friction)));
+    let available =
+        motion.results.available_friction().map(|friction| format!("friction coefficient {}", brief(friction)));
     // Below the panel and not along its line: there the name would lie on the curves.
     let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
     if !response.friction_demand.is_empty() {
@@ -123,7 +124,7 @@ fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
         "At output times: normal force of each interface over the weight above it (dashed: 1), and below the friction \
          coefficient it asks for",
     );
-    match motion.results.friction {
+    match motion.results.available_friction() {
         Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
         None => caption.push_str("; the scene names no friction coefficient."),
     }

@@ -22,7 +22,7 @@ pub fn inputs(results: &Results) -> String {
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
         ("Gravity", format!("{} m/s²", significant(column.gravity(), 6))),
         ("Impacts", restitution(&results.restitution, column.housner_ratio())),
-        ("Friction", results.friction.map_or("not given".into(), |friction| significant(friction, 4))),
+        ("Friction", results.available_friction().map_or("not given".into(), |friction| significant(friction, 4))),
         ("Ground, horizontal", component("horizontal", 0)),
         ("Ground, vertical", component("vertical", 1)),
     ];

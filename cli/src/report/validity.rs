@@ -52,7 +52,7 @@ fn judge(results: &Results) -> Verdict {
     if demand.is_infinite() {
         let limitless: Vec<usize> = beyond(f64::MAX);
         reasons.push(format!("no friction coefficient is enough at {}: the blocks would slide", named(&limitless)));
-    } else if let Some(available) = results.friction.filter(|available| demand > *available) {
+    } else if let Some(available) = results.available_friction().filter(|available| demand > *available) {
         let sliding: Vec<usize> = beyond(available);
         let (verb, most) = if sliding.len() == 1 { ("needs", "") } else { ("need", "up to ") };
         reasons.push(format!(
@@ -62,7 +62,7 @@ fn judge(results: &Results) -> Verdict {
             significant(available, 3)
         ));
     }
-    match (reasons.is_empty(), results.friction) {
+    match (reasons.is_empty(), results.available_friction()) {
         (false, _) => Verdict::Fails(reasons),
         (true, Some(available)) => Verdict::Holds(format!(
             "no block leaves its contact, and the joints need a friction coefficient of at most {} where the scene has {}",
@@ -125,7 +125,7 @@ pub fn details(results: &Results) -> String {
         let weight = column.mass_above(interface) * column.gravity();
         let demand = response.friction_demand[interface];
         let force = response.min_normal_force[interface];
-        let slides = results.friction.is_some_and(|available| demand > available);
+        let slides = results.available_friction().is_some_and(|available| demand > available);
         let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
         let share = known(format!("{} <span class=\"note\">{}</span>", significant(force, 4), percent(force / weight)));
         let _ = writeln!(
@@ -139,7 +139,7 @@ pub fn details(results: &Results) -> String {
     }
     let mut text = String::new();
     if !rows.is_empty() {
-        let available = results.friction.map_or("the scene names no coefficient".into(), |friction| {
+        let available = results.available_friction().map_or("the scene names no coefficient".into(), |friction| {
             format!("the scene has {}", significant(friction, 3))
         });
         let _ = write!(

@@ -1,0 +1,272 @@
+//! Kinematics of a column whose interfaces stick, slide or are free.
+//!
+//! From the middle of the lower face of interface `i` to the middle of the upper one leads
+//!
+//! ```text
+//! r_i = R(θ_{i-1}) (a, 0) + R(θ_i) (b, 0)       closed: a = u, b = 0
+//!                                                corner on the lower face:  a = u + s b_i,   b = -s b_i
+//!                                                corner of the lower block: a = s b_{i-1},   b = u - s b_{i-1}
+//! ```
+//!
+//! with `s` the side and `b` half-widths of the faces; of a free interface `r_i` is a coordinate itself. Velocities are linear in the rates of
+//! angles, slides and free interfaces. Accelerations are the same function of their second derivatives, and what the rates themselves cause.
+
+use super::joint::{Configuration, Face, Joint};
+use crate::column::Column;
+use crate::mechanics::kinematics::Vec2;
+
+/// Velocities, or accelerations, of the blocks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Of the centroids `[m/s]`.
+    pub linear: Vec<Vec2>,
+    /// Angular `[rad/s]`.
+    pub angular: Vec<f64>,
+}
+
+impl Motion {
+    /// Less another one.
+    pub fn less(&self, other: &Motion) -> Motion {
+        let linear = self.linear.iter().zip(&other.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+        Motion { linear, angular: self.angular.iter().zip(&other.angular).map(|(a, b)| a - b).collect() }
+    }
+
+    /// `½ Σ (m v² + I ω²)`, the kinetic energy `[J]`.
+    pub fn energy(&self, column: &Column) -> f64 {
+        let parts = column.blocks().iter().zip(self.linear.iter().zip(&self.angular));
+        parts.map(|(b, (v, w))| 0.5 * (b.mass * (v[0] * v[0] + v[1] * v[1]) + b.inertia * w * w)).sum()
+    }
+}
+
+/// Rates of all coordinates, by block and interface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rates {
+    /// Of the angles of the blocks `[rad/s]`.
+    pub omega: Vec<f64>,
+    /// Of the slides `[m/s]`.
+    pub slide: Vec<f64>,
+    /// Of free interfaces `[m/s]`.
+    pub apart: Vec<Vec2>,
+}
+
+impl Rates {
+    /// Nothing moves.
+    pub fn zero(blocks: usize) -> Rates {
+        Rates { omega: vec![0.0; blocks], slide: vec![0.0; blocks], apart: vec![[0.0; 2]; blocks] }
+    }
+
+    /// Those of a configuration.
+    pub fn of(configuration: &Configuration) -> Rates {
+        let Configuration { omega, slide_rate, apart_rate, .. } = configuration;
+        Rates { omega: omega.clone(), slide: slide_rate.clone(), apart: apart_rate.clone() }
+    }
+}
+
+/// Sine and cosine of an angle.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    sin: f64,
+    cos: f64,
+}
+
+impl Turn {
+    /// `R(θ) (u, v)`
+    fn rotate(self, [u, v]: Vec2) -> Vec2 {
+        [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
+    }
+}
+
+/// Velocity of a point at `r` from a point at rest, of a body that turns clockwise at this rate.
+fn swept(rate: f64, r: Vec2) -> Vec2 {
+    [rate * r[1], -rate * r[0]]
+}
+
+fn plus(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn scaled(a: Vec2, factor: f64) -> Vec2 {
+    [a[0] * factor, a[1] * factor]
+}
+
+/// An interface, its vectors in the axes of the ground.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    /// `R(θ_{i-1}) (a, 0)`, zero where the interface is free.
+    on_lower: Vec2,
+    /// `R(θ_i) (b, 0)`
+    on_upper: Vec2,
+    /// Direction to the right along the face that carries the contact.
+    along: Vec2,
+    /// Block whose face carries the contact; `None` for the ground.
+    face: Option<usize>,
+    is_free: bool,
+}
+
+/// A column's geometry in one configuration.
+#[derive(Clone, Debug)]
+pub struct Chain<'a> {
+    column: &'a Column,
+    links: Vec<Link>,
+    /// From the middle of a block's base to its centroid and to the middle of its top.
+    to_centroid: Vec<Vec2>,
+    to_top: Vec<Vec2>,
+    /// Middles of the bases `[m]`.
+    pub foot: Vec<Vec2>,
+    /// Middles of the top faces `[m]`.
+    pub top: Vec<Vec2>,
+    /// Centroids `[m]`.
+    pub centroid: Vec<Vec2>,
+    turns: Vec<Turn>,
+}
+
+impl<'a> Chain<'a> {
+    /// The geometry of a configuration.
+    pub fn new(column: &'a Column, configuration: &Configuration) -> Chain<'a> {
+        let blocks = column.blocks();
+        let turn = |angle: f64| {
+            let (sin, cos) = libm::sincos(angle);
+            Turn { sin, cos }
+        };
+        let turns: Vec<Turn> = configuration.theta.iter().map(|angle| turn(*angle)).collect();
+        let ground = Turn { sin: 0.0, cos: 1.0 };
+        let mut chain = Chain {
+            column,
+            links: Vec::with_capacity(blocks.len()),
+            to_centroid: Vec::with_capacity(blocks.len()),
+            to_top: Vec::with_capacity(blocks.len()),
+            foot: Vec::with_capacity(blocks.len()),
+            top: Vec::with_capacity(blocks.len()),
+            centroid: Vec::with_capacity(blocks.len()),
+            turns,
+        };
+        let mut below = [0.0, 0.0];
+        for (i, block) in blocks.iter().enumerate() {
+            let (lower, upper) = (i.checked_sub(1).map_or(ground, |below| chain.turns[below]), chain.turns[i]);
+            let slide = configuration.slide[i];
+            let (a, b, face) = match configuration.joints[i] {
+                Joint::Closed(_) => (slide, 0.0, i.checked_sub(1)),
+                Joint::Corner(side, Face::Upper, _) => {
+                    let corner = i.checked_sub(1).map_or(0.0, |below| f64::from(side) * blocks[below].top_half_width);
+                    (corner, slide - corner, Some(i))
+                }
+                Joint::Corner(side, _, _) => {
+                    let corner = f64::from(side) * block.bottom_half_width;
+                    (slide + corner, -corner, i.checked_sub(1))
+                }
+                Joint::Free => (0.0, 0.0, i.checked_sub(1)),
+            };
+            let is_free = configuration.joints[i] == Joint::Free;
+            let (on_lower, on_upper) = (lower.rotate([a, 0.0]), upper.rotate([b, 0.0]));
+            let along = face.map_or(ground, |face| chain.turns[face]).rotate([1.0, 0.0]);
+            chain.links.push(Link { on_lower, on_upper, along, face, is_free });
+            let apart = if is_free { configuration.apart[i] } else { plus(on_lower, on_upper) };
+            let foot = plus(below, apart);
+            let to_centroid = upper.rotate([0.0, block.centroid_height]);
+            let to_top = upper.rotate([0.0, 2.0 * block.half_height]);
+            chain.foot.push(foot);
+            chain.centroid.push(plus(foot, to_centroid));
+            below = plus(foot, to_top);
+            chain.top.push(below);
+            chain.to_centroid.push(to_centroid);
+            chain.to_top.push(to_top);
+        }
+        chain
+    }
+
+    /// Number of blocks.
+    pub fn len(&self) -> usize {
+        self.links.len()
+    }
+
+    /// From the middle of the lower face to the middle of the upper one at an interface (from zero) `[m]`.
+    pub fn apart(&self, interface: usize) -> Vec2 {
+        let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.top[below]);
+        [self.foot[interface][0] - below[0], self.foot[interface][1] - below[1]]
+    }
+
+    /// Rate of [`Chain::apart`] `[m/s]`.
+    pub fn apart_rate(&self, interface: usize, rates: &Rates) -> Vec2 {
+        let link = &self.links[interface];
+        if link.is_free {
+            return rates.apart[interface];
+        }
+        let lower = interface.checked_sub(1).map_or(0.0, |below| rates.omega[below]);
+        let turning = plus(swept(lower, link.on_lower), swept(rates.omega[interface], link.on_upper));
+        plus(turning, scaled(link.along, rates.slide[interface]))
+    }
+
+    /// Velocities of the blocks for rates of the coordinates, or the part of accelerations that is linear in their second derivatives.
+    pub fn motion(&self, rates: &Rates) -> Motion {
+        let mut linear = Vec::with_capacity(self.len());
+        let mut below = [0.0, 0.0];
+        for i in 0..self.len() {
+            let foot = plus(below, self.apart_rate(i, rates));
+            linear.push(plus(foot, swept(rates.omega[i], self.to_centroid[i])));
+            below = plus(foot, swept(rates.omega[i], self.to_top[i]));
+        }
+        Motion { linear, angular: rates.omega.clone() }
+    }
+
+    /// Accelerations of the centroids `[m/s²]` that the rates cause: centripetal ones and those of slides along turning faces.
+    pub fn imposed(&self, rates: &Rates) -> Vec<Vec2> {
+        let mut accelerations = Vec::with_capacity(self.len());
+        let mut below = [0.0, 0.0];
+        for i in 0..self.len() {
+            let link = &self.links[i];
+            let (lower, upper) = (i.checked_sub(1).map_or(0.0, |below| rates.omega[below]), rates.omega[i]);
+            let mut foot = below;
+            if !link.is_free {
+                foot = plus(foot, scaled(link.on_lower, -lower * lower));
+                foot = plus(foot, scaled(link.on_upper, -upper * upper));
+                let face = link.face.map_or(0.0, |face| rates.omega[face]);
+                foot = plus(foot, scaled(swept(face, link.along), 2.0 * rates.slide[i]));
+            }
+            accelerations.push(plus(foot, scaled(self.to_centroid[i], -upper * upper)));
+            below = plus(foot, scaled(self.to_top[i], -upper * upper));
+        }
+        accelerations
+    }
+
+    /// Directions along and across the face that carries the contact of an interface, to the right and upwards.
+    pub fn axes(&self, interface: usize) -> [Vec2; 2] {
+        let along = self.links[interface].along;
+        [along, [-along[1], along[0]]]
+    }
+
+    /// Point on the lower face of an interface at this distance to the right of its middle `[m]`.
+    pub fn on_lower_face(&self, interface: usize, u: f64) -> Vec2 {
+        match interface.checked_sub(1) {
+            None => [u, 0.0],
+            Some(below) => plus(self.top[below], self.turns[below].rotate([u, 0.0])),
+        }
+    }
+
+    /// Point on the upper face of an interface at this distance to the right of its middle `[m]`.
+    pub fn on_upper_face(&self, interface: usize, u: f64) -> Vec2 {
+        plus(self.foot[interface], self.turns[interface].rotate([u, 0.0]))
+    }
+
+    /// The point of contact of a corner at an interface `[m]`.
+    pub fn pivot(&self, interface: usize) -> Vec2 {
+        let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.top[below]);
+        plus(below, self.links[interface].on_lower)
+    }
+
+    /// A vector of the ground's axes in the axes of the block below an interface.
+    pub fn in_lower_axes(&self, interface: usize, [x, y]: Vec2) -> Vec2 {
+        let turn = interface.checked_sub(1).map_or(Turn { sin: 0.0, cos: 1.0 }, |below| self.turns[below]);
+        [x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos]
+    }
+
+    /// A vector of the ground's axes in the axes of the block above an interface.
+    pub fn in_upper_axes(&self, interface: usize, [x, y]: Vec2) -> Vec2 {
+        let turn = self.turns[interface];
+        [x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos]
+    }
+
+    /// The column.
+    pub fn column(&self) -> &'a Column {
+        self.column
+    }
+}

@@ -1,0 +1,188 @@
+//! Guards: functions of time whose first zero ends the states of the interfaces.
+//!
+//! ```text
+//! sticks: its force leaves the cone         slides: its rate u̇ falls to zero        corner: N or φ falls to zero, or the corner passes the end of its face
+//! closed: the resultant reaches an end, or the contact's length falls to zero       free: a corner reaches the other face
+//! ```
+
+use super::chain::Chain;
+use super::joint::{Configuration, Face, Joint, Sign, Slip};
+use super::rows::Answer;
+use super::search::{Coefficients, cone_margins, half_length};
+use crate::column::Column;
+
+/// A guard of an interface (from zero), or of a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Guard {
+    /// The force at a sticking contact leaves the cone: it slides to this side.
+    Cone(usize, Sign),
+    /// A contact parts.
+    Press(usize),
+    /// The resultant at a closed contact reaches the end of this side.
+    Tip(usize, Sign),
+    /// A slide comes to rest.
+    Stop(usize),
+    /// A gap of angles closes.
+    Close(usize),
+    /// A corner passes the end of the face it stands on.
+    Edge(usize),
+    /// The contact's length falls to zero.
+    Collapse(usize),
+    /// A corner of a free interface, of this side, reaches the other block's face: the lower or the upper one.
+    Land(usize, Sign, Face),
+    /// The angle of a block reaches the overturning angle.
+    Overturn(usize),
+}
+
+/// Share of the column's weight by which the force at a contact must violate a condition: contacts that are exactly critical, as flat interfaces
+/// of equal friction above each other, do not start to slide by rounding. Less than the share by which a search takes a condition for violated.
+const FORCE_SLACK: f64 = 3e-11;
+
+impl Guard {
+    /// Whether its value may start from zero: a gap that has just opened, a slide that has just begun.
+    pub fn may_start_from_zero(self) -> bool {
+        matches!(self, Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Land(..))
+    }
+
+    /// Whether its value depends on forces.
+    pub fn needs_forces(self) -> bool {
+        matches!(self, Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..))
+    }
+}
+
+/// The guards of these states.
+pub fn guards(joints: &[Joint]) -> Vec<Guard> {
+    let mut guards = Vec::new();
+    for (i, joint) in joints.iter().enumerate() {
+        match joint.slip() {
+            Some(Slip::Sticks) => guards.extend([Guard::Cone(i, 1), Guard::Cone(i, -1)]),
+            Some(Slip::Slides(_)) => guards.push(Guard::Stop(i)),
+            None => {}
+        }
+        match joint {
+            Joint::Closed(slip) => {
+                guards.extend([Guard::Press(i), Guard::Tip(i, 1), Guard::Tip(i, -1)]);
+                if matches!(slip, Slip::Slides(_)) && i > 0 {
+                    guards.push(Guard::Collapse(i));
+                }
+            }
+            Joint::Corner(_, face, slip) => {
+                guards.extend([Guard::Press(i), Guard::Close(i)]);
+                if matches!(slip, Slip::Slides(_)) && (i > 0 || *face != Face::Lower) {
+                    guards.extend([Guard::Edge(i), Guard::Collapse(i)]);
+                }
+            }
+            Joint::Free => {
+                if i > 0 {
+                    guards.push(Guard::Collapse(i));
+                }
+                for side in [1, -1] {
+                    guards.push(Guard::Land(i, side, Face::Lower));
+                    if i > 0 {
+                        guards.push(Guard::Land(i, side, Face::Upper));
+                    }
+                }
+            }
+        }
+        guards.push(Guard::Overturn(i));
+    }
+    guards
+}
+
+/// The value of a guard, above zero while nothing happens; `answer` is needed where forces are.
+pub fn value(
+    guard: Guard,
+    column: &Column,
+    now: &Configuration,
+    answer: Option<&Answer>,
+    friction: &Coefficients,
+    overturn_angle: f64,
+) -> f64 {
+    let contact = |interface: usize| answer.map(|answer| answer.contacts[interface]).unwrap_or_default();
+    let slack = || FORCE_SLACK * column.gravity() * column.blocks().iter().map(|block| block.mass).sum::<f64>();
+    match guard {
+        Guard::Cone(i, side) => {
+            let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), contact(i), friction.fixed[i]);
+            slack() + if side < 0 { to_left } else { to_right }
+        }
+        Guard::Press(i) => contact(i).normal + slack(),
+        Guard::Tip(i, side) => {
+            half_length(column, i, now.slide[i]) * (contact(i).normal + slack()) + f64::from(side) * contact(i).moment
+        }
+        Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
+        Guard::Close(i) => {
+            let side = if let Joint::Corner(side, ..) = now.joints[i] { f64::from(side) } else { 1.0 };
+            side * now.gap_angle(i)
+        }
+        Guard::Edge(i) => match now.joints[i] {
+            Joint::Corner(side, face, _) => {
+                -beyond(column, i, side, now.slide[i]) * if face == Face::Upper { -1.0 } else { 1.0 }
+            }
+            _ => f64::INFINITY,
+        },
+        Guard::Collapse(i) if now.joints[i] == Joint::Free => overlap(&Chain::new(column, now), i),
+        Guard::Collapse(i) => half_length(column, i, now.slide[i]),
+        Guard::Land(i, side, face) => {
+            let [beside, above] = gap(&Chain::new(column, now), i, side, face);
+            beside.max(above)
+        }
+        Guard::Overturn(block) => overturn_angle - now.theta[block].abs(),
+    }
+}
+
+/// How far the upper corner of a side is outside the lower face `[m]`.
+fn beyond(column: &Column, interface: usize, side: Sign, slide: f64) -> f64 {
+    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| column.blocks()[below].top_half_width);
+    f64::from(side) * slide + column.blocks()[interface].bottom_half_width - lower
+}
+
+/// How far the faces of a free interface reach over each other, along the lower one `[m]`.
+fn overlap(chain: &Chain, interface: usize) -> f64 {
+    let blocks = chain.column().blocks();
+    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| blocks[below].top_half_width);
+    let [u, _] = chain.in_lower_axes(interface, chain.apart(interface));
+    blocks[interface].bottom_half_width + lower - u.abs()
+}
+
+/// A corner of a free interface seen from the face that it may land on `[m]`: how far it is beside the face, and how far above it.
+pub fn gap(chain: &Chain, interface: usize, side: Sign, face: Face) -> [f64; 2] {
+    let blocks = chain.column().blocks();
+    let below = interface.checked_sub(1);
+    let own = blocks[interface].bottom_half_width;
+    let lower = below.map_or(f64::INFINITY, |below| blocks[below].top_half_width);
+    let side = f64::from(side);
+    let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
+    match face {
+        Face::Upper => {
+            let corner = chain.on_lower_face(interface, side * lower);
+            let [u, v] = chain.in_upper_axes(interface, less(corner, chain.foot[interface]));
+            [u.abs() - own, -v]
+        }
+        _ => {
+            let corner = chain.on_upper_face(interface, side * own);
+            let middle = below.map_or([0.0, 0.0], |below| chain.top[below]);
+            let [u, v] = chain.in_lower_axes(interface, less(corner, middle));
+            [u.abs() - lower, v]
+        }
+    }
+}
+
+/// The slide with which an interface that touches with a corner of this side is where it is `[m]`.
+pub fn slide_of_landing(chain: &Chain, interface: usize, side: Sign, on: Face) -> f64 {
+    let blocks = chain.column().blocks();
+    let side = f64::from(side);
+    let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
+    match on {
+        Face::Upper => {
+            let lower = side * interface.checked_sub(1).map_or(0.0, |below| blocks[below].top_half_width);
+            let corner = chain.on_lower_face(interface, lower);
+            lower - chain.in_upper_axes(interface, less(corner, chain.foot[interface]))[0]
+        }
+        _ => {
+            let own = side * blocks[interface].bottom_half_width;
+            let corner = chain.on_upper_face(interface, own);
+            let middle = interface.checked_sub(1).map_or([0.0, 0.0], |below| chain.top[below]);
+            chain.in_lower_axes(interface, less(corner, middle))[0] - own
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! States of an interface with friction, and the column's configuration.
+//!
+//! ```text
+//! closed, sticks or slides         the faces lie on each other
+//! corner, sticks or slides         one corner stands on the other face: the right one (side +1) where φ > 0, the left one (side -1)
+//! free                             the blocks fly apart
+//! ```
+//!
+//! Slides to the right (+1) and to the left (-1) are told apart: ten states with both sides. The slide `u` of an interface is how far the upper
+//! block has been moved to the right along the face that carries the contact; where the faces lie on each other it is the distance of their
+//! middles.
+
+use crate::column::Column;
+use crate::mechanics::kinematics::Vec2;
+use rocking_codegen::pattern::{Interface, Pattern};
+
+/// Right (+1) or left (-1): the side of a corner, or the direction of a slide.
+pub type Sign = i8;
+
+/// How a contact resists sliding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    /// No relative motion along the face.
+    Sticks,
+    /// The upper block moves to this side along the face.
+    Slides(Sign),
+}
+
+impl Slip {
+    /// Direction of the slide, zero while it sticks.
+    pub fn sign(self) -> f64 {
+        match self {
+            Slip::Sticks => 0.0,
+            Slip::Slides(sign) => f64::from(sign),
+        }
+    }
+}
+
+/// The face on which a corner stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Face {
+    /// The upper block's corner stands on the lower face.
+    Lower,
+    /// The upper face stands on the lower block's corner.
+    Upper,
+    /// Corner stands on corner: the force may be any in the sum of both friction cones.
+    Both,
+}
+
+/// State of an interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Joint {
+    /// The faces lie on each other.
+    Closed(Slip),
+    /// A corner of this side stands on a face.
+    Corner(Sign, Face, Slip),
+    /// No contact.
+    Free,
+}
+
+impl Joint {
+    /// Whether the contact exists and does not slide.
+    pub fn sticks(self) -> bool {
+        matches!(self, Joint::Closed(Slip::Sticks) | Joint::Corner(_, _, Slip::Sticks))
+    }
+
+    /// How the contact resists sliding; none without contact.
+    pub fn slip(self) -> Option<Slip> {
+        match self {
+            Joint::Closed(slip) | Joint::Corner(_, _, slip) => Some(slip),
+            Joint::Free => None,
+        }
+    }
+}
+
+/// Where the blocks are and how they move. Lists have N entries, base first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// States of the interfaces.
+    pub joints: Vec<Joint>,
+    /// Angles `[rad]`.
+    pub theta: Vec<f64>,
+    /// Rates `[rad/s]`.
+    pub omega: Vec<f64>,
+    /// Slides `[m]`; of a free interface the last one, not kept up.
+    pub slide: Vec<f64>,
+    /// Rates of the slides `[m/s]`.
+    pub slide_rate: Vec<f64>,
+    /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`; of free interfaces only.
+    pub apart: Vec<Vec2>,
+    /// Rate of `apart` `[m/s]`.
+    pub apart_rate: Vec<Vec2>,
+}
+
+impl Configuration {
+    /// A column that sticks in this pattern with the slides that it has.
+    pub fn sticking(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> Configuration {
+        let blocks = column.len();
+        let mut configuration = Configuration {
+            joints: vec![Joint::Closed(Slip::Sticks); blocks],
+            theta: theta.to_vec(),
+            omega: omega.to_vec(),
+            slide: column.slides().to_vec(),
+            slide_rate: vec![0.0; blocks],
+            apart: vec![[0.0; 2]; blocks],
+            apart_rate: vec![[0.0; 2]; blocks],
+        };
+        for (interface, state) in pattern.0.iter().enumerate().filter(|(_, state)| state.is_open()) {
+            let side = state.sign();
+            let face = face(column, interface, side, configuration.slide[interface]);
+            configuration.joints[interface] = Joint::Corner(side, face, Slip::Sticks);
+        }
+        configuration
+    }
+
+    /// The pattern of signs: that of the relative angle where the interface is not closed.
+    pub fn pattern(&self) -> Pattern {
+        let state = |interface: usize| match self.joints[interface] {
+            Joint::Closed(_) => Interface::Closed,
+            Joint::Corner(side, ..) => Interface::from_sign(side),
+            Joint::Free => {
+                let phi = self.gap_angle(interface);
+                if phi < 0.0 { Interface::Left } else { Interface::Right }
+            }
+        };
+        Pattern((0..self.joints.len()).map(state).collect())
+    }
+
+    /// Relative angle of an interface (from zero) `[rad]`.
+    pub fn gap_angle(&self, interface: usize) -> f64 {
+        difference(&self.theta, interface)
+    }
+
+    /// Relative rate of an interface (from zero) `[rad/s]`.
+    pub fn gap_rate(&self, interface: usize) -> f64 {
+        difference(&self.omega, interface)
+    }
+}
+
+/// Value of a block less that of the one below, which is zero for the ground.
+pub fn difference(values: &[f64], interface: usize) -> f64 {
+    values[interface] - interface.checked_sub(1).map_or(0.0, |below| values[below])
+}
+
+/// Share of a width below which two corners coincide: what some roundings leave of equal widths. Larger, and drums that are nearly equal would be
+/// taken for equal ones, whose corners bear more.
+const COINCIDENCE: f64 = 1e-13;
+
+/// The face that carries a corner of this side, at a slide `[m]`.
+pub fn face(column: &Column, interface: usize, side: Sign, slide: f64) -> Face {
+    let Some(below) = interface.checked_sub(1) else { return Face::Lower };
+    let (own, lower) = (column.blocks()[interface].bottom_half_width, column.blocks()[below].top_half_width);
+    // How far the upper corner is outside the lower face.
+    let beyond = f64::from(side) * slide + own - lower;
+    if beyond.abs() <= COINCIDENCE * (own + lower) {
+        Face::Both
+    } else if beyond < 0.0 {
+        Face::Lower
+    } else {
+        Face::Upper
+    }
+}

@@ -1,0 +1,77 @@
+//! Friction: blocks that stick, slide and fly (docs/book/model.md, sections 13 to 18).
+//!
+//! A contact of the model without sliding transmits whatever force holds its blocks together. Here the tangential force obeys Coulomb's
+//! law and the normal force is a pressure, so that an interface has ten states instead of three ([`joint`]). Motions are described by
+//! coordinates that keep the contacts by themselves: an angle for each link, a slide for each interface that slides, two translations for each
+//! that is free ([`chain`]). The equations of motion are rows of d'Alembert's principle ([`rows`]); which state follows an event is searched for among
+//! the admissible ones ([`search`]); what ends a state are zeros of guards ([`guards`]).
+//!
+//! Time does not pass here: `run/` integrates.
+
+pub mod chain;
+pub mod guards;
+
+pub mod joint;
+pub mod rows;
+pub mod search;
+
+use search::Coefficients;
+use serde::{Deserialize, Serialize};
+
+/// Coefficients of Coulomb friction between the blocks, dimensionless: one for all interfaces, or one per interface, base first.
+///
+/// ```
+/// use rocking::Friction;
+/// assert_eq!(Friction::uniform(0.7), Friction::new(vec![0.7], vec![0.7]));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct Friction {
+    /// Of contacts that stick.
+    #[serde(rename = "static")]
+    pub fixed: Vec<f64>,
+    /// Of contacts that slide, and of impacts; no larger than that of the same contact while it sticks.
+    pub kinetic: Vec<f64>,
+}
+
+impl Friction {
+    /// One coefficient for all contacts, whether they stick or slide.
+    pub fn uniform(coefficient: f64) -> Friction {
+        Friction::new(vec![coefficient], vec![coefficient])
+    }
+
+    /// Static and kinetic coefficients, one each or one per interface.
+    pub fn new(fixed: Vec<f64>, kinetic: Vec<f64>) -> Friction {
+        Friction { fixed, kinetic }
+    }
+
+    /// The smallest static coefficient.
+    pub fn least(&self) -> f64 {
+        self.fixed.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// What is wrong with the coefficients of a column of so many blocks: key, problem and remedy.
+    pub(crate) fn fault(&self, blocks: usize) -> Option<(&'static str, String, &'static str)> {
+        for (key, list) in [("friction.static", &self.fixed), ("friction.kinetic", &self.kinetic)] {
+            if list.len() != 1 && list.len() != blocks {
+                let problem = format!("{} number(s) for {blocks} interface(s)", list.len());
+                return Some((key, problem, "give one for all, or one per interface, base first"));
+            }
+            if let Some(value) = list.iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
+                return Some((key, format!("{value} is out of range"), "give a finite number, zero or above"));
+            }
+        }
+        let Coefficients { fixed, kinetic } = self.per_interface(blocks);
+        let above = fixed.iter().zip(&kinetic).position(|(fixed, kinetic)| kinetic > fixed)?;
+        let problem =
+            format!("{} is above the static coefficient, {}, of interface {}", kinetic[above], fixed[above], above + 1);
+        Some(("friction.kinetic", problem, "give a kinetic coefficient no larger than the static one"))
+    }
+
+    /// The coefficients of each interface.
+    pub(crate) fn per_interface(&self, blocks: usize) -> Coefficients {
+        let all = |list: &[f64]| (0..blocks).map(|i| list[i.min(list.len() - 1)]).collect();
+        Coefficients { fixed: all(&self.fixed), kinetic: all(&self.kinetic) }
+    }
+}

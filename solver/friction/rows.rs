@@ -1,0 +1,211 @@
+//! Equations of motion and of impact with friction, row by row.
+//!
+//! A row is d'Alembert's principle on a virtual motion: `Σ m_j A_j · δr_j + I_j α_j δθ_j = 0`. Angles and the translations of free interfaces are
+//! tested along themselves. A slide of interface `j` is tested along the face lifted by `ε μ` for a unit of slide, on which the contact does no work:
+//!
+//! ```text
+//! Σ_{i≥j} m_i A_i · R(θ_face) (1, ε μ) = 0          which is T + ε μ N = 0
+//! ```
+//!
+//! so that no normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations less gravity; in an impact
+//! they are the jumps of velocity, and forces are impulses.
+
+use super::chain::{Chain, Motion, Rates};
+use super::joint::{Joint, Slip};
+use crate::mechanics::dynamics::{ContactForce, Ground};
+use crate::mechanics::kinematics::Vec2;
+
+/// A coordinate of a configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Coordinate {
+    /// The common angle of these blocks.
+    Angle(std::ops::Range<usize>),
+    /// The slide of an interface.
+    Slide(usize),
+    /// A translation of a free interface: horizontal (0) or vertical (1).
+    Apart(usize, usize),
+}
+
+/// The free coordinates of these states, base first.
+pub fn coordinates(joints: &[Joint]) -> Vec<Coordinate> {
+    let mut coordinates = Vec::with_capacity(3 * joints.len());
+    for (interface, joint) in joints.iter().enumerate() {
+        if !matches!(joint, Joint::Closed(_)) {
+            let next = joints[interface + 1..].iter().position(|joint| !matches!(joint, Joint::Closed(_)));
+            let end = next.map_or(joints.len(), |next| interface + 1 + next);
+            coordinates.push(Coordinate::Angle(interface..end));
+        }
+        match joint.slip() {
+            Some(Slip::Slides(_)) => coordinates.push(Coordinate::Slide(interface)),
+            None => coordinates.extend([0, 1].map(|axis| Coordinate::Apart(interface, axis))),
+            Some(Slip::Sticks) => {}
+        }
+    }
+    coordinates
+}
+
+/// Rates of a configuration for values of its free coordinates.
+pub fn rates(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Rates {
+    let mut rates = Rates::zero(blocks);
+    for (coordinate, &value) in coordinates.iter().zip(values) {
+        match coordinate {
+            Coordinate::Angle(range) => rates.omega[range.clone()].fill(value),
+            Coordinate::Slide(interface) => rates.slide[*interface] = value,
+            Coordinate::Apart(interface, axis) => rates.apart[*interface][*axis] = value,
+        }
+    }
+    rates
+}
+
+/// What the states of all interfaces give: accelerations and forces, or velocities after an impact and impulses.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Second derivatives of the coordinates, or their rates after an impact.
+    pub rates: Rates,
+    /// Accelerations of the blocks less gravity, or their jumps of velocity.
+    pub change: Motion,
+    /// What the contacts transmit to the stacks above: in the axes of the face that carries the contact, the moment about the centre of a
+    /// closed one and about the point of a corner.
+    pub contacts: Vec<ContactForce>,
+}
+
+/// The rows of a configuration.
+#[derive(Debug)]
+pub struct Rows<'c, 'a> {
+    chain: &'c Chain<'a>,
+    coordinates: Vec<Coordinate>,
+    /// Motion of the blocks for a unit rate of each coordinate.
+    columns: Vec<Motion>,
+    /// Virtual motion along which each row is tested.
+    tests: Vec<Motion>,
+    /// Centre or point of each contact `[m]`.
+    points: Vec<Vec2>,
+}
+
+impl<'c, 'a> Rows<'c, 'a> {
+    /// The rows of these states with these coefficients of kinetic friction; `centres` are the centres of closed contacts on their lower
+    /// faces `[m]`.
+    pub fn new(chain: &'c Chain<'a>, joints: &[Joint], kinetic: &[f64], centres: &[f64]) -> Rows<'c, 'a> {
+        let coordinates = coordinates(joints);
+        let unit = |index: usize| {
+            let mut values = vec![0.0; coordinates.len()];
+            values[index] = 1.0;
+            chain.motion(&rates(&coordinates, &values, joints.len()))
+        };
+        let columns: Vec<Motion> = (0..coordinates.len()).map(unit).collect();
+        let test = |(column, coordinate): (&Motion, &Coordinate)| match coordinate {
+            Coordinate::Slide(interface) => {
+                let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
+                let [along, across] = chain.axes(*interface);
+                let direction = [along[0] + lift * across[0], along[1] + lift * across[1]];
+                let above = |block: usize| if block >= *interface { direction } else { [0.0, 0.0] };
+                Motion { linear: (0..joints.len()).map(above).collect(), angular: vec![0.0; joints.len()] }
+            }
+            _ => column.clone(),
+        };
+        let tests = columns.iter().zip(&coordinates).map(test).collect();
+        let point = |(interface, joint): (usize, &Joint)| match joint {
+            Joint::Corner(..) => chain.pivot(interface),
+            _ => chain.on_lower_face(interface, centres[interface]),
+        };
+        let points = joints.iter().enumerate().map(point).collect();
+        Rows { chain, coordinates, columns, tests, points }
+    }
+
+    /// `Σ m_j a_j · δr_j + I_j α_j δθ_j`
+    fn work(&self, row: usize, linear: &[Vec2], angular: Option<&[f64]>) -> f64 {
+        let test = &self.tests[row];
+        let blocks = self.chain.column().blocks().iter().enumerate();
+        blocks.fold(0.0, |sum, (j, block)| {
+            let (a, d) = (linear[j], test.linear[j]);
+            let turning = angular.map_or(0.0, |angular| block.inertia * angular[j] * test.angular[j]);
+            sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + turning
+        })
+    }
+
+    /// Values of the coordinates for which the rows balance these loads; `None` where the rows do not determine them.
+    fn solve(&self, loads: Vec<f64>) -> Option<Vec<f64>> {
+        let size = self.coordinates.len();
+        let mut matrix = vec![0.0; size * size];
+        for row in 0..size {
+            for (column, motion) in self.columns.iter().enumerate() {
+                matrix[row * size + column] = self.work(row, &motion.linear, Some(&motion.angular));
+            }
+        }
+        solved(matrix, loads)
+    }
+
+    /// The accelerations at these rates on a moving ground.
+    pub fn accelerations(&self, rates_now: &Rates, ground: Ground) -> Option<Answer> {
+        let mut imposed = self.chain.imposed(rates_now);
+        imposed.iter_mut().for_each(|a| *a = [a[0] + ground.x, a[1] + ground.gravity]);
+        let loads = (0..self.coordinates.len()).map(|row| -self.work(row, &imposed, None)).collect();
+        let rates = rates(&self.coordinates, &self.solve(loads)?, self.chain.len());
+        let own = self.chain.motion(&rates);
+        let linear = own.linear.iter().zip(&imposed).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect();
+        Some(self.answer(rates, Motion { linear, angular: own.angular }))
+    }
+
+    /// The velocities after an impact of blocks that move like this before.
+    pub fn impact(&self, before: &Motion) -> Option<Answer> {
+        let loads =
+            (0..self.coordinates.len()).map(|row| self.work(row, &before.linear, Some(&before.angular))).collect();
+        let rates = rates(&self.coordinates, &self.solve(loads)?, self.chain.len());
+        let change = self.chain.motion(&rates).less(before);
+        Some(self.answer(rates, change))
+    }
+
+    /// What contacts transmit in an impact that leaves these rates.
+    pub fn given(&self, rates: Rates, before: &Motion) -> Answer {
+        let change = self.chain.motion(&rates).less(before);
+        self.answer(rates, change)
+    }
+
+    fn answer(&self, rates: Rates, change: Motion) -> Answer {
+        let blocks = self.chain.column().blocks();
+        let contact = |interface: usize| {
+            let ([along, across], point) = (self.chain.axes(interface), self.points[interface]);
+            let (mut force, mut moment) = ([0.0, 0.0], 0.0);
+            for j in interface..blocks.len() {
+                let (block, load) = (&blocks[j], change.linear[j].map(|a| blocks[j].mass * a));
+                let r = [self.chain.centroid[j][0] - point[0], self.chain.centroid[j][1] - point[1]];
+                force = [force[0] + load[0], force[1] + load[1]];
+                moment += block.inertia * change.angular[j] + r[1] * load[0] - r[0] * load[1];
+            }
+            let dot = |axis: Vec2| axis[0] * force[0] + axis[1] * force[1];
+            ContactForce { normal: dot(across), tangential: dot(along), moment }
+        };
+        let contacts = (0..blocks.len()).map(contact).collect();
+        Answer { rates, change, contacts }
+    }
+}
+
+/// `x` of `A x = b` by elimination with partial pivoting, `A` row by row; `None` if a pivot vanishes.
+fn solved(mut a: Vec<f64>, mut b: Vec<f64>) -> Option<Vec<f64>> {
+    let size = b.len();
+    for column in 0..size {
+        let pivot = (column..size).max_by(|p, q| a[p * size + column].abs().total_cmp(&a[q * size + column].abs()))?;
+        let value = a[pivot * size + column];
+        if value == 0.0 || !value.is_finite() {
+            return None;
+        }
+        if pivot != column {
+            (0..size).for_each(|k| a.swap(pivot * size + k, column * size + k));
+            b.swap(pivot, column);
+        }
+        for row in column + 1..size {
+            let factor = a[row * size + column] / value;
+            if factor != 0.0 {
+                for k in column..size {
+                    a[row * size + k] -= factor * a[column * size + k];
+                }
+                b[row] -= factor * b[column];
+            }
+        }
+    }
+    for row in (0..size).rev() {
+        let known: f64 = (row + 1..size).map(|k| a[row * size + k] * b[k]).sum();
+        b[row] = (b[row] - known) / a[row * size + row];
+    }
+    b.iter().all(|x| x.is_finite()).then_some(b)
+}

@@ -1,0 +1,453 @@
+//! Which states the interfaces take: accelerations after an event, velocities after an impact (docs/book/model.md, sections 16 and 17).
+//!
+//! Every interface that touches has a list of states. A combination is admissible if contacts press, closed ones keep their resultant inside,
+//! sticking ones keep their force inside the friction cone, sliding ones slide against their friction, corners and free interfaces do not sink in:
+//!
+//! ```text
+//! closed: |M| <= c N      corner: N >= 0, s φ̈ >= 0      sticks: |T| <= μ N      slides: T = -ε μ N, ε ü >= 0      free: gap acceleration >= 0
+//! ```
+//!
+//! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
+//! state; where it goes in circles, combinations are tried one by one, few changes first.
+
+use super::chain::{Chain, Motion, Rates};
+use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
+use super::rows::{Answer, Rows};
+use crate::column::Column;
+use crate::mechanics::dynamics::{ContactForce, Ground};
+use crate::mechanics::kinematics::Vec2;
+
+/// What touches at an interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Touch {
+    /// The faces, over the whole contact.
+    Faces,
+    /// A corner of this side.
+    Corner(Sign),
+    /// Nothing.
+    Nothing,
+}
+
+/// Coefficients of friction per interface, base first, dimensionless.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coefficients {
+    /// Of contacts that stick.
+    pub fixed: Vec<f64>,
+    /// Of contacts that slide, and of impacts.
+    pub kinetic: Vec<f64>,
+}
+
+/// A question about the states of interfaces.
+#[derive(Clone, Debug)]
+pub enum Question {
+    /// Accelerations under this motion of the ground.
+    Accelerations(Ground),
+    /// Velocities after an impact of blocks that move like this before.
+    Impact(Motion),
+}
+
+/// States of all interfaces with what they give.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The states.
+    pub joints: Vec<Joint>,
+    /// Accelerations and forces, or velocities and impulses.
+    pub answer: Answer,
+    /// Whether other states were admissible, with another answer.
+    pub is_ambiguous: bool,
+}
+
+/// Share of the forces, or velocities, at work below which a condition is violated by rounding only.
+const ROUNDING_SHARE: f64 = 1e-10;
+
+/// Combinations that are tried one by one at most; beyond, the search ends without an answer. Three blocks have a thousand.
+const MOST_TRIED: usize = 20_000;
+
+/// Coefficient of friction from which on several states may be admissible (docs/book/model.md, section 16): all are tried then.
+const AMBIGUOUS_FROM: f64 = 0.8;
+
+/// Most interfaces whose combinations are all tried for a second answer.
+const MOST_BLOCKS_TRIED: usize = 3;
+
+/// A contact problem with friction.
+pub struct Search<'a> {
+    column: &'a Column,
+    now: &'a Configuration,
+    touch: &'a [Touch],
+    friction: &'a Coefficients,
+    question: Question,
+    now_rates: Rates,
+    /// The size of forces, or impulses, of accelerations, or velocities, and of angular ones.
+    scale: Scale,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    force: f64,
+    linear: f64,
+    angular: f64,
+}
+
+impl<'a> Search<'a> {
+    /// The problem of a configuration whose interfaces touch like this.
+    pub fn new(
+        column: &'a Column,
+        now: &'a Configuration,
+        touch: &'a [Touch],
+        friction: &'a Coefficients,
+        question: Question,
+    ) -> Search<'a> {
+        let size = column.blocks().iter().fold(0.0f64, |size, block| size.max(block.half_height + block.half_width()));
+        let mass: f64 = column.blocks().iter().map(|block| block.mass).sum();
+        let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
+        let linear = match &question {
+            Question::Accelerations(ground) => {
+                ground.x.abs() + ground.gravity.abs() + 1e-3 * column.gravity() + fastest * fastest * size
+            }
+            Question::Impact(before) => {
+                let sizes = before.linear.iter().zip(&before.angular);
+                sizes.fold(0.0f64, |most, (v, w)| most.max(v[0].abs() + v[1].abs() + w.abs() * size))
+            }
+        };
+        let scale = Scale { force: mass * linear, linear, angular: linear / size };
+        let now_rates = Rates::of(now);
+        Search { column, now, touch, friction, question, now_rates, scale }
+    }
+
+    /// The states that follow; `None` if none is admissible.
+    pub fn solve(&self) -> Option<Solution> {
+        self.solve_from(self.first())
+    }
+
+    /// The same, beginning with these states.
+    pub fn solve_from(&self, first: Vec<Joint>) -> Option<Solution> {
+        let guided = self.guided(first.clone());
+        let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));
+        let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
+        match guided {
+            Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
+            _ => self.tried(&first),
+        }
+    }
+
+    /// The states with which the search begins: what touches sticks, what slides goes on.
+    pub fn first(&self) -> Vec<Joint> {
+        let joint = |(interface, touch): (usize, &Touch)| {
+            let now = self.now.joints[interface];
+            match (touch, now, &self.question) {
+                (Touch::Nothing, ..) => Joint::Free,
+                (Touch::Faces, Joint::Closed(slip) | Joint::Corner(_, _, slip), Question::Accelerations(_)) => {
+                    Joint::Closed(slip)
+                }
+                (Touch::Faces, ..) => Joint::Closed(Slip::Sticks),
+                (Touch::Corner(_), Joint::Corner(..), Question::Accelerations(_)) => now,
+                (Touch::Corner(side), ..) => self.corner(interface, *side, Slip::Sticks),
+            }
+        };
+        self.touch.iter().enumerate().map(joint).collect()
+    }
+
+    /// Whether the direction of a slide is given by the present rate, and which it is.
+    fn given_slip(&self, interface: usize) -> Option<Slip> {
+        let rate = self.now.slide_rate[interface];
+        let is_given = matches!(self.question, Question::Accelerations(_)) && rate != 0.0;
+        is_given.then_some(Slip::Slides(if rate > 0.0 { 1 } else { -1 }))
+    }
+
+    /// A corner on the face that carries it. Coinciding corners are two contacts, each corner against the other's face prolonged: they slide
+    /// outwards along the lower face and inwards along the upper one, and part from the other.
+    fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
+        let face = match (face(self.column, interface, side, self.now.slide[interface]), slip) {
+            (Face::Both, Slip::Slides(direction)) if direction == side => Face::Lower,
+            (Face::Both, Slip::Slides(_)) => Face::Upper,
+            (face, _) => face,
+        };
+        Joint::Corner(side, face, slip)
+    }
+
+    /// The states that an interface may take.
+    fn choices(&self, interface: usize) -> Vec<Joint> {
+        let slips = match self.given_slip(interface) {
+            Some(slip) => vec![slip],
+            None => vec![Slip::Sticks, Slip::Slides(1), Slip::Slides(-1)],
+        };
+        let corners = |side: Sign| slips.iter().map(move |slip| self.corner(interface, side, *slip));
+        let mut choices: Vec<Joint> = match self.touch[interface] {
+            Touch::Nothing => Vec::new(),
+            Touch::Corner(side) => corners(side).collect(),
+            Touch::Faces => {
+                slips.iter().map(|slip| Joint::Closed(*slip)).chain(corners(1)).chain(corners(-1)).collect()
+            }
+        };
+        choices.push(Joint::Free);
+        choices
+    }
+
+    /// What states give; `None` where they do not determine it.
+    fn answer(&self, joints: &[Joint]) -> Option<Answer> {
+        let mut configuration = self.now.clone();
+        configuration.joints = joints.to_vec();
+        let held = Chain::new(self.column, self.now);
+        for (interface, joint) in joints.iter().enumerate() {
+            if *joint == Joint::Free {
+                configuration.apart[interface] = held.apart(interface);
+                configuration.apart_rate[interface] = held.apart_rate(interface, &self.now_rates);
+            }
+        }
+        let chain = Chain::new(self.column, &configuration);
+        let centres: Vec<f64> = (0..joints.len()).map(|i| centre(self.column, i, self.now.slide[i])).collect();
+        let rows = Rows::new(&chain, joints, &self.friction.kinetic, &centres);
+        match &self.question {
+            Question::Accelerations(ground) => rows.accelerations(&Rates::of(&configuration), *ground),
+            Question::Impact(before) => rows.impact(before),
+        }
+    }
+
+    /// From violated condition to the state that it names, until none is violated.
+    fn guided(&self, first: Vec<Joint>) -> Option<Solution> {
+        let mut visited: Vec<Vec<Joint>> = Vec::new();
+        let mut joints = first;
+        for _ in 0..8 * joints.len() + 8 {
+            let answer = self.answer(&joints)?;
+            let required: Vec<(usize, Joint)> =
+                (0..joints.len()).filter_map(|i| self.required(&joints, &answer, i).map(|next| (i, next))).collect();
+            if required.is_empty() {
+                return Some(Solution { joints, answer, is_ambiguous: false });
+            }
+            visited.push(joints.clone());
+            let mut next = joints.clone();
+            required.iter().for_each(|(interface, joint)| next[*interface] = *joint);
+            if visited.contains(&next) {
+                // All at once goes in circles: one at a time, from the base.
+                let one = required.iter().find_map(|(interface, joint)| {
+                    let mut next = joints.clone();
+                    next[*interface] = *joint;
+                    (!visited.contains(&next)).then_some(next)
+                });
+                next = one?;
+            }
+            joints = next;
+        }
+        None
+    }
+
+    /// All combinations, those with few changes first.
+    fn tried(&self, first: &[Joint]) -> Option<Solution> {
+        let choices: Vec<Vec<Joint>> = (0..first.len()).map(|i| self.choices(i)).collect();
+        let count = choices.iter().fold(1usize, |count, list| count.saturating_mul(list.len()));
+        if count > MOST_TRIED {
+            return None;
+        }
+        let combination = |mut code: usize| -> Vec<Joint> {
+            let pick = |list: &Vec<Joint>| {
+                let joint = list[code % list.len()];
+                code /= list.len();
+                joint
+            };
+            choices.iter().map(pick).collect()
+        };
+        let changes = |joints: &[Joint]| joints.iter().zip(first).filter(|(a, b)| a != b).count();
+        let mut admissible: Vec<(usize, f64, Vec<Joint>, Answer)> = Vec::new();
+        for code in 0..count {
+            let joints = combination(code);
+            let Some(answer) = self.answer(&joints) else { continue };
+            if (0..joints.len()).all(|i| self.required(&joints, &answer, i).is_none()) {
+                let changes = if matches!(self.question, Question::Impact(_)) { 0 } else { changes(&joints) };
+                let energy = answer.change.energy(self.column);
+                admissible.push((changes, energy, joints, answer));
+            }
+        }
+        admissible.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let (_, _, joints, answer) = admissible.first()?.clone();
+        let is_other = |other: &Answer| {
+            let pairs = other.change.linear.iter().zip(&answer.change.linear);
+            pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > 1e-6 * self.scale.linear)
+        };
+        let is_ambiguous = admissible.iter().any(|(_, _, _, other)| is_other(other));
+        Some(Solution { joints, answer, is_ambiguous })
+    }
+
+    /// The state that a violated condition of an interface names; `None` if all conditions hold.
+    fn required(&self, joints: &[Joint], answer: &Answer, interface: usize) -> Option<Joint> {
+        let (joint, contact) = (joints[interface], answer.contacts[interface]);
+        let slack = ROUNDING_SHARE * self.scale.force;
+        match joint {
+            Joint::Free => self.sinks(answer, interface),
+            Joint::Closed(slip) => {
+                let reach = half_length(self.column, interface, self.now.slide[interface]);
+                if contact.normal < -slack {
+                    return Some(Joint::Free);
+                }
+                // The resultant is at -M / N from the centre.
+                if contact.moment.abs() > reach * (contact.normal + slack) {
+                    let side = if contact.moment > 0.0 { -1 } else { 1 };
+                    return Some(self.corner(interface, side, slip));
+                }
+                self.wrong_slip(interface, joint, answer).map(Joint::Closed)
+            }
+            Joint::Corner(side, _, slip) => {
+                if contact.normal < -slack {
+                    return Some(Joint::Free);
+                }
+                let opening = f64::from(side) * difference(&answer.rates.omega, interface);
+                if self.touch[interface] == Touch::Faces && opening < -ROUNDING_SHARE * self.scale.angular {
+                    return Some(Joint::Closed(slip));
+                }
+                self.wrong_slip(interface, joint, answer).map(|slip| self.corner(interface, side, slip))
+            }
+        }
+    }
+
+    /// The slip that a violated condition names.
+    fn wrong_slip(&self, interface: usize, joint: Joint, answer: &Answer) -> Option<Slip> {
+        let slack = ROUNDING_SHARE * self.scale.force;
+        match joint.slip()? {
+            Slip::Sticks => {
+                if let Some(slip) = self.given_slip(interface) {
+                    return Some(slip);
+                }
+                let coefficient = match self.question {
+                    Question::Accelerations(_) => self.friction.fixed[interface],
+                    Question::Impact(_) => self.friction.kinetic[interface],
+                };
+                let [to_left, to_right] =
+                    cone_margins(joint, self.now.gap_angle(interface), answer.contacts[interface], coefficient);
+                match (to_left < -slack, to_right < -slack) {
+                    (true, _) => Some(Slip::Slides(-1)),
+                    (_, true) => Some(Slip::Slides(1)),
+                    _ => None,
+                }
+            }
+            Slip::Slides(direction) => {
+                let along = f64::from(direction) * answer.rates.slide[interface];
+                let is_free_to_turn = self.given_slip(interface).is_none();
+                (is_free_to_turn && along < -ROUNDING_SHARE * self.scale.linear).then_some(Slip::Sticks)
+            }
+        }
+    }
+
+    /// The contact of a free interface that would sink in.
+    fn sinks(&self, answer: &Answer, interface: usize) -> Option<Joint> {
+        let slack = -ROUNDING_SHARE * self.scale.linear;
+        match self.touch[interface] {
+            Touch::Nothing => None,
+            Touch::Corner(side) => {
+                let face = face(self.column, interface, side, self.now.slide[interface]);
+                let lower = || self.gap_motion(answer, interface, side, Face::Lower);
+                let upper = || self.gap_motion(answer, interface, side, Face::Upper);
+                let apart = match face {
+                    Face::Lower => lower(),
+                    Face::Upper => upper(),
+                    Face::Both => lower().min(upper()),
+                };
+                (apart < slack).then(|| self.corner(interface, side, Slip::Sticks))
+            }
+            Touch::Faces => {
+                let sinking = [1, -1].map(|side| {
+                    let face = match face(self.column, interface, side, self.now.slide[interface]) {
+                        Face::Upper => Face::Upper,
+                        _ => Face::Lower,
+                    };
+                    self.gap_motion(answer, interface, side, face) < slack
+                });
+                match sinking {
+                    [true, true] => Some(Joint::Closed(Slip::Sticks)),
+                    [true, false] => Some(self.corner(interface, 1, Slip::Sticks)),
+                    [false, true] => Some(self.corner(interface, -1, Slip::Sticks)),
+                    [false, false] => None,
+                }
+            }
+        }
+    }
+
+    /// Acceleration, or velocity, with which a corner leaves the other face.
+    fn gap_motion(&self, answer: &Answer, interface: usize, side: Sign, face: Face) -> f64 {
+        let below = interface.checked_sub(1);
+        let of = |values: &[f64]| [below.map_or(0.0, |below| values[below]), values[interface]];
+        let chain = Chain::new(self.column, self.now);
+        let side = f64::from(side);
+        // The frame of the face, the frame of the corner, and the corner from the middle of the corner's own face.
+        let (own, corner) = match face {
+            Face::Upper => (side * below.map_or(0.0, |b| self.column.blocks()[b].top_half_width), -1.0),
+            _ => (side * self.column.blocks()[interface].bottom_half_width, 1.0),
+        };
+        let [lower_angle, upper_angle] = of(&self.now.theta);
+        let [lower_rate, upper_rate] = of(&self.now.omega);
+        let [lower_turn, upper_turn] = of(&answer.rates.omega);
+        let (frame, carrier) = match face {
+            Face::Upper => ((upper_angle, upper_rate, upper_turn), (lower_angle, lower_rate, lower_turn)),
+            _ => ((lower_angle, lower_rate, lower_turn), (upper_angle, upper_rate, upper_turn)),
+        };
+        let (sin, cos) = libm::sincos(carrier.0);
+        let arm = [own * cos, -own * sin];
+        let swept = |rate: f64, r: Vec2| [rate * r[1], -rate * r[0]];
+        let apart = chain.apart(interface).map(|x| corner * x);
+        let apart_rate = chain.apart_rate(interface, &self.now_rates).map(|x| corner * x);
+        let apart_change = answer.rates.apart[interface].map(|x| corner * x);
+        let place = [apart[0] + arm[0], apart[1] + arm[1]];
+        let (sin, cos) = libm::sincos(frame.0);
+        let in_frame = |[x, y]: Vec2| [x * cos - y * sin, x * sin + y * cos];
+        let rho = in_frame(place);
+        match self.question {
+            Question::Impact(_) => {
+                let turning = swept(carrier.2, arm);
+                let velocity = in_frame([apart_change[0] + turning[0], apart_change[1] + turning[1]]);
+                corner * (velocity[1] + frame.2 * rho[0])
+            }
+            Question::Accelerations(_) => {
+                let turning = swept(carrier.1, arm);
+                let velocity = in_frame([apart_rate[0] + turning[0], apart_rate[1] + turning[1]]);
+                let along = velocity[0] - frame.1 * rho[1];
+                let turning = swept(carrier.2, arm);
+                let square = carrier.1 * carrier.1;
+                let total = [0, 1].map(|axis| apart_change[axis] + turning[axis] - square * arm[axis]);
+                let own = in_frame(total)[1];
+                corner * (own + 2.0 * frame.1 * along + frame.2 * rho[0] + frame.1 * frame.1 * rho[1])
+            }
+        }
+    }
+}
+
+/// How far the force at a sticking contact is inside its cone `[N]`: against a slide to the left, and to the right. `phi` is the relative angle
+/// `[rad]`, by which the cones of coinciding corners differ.
+pub fn cone_margins(joint: Joint, phi: f64, contact: ContactForce, coefficient: f64) -> [f64; 2] {
+    let ContactForce { normal, tangential, .. } = contact;
+    let (least, most) = match joint {
+        Joint::Corner(_, Face::Both, _) => (phi.min(0.0), phi.max(0.0)),
+        _ => (0.0, 0.0),
+    };
+    // A normal that is turned by an angle to the right: the force in its axes.
+    let turned = |angle: f64| {
+        if angle == 0.0 {
+            return [tangential, normal];
+        }
+        let (sin, cos) = libm::sincos(angle);
+        [tangential * cos - normal * sin, tangential * sin + normal * cos]
+    };
+    let ([right, pressed], [left, held]) = (turned(most), turned(least));
+    [coefficient * pressed - right, coefficient * held + left]
+}
+
+/// Ends of the contact of an interface with this slide, from the middle of the lower face `[m]`.
+pub fn ends(column: &Column, interface: usize, slide: f64) -> [f64; 2] {
+    let own = column.blocks()[interface].bottom_half_width;
+    match interface.checked_sub(1) {
+        None => [slide - own, slide + own],
+        Some(below) => {
+            let face = column.blocks()[below].top_half_width;
+            [(-face).max(slide - own), face.min(slide + own)]
+        }
+    }
+}
+
+/// Half of the length of a closed contact `[m]`.
+pub fn half_length(column: &Column, interface: usize, slide: f64) -> f64 {
+    let [left, right] = ends(column, interface, slide);
+    0.5 * (right - left)
+}
+
+/// Centre of a closed contact on the lower face, from its middle `[m]`.
+pub fn centre(column: &Column, interface: usize, slide: f64) -> f64 {
+    let [left, right] = ends(column, interface, slide);
+    0.5 * (left + right)
+}
