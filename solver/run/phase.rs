@@ -18,7 +18,8 @@ use crate::numerics::ode::control::Part;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
-use rocking_codegen::pattern::{Interface, Pattern};
+use rocking_codegen::pattern::Pattern;
+use std::ops::Range;
 
 /// The phases of a mode, with storage for them.
 pub(crate) struct Phase {
@@ -29,9 +30,10 @@ pub(crate) struct Phase {
     pub(super) samples: Option<SampleSteps>,
     /// The point of no return, where the column is one block and nothing but the outcome is requested.
     pub(super) fall: Option<Fall>,
+    /// Number of blocks.
+    blocks: usize,
     pub(super) dof: usize,
-    /// Link of each block, base first, from one; zero where it stands on the ground.
-    pub(super) links: PerBlock<usize>,
+    /// The open interfaces, each with the link on it: base first, length `dof`.
     pub(super) gaps: PerBlock<Gap>,
     /// The closed interfaces.
     pub(super) closed: PerBlock<usize>,
@@ -68,14 +70,25 @@ pub(crate) struct Phase {
     pub(super) calls: usize,
 }
 
-/// An open interface and its gap `s φ`.
+/// An open interface, its gap `s φ`, and the link on it: blocks that turn as one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
+    /// The interface, which is the lowest block of the link.
     pub interface: usize,
+    /// The block above the highest of the link.
+    end: usize,
     /// `s (θ_i - θ_{i-1})` of the moving links.
     pub across: Difference,
     /// Roots of the gap at the start of the step that are known: gap, rate and acceleration zero.
     pub start_roots: usize,
+}
+
+impl Gap {
+    /// The blocks of the link on the interface.
+    #[inline(always)]
+    pub fn blocks(&self) -> Range<usize> {
+        self.interface..self.end
+    }
 }
 
 /// A step as far as it is taken.
@@ -215,19 +228,21 @@ impl Phase {
         let options = &scene.options;
         let integrator = mode.integrator(options.method, scene.column.gravity(), options.rtol, options.step);
         let blocks = pattern.0.len();
-        let mut dof = 0;
-        let link = |interface: &Interface| {
-            dof += usize::from(interface.is_open());
-            dof
+        let is_open = |interface: &usize| pattern.0[*interface].is_open();
+        let open: PerBlock<usize> = (0..blocks).filter(is_open).collect();
+        let closed: PerBlock<usize> = (0..blocks).filter(|interface| !is_open(interface)).collect();
+        let dof = open.len();
+        let gap = |(link, &interface): (usize, &usize)| Gap {
+            interface,
+            end: open.get(link + 1).copied().unwrap_or(blocks),
+            across: Difference {
+                sign: f64::from(pattern.0[interface].sign()),
+                upper: link,
+                lower: link.checked_sub(1),
+            },
+            start_roots: 0,
         };
-        let links: PerBlock<usize> = pattern.0.iter().map(link).collect();
-        let open = (0..blocks).filter(|i| pattern.0[*i].is_open());
-        let gap = |interface: usize| {
-            let (sign, upper) = (f64::from(pattern.0[interface].sign()), links[interface] - 1);
-            Gap { interface, across: Difference { sign, upper, lower: upper.checked_sub(1) }, start_roots: 0 }
-        };
-        let gaps = open.map(gap).collect();
-        let closed: PerBlock<usize> = (0..blocks).filter(|i| !pattern.0[*i].is_open()).collect();
+        let gaps = open.iter().enumerate().map(gap).collect();
         let pendulum = if dof == 1 && problem.swings_in_closed_form() { integrator.pendulum() } else { None };
         let steps_over_samples = dof == 1 && closed.is_empty() && problem.steps_over_samples();
         let samples =
@@ -240,8 +255,8 @@ impl Phase {
             pendulum,
             samples,
             fall,
+            blocks,
             dof,
-            links,
             gaps,
             forces: ForceCache::new(blocks, closed.len()),
             closed,
@@ -273,13 +288,11 @@ impl Phase {
 
     /// Angles and rates per block of a state of the links.
     pub(super) fn per_block(&self, x: &[f64]) -> (PerBlock<f64>, PerBlock<f64>) {
-        let mut both = [PerBlock::filled(0.0, self.links.len()), PerBlock::filled(0.0, self.links.len())];
-        for (own, values) in both.iter_mut().zip([&x[..self.dof], &x[self.dof..]]) {
-            for (own, link) in own.iter_mut().zip(&self.links).filter(|(_, link)| **link > 0) {
-                *own = values[link - 1];
-            }
+        let (mut theta, mut omega) = (PerBlock::filled(0.0, self.blocks), PerBlock::filled(0.0, self.blocks));
+        for (gap, (angle, rate)) in self.gaps.iter().zip(x[..self.dof].iter().zip(&x[self.dof..])) {
+            theta[gap.blocks()].fill(*angle);
+            omega[gap.blocks()].fill(*rate);
         }
-        let [theta, omega] = both;
         (theta, omega)
     }
 

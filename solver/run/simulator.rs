@@ -149,7 +149,7 @@ fn run(
             return Ok(recorder.finish(problem, &before, over, modes));
         }
         // By reference: a transition is large, and `?` would copy it.
-        let next = transition(problem, &before, &ended);
+        let next = transition(problem, &before, ended);
         let next = match &next {
             Ok(next) => next,
             Err(error) => return Err(error.clone()),

@@ -266,9 +266,7 @@ impl Phase {
                 let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
                 Ended::Opening(interface, side)
             }
-            Guard::Tilt { link, .. } => {
-                Ended::Over(Over::Overturned(self.links.iter().position(|own| *own == link + 1).unwrap_or(0)))
-            }
+            Guard::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
             Guard::Gap(gap) => {
                 self.closing = self.closing_with(end, gap);
                 Ended::Closing(self.closing.clone())

@@ -101,9 +101,7 @@ impl Phase {
         let is_below_crest = || overturned < 0.0 && swing.turning_point().is_some_and(|crest| overturned <= crest);
         let is_overturned = goes_out && (!has_crest || is_below_crest());
         let (ended, psi) = match is_overturned {
-            true => {
-                (Ended::Over(Over::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0))), overturned)
-            }
+            true => (Ended::Over(Over::Overturned(gap.interface)), overturned),
             false => (Ended::Closing(PerBlock::from_slice(&[gap.interface])), landing),
         };
         let size = swing.rate_at(psi)?;

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::rest;
 use super::state::{ContactMemory, State};
 use super::stretch::Ended;
-use crate::contact::{self, Decision, ImpactLaw, SingularMass};
+use crate::contact::{self, Decision, Gaps, ImpactLaw, SingularMass};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
@@ -37,16 +37,11 @@ pub(crate) struct Transition {
 impl Transition {
     /// `x⁺` of `x⁻`, in the storage of a state that is not needed any more.
     pub fn after(&self, before: &State, mut storage: Box<State>) -> Box<State> {
-        let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
-        let is_same_instant = last_events[1] == before.t;
         let after = &mut *storage;
         (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
-        after.theta.clone_from(&before.theta);
-        after.omega.clone_from(&self.decision.omega);
-        after.pattern = self.decision.pattern.clone();
-        if !(after.contact.released.is_empty() && self.released.is_empty()) {
-            after.contact.released.clone_from(&self.released);
-        }
+        for_size!(before.theta.len(), size => self.decide(size, before, after));
+        let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
+        let is_same_instant = last_events[1] == before.t;
         after.contact.hold = if self.decision.separation { hold.after_separation(before.t) } else { hold };
         after.contact.last_events = if self.is_event { [last_events[1], before.t] } else { last_events };
         after.contact.events_at_once = match (self.is_counted, is_same_instant) {
@@ -54,8 +49,21 @@ impl Transition {
             (true, false) => 0,
             (false, _) => events_at_once,
         };
-        snap(&after.pattern, &mut after.theta, &mut after.omega);
+        if !(after.contact.released.is_empty() && self.released.is_empty()) {
+            after.contact.released.clone_from(&self.released);
+        }
         storage
+    }
+
+    /// Writes pattern, angles and rates of `x⁺` of a column of this size.
+    #[inline(always)]
+    fn decide(&self, size: impl Size, before: &State, after: &mut State) {
+        let (states, mut theta) = (size.copied(&self.decision.pattern.0), size.copied(&before.theta));
+        let mut omega = size.copied(&self.decision.omega);
+        snap(size, &states, &mut theta, &mut omega);
+        after.pattern = Pattern::from_states(&states);
+        after.theta.copy_from_slice(&theta);
+        after.omega.copy_from_slice(&omega);
     }
 }
 
@@ -90,25 +98,22 @@ pub(crate) fn start(problem: &Problem) -> Result<(Box<State>, Option<Transition>
 }
 
 /// The transition at the end of a stretch.
-pub(crate) fn transition(problem: &Problem, before: &State, ended: &Ended) -> Result<Transition, SolveError> {
-    let is_at_rest = before.pattern.dof() == 0;
+pub(crate) fn transition(problem: &Problem, before: &State, ended: Ended) -> Result<Transition, SolveError> {
+    let kind_unless_at_rest = |kind| if before.pattern.dof() == 0 { EventKind::Start } else { kind };
     match ended {
         Ended::Closing(interfaces) => impact(problem, before, interfaces),
         Ended::Opening(interface, side) => {
-            let kind = if is_at_rest { EventKind::Start } else { EventKind::Opening };
-            opening(problem, before, *interface, *side, kind)
+            opening(problem, before, interface, side, kind_unless_at_rest(EventKind::Opening))
         }
-        Ended::Jump | Ended::Over(_) => {
-            let kind = if is_at_rest { EventKind::Start } else { EventKind::Jump };
-            jump(problem, before, kind)
-        }
+        Ended::Jump | Ended::Over(_) => jump(problem, before, kind_unless_at_rest(EventKind::Jump)),
     }
 }
 
 /// Interfaces that have reached `φ = 0` close.
-fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transition, SolveError> {
+fn impact(problem: &Problem, before: &State, closing: PerBlock<usize>) -> Result<Transition, SolveError> {
     let (theta, omega) = (&before.theta, &before.omega);
-    if closing.iter().all(|&interface| contact::is_motionless(theta, omega, interface)) {
+    let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
+    if closing.iter().all(|&interface| gaps.is_rounding(interface) && rates.is_rounding(interface)) {
         return Ok(withdraw(before, closing));
     }
     let law = ImpactLaw {
@@ -117,12 +122,12 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
         is_recorded: problem.is_recorded(),
     };
     let column = &problem.scene.column;
-    match contact::impact(column, &before.pattern, theta, omega, closing, ground(problem, before), law) {
+    match contact::impact(column, &before.pattern, theta, omega, &closing, ground(problem, before), law) {
         Ok(decision) => Ok(Transition {
             decision,
             kind: EventKind::Impact,
             is_event: true,
-            interfaces: PerBlock::from_slice(closing),
+            interfaces: closing,
             released: Vec::new(),
             is_counted: true,
         }),
@@ -133,7 +138,7 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
 /// Interfaces that had opened while critical are driven back before they have moved: no impact, they are closed again, and those
 /// that opened in the same instant stay open.
 #[cold]
-fn withdraw(before: &State, closing: &[usize]) -> Transition {
+fn withdraw(before: &State, closing: PerBlock<usize>) -> Transition {
     let mut pattern = before.pattern.clone();
     closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
     let omega = before.omega.clone();
@@ -143,7 +148,7 @@ fn withdraw(before: &State, closing: &[usize]) -> Transition {
         decision: Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: PerBlock::new() },
         kind: EventKind::Impact,
         is_event: true,
-        interfaces: PerBlock::from_slice(closing),
+        interfaces: closing,
         released,
         is_counted: true,
     }
@@ -197,10 +202,11 @@ pub(crate) fn break_circle(
         return Err(SolveError::Stalled { time: state.t, events, pattern: state.pattern.to_string() });
     }
     let (theta, omega) = (&state.theta, &state.omega);
+    let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
     let is_still: &dyn Fn(usize) -> bool = match events {
-        events if events == most => &|interface| contact::is_motionless(theta, omega, interface),
+        events if events == most => &|interface| gaps.is_rounding(interface) && rates.is_rounding(interface),
         // Rates of some roundings, above what counts as motionless, go in circles as well.
-        events if events == most + most / 2 => &|interface| contact::is_gapless(theta, interface),
+        events if events == most + most / 2 => &|interface| gaps.is_rounding(interface),
         _ => return Ok(None),
     };
     let is_closing = |interface: &usize| state.pattern.0[*interface].is_open() && is_still(*interface);
@@ -233,20 +239,21 @@ fn singular(state: &State) -> SolveError {
 
 /// Makes closed interfaces, and interfaces that have only just opened, gapless and motionless to the last bit. Decided before anything is moved: a
 /// block that is snapped to the one below must not open a gap to the one above.
-fn snap(pattern: &Pattern, theta: &mut PerBlock<f64>, omega: &mut PerBlock<f64>) {
-    let is_closed = |interface: usize| !pattern.0[interface].is_open();
-    for_size!(theta.len(), size => {
-        let is_gapless = |interface: usize| is_closed(interface) || contact::is_gapless(theta, interface);
-        let is_motionless = |interface: usize| is_closed(interface) || contact::is_motionless(theta, omega, interface);
-        let joined = size.list_of(|i| [is_gapless(i), is_motionless(i)]);
-        for (interface, &[is_gapless, is_motionless]) in joined.iter().enumerate() {
-            let below = interface.checked_sub(1);
-            if is_gapless {
-                theta[interface] = below.map_or(0.0, |below| theta[below]);
-            }
-            if is_motionless {
-                omega[interface] = below.map_or(0.0, |below| omega[below]);
-            }
-        }
+#[inline(always)]
+fn snap(size: impl Size, states: &[Interface], theta: &mut [f64], omega: &mut [f64]) {
+    let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
+    let joined = size.list_of(|interface| {
+        let is_gapless = gaps.is_rounding(interface);
+        let is_closed = !states[interface].is_open();
+        [is_closed || is_gapless, is_closed || (is_gapless && rates.is_rounding(interface))]
     });
+    for (interface, &[is_gapless, is_motionless]) in joined.iter().enumerate() {
+        let below = interface.checked_sub(1);
+        if is_gapless {
+            theta[interface] = below.map_or(0.0, |below| theta[below]);
+        }
+        if is_motionless {
+            omega[interface] = below.map_or(0.0, |below| omega[below]);
+        }
+    }
 }
