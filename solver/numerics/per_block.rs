@@ -69,10 +69,14 @@ impl<T: Copy> PerBlock<T> {
     /// A copy of a slice.
     #[inline]
     pub fn from_slice(entries: &[T]) -> PerBlock<T> {
-        let Some(&first) = entries.first() else { return PerBlock::new() };
-        let mut list = PerBlock::filled(first, entries.len());
-        list.iter_mut().zip(entries).for_each(|(own, entry)| *own = *entry);
-        list
+        PerBlock(match InlineLength::of(entries.len()) {
+            // A copy of known length, without a loop.
+            Some(length) => {
+                let last = entries.len() - 1;
+                Storage::Inline { entries: std::array::from_fn(|index| entries[index.min(last)]), length }
+            }
+            None => Storage::Heap(entries.to_vec()),
+        })
     }
 
     /// Appends an entry.

@@ -77,7 +77,7 @@ impl Modes {
 
     /// Enters the motion of a state: its place among the motions, and the motion. Scene constants of a mode are computed when it is entered first.
     pub fn enter(&mut self, problem: &Problem, after: &State) -> (usize, &mut dyn Motion) {
-        if after.pattern.dof() == 0 {
+        if after.pattern.lowest_open().is_none() {
             self.rest.enter(problem, after);
             return (Modes::REST, &mut self.rest);
         }

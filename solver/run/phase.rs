@@ -30,9 +30,9 @@ pub(crate) struct Phase {
     pub(super) samples: Option<SampleSteps>,
     /// The point of no return, where the column is one block and nothing but the outcome is requested.
     pub(super) fall: Option<Fall>,
-    /// Number of blocks.
-    blocks: usize,
     pub(super) dof: usize,
+    /// Link of each block, base first, from one; zero where it stands on the ground.
+    pub(super) links: PerBlock<usize>,
     /// The open interfaces, each with the link on it: base first, length `dof`.
     pub(super) gaps: PerBlock<Gap>,
     /// The closed interfaces.
@@ -53,7 +53,7 @@ pub(crate) struct Phase {
     pub(super) wanted: f64,
     /// Bound of the next attempt after a rejected one `[s]`.
     pub(super) longest: f64,
-    /// Whether the outcome may have become certain since the last stretch.
+    /// Whether the outcome may have become certain since the last stretch, of a run that may end with that.
     pub(super) is_outcome_open: bool,
     /// The last stretch.
     pub(super) stretch: Kind,
@@ -123,7 +123,7 @@ pub(super) struct Swing {
     pub end: [f64; 2],
     /// Time at the end `[s]`.
     pub until: f64,
-    /// `[θ, θ̇]` at the end; the angle is exactly zero at a landing.
+    /// `[θ, θ̇]` at the end; at a landing the angle is zero to rounding.
     pub x: [f64; 2],
 }
 
@@ -243,6 +243,7 @@ impl Phase {
             start_roots: 0,
         };
         let gaps = open.iter().enumerate().map(gap).collect();
+        let links = (1..=blocks).map(|above| open.iter().filter(|interface| **interface < above).count()).collect();
         let pendulum = if dof == 1 && problem.swings_in_closed_form() { integrator.pendulum() } else { None };
         let steps_over_samples = dof == 1 && closed.is_empty() && problem.steps_over_samples();
         let samples =
@@ -255,8 +256,8 @@ impl Phase {
             pendulum,
             samples,
             fall,
-            blocks,
             dof,
+            links,
             gaps,
             forces: ForceCache::new(blocks, closed.len()),
             closed,
@@ -288,12 +289,21 @@ impl Phase {
 
     /// Angles and rates per block of a state of the links.
     pub(super) fn per_block(&self, x: &[f64]) -> (PerBlock<f64>, PerBlock<f64>) {
-        let (mut theta, mut omega) = (PerBlock::filled(0.0, self.blocks), PerBlock::filled(0.0, self.blocks));
-        for (gap, (angle, rate)) in self.gaps.iter().zip(x[..self.dof].iter().zip(&x[self.dof..])) {
-            theta[gap.blocks()].fill(*angle);
-            omega[gap.blocks()].fill(*rate);
-        }
+        let zeros = || PerBlock::filled(0.0, self.links.len());
+        let (mut theta, mut omega) = (zeros(), zeros());
+        self.write_per_block(x, &mut theta, &mut omega);
         (theta, omega)
+    }
+
+    /// Writes angles and rates of the moving blocks at a state of the links.
+    #[inline(always)]
+    pub(super) fn write_per_block(&self, x: &[f64], theta: &mut [f64], omega: &mut [f64]) {
+        let (angles, rates) = x.split_at(self.dof);
+        for (link, (theta, omega)) in self.links.iter().zip(theta.iter_mut().zip(omega)) {
+            if let Some(link) = link.checked_sub(1) {
+                (*theta, *omega) = (angles[link], rates[link]);
+            }
+        }
     }
 
     /// The pattern of the mode.

@@ -19,25 +19,22 @@ use crate::response::Work;
 impl Phase {
     /// Decides how many roots of each gap lie at the start, the state `inside`, by how it came to be open.
     fn arm(&mut self, column: &Column) {
-        for index in 0..self.gaps.len() {
-            let across = self.gaps[index].across;
-            let (angles, rates) = self.inside.split_at(self.dof);
-            let (is_closed, has_no_rate) = (across.of(angles) == 0.0, across.of(rates) == 0.0);
-            self.gaps[index].start_roots = match (is_closed, has_no_rate) {
+        let (angles, rates) = self.inside.split_at(self.dof);
+        // Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
+        let mut is_critical = |across: Difference| {
+            self.integrator.start_slope(self.t, &mut self.slope);
+            let accelerations = &self.slope[self.dof..];
+            across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(self.t))
+        };
+        for gap in self.gaps.iter_mut() {
+            let across = gap.across;
+            gap.start_roots = match (across.of(angles) == 0.0, across.of(rates) == 0.0) {
                 (false, _) => 0,
                 (true, false) => 1,
-                (true, true) if self.is_critical(column, across) => 3,
+                (true, true) if is_critical(across) => 3,
                 (true, true) => 2,
             };
         }
-    }
-
-    /// Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
-    fn is_critical(&mut self, column: &Column, across: Difference) -> bool {
-        let t = self.t;
-        self.integrator.start_slope(t, &mut self.slope);
-        let accelerations = &self.slope[self.dof..];
-        across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(t))
     }
 
     /// Makes the end of the last stretch the start of the next one.
@@ -115,7 +112,7 @@ impl Phase {
             return Some(Ended::Jump);
         }
         self.integrator.enter(segment);
-        self.is_outcome_open = true;
+        self.is_outcome_open = problem.prospects.is_some();
         None
     }
 
@@ -150,7 +147,7 @@ impl Motion for Phase {
             None => self.integrator.first_step(problem.tolerance),
         };
         self.longest = f64::INFINITY;
-        self.is_outcome_open = true;
+        self.is_outcome_open = problem.prospects.is_some();
         self.stretch = Kind::Instant;
         self.has_moved = false;
         self.closing.clear();
@@ -224,6 +221,10 @@ impl Inside for Phase {
         }
     }
 
+    fn closing(&self) -> &[usize] {
+        &self.closing
+    }
+
     fn end(&mut self, mut state: Box<State>) -> Box<State> {
         let (t, x) = match &self.stretch {
             Kind::Instant => (self.t, self.integrator.start()),
@@ -231,12 +232,11 @@ impl Inside for Phase {
             Kind::Swing(swing) => (swing.until, &swing.x[..]),
             Kind::Samples(step) => (self.t, &step.x[..]),
         };
-        for (gap, (angle, rate)) in self.gaps.iter().zip(x[..self.dof].iter().zip(&x[self.dof..])) {
-            // Angles of interfaces that close are equal to the last bit.
-            let below = || gap.interface.checked_sub(1).map_or(0.0, |below| state.theta[below]);
-            let angle = if self.closing.contains(&gap.interface) { below() } else { *angle };
-            state.theta[gap.blocks()].fill(angle);
-            state.omega[gap.blocks()].fill(*rate);
+        self.write_per_block(x, &mut state.theta, &mut state.omega);
+        // Angles of interfaces that close are equal to the last bit.
+        for &interface in &self.closing {
+            let below = interface.checked_sub(1).map_or(0.0, |below| state.theta[below]);
+            state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
         }
         (state.t, state.segment) = (t, self.segment);
         state.pace = Pace { step: Some(self.wanted), ..self.pace };
@@ -250,6 +250,6 @@ fn raise(peaks: &mut [f64], peak: impl FnOnce(f64) -> f64) {
     let known = peaks.iter().fold(f64::INFINITY, |known, own| if *own < known { *own } else { known });
     let peak = peak(known);
     if peak > known {
-        peaks.iter_mut().for_each(|own| *own = own.max(peak));
+        peaks.iter_mut().for_each(|own| *own = if peak > *own { peak } else { *own });
     }
 }

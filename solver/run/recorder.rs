@@ -114,7 +114,7 @@ impl Recorder {
 
     fn record_angles(&mut self, theta: &[f64]) {
         for (peak, theta) in self.peak_theta.iter_mut().zip(theta) {
-            *peak = peak.max(theta.abs());
+            *peak = if theta.abs() > *peak { theta.abs() } else { *peak };
         }
     }
 

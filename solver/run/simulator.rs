@@ -135,7 +135,7 @@ fn run(
     loop {
         let mut stretch = motion.next(problem)?;
         recorder.read(problem, &mut stretch);
-        let Some(ended) = stretch.ended.take() else {
+        let Some(ended) = stretch.ended else {
             stretches += 1;
             if stretches % STRETCHES_BETWEEN_REPORTS == 0 {
                 report(progress, stretch.end)?;
@@ -149,7 +149,7 @@ fn run(
             return Ok(recorder.finish(problem, &before, over, modes));
         }
         // By reference: a transition is large, and `?` would copy it.
-        let next = transition(problem, &before, ended);
+        let next = transition(problem, &before, ended, stretch.inside.closing());
         let next = match &next {
             Ok(next) => next,
             Err(error) => return Err(error.clone()),
@@ -157,7 +157,9 @@ fn run(
         after = next.after(&before, spare);
         recorder.transition(problem, &before, next, &after);
         spare = before;
-        if let Some(forced) = break_circle(problem, next, &after)? {
+        if next.may_circle(&after)
+            && let Some(forced) = break_circle(problem, &after)?
+        {
             let closed = forced.after(&after, spare);
             recorder.transition(problem, &after, &forced, &closed);
             (spare, after) = (after, closed);

@@ -14,6 +14,7 @@ use super::phase::{Gap, Kind, Phase, StepEnd};
 use super::problem::Problem;
 use super::stretch::{Ended, Over};
 use crate::mechanics::dynamics::{ContactForce, Interfaces};
+use crate::mechanics::integrator::Excursion;
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
 use crate::numerics::ode::control::{Attempt, Part};
@@ -53,6 +54,7 @@ type MarginSamples = SmallVec<[(f64, PerBlock<f64>); 6]>;
 
 impl Phase {
     /// Attempts a step and ends it at its first event. `None` if the attempt is rejected; otherwise why the phase ends with it, if it does.
+    #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Option<Option<Ended>>, SolveError> {
         let t = self.t;
         let held = self.held_until - t;
@@ -101,17 +103,15 @@ impl Phase {
                 first = Some((guard, s));
             }
         };
-        let resolution = self.resolution(self.integrator.start());
         // An angle is a sum of gaps.
         let mut reach = 0.0;
-        for &gap in &self.gaps {
-            let start = gap.across.of(&self.integrator.start()[..self.dof]);
-            let most = start + self.integrator.reach(gap.across);
-            if gap.start_roots == 0 && most < CLEAR_GAP_FACTOR * start {
-                reach += most;
+        for gap in &self.gaps {
+            let Excursion { start, end, reach: moved } = self.integrator.excursion(gap.across);
+            if gap.start_roots == 0 && start + moved < CLEAR_GAP_FACTOR * start {
+                reach += start + moved;
                 continue;
             }
-            let end = gap.across.of(&self.integrator.end()[..self.dof]);
+            let resolution = self.resolution(self.integrator.start());
             if end > resolution && self.integrator.is_monotonic(gap.across) {
                 reach += start.max(end);
                 continue;
@@ -122,7 +122,7 @@ impl Phase {
             if gap.start_roots > 0 && size <= resolution {
                 continue;
             }
-            offer(Guard::Gap(gap), track.first_root(gap.start_roots));
+            offer(Guard::Gap(*gap), track.first_root(gap.start_roots));
         }
         let limit = problem.scene.options.overturn_angle;
         let tilting = if reach < limit { 0..0 } else { 0..self.dof };
@@ -269,7 +269,7 @@ impl Phase {
             Guard::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
             Guard::Gap(gap) => {
                 self.closing = self.closing_with(end, gap);
-                Ended::Closing(self.closing.clone())
+                Ended::Closing
             }
         })
     }
@@ -291,17 +291,17 @@ impl Phase {
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
 
-    /// See [`Inside::peak`](super::stretch::Inside::peak).
+    /// The largest size of a link's angle in the step if it exceeds `known` `[rad]`.
     pub(super) fn peak_of_step(&mut self, step: StepEnd, link: usize, known: f64) -> f64 {
         let angle = Difference { sign: 1.0, upper: link, lower: None };
-        let most = self.integrator.start()[link].abs() + self.integrator.reach(angle);
-        if most <= known {
+        let Excursion { start, end, reach } = self.integrator.excursion(angle);
+        if start.abs() + reach <= known {
             return known;
         }
-        let (x, end) = (self.integrator.start(), self.integrator.end());
         if self.integrator.is_monotonic(angle) {
-            return x[link].abs().max(end[link].abs());
+            return start.abs().max(end.abs());
         }
+        let (x, end) = (self.integrator.start(), self.integrator.end());
         let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], step.h);
         if control.iter().all(|c| c.abs() <= known) {
             return known;

@@ -44,6 +44,7 @@ impl Course {
 
 impl Phase {
     /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
+    #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn swing(&mut self, problem: &Problem) -> Option<Option<Ended>> {
         let segment = &problem.ground[self.segment];
         if !segment.is_quiet() || self.held_until > self.t {
@@ -70,11 +71,12 @@ impl Phase {
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
         let until = if is_cut { segment.end } else { self.t + end.time };
-        let is_landed = !is_cut && matches!(end.ended, Ended::Closing(_));
-        let [theta, omega] = course.state([psi, v]);
-        let x = [if is_landed { 0.0 } else { theta }, omega];
-        self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x });
-        Some((!is_cut).then_some(end.ended))
+        self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x: course.state([psi, v]) });
+        let ended = (!is_cut).then_some(end.ended);
+        if ended == Some(Ended::Closing) {
+            self.closing = PerBlock::filled(self.gaps[0].interface, 1);
+        }
+        Some(ended)
     }
 
     /// The swing from the start of the stretch, and how it ends if no interface opens.
@@ -102,7 +104,7 @@ impl Phase {
         let is_overturned = goes_out && (!has_crest || is_below_crest());
         let (ended, psi) = match is_overturned {
             true => (Ended::Over(Over::Overturned(gap.interface)), overturned),
-            false => (Ended::Closing(PerBlock::from_slice(&[gap.interface])), landing),
+            false => (Ended::Closing, landing),
         };
         let size = swing.rate_at(psi)?;
         let v = if is_overturned { size } else { -size };

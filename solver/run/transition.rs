@@ -29,7 +29,7 @@ pub(crate) struct Transition {
     /// Pattern, rates and impulses after it.
     pub decision: Decision,
     /// Interfaces released in this instant, with their sides.
-    released: Vec<(usize, Interface)>,
+    released: PerBlock<(usize, Interface)>,
     /// Whether it is one of the events whose number in one instant is limited.
     is_counted: bool,
 }
@@ -53,6 +53,11 @@ impl Transition {
             after.contact.released.clone_from(&self.released);
         }
         storage
+    }
+
+    /// Whether so many events have come to one instant with this one, which led to `after`, that they may go in a circle.
+    pub fn may_circle(&self, after: &State) -> bool {
+        self.is_counted && after.contact.events_at_once >= most_at_once(after)
     }
 
     /// Writes pattern, angles and rates of `x⁺` of a column of this size.
@@ -91,17 +96,22 @@ pub(crate) fn start(problem: &Problem) -> Result<(Box<State>, Option<Transition>
     }
     let decision = forces(problem, &state, &[])?;
     let is_event = is_at_rest && decision.pattern != state.pattern;
-    let (interfaces, released) = (PerBlock::new(), Vec::new());
+    let (interfaces, released) = (PerBlock::new(), PerBlock::new());
     let kind = EventKind::Start;
     let transition = Transition { kind, is_event, interfaces, decision, released, is_counted: false };
     Ok((state, Some(transition)))
 }
 
-/// The transition at the end of a stretch.
-pub(crate) fn transition(problem: &Problem, before: &State, ended: Ended) -> Result<Transition, SolveError> {
+/// The transition at the end of a stretch, with the interfaces (from zero) that close there.
+pub(crate) fn transition(
+    problem: &Problem,
+    before: &State,
+    ended: Ended,
+    closing: &[usize],
+) -> Result<Transition, SolveError> {
     let kind_unless_at_rest = |kind| if before.pattern.dof() == 0 { EventKind::Start } else { kind };
     match ended {
-        Ended::Closing(interfaces) => impact(problem, before, interfaces),
+        Ended::Closing => impact(problem, before, closing),
         Ended::Opening(interface, side) => {
             opening(problem, before, interface, side, kind_unless_at_rest(EventKind::Opening))
         }
@@ -110,7 +120,7 @@ pub(crate) fn transition(problem: &Problem, before: &State, ended: Ended) -> Res
 }
 
 /// Interfaces that have reached `φ = 0` close.
-fn impact(problem: &Problem, before: &State, closing: PerBlock<usize>) -> Result<Transition, SolveError> {
+fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transition, SolveError> {
     let (theta, omega) = (&before.theta, &before.omega);
     let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
     if closing.iter().all(|&interface| gaps.is_rounding(interface) && rates.is_rounding(interface)) {
@@ -122,13 +132,13 @@ fn impact(problem: &Problem, before: &State, closing: PerBlock<usize>) -> Result
         is_recorded: problem.is_recorded(),
     };
     let column = &problem.scene.column;
-    match contact::impact(column, &before.pattern, theta, omega, &closing, ground(problem, before), law) {
+    match contact::impact(column, &before.pattern, theta, omega, closing, ground(problem, before), law) {
         Ok(decision) => Ok(Transition {
             decision,
             kind: EventKind::Impact,
             is_event: true,
-            interfaces: closing,
-            released: Vec::new(),
+            interfaces: PerBlock::from_slice(closing),
+            released: PerBlock::new(),
             is_counted: true,
         }),
         Err(SingularMass) => Err(singular(before)),
@@ -138,17 +148,17 @@ fn impact(problem: &Problem, before: &State, closing: PerBlock<usize>) -> Result
 /// Interfaces that had opened while critical are driven back before they have moved: no impact, they are closed again, and those
 /// that opened in the same instant stay open.
 #[cold]
-fn withdraw(before: &State, closing: PerBlock<usize>) -> Transition {
+fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let mut pattern = before.pattern.clone();
     closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
     let omega = before.omega.clone();
-    let mut released = before.contact.released.clone();
-    released.retain(|(interface, _)| !closing.contains(interface));
+    let stays_open = |(interface, _): &&(usize, Interface)| !closing.contains(interface);
+    let released = before.contact.released.iter().filter(stays_open).copied().collect();
     Transition {
         decision: Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: PerBlock::new() },
         kind: EventKind::Impact,
         is_event: true,
-        interfaces: closing,
+        interfaces: PerBlock::from_slice(closing),
         released,
         is_counted: true,
     }
@@ -162,11 +172,9 @@ fn opening(
     side: Interface,
     kind: EventKind,
 ) -> Result<Transition, SolveError> {
-    let mut released = Vec::new();
-    if before.contact.last_events[1] == before.t {
-        released.extend(before.contact.released.iter().copied().filter(|(other, _)| *other != interface));
-    }
-    released.push((interface, side));
+    let is_same_instant = before.contact.last_events[1] == before.t;
+    let others = before.contact.released.iter().filter(|(other, _)| is_same_instant && *other != interface);
+    let released: PerBlock<_> = others.copied().chain([(interface, side)]).collect();
     let opened = [interface];
     let opened: &[usize] = if kind == EventKind::Opening { &opened } else { &[] };
     Ok(Transition {
@@ -183,21 +191,20 @@ fn opening(
 fn jump(problem: &Problem, before: &State, kind: EventKind) -> Result<Transition, SolveError> {
     let decision = forces(problem, before, &[])?;
     let is_event = decision.pattern != before.pattern;
-    let (interfaces, released) = (PerBlock::new(), Vec::new());
+    let (interfaces, released) = (PerBlock::new(), PerBlock::new());
     Ok(Transition { decision, kind, is_event, interfaces, released, is_counted: false })
+}
+
+/// Events in one instant beyond which they may go in a circle.
+fn most_at_once(state: &State) -> usize {
+    EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
 /// The forced transition that breaks a circle of events in one instant, if one is due: what has not moved is closed, momentum conserved, as a
 /// separation.
-pub(crate) fn break_circle(
-    problem: &Problem,
-    last: &Transition,
-    state: &State,
-) -> Result<Option<Transition>, SolveError> {
-    let (events, most) = (state.contact.events_at_once, EVENTS_AT_ONCE * (state.theta.len() + 1));
-    if !last.is_counted || events < most {
-        return Ok(None);
-    }
+#[cold]
+pub(crate) fn break_circle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
+    let (events, most) = (state.contact.events_at_once, most_at_once(state));
     if events > 2 * most {
         return Err(SolveError::Stalled { time: state.t, events, pattern: state.pattern.to_string() });
     }
@@ -217,7 +224,7 @@ pub(crate) fn break_circle(
         kind: EventKind::Impact,
         is_event: true,
         interfaces: closing,
-        released: Vec::new(),
+        released: PerBlock::new(),
         is_counted: false,
     }))
 }
