@@ -4,7 +4,7 @@ use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::{Factorised, Posture, Turn, Vec2};
 use crate::mechanics::links::{imposed_acceleration, link_acceleration};
-use crate::numerics::per_block::Size;
+use crate::numerics::per_block::{Size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Share of the largest angle or rate that sums and solves over a dozen blocks may leave of a difference that is zero. Rates
@@ -87,12 +87,6 @@ pub(super) fn chosen(list: &[bool]) -> impl Iterator<Item = usize> {
 /// `φ̇_i` or `φ̈_i` of the blocks' rates or accelerations.
 pub(super) fn relative(motion: &[f64], interface: usize) -> f64 {
     motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
-}
-
-/// The largest size.
-#[inline(always)]
-pub(super) fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |largest, value| if value.abs() > largest { value.abs() } else { largest })
 }
 
 /// Gaps between the angles, or the rates, of neighbouring blocks.

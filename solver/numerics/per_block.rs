@@ -189,6 +189,12 @@ impl<'l, T: Copy> IntoIterator for &'l PerBlock<T> {
     }
 }
 
+/// The largest size of some entries.
+#[inline(always)]
+pub(crate) fn largest(entries: &[f64]) -> f64 {
+    entries.iter().fold(0.0, |largest, entry| if entry.abs() > largest { entry.abs() } else { largest })
+}
+
 /// A table of blocks or links against links, row by row.
 #[derive(Clone, Debug)]
 pub struct Square<T>(SmallVec<[T; INLINE_LENGTH * INLINE_LENGTH]>);

@@ -15,10 +15,11 @@ use crate::mechanics::pendulum::{self, Pendulum};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::collocation::GAPS;
 use crate::numerics::ode::control::Part;
-use crate::numerics::per_block::PerBlock;
+use crate::numerics::per_block::{PerBlock, largest};
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
 use rocking_codegen::pattern::Pattern;
+use smallvec::SmallVec;
 use std::ops::Range;
 
 /// The phases of a mode, with storage for them.
@@ -62,6 +63,8 @@ pub(crate) struct Phase {
     pub(super) forces: ForceCache,
     /// Interfaces that close at the end of the stretch.
     pub(super) closing: PerBlock<usize>,
+    /// Margins of the closed interfaces at places in the step: forces evaluated at one place serve all interfaces.
+    pub(super) margin_samples: SmallVec<[(f64, PerBlock<f64>); 6]>,
     /// A state inside the stretch.
     pub(super) inside: PerBlock<f64>,
     pub(super) slope: PerBlock<f64>,
@@ -274,6 +277,7 @@ impl Phase {
             stretch: Kind::Instant,
             has_moved: false,
             closing: PerBlock::new(),
+            margin_samples: SmallVec::new(),
             inside: zeros(),
             slope: zeros(),
             work: Work::default(),
@@ -284,7 +288,7 @@ impl Phase {
 
     /// What a difference of angles can resolve `[rad]`.
     pub(super) fn resolution(&self, x: &[f64]) -> f64 {
-        4.0 * f64::EPSILON * x[..self.dof].iter().fold(0.0f64, |size, angle| size.max(angle.abs()))
+        4.0 * f64::EPSILON * largest(&x[..self.dof])
     }
 
     /// Angles and rates per block of a state of the links.

@@ -5,7 +5,7 @@
 
 use super::certainty::verdict;
 use super::error::SolveError;
-use super::phase::{Kind, Phase, StepEnd, Swing};
+use super::phase::{Gap, Kind, Phase, StepEnd, Swing};
 use super::problem::Problem;
 use super::state::{Pace, State};
 use super::stretch::{Ended, Inside, Motion, Over, Request, Stretch};
@@ -60,9 +60,12 @@ impl Phase {
             self.gaps[0].start_roots = 0;
         } else {
             // A gap that is still below the resolution of angles has not left its start.
-            let (resolution, x) = (self.resolution(self.integrator.start()), self.integrator.start());
-            for gap in self.gaps.iter_mut().filter(|gap| gap.across.of(x).abs() > resolution) {
-                gap.start_roots = 0;
+            let x = self.integrator.start();
+            for index in 0..self.gaps.len() {
+                let Gap { across, start_roots, .. } = self.gaps[index];
+                if start_roots > 0 && across.of(x).abs() > self.resolution(x) {
+                    self.gaps[index].start_roots = 0;
+                }
             }
         }
         self.forces.advance();
@@ -88,7 +91,8 @@ impl Phase {
                 // On a ground at rest it is not going to change but by an event.
                 self.is_outcome_open = !segment.is_quiet();
             }
-            if let Some(ended) = self.swing(problem) {
+            let pendulum = if segment.is_quiet() { self.pendulum } else { None };
+            if let Some(ended) = pendulum.and_then(|pendulum| self.swing(problem, pendulum)) {
                 return Ok(ended);
             }
             if self.step_over_samples(problem) {

@@ -22,7 +22,6 @@ use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::ModeName;
 use rocking_codegen::pattern::Interface;
-use smallvec::SmallVec;
 
 /// The guard that is zero inside a step.
 #[derive(Clone, Copy, Debug)]
@@ -48,9 +47,6 @@ const PANELS_PER_RADIAN: f64 = 2.0;
 
 /// Panels beyond which a step of the loosest tolerances is not resolved.
 const MOST_PANELS: f64 = 64.0;
-
-/// Margins of the closed interfaces at places in a step: forces evaluated at one place serve all interfaces.
-type MarginSamples = SmallVec<[(f64, PerBlock<f64>); 6]>;
 
 impl Phase {
     /// Attempts a step and ends it at its first event. `None` if the attempt is rejected; otherwise why the phase ends with it, if it does.
@@ -140,10 +136,10 @@ impl Phase {
     /// The first opening of a closed interface before `reach`; if there is none in the whole step, the margins known at its end are kept.
     fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(Guard, f64)> {
         let mut first: Option<(Guard, f64)> = None;
-        let mut samples = MarginSamples::new();
+        self.margin_samples.clear();
         for index in 0..self.closed.len() {
             let reach = first.map_or(reach, |(_, s)| s);
-            if let Some(s) = self.opening_before(problem, [h, end], index, reach, &mut samples) {
+            if let Some(s) = self.opening_before(problem, [h, end], index, reach) {
                 first = Some((Guard::Contact { interface: self.closed[index] }, s));
             }
         }
@@ -152,7 +148,7 @@ impl Phase {
         }
         if first.is_none()
             && reach >= 1.0
-            && let Some((_, margins)) = samples.iter().find(|(place, _)| *place == 1.0)
+            && let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == 1.0)
         {
             self.forces.end_margins.copy_from_slice(margins);
             self.forces.are_end_margins_known = true;
@@ -161,21 +157,14 @@ impl Phase {
     }
 
     /// Where the closed interface of this index opens in a step of length and end `[h, end]`, 0 to `reach`.
-    fn opening_before(
-        &mut self,
-        problem: &Problem,
-        [h, end]: [f64; 2],
-        index: usize,
-        reach: f64,
-        samples: &mut MarginSamples,
-    ) -> Option<f64> {
+    fn opening_before(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, reach: f64) -> Option<f64> {
         let is_held = self.t < self.held_until;
         let opening = if is_held { Opening::Unclear } else { self.integrator.opening(&self.margins, index, reach * h) };
         if opening == Opening::StaysClosed {
             return None;
         }
         if let Opening::Opens { s, slope } = opening {
-            let guard = |s: f64| self.margin_at(problem, [h, end], index, s, samples);
+            let guard = |s: f64| self.margin_at(problem, [h, end], index, s);
             let opening = polished(guard, s * reach, slope / reach, reach);
             if opening.is_some() {
                 return opening;
@@ -186,19 +175,12 @@ impl Phase {
         if start <= 0.0 && is_held {
             return None;
         }
-        first_crossing(|s| self.margin_at(problem, [h, end], index, s, samples), start, reach)
+        first_crossing(|s| self.margin_at(problem, [h, end], index, s), start, reach)
     }
 
     /// The margin of a closed interface at a place in the step.
-    fn margin_at(
-        &mut self,
-        problem: &Problem,
-        [h, end]: [f64; 2],
-        index: usize,
-        s: f64,
-        samples: &mut MarginSamples,
-    ) -> f64 {
-        if let Some((_, margins)) = samples.iter().find(|(place, _)| *place == s) {
+    fn margin_at(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, s: f64) -> f64 {
+        if let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == s) {
             return margins[index];
         }
         // The end of the step is the state that the next one starts from, to the last bit.
@@ -211,8 +193,8 @@ impl Phase {
         let column = &problem.scene.column;
         let margins: PerBlock<f64> = self.closed.iter().map(|&interface| self.margin(column, interface)).collect();
         let margin = margins[index];
-        if samples.len() < samples.inline_size() {
-            samples.push((s, margins));
+        if self.margin_samples.len() < self.margin_samples.inline_size() {
+            self.margin_samples.push((s, margins));
         }
         margin
     }

@@ -43,14 +43,13 @@ impl Course {
 }
 
 impl Phase {
-    /// Swings to the next event, or to the end of the segment (`Some(None)`); `None` where closed forms do not tell.
+    /// Swings to the next event, or to the end of the segment (`Some(None)`), on a ground at rest; `None` where closed forms do not tell.
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
-    pub(super) fn swing(&mut self, problem: &Problem) -> Option<Option<Ended>> {
-        let segment = &problem.ground[self.segment];
-        if !segment.is_quiet() || self.held_until > self.t {
+    pub(super) fn swing(&mut self, problem: &Problem, pendulum: Pendulum) -> Option<Option<Ended>> {
+        if self.held_until > self.t {
             return None;
         }
-        let pendulum = self.pendulum?;
+        let segment = &problem.ground[self.segment];
         let (course, mut end) = self.course(problem, pendulum)?;
         let left = segment.end - self.t;
         if !self.closed.is_empty() {
