@@ -127,9 +127,11 @@ impl Modes {
     /// The work of the present run.
     pub fn take_work(&mut self) -> Work {
         let with_vertical = self.ground() == GroundMotion::WithVertical;
-        let modes_entered = self.entered.iter().filter(|entered| entered.is_entered).count();
-        let mut work = Work { with_vertical, modes_entered, ..self.rest.take_work() };
-        self.entered.iter_mut().for_each(|entered| work.add(&entered.phase.take_work()));
+        let mut work = Work { with_vertical, ..self.rest.take_work() };
+        for entered in self.entered.iter_mut().filter(|entered| entered.is_entered) {
+            work.modes_entered += 1;
+            work.add(&entered.phase.take_work());
+        }
         work
     }
 }

@@ -41,7 +41,7 @@ pub(crate) struct Phase {
     /// Margins of the closed interfaces against opening, as formulas.
     pub(super) margins: Margins,
     /// The same over the last swing.
-    pub(super) over_swing: PerBlock<Harmonics>,
+    pub(super) over_swing: Vec<Harmonics>,
 
     pattern: Pattern,
     /// Time at the start of the stretch `[s]`, and its segment.
@@ -263,9 +263,9 @@ impl Phase {
             links,
             gaps,
             forces: ForceCache::new(blocks, closed.len()),
+            over_swing: Vec::with_capacity(closed.len()),
             closed,
             margins: Margins::new(&scene.column, pattern),
-            over_swing: PerBlock::new(),
             pattern: pattern.clone(),
             t: 0.0,
             segment: 0,

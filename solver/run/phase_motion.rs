@@ -229,7 +229,7 @@ impl Inside for Phase {
         &self.closing
     }
 
-    fn end(&mut self, mut state: Box<State>) -> Box<State> {
+    fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
         let (t, x) = match &self.stretch {
             Kind::Instant => (self.t, self.integrator.start()),
             Kind::Step(step) => (step.end, self.integrator.end()),

@@ -122,15 +122,16 @@ fn run(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Response, SolveError> {
     modes.begin(problem);
-    let (before, first) = transition::start(problem)?;
+    let (mut before, first) = transition::start(problem)?;
     let mut recorder = Recorder::new(problem, &before);
     let mut after = before.clone();
+    // The storage of two states serves all events.
+    let (mut spare, mut after) = (&mut before, &mut after);
     if let Some(first) = &first {
-        after = first.after(&before, after);
-        recorder.transition(problem, &before, first, &after);
+        after = first.after(spare, after);
+        recorder.transition(problem, spare, first, after);
     }
-    let mut spare = before;
-    let (mut mode, mut motion) = modes.enter(problem, &after);
+    let (mut mode, mut motion) = modes.enter(problem, after);
     let mut stretches = 0;
     loop {
         let mut stretch = motion.next(problem)?;
@@ -143,28 +144,28 @@ fn run(
             continue;
         };
         let before = stretch.inside.end(after);
-        recorder.leave(problem, mode, &before);
+        recorder.leave(problem, mode, before);
         report(progress, before.t)?;
         if let Ended::Over(over) = ended {
-            return Ok(recorder.finish(problem, &before, over, modes));
+            return Ok(recorder.finish(problem, before, over, modes));
         }
         // By reference: a transition is large, and `?` would copy it.
-        let next = transition(problem, &before, ended, stretch.inside.closing());
+        let next = transition(problem, before, ended, stretch.inside.closing());
         let next = match &next {
             Ok(next) => next,
             Err(error) => return Err(error.clone()),
         };
-        after = next.after(&before, spare);
-        recorder.transition(problem, &before, next, &after);
+        after = next.after(before, spare);
+        recorder.transition(problem, before, next, after);
         spare = before;
-        if next.may_circle(&after)
-            && let Some(forced) = break_circle(problem, &after)?
+        if next.may_circle(after)
+            && let Some(forced) = break_circle(problem, after)?
         {
-            let closed = forced.after(&after, spare);
-            recorder.transition(problem, &after, &forced, &closed);
+            let closed = forced.after(after, spare);
+            recorder.transition(problem, after, &forced, closed);
             (spare, after) = (after, closed);
         }
-        (mode, motion) = modes.enter(problem, &after);
+        (mode, motion) = modes.enter(problem, after);
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) trait Inside {
     }
 
     /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
-    fn end(&mut self, after: Box<State>) -> Box<State>;
+    fn end<'s>(&mut self, after: &'s mut State) -> &'s mut State;
 }
 
 /// What a recorder requests of the inside of a multi-sample step.

@@ -36,8 +36,7 @@ pub(crate) struct Transition {
 
 impl Transition {
     /// `x⁺` of `x⁻`, in the storage of a state that is not needed any more.
-    pub fn after(&self, before: &State, mut storage: Box<State>) -> Box<State> {
-        let after = &mut *storage;
+    pub fn after<'s>(&self, before: &State, after: &'s mut State) -> &'s mut State {
         (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
         for_size!(before.theta.len(), size => self.decide(size, before, after));
         let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
@@ -52,7 +51,7 @@ impl Transition {
         if !(after.contact.released.is_empty() && self.released.is_empty()) {
             after.contact.released.clone_from(&self.released);
         }
-        storage
+        after
     }
 
     /// Whether so many events have come to one instant with this one, which led to `after`, that they may go in a circle.
@@ -73,9 +72,9 @@ impl Transition {
 }
 
 /// `x⁺` at time zero: interfaces are open where there is a gap or where the rates open one; then every closed interface is examined.
-pub(crate) fn start(problem: &Problem) -> Result<(Box<State>, Option<Transition>), SolveError> {
+pub(crate) fn start(problem: &Problem) -> Result<(State, Option<Transition>), SolveError> {
     let initial = &problem.scene.initial;
-    let mut state = Box::new(State::at_rest(problem.scene.column.len()));
+    let mut state = State::at_rest(problem.scene.column.len());
     for (own, given) in [(&mut state.theta, &initial.theta), (&mut state.omega, &initial.omega)] {
         own.iter_mut().zip(given).for_each(|(own, given)| *own = *given);
     }
