@@ -122,12 +122,11 @@ fn run(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Response, SolveError> {
     modes.begin(problem);
-    let (mut before, first) = transition::start(problem)?;
-    let mut recorder = Recorder::new(problem, &before);
-    let mut after = before.clone();
-    // The storage of two states serves all events.
-    let (mut spare, mut after) = (&mut before, &mut after);
-    if let Some(first) = &first {
+    let (mut initial, mut storage) = (transition::initial(problem), transition::initial(problem));
+    let mut recorder = Recorder::new(problem, &initial);
+    // Two states serve all events.
+    let (mut spare, mut after) = (&mut initial, &mut storage);
+    if let Some(first) = &transition::start(problem, spare)? {
         after = first.after(spare, after);
         recorder.transition(problem, spare, first, after);
     }

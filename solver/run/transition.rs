@@ -71,8 +71,8 @@ impl Transition {
     }
 }
 
-/// `x⁺` at time zero: interfaces are open where there is a gap or where the rates open one; then every closed interface is examined.
-pub(crate) fn start(problem: &Problem) -> Result<(State, Option<Transition>), SolveError> {
+/// `x⁻` at time zero: interfaces are open where there is a gap or where the rates open one.
+pub(crate) fn initial(problem: &Problem) -> State {
     let initial = &problem.scene.initial;
     let mut state = State::at_rest(problem.scene.column.len());
     for (own, given) in [(&mut state.theta, &initial.theta), (&mut state.omega, &initial.omega)] {
@@ -89,16 +89,20 @@ pub(crate) fn start(problem: &Problem) -> Result<(State, Option<Transition>), So
         state.pattern.0[interface] = Interface::from_sign(opening.partial_cmp(&0.0).map_or(0, |order| order as i8));
         below = (state.theta[interface], state.omega[interface]);
     }
-    let is_at_rest = state.pattern.dof() == 0;
+    state
+}
+
+/// The transition at time zero, if there is one: every closed interface is examined.
+pub(crate) fn start(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
+    let is_at_rest = state.pattern.lowest_open().is_none();
     if is_at_rest && !rest::may_open(problem, state.segment, state.t) {
-        return Ok((state, None));
+        return Ok(None);
     }
-    let decision = forces(problem, &state, &[])?;
+    let decision = forces(problem, state, &[])?;
     let is_event = is_at_rest && decision.pattern != state.pattern;
     let (interfaces, released) = (PerBlock::new(), PerBlock::new());
     let kind = EventKind::Start;
-    let transition = Transition { kind, is_event, interfaces, decision, released, is_counted: false };
-    Ok((state, Some(transition)))
+    Ok(Some(Transition { kind, is_event, interfaces, decision, released, is_counted: false }))
 }
 
 /// The transition at the end of a stretch, with the interfaces (from zero) that close there.
@@ -108,7 +112,7 @@ pub(crate) fn transition(
     ended: Ended,
     closing: &[usize],
 ) -> Result<Transition, SolveError> {
-    let kind_unless_at_rest = |kind| if before.pattern.dof() == 0 { EventKind::Start } else { kind };
+    let kind_unless_at_rest = |kind| if before.pattern.lowest_open().is_none() { EventKind::Start } else { kind };
     match ended {
         Ended::Closing => impact(problem, before, closing),
         Ended::Opening(interface, side) => {
