@@ -88,6 +88,7 @@ impl Piece {
     }
 
     /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
+    #[inline]
     pub fn expand_at(&self, t: f64, coefficients: &mut [f64]) {
         coefficients.fill(0.0);
         self.add_expansion(t, coefficients);

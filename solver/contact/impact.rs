@@ -2,14 +2,13 @@
 
 use super::decision::Decision;
 use super::instant::{
-    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, is_rounding, largest, may_open, project,
-    relative, sizes,
+    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, may_open, project, relative, sizes,
 };
 use super::search::ContactProblem;
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::kinematics::Factorised;
-use crate::numerics::per_block::{Any, PerBlock, Size, for_size};
+use crate::numerics::per_block::{Any, PerBlock, Size, for_size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Restitution and rest, as a scene sets them.
@@ -60,7 +59,7 @@ fn impact_at<S: Size>(
     closing.iter().for_each(|&interface| guess[interface] = states[interface].mirror());
     let mut mechanism = instant.mechanism(guess)?;
     // Closed ones, closing ones, and those that an earlier impact of the same instant has just opened.
-    let free = instant.size.list_of(|interface| is_rounding(instant.theta, interface));
+    let free = instant.size.list_of(|interface| instant.gaps.is_rounding(interface));
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
     let mut plastic = project(&mechanism, &before);
     let projected = |candidate: &Mechanism<S>| project(candidate, &before);

@@ -4,7 +4,7 @@ use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::{Factorised, Posture, Turn, Vec2};
 use crate::mechanics::links::{imposed_acceleration, link_acceleration};
-use crate::numerics::per_block::Size;
+use crate::numerics::per_block::{Size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Share of the largest angle or rate that sums and solves over a dozen blocks may leave of a difference that is zero. Rates
@@ -36,7 +36,8 @@ pub struct SingularMass;
 pub(super) struct Instant<'a, S: Size> {
     pub(super) size: S,
     pub(super) column: &'a Column,
-    pub(super) theta: &'a [f64],
+    /// Gaps between the blocks' angles.
+    pub(super) gaps: Gaps<'a>,
     pub(super) turns: S::List<Turn>,
 }
 
@@ -50,7 +51,7 @@ pub(super) struct Mechanism<'a, S: Size> {
 impl<'a, S: Size> Instant<'a, S> {
     #[inline(always)]
     pub(super) fn new(size: S, column: &'a Column, theta: &'a [f64]) -> Instant<'a, S> {
-        Instant { size, column, theta, turns: Turn::all(size, theta) }
+        Instant { size, column, gaps: Gaps::of(&theta[..size.blocks()]), turns: Turn::all(size, theta) }
     }
 
     #[inline(always)]
@@ -88,26 +89,26 @@ pub(super) fn relative(motion: &[f64], interface: usize) -> f64 {
     motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
 }
 
-/// The largest size.
-pub(super) fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |largest, value| largest.max(value.abs()))
+/// Gaps between the angles, or the rates, of neighbouring blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct Gaps<'v> {
+    values: &'v [f64],
+    /// Gaps up to this size are no more than rounding.
+    rounding: f64,
 }
 
-/// Whether the gap of angles, or of rates, at an interface is no more than rounding.
-#[inline(always)]
-pub(super) fn is_rounding(values: &[f64], interface: usize) -> bool {
-    let gap = relative(values, interface);
-    gap == 0.0 || gap.abs() <= (ROUNDING * largest(values)).max(NOTHING)
-}
+impl<'v> Gaps<'v> {
+    /// The gaps of these angles or rates, per block.
+    #[inline(always)]
+    pub(crate) fn of(values: &'v [f64]) -> Gaps<'v> {
+        Gaps { values, rounding: (ROUNDING * largest(values)).max(NOTHING) }
+    }
 
-/// Whether an interface, open or not, has no gap.
-pub(crate) fn is_gapless(theta: &[f64], interface: usize) -> bool {
-    is_rounding(theta, interface)
-}
-
-/// Whether an interface, open or not, has no gap yet and no rate.
-pub(crate) fn is_motionless(theta: &[f64], omega: &[f64], interface: usize) -> bool {
-    is_rounding(theta, interface) && is_rounding(omega, interface)
+    /// Whether the gap at an interface is no more than rounding.
+    #[inline(always)]
+    pub(crate) fn is_rounding(&self, interface: usize) -> bool {
+        relative(self.values, interface).abs() <= self.rounding
+    }
 }
 
 /// Relative acceleration `[rad/s²]` below which an interface that has just opened is taken to be on the verge, where it is zero.
@@ -165,10 +166,12 @@ pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], groun
 }
 
 /// Whether an interface is closed, or has only just opened: it may choose its state anew.
+#[inline(always)]
 pub(super) fn may_open<'f, S: Size>(
     instant: &'f Instant<S>,
     states: &'f [Interface],
     omega: &'f [f64],
 ) -> impl Fn(usize) -> bool + 'f {
-    move |i: usize| !states[i].is_open() || is_motionless(instant.theta, omega, i)
+    let rates = Gaps::of(&omega[..instant.size.blocks()]);
+    move |i: usize| !states[i].is_open() || (instant.gaps.is_rounding(i) && rates.is_rounding(i))
 }

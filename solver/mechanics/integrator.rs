@@ -45,14 +45,23 @@ pub(crate) trait Steps {
     fn state_inside(&mut self, part: Part, s: f64, state: &mut [f64]);
     /// A linear function of the angles inside the step; exactly zero at its start where that is known.
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
-    /// A bound of how far angles, or the difference of two, move from their start in the step; infinite where no bound is cheaper than the track.
-    fn reach(&self, _angles: Difference) -> f64 {
-        f64::INFINITY
-    }
+    /// An angle, or the difference of two, at the ends of the step, and a bound of it between them.
+    fn excursion(&self, angles: Difference) -> Excursion;
     /// Whether an angle, or the difference of two, is known to be monotonic in the step without its track.
     fn is_monotonic(&self, _angles: Difference) -> bool {
         false
     }
+}
+
+/// An angle, or the difference of two, in a step, as far as it is known without its track.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Excursion {
+    /// Value at the start of the step `[rad]`.
+    pub start: f64,
+    /// Value at the end `[rad]`.
+    pub end: f64,
+    /// A bound of how far it moves from its start `[rad]`; infinite where no bound is cheaper than the track.
+    pub reach: f64,
 }
 
 /// What knows mechanics.
@@ -237,6 +246,11 @@ impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
         self.interpolant(part).evaluate(s, state);
     }
 
+    fn excursion(&self, angles: Difference) -> Excursion {
+        let [start, end] = [&self.start, self.method.end()].map(|x| angles.of(x.as_slice()));
+        Excursion { start, end, reach: f64::INFINITY }
+    }
+
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track {
         let interpolant = self.interpolant(self.part);
         let (length, mut polynomial) = (interpolant.length, interpolant.bernstein(|x| angles.of(x)));
@@ -406,8 +420,9 @@ impl<D: Dynamics> Steps for TaylorSteps<D> {
         Track::Powers(self.series.track(angles, starts_at_zero))
     }
 
-    fn reach(&self, angles: Difference) -> f64 {
-        self.series.reach(angles)
+    fn excursion(&self, angles: Difference) -> Excursion {
+        let [start, end] = [&self.start, self.series.end()].map(|x| angles.of(x.as_slice()));
+        Excursion { start, end, reach: self.series.reach(angles) }
     }
 
     fn is_monotonic(&self, angles: Difference) -> bool {

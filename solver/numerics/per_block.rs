@@ -13,19 +13,46 @@ const INLINE_LENGTH: usize = 6;
 
 /// A list with at most one entry per block, interface or link, base first: a slice that owns its entries, without allocation for
 /// columns of up to six blocks. A copy of a short list copies its storage as it is, without a loop.
-#[derive(Clone)]
 pub struct PerBlock<T: Copy>(Storage<T>);
 
 #[derive(Clone)]
 enum Storage<T: Copy> {
     /// The first `length` entries count; the others are copies of one of them.
-    Inline { entries: [T; INLINE_LENGTH], length: u8 },
+    Inline { entries: [T; INLINE_LENGTH], length: InlineLength },
     /// An empty list, or a long one.
     Heap(Vec<T>),
 }
 
+/// Number of entries of a short list. The compiler knows its range: slices of the entries need no check.
+#[derive(Clone, Copy)]
+enum InlineLength {
+    One = 1,
+    Two,
+    Three,
+    Four,
+    Five,
+    Six,
+}
+
+impl InlineLength {
+    /// `None` for an empty list and for a long one.
+    #[inline(always)]
+    fn of(length: usize) -> Option<InlineLength> {
+        match length {
+            1 => Some(InlineLength::One),
+            2 => Some(InlineLength::Two),
+            3 => Some(InlineLength::Three),
+            4 => Some(InlineLength::Four),
+            5 => Some(InlineLength::Five),
+            INLINE_LENGTH => Some(InlineLength::Six),
+            _ => None,
+        }
+    }
+}
+
 impl<T: Copy> PerBlock<T> {
     /// An empty list.
+    #[inline]
     pub fn new() -> PerBlock<T> {
         PerBlock(Storage::Heap(Vec::new()))
     }
@@ -33,33 +60,39 @@ impl<T: Copy> PerBlock<T> {
     /// A list of `length` equal entries.
     #[inline]
     pub fn filled(entry: T, length: usize) -> PerBlock<T> {
-        PerBlock(match length {
-            1..=INLINE_LENGTH => Storage::Inline { entries: [entry; INLINE_LENGTH], length: length as u8 },
-            _ => Storage::Heap(vec![entry; length]),
+        PerBlock(match InlineLength::of(length) {
+            Some(length) => Storage::Inline { entries: [entry; INLINE_LENGTH], length },
+            None => Storage::Heap(vec![entry; length]),
         })
     }
 
     /// A copy of a slice.
     #[inline]
     pub fn from_slice(entries: &[T]) -> PerBlock<T> {
-        let Some(&first) = entries.first() else { return PerBlock::new() };
-        let mut list = PerBlock::filled(first, entries.len());
-        list.iter_mut().zip(entries).for_each(|(own, entry)| *own = *entry);
-        list
+        PerBlock(match InlineLength::of(entries.len()) {
+            // A copy of known length, without a loop.
+            Some(length) => {
+                let last = entries.len() - 1;
+                Storage::Inline { entries: std::array::from_fn(|index| entries[index.min(last)]), length }
+            }
+            None => Storage::Heap(entries.to_vec()),
+        })
     }
 
     /// Appends an entry.
     pub fn push(&mut self, entry: T) {
         match &mut self.0 {
-            Storage::Inline { entries, length } if usize::from(*length) < INLINE_LENGTH => {
-                entries[usize::from(*length)] = entry;
-                *length += 1;
-            }
-            Storage::Inline { .. } => {
-                let mut entries = self.to_vec();
-                entries.push(entry);
-                self.0 = Storage::Heap(entries);
-            }
+            Storage::Inline { entries, length } => match InlineLength::of(*length as usize + 1) {
+                Some(longer) => {
+                    entries[*length as usize] = entry;
+                    *length = longer;
+                }
+                None => {
+                    let mut entries = entries.to_vec();
+                    entries.push(entry);
+                    self.0 = Storage::Heap(entries);
+                }
+            },
             Storage::Heap(entries) if entries.is_empty() => *self = PerBlock::filled(entry, 1),
             Storage::Heap(entries) => entries.push(entry),
         }
@@ -68,6 +101,24 @@ impl<T: Copy> PerBlock<T> {
     /// Removes all entries.
     pub fn clear(&mut self) {
         *self = PerBlock::new();
+    }
+}
+
+impl<T: Copy> Clone for PerBlock<T> {
+    #[inline]
+    fn clone(&self) -> PerBlock<T> {
+        PerBlock(self.0.clone())
+    }
+
+    #[inline]
+    fn clone_from(&mut self, other: &PerBlock<T>) {
+        match (&mut self.0, &other.0) {
+            (Storage::Inline { entries, length }, Storage::Inline { entries: others, length: other_length }) => {
+                (*entries, *length) = (*others, *other_length);
+            }
+            (Storage::Heap(entries), Storage::Heap(others)) => entries.clone_from(others),
+            (storage, other) => *storage = other.clone(),
+        }
     }
 }
 
@@ -82,7 +133,7 @@ impl<T: Copy> Deref for PerBlock<T> {
     #[inline(always)]
     fn deref(&self) -> &[T] {
         match &self.0 {
-            Storage::Inline { entries, length } => &entries[..usize::from(*length).min(INLINE_LENGTH)],
+            Storage::Inline { entries, length } => &entries[..*length as usize],
             Storage::Heap(entries) => entries,
         }
     }
@@ -92,7 +143,7 @@ impl<T: Copy> DerefMut for PerBlock<T> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
         match &mut self.0 {
-            Storage::Inline { entries, length } => &mut entries[..usize::from(*length).min(INLINE_LENGTH)],
+            Storage::Inline { entries, length } => &mut entries[..*length as usize],
             Storage::Heap(entries) => entries,
         }
     }
@@ -136,6 +187,12 @@ impl<'l, T: Copy> IntoIterator for &'l PerBlock<T> {
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
     }
+}
+
+/// The largest size of some entries.
+#[inline(always)]
+pub(crate) fn largest(entries: &[f64]) -> f64 {
+    entries.iter().fold(0.0, |largest, entry| if entry.abs() > largest { entry.abs() } else { largest })
 }
 
 /// A table of blocks or links against links, row by row.

@@ -17,23 +17,16 @@ use super::rest;
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::guards::{self, Guard};
-use crate::friction::joint::{Configuration, Face, Joint, Slip};
+use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::friction::rows::{Answer, Coordinate, Rows, coordinates};
-use crate::friction::search::{Coefficients, Question, Search, Solution, Touch, centre, half_length};
+use crate::friction::search::{Coefficients, centre};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::ode::explicit::{Explicit, System, Tableau};
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::numerics::ode::methods::{ForTableau, Method};
-use crate::numerics::state_vector::StateVector;
 use crate::response::Work;
 use rocking_ground::Segment;
-
-/// Gaps and rates below these shares of the column's height, and of the speed that it falls with, are rounding.
-const TOUCHING_SHARE: f64 = 1e-11;
-
-/// Events in one instant, per block, beyond which a run cannot go on.
-const EVENTS_AT_ONCE: usize = 24;
 
 /// Where a run with friction is.
 #[derive(Clone, Debug)]

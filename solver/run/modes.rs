@@ -77,7 +77,7 @@ impl Modes {
 
     /// Enters the motion of a state: its place among the motions, and the motion. Scene constants of a mode are computed when it is entered first.
     pub fn enter(&mut self, problem: &Problem, after: &State) -> (usize, &mut dyn Flow) {
-        if after.pattern.dof() == 0 {
+        if after.pattern.lowest_open().is_none() {
             self.rest.enter(problem, after);
             return (Modes::REST, &mut self.rest);
         }
@@ -127,9 +127,11 @@ impl Modes {
     /// The work of the present run.
     pub fn take_work(&mut self) -> Work {
         let with_vertical = self.ground() == GroundMotion::WithVertical;
-        let modes_entered = self.entered.iter().filter(|entered| entered.is_entered).count();
-        let mut work = Work { with_vertical, modes_entered, ..self.rest.take_work() };
-        self.entered.iter_mut().for_each(|entered| work.add(&entered.phase.take_work()));
+        let mut work = Work { with_vertical, ..self.rest.take_work() };
+        for entered in self.entered.iter_mut().filter(|entered| entered.is_entered) {
+            work.modes_entered += 1;
+            work.add(&entered.phase.take_work());
+        }
         work
     }
 }

@@ -120,6 +120,7 @@ impl Phase {
 
     /// The longest step that the errors of the last ones allow and in which nothing happens; if there is none, the samples to pass before the next
     /// attempt.
+    #[inline(never)] // Its registers are not saved for stretches of other kinds.
     fn longest_sample_step(&mut self, problem: &Problem, rocker: Rocker) -> Result<SampleStep, usize> {
         let start = self.integrator.start();
         let x = [start[0], start[1]];

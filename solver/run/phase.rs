@@ -15,10 +15,12 @@ use crate::mechanics::pendulum::{self, Pendulum};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::collocation::GAPS;
 use crate::numerics::ode::control::Part;
-use crate::numerics::per_block::PerBlock;
+use crate::numerics::per_block::{PerBlock, largest};
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
-use rocking_codegen::pattern::{Interface, Pattern};
+use rocking_codegen::pattern::Pattern;
+use smallvec::SmallVec;
+use std::ops::Range;
 
 /// The phases of a mode, with storage for them.
 pub(crate) struct Phase {
@@ -32,13 +34,14 @@ pub(crate) struct Phase {
     pub(super) dof: usize,
     /// Link of each block, base first, from one; zero where it stands on the ground.
     pub(super) links: PerBlock<usize>,
+    /// The open interfaces, each with the link on it: base first, length `dof`.
     pub(super) gaps: PerBlock<Gap>,
     /// The closed interfaces.
     pub(super) closed: PerBlock<usize>,
     /// Margins of the closed interfaces against opening, as formulas.
     pub(super) margins: Margins,
     /// The same over the last swing.
-    pub(super) over_swing: PerBlock<Harmonics>,
+    pub(super) over_swing: Vec<Harmonics>,
 
     pattern: Pattern,
     /// Time at the start of the stretch `[s]`, and its segment.
@@ -51,7 +54,7 @@ pub(crate) struct Phase {
     pub(super) wanted: f64,
     /// Bound of the next attempt after a rejected one `[s]`.
     pub(super) longest: f64,
-    /// Whether the outcome may have become certain since the last stretch.
+    /// Whether the outcome may have become certain since the last stretch, of a run that may end with that.
     pub(super) is_outcome_open: bool,
     /// The last stretch.
     pub(super) stretch: Kind,
@@ -60,6 +63,8 @@ pub(crate) struct Phase {
     pub(super) forces: ForceCache,
     /// Interfaces that close at the end of the stretch.
     pub(super) closing: PerBlock<usize>,
+    /// Margins of the closed interfaces at places in the step: forces evaluated at one place serve all interfaces.
+    pub(super) margin_samples: SmallVec<[(f64, PerBlock<f64>); 6]>,
     /// A state inside the stretch.
     pub(super) inside: PerBlock<f64>,
     pub(super) slope: PerBlock<f64>,
@@ -68,14 +73,25 @@ pub(crate) struct Phase {
     pub(super) calls: usize,
 }
 
-/// An open interface and its gap `s φ`.
+/// An open interface, its gap `s φ`, and the link on it: blocks that turn as one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
+    /// The interface, which is the lowest block of the link.
     pub interface: usize,
+    /// The block above the highest of the link.
+    end: usize,
     /// `s (θ_i - θ_{i-1})` of the moving links.
     pub across: Difference,
     /// Roots of the gap at the start of the step that are known: gap, rate and acceleration zero.
     pub start_roots: usize,
+}
+
+impl Gap {
+    /// The blocks of the link on the interface.
+    #[inline(always)]
+    pub fn blocks(&self) -> Range<usize> {
+        self.interface..self.end
+    }
 }
 
 /// A step as far as it is taken.
@@ -110,7 +126,7 @@ pub(super) struct Swing {
     pub end: [f64; 2],
     /// Time at the end `[s]`.
     pub until: f64,
-    /// `[θ, θ̇]` at the end; the angle is exactly zero at a landing.
+    /// `[θ, θ̇]` at the end; at a landing the angle is zero to rounding.
     pub x: [f64; 2],
 }
 
@@ -215,19 +231,22 @@ impl Phase {
         let options = &scene.options;
         let integrator = mode.integrator(options.method, scene.column.gravity(), options.rtol, options.step);
         let blocks = pattern.0.len();
-        let mut dof = 0;
-        let link = |interface: &Interface| {
-            dof += usize::from(interface.is_open());
-            dof
+        let is_open = |interface: &usize| pattern.0[*interface].is_open();
+        let open: PerBlock<usize> = (0..blocks).filter(is_open).collect();
+        let closed: PerBlock<usize> = (0..blocks).filter(|interface| !is_open(interface)).collect();
+        let dof = open.len();
+        let gap = |(link, &interface): (usize, &usize)| Gap {
+            interface,
+            end: open.get(link + 1).copied().unwrap_or(blocks),
+            across: Difference {
+                sign: f64::from(pattern.0[interface].sign()),
+                upper: link,
+                lower: link.checked_sub(1),
+            },
+            start_roots: 0,
         };
-        let links: PerBlock<usize> = pattern.0.iter().map(link).collect();
-        let open = (0..blocks).filter(|i| pattern.0[*i].is_open());
-        let gap = |interface: usize| {
-            let (sign, upper) = (f64::from(pattern.0[interface].sign()), links[interface] - 1);
-            Gap { interface, across: Difference { sign, upper, lower: upper.checked_sub(1) }, start_roots: 0 }
-        };
-        let gaps = open.map(gap).collect();
-        let closed: PerBlock<usize> = (0..blocks).filter(|i| !pattern.0[*i].is_open()).collect();
+        let gaps = open.iter().enumerate().map(gap).collect();
+        let links = (1..=blocks).map(|above| open.iter().filter(|interface| **interface < above).count()).collect();
         let pendulum = if dof == 1 && problem.swings_in_closed_form() { integrator.pendulum() } else { None };
         let steps_over_samples = dof == 1 && closed.is_empty() && problem.steps_over_samples();
         let samples =
@@ -244,9 +263,9 @@ impl Phase {
             links,
             gaps,
             forces: ForceCache::new(blocks, closed.len()),
+            over_swing: Vec::with_capacity(closed.len()),
             closed,
             margins: Margins::new(&scene.column, pattern),
-            over_swing: PerBlock::new(),
             pattern: pattern.clone(),
             t: 0.0,
             segment: 0,
@@ -258,6 +277,7 @@ impl Phase {
             stretch: Kind::Instant,
             has_moved: false,
             closing: PerBlock::new(),
+            margin_samples: SmallVec::new(),
             inside: zeros(),
             slope: zeros(),
             work: Work::default(),
@@ -268,19 +288,26 @@ impl Phase {
 
     /// What a difference of angles can resolve `[rad]`.
     pub(super) fn resolution(&self, x: &[f64]) -> f64 {
-        4.0 * f64::EPSILON * x[..self.dof].iter().fold(0.0f64, |size, angle| size.max(angle.abs()))
+        4.0 * f64::EPSILON * largest(&x[..self.dof])
     }
 
     /// Angles and rates per block of a state of the links.
     pub(super) fn per_block(&self, x: &[f64]) -> (PerBlock<f64>, PerBlock<f64>) {
-        let mut both = [PerBlock::filled(0.0, self.links.len()), PerBlock::filled(0.0, self.links.len())];
-        for (own, values) in both.iter_mut().zip([&x[..self.dof], &x[self.dof..]]) {
-            for (own, link) in own.iter_mut().zip(&self.links).filter(|(_, link)| **link > 0) {
-                *own = values[link - 1];
+        let zeros = || PerBlock::filled(0.0, self.links.len());
+        let (mut theta, mut omega) = (zeros(), zeros());
+        self.write_per_block(x, &mut theta, &mut omega);
+        (theta, omega)
+    }
+
+    /// Writes angles and rates of the moving blocks at a state of the links.
+    #[inline(always)]
+    pub(super) fn write_per_block(&self, x: &[f64], theta: &mut [f64], omega: &mut [f64]) {
+        let (angles, rates) = x.split_at(self.dof);
+        for (link, (theta, omega)) in self.links.iter().zip(theta.iter_mut().zip(omega)) {
+            if let Some(link) = link.checked_sub(1) {
+                (*theta, *omega) = (angles[link], rates[link]);
             }
         }
-        let [theta, omega] = both;
-        (theta, omega)
     }
 
     /// The pattern of the mode.

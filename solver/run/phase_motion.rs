@@ -5,9 +5,9 @@
 
 use super::certainty::verdict;
 use super::error::SolveError;
-use super::phase::{Kind, Phase, StepEnd, Swing};
+use super::phase::{Gap, Kind, Phase, StepEnd, Swing};
 use super::problem::Problem;
-use super::state::State;
+use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Request, Stretch};
 use crate::column::Column;
 use crate::contact::verge_acceleration;
@@ -17,27 +17,24 @@ use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
 
 impl Phase {
-    /// Decides how many roots of each gap lie at the start, by how it came to be open.
+    /// Decides how many roots of each gap lie at the start, the state `inside`, by how it came to be open.
     fn arm(&mut self, column: &Column) {
-        for index in 0..self.gaps.len() {
-            let (across, x) = (self.gaps[index].across, self.integrator.start());
-            let is_closed = across.of(&x[..self.dof]) == 0.0;
-            let has_no_rate = across.of(&x[self.dof..]) == 0.0;
-            self.gaps[index].start_roots = match (is_closed, has_no_rate) {
+        let (angles, rates) = self.inside.split_at(self.dof);
+        // Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
+        let mut is_critical = |across: Difference| {
+            self.integrator.start_slope(self.t, &mut self.slope);
+            let accelerations = &self.slope[self.dof..];
+            across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(self.t))
+        };
+        for gap in self.gaps.iter_mut() {
+            let across = gap.across;
+            gap.start_roots = match (across.of(angles) == 0.0, across.of(rates) == 0.0) {
                 (false, _) => 0,
                 (true, false) => 1,
-                (true, true) if self.is_critical(column, across) => 3,
+                (true, true) if is_critical(across) => 3,
                 (true, true) => 2,
             };
         }
-    }
-
-    /// Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
-    fn is_critical(&mut self, column: &Column, across: Difference) -> bool {
-        let t = self.t;
-        self.integrator.start_slope(t, &mut self.slope);
-        let accelerations = &self.slope[self.dof..];
-        across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(t))
     }
 
     /// Makes the end of the last stretch the start of the next one.
@@ -63,9 +60,12 @@ impl Phase {
             self.gaps[0].start_roots = 0;
         } else {
             // A gap that is still below the resolution of angles has not left its start.
-            let (resolution, x) = (self.resolution(self.integrator.start()), self.integrator.start());
-            for gap in self.gaps.iter_mut().filter(|gap| gap.across.of(x).abs() > resolution) {
-                gap.start_roots = 0;
+            let x = self.integrator.start();
+            for index in 0..self.gaps.len() {
+                let Gap { across, start_roots, .. } = self.gaps[index];
+                if start_roots > 0 && across.of(x).abs() > self.resolution(x) {
+                    self.gaps[index].start_roots = 0;
+                }
             }
         }
         self.forces.advance();
@@ -91,7 +91,10 @@ impl Phase {
                 // On a ground at rest it is not going to change but by an event.
                 self.is_outcome_open = !segment.is_quiet();
             }
-            if let Found::Stretch(ended) = self.swing(problem) {
+            let pendulum = if segment.is_quiet() { self.pendulum } else { None };
+            if let Some(pendulum) = pendulum
+                && let Found::Stretch(ended) = self.swing(problem, pendulum)
+            {
                 return Ok(ended);
             }
             if self.step_over_samples(problem) {
@@ -115,7 +118,7 @@ impl Phase {
             return Some(Ended::Jump);
         }
         self.integrator.enter(segment);
-        self.is_outcome_open = true;
+        self.is_outcome_open = problem.prospects.is_some();
         None
     }
 
@@ -135,14 +138,11 @@ impl Phase {
 
 impl Flow for Phase {
     fn enter(&mut self, problem: &Problem, after: &State) {
-        self.calls = self.integrator.rhs_calls();
         self.work.phases += 1;
         self.integrator.enter(&problem.ground[after.segment]);
-        for (block, &link) in self.links.iter().enumerate() {
-            if link > 0 {
-                self.inside[link - 1] = after.theta[block];
-                self.inside[self.dof + link - 1] = after.omega[block];
-            }
+        let (angles, rates) = self.inside.split_at_mut(self.dof);
+        for (gap, (angle, rate)) in self.gaps.iter().zip(angles.iter_mut().zip(rates)) {
+            (*angle, *rate) = (after.theta[gap.interface], after.omega[gap.interface]);
         }
         self.integrator.begin(after.t, &self.inside);
         (self.t, self.segment) = (after.t, after.segment);
@@ -153,7 +153,7 @@ impl Flow for Phase {
             None => self.integrator.first_step(problem.tolerance),
         };
         self.longest = f64::INFINITY;
-        self.is_outcome_open = true;
+        self.is_outcome_open = problem.prospects.is_some();
         self.stretch = Kind::Instant;
         self.has_moved = false;
         self.closing.clear();
@@ -177,6 +177,8 @@ impl Flow for Phase {
     }
 
     fn take_work(&mut self) -> Work {
+        let calls = self.integrator.rhs_calls();
+        self.work.rhs_calls += calls - std::mem::replace(&mut self.calls, calls);
         std::mem::take(&mut self.work)
     }
 }
@@ -192,26 +194,16 @@ impl Inside for Phase {
     }
 
     fn raise_peaks(&mut self, peaks: &mut [f64]) {
-        if let Kind::Instant = self.stretch {
-            return;
-        }
-        for link in 0..self.dof {
-            // Blocks of one link are neighbours and have one angle; the least of their peaks decides what is worth finding.
-            let mut known = f64::INFINITY;
-            for (own, peak) in self.links.iter().zip(&*peaks) {
-                known = if *own == link + 1 && *peak < known { *peak } else { known };
-            }
-            let peak = match &self.stretch {
-                Kind::Step(step) => self.peak_of_step(*step, link, known),
-                Kind::Swing(swing) => swing.peak(known),
-                Kind::Samples(step) => step.x[0].abs(),
-                Kind::Instant => known,
-            };
-            if peak > known {
-                for (own, block) in peaks.iter_mut().zip(&self.links) {
-                    *own = if *block == link + 1 { own.max(peak) } else { *own };
+        match &self.stretch {
+            Kind::Instant => {}
+            Kind::Step(step) => {
+                let step = *step;
+                for link in 0..self.dof {
+                    raise(&mut peaks[self.gaps[link].blocks()], |known| self.peak_of_step(step, link, known));
                 }
             }
+            Kind::Swing(swing) => raise(&mut peaks[self.gaps[0].blocks()], |known| swing.peak(known)),
+            Kind::Samples(step) => raise(&mut peaks[self.gaps[0].blocks()], |_| step.x[0].abs()),
         }
     }
 
@@ -235,30 +227,35 @@ impl Inside for Phase {
         }
     }
 
-    fn end(&mut self, mut state: Box<State>) -> Box<State> {
-        match &self.stretch {
-            Kind::Instant => self.inside.copy_from_slice(self.integrator.start()),
-            Kind::Step(step) => {
-                self.t = step.end;
-                self.inside.copy_from_slice(self.integrator.end());
-                // Angles of interfaces that close are equal to the last bit.
-                for gap in self.gaps.iter().filter(|gap| self.closing.contains(&gap.interface)) {
-                    self.inside[gap.across.upper] = gap.across.lower.map_or(0.0, |lower| self.inside[lower]);
-                }
-            }
-            Kind::Swing(swing) => {
-                self.t = swing.until;
-                self.inside.copy_from_slice(&swing.x);
-            }
-            Kind::Samples(step) => self.inside.copy_from_slice(&step.x),
+    fn closing(&self) -> &[usize] {
+        &self.closing
+    }
+
+    fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
+        let (t, x) = match &self.stretch {
+            Kind::Instant => (self.t, self.integrator.start()),
+            Kind::Step(step) => (step.end, self.integrator.end()),
+            Kind::Swing(swing) => (swing.until, &swing.x[..]),
+            Kind::Samples(step) => (self.t, &step.x[..]),
+        };
+        self.write_per_block(x, &mut state.theta, &mut state.omega);
+        // Angles of interfaces that close are equal to the last bit.
+        for &interface in &self.closing {
+            let below = interface.checked_sub(1).map_or(0.0, |below| state.theta[below]);
+            state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
         }
-        self.pace.step = Some(self.wanted);
-        self.work.rhs_calls += self.integrator.rhs_calls() - self.calls;
-        (state.t, state.segment, state.pace) = (self.t, self.segment, self.pace);
-        for (block, &link) in self.links.iter().enumerate() {
-            let of = |offset: usize| if link == 0 { 0.0 } else { self.inside[offset + link - 1] };
-            (state.theta[block], state.omega[block]) = (of(0), of(self.dof));
-        }
+        (state.t, state.segment) = (t, self.segment);
+        state.pace = Pace { step: Some(self.wanted), ..self.pace };
         state
+    }
+}
+
+/// Raises the peaks of the blocks of one link, which have one angle, to what `peak` finds: the least of them decides what is worth finding.
+#[inline(always)]
+fn raise(peaks: &mut [f64], peak: impl FnOnce(f64) -> f64) {
+    let known = peaks.iter().fold(f64::INFINITY, |known, own| if *own < known { *own } else { known });
+    let peak = peak(known);
+    if peak > known {
+        peaks.iter_mut().for_each(|own| *own = if peak > *own { peak } else { *own });
     }
 }

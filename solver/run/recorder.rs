@@ -13,7 +13,7 @@ use rocking_ground::Segment;
 use std::collections::BTreeMap;
 
 /// Room made for events when the first one comes.
-const USUAL_EVENTS: usize = 16;
+const USUAL_EVENTS: usize = 32;
 
 /// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
 const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
@@ -46,25 +46,28 @@ pub(crate) struct Recorder {
 impl Recorder {
     /// The record of a run that begins with a state.
     pub fn new(problem: &Problem, start: &State) -> Recorder {
-        let blocks = start.theta.len();
+        // Lists of what is not recorded are empty.
+        let list = |is_recorded: bool, entry: f64| match is_recorded {
+            true => PerBlock::filled(entry, start.theta.len()),
+            false => PerBlock::new(),
+        };
+        let (is_recorded, records_forces) = (problem.is_recorded(), problem.records_forces());
         let mut recorder = Recorder {
             samples: Vec::new(),
             next_sample: 0,
             sample_segment: 0,
             pattern: start.pattern.clone(),
-            peak_theta: PerBlock::filled(0.0, blocks),
-            friction_demand: PerBlock::filled(0.0, blocks),
-            impulse_friction_demand: PerBlock::filled(0.0, blocks),
-            min_normal_force: PerBlock::filled(f64::INFINITY, blocks),
+            peak_theta: list(is_recorded, 0.0),
+            friction_demand: list(records_forces, 0.0),
+            impulse_friction_demand: list(records_forces, 0.0),
+            min_normal_force: list(records_forces, f64::INFINITY),
             events: Vec::new(),
             impacts: 0,
             separations: Vec::new(),
             entered_at: start.t,
             times: Vec::new(),
         };
-        if problem.is_recorded() {
-            recorder.record_angles(&start.theta);
-        }
+        recorder.record_angles(&start.theta);
         recorder
     }
 
@@ -115,7 +118,7 @@ impl Recorder {
 
     fn record_angles(&mut self, theta: &[f64]) {
         for (peak, theta) in self.peak_theta.iter_mut().zip(theta) {
-            *peak = peak.max(theta.abs());
+            *peak = if theta.abs() > *peak { theta.abs() } else { *peak };
         }
     }
 
@@ -215,7 +218,6 @@ impl Recorder {
         }
         let mut work = modes.take_work();
         work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
-        let if_recorded = |is_recorded: bool, list: PerBlock<f64>| if is_recorded { list.to_vec() } else { Vec::new() };
         Response {
             status,
             t_final: last.t,
@@ -223,11 +225,11 @@ impl Recorder {
             samples: self.samples,
             events: self.events,
             impacts: self.impacts,
-            peak_theta: if_recorded(problem.is_recorded(), self.peak_theta),
+            peak_theta: self.peak_theta.to_vec(),
             time_in_mode,
-            friction_demand: if_recorded(problem.records_forces(), self.friction_demand),
-            impulse_friction_demand: if_recorded(problem.records_forces(), self.impulse_friction_demand),
-            min_normal_force: if_recorded(problem.records_forces(), self.min_normal_force),
+            friction_demand: self.friction_demand.to_vec(),
+            impulse_friction_demand: self.impulse_friction_demand.to_vec(),
+            min_normal_force: self.min_normal_force.to_vec(),
             separations: self.separations,
             work,
             used_generic: modes.used_generic(),

@@ -115,7 +115,7 @@ impl Inside for Rest {
     }
 
     /// A column that stays at rest has been so since the rest began.
-    fn end(&mut self, mut state: Box<State>) -> Box<State> {
+    fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
         (state.t, state.segment) = if self.is_final { self.since } else { self.until };
         state
     }

@@ -153,20 +153,20 @@ fn run(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Response, SolveError> {
     modes.begin(problem);
-    let (before, first) = transition::start(problem)?;
-    let mut recorder = Recorder::new(problem, &before);
-    let mut after = before.clone();
-    if let Some(first) = &first {
-        after = first.after(&before, after);
-        recorder.transition(problem, &before, first, &after);
+    let (mut initial, mut storage) = (transition::initial(problem), transition::initial(problem));
+    let mut recorder = Recorder::new(problem, &initial);
+    // Two states serve all events.
+    let (mut spare, mut after) = (&mut initial, &mut storage);
+    if let Some(first) = &transition::start(problem, spare)? {
+        after = first.after(spare, after);
+        recorder.transition(problem, spare, first, after);
     }
-    let mut spare = before;
-    let (mut mode, mut motion) = modes.enter(problem, &after);
+    let (mut mode, mut motion) = modes.enter(problem, after);
     let mut stretches = 0;
     loop {
         let mut stretch = motion.next(problem)?;
         recorder.read(problem, &mut stretch);
-        let Some(ended) = stretch.ended.take() else {
+        let Some(ended) = stretch.ended else {
             stretches += 1;
             if stretches % STRETCHES_BETWEEN_REPORTS == 0 {
                 report(progress, stretch.end)?;
@@ -174,26 +174,28 @@ fn run(
             continue;
         };
         let before = stretch.inside.end(after);
-        recorder.leave(problem, mode, &before);
+        recorder.leave(problem, mode, before);
         report(progress, before.t)?;
         if let Ended::Over(over) = ended {
-            return Ok(recorder.finish(problem, &before, over, modes));
+            return Ok(recorder.finish(problem, before, over, modes));
         }
         // By reference: a transition is large, and `?` would copy it.
-        let next = transition(problem, &before, &ended);
+        let next = transition(problem, before, ended, stretch.inside.closing());
         let next = match &next {
             Ok(next) => next,
             Err(error) => return Err(error.clone()),
         };
-        after = next.after(&before, spare);
-        recorder.transition(problem, &before, next, &after);
+        after = next.after(before, spare);
+        recorder.transition(problem, before, next, after);
         spare = before;
-        if let Some(forced) = break_circle(problem, next, &after)? {
-            let closed = forced.after(&after, spare);
-            recorder.transition(problem, &after, &forced, &closed);
+        if next.may_circle(after)
+            && let Some(forced) = break_circle(problem, after)?
+        {
+            let closed = forced.after(after, spare);
+            recorder.transition(problem, after, &forced, closed);
             (spare, after) = (after, closed);
         }
-        (mode, motion) = modes.enter(problem, &after);
+        (mode, motion) = modes.enter(problem, after);
     }
 }
 

@@ -75,7 +75,7 @@ pub(super) fn run(
     friction: &Coefficients,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Response, SolveError> {
-    let (start, _) = transition::start(problem)?;
+    let start = transition::initial(problem);
     let column = &problem.scene.column;
     let mut configuration = Configuration::sticking(column, &start.pattern, &start.theta, &start.omega);
     if !problem.scene.initial.x.is_empty() {

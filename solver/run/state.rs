@@ -32,7 +32,7 @@ impl State {
             omega: PerBlock::filled(0.0, blocks),
             pattern: Pattern::rest(blocks),
             contact: ContactMemory {
-                released: Vec::new(),
+                released: PerBlock::new(),
                 hold: Hold::NONE,
                 last_events: [f64::NAN; 2],
                 events_at_once: 0,
@@ -47,7 +47,7 @@ impl State {
 pub(crate) struct ContactMemory {
     /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides: gap, rate and
     /// acceleration are zero there.
-    pub released: Vec<(usize, Interface)>,
+    pub released: PerBlock<(usize, Interface)>,
     /// After a separation: until when closed interfaces that cannot stay closed are not examined.
     pub hold: Hold,
     /// Times of the last two events `[s]`, the latest last.

@@ -14,6 +14,7 @@ use super::phase::{Gap, Kind, Phase, StepEnd};
 use super::problem::Problem;
 use super::stretch::{Ended, Found, Over};
 use crate::mechanics::dynamics::{ContactForce, Interfaces};
+use crate::mechanics::integrator::Excursion;
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
 use crate::numerics::ode::control::{Attempt, Part};
@@ -21,7 +22,6 @@ use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::ModeName;
 use rocking_codegen::pattern::Interface;
-use smallvec::SmallVec;
 
 /// The guard that is zero inside a step.
 #[derive(Clone, Copy, Debug)]
@@ -48,11 +48,9 @@ const PANELS_PER_RADIAN: f64 = 2.0;
 /// Panels beyond which a step of the loosest tolerances is not resolved.
 const MOST_PANELS: f64 = 64.0;
 
-/// Margins of the closed interfaces at places in a step: forces evaluated at one place serve all interfaces.
-type MarginSamples = SmallVec<[(f64, PerBlock<f64>); 6]>;
-
 impl Phase {
     /// Attempts a step and ends it at its first event; nothing is found if the attempt is rejected.
+    #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Found, SolveError> {
         let t = self.t;
         let held = self.held_until - t;
@@ -99,17 +97,15 @@ impl Phase {
                 first = Some((guard, s));
             }
         };
-        let resolution = self.resolution(self.integrator.start());
         // An angle is a sum of gaps.
         let mut reach = 0.0;
-        for &gap in &self.gaps {
-            let start = gap.across.of(&self.integrator.start()[..self.dof]);
-            let most = start + self.integrator.reach(gap.across);
-            if gap.start_roots == 0 && most < CLEAR_GAP_FACTOR * start {
-                reach += most;
+        for gap in &self.gaps {
+            let Excursion { start, end, reach: moved } = self.integrator.excursion(gap.across);
+            if gap.start_roots == 0 && start + moved < CLEAR_GAP_FACTOR * start {
+                reach += start + moved;
                 continue;
             }
-            let end = gap.across.of(&self.integrator.end()[..self.dof]);
+            let resolution = self.resolution(self.integrator.start());
             if end > resolution && self.integrator.is_monotonic(gap.across) {
                 reach += start.max(end);
                 continue;
@@ -120,7 +116,7 @@ impl Phase {
             if gap.start_roots > 0 && size <= resolution {
                 continue;
             }
-            offer(Guard::Gap(gap), track.first_root(gap.start_roots));
+            offer(Guard::Gap(*gap), track.first_root(gap.start_roots));
         }
         let limit = problem.scene.options.overturn_angle;
         let tilting = if reach < limit { 0..0 } else { 0..self.dof };
@@ -138,10 +134,10 @@ impl Phase {
     /// The first opening of a closed interface before `reach`; if there is none in the whole step, the margins known at its end are kept.
     fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(Guard, f64)> {
         let mut first: Option<(Guard, f64)> = None;
-        let mut samples = MarginSamples::new();
+        self.margin_samples.clear();
         for index in 0..self.closed.len() {
             let reach = first.map_or(reach, |(_, s)| s);
-            if let Some(s) = self.opening_before(problem, [h, end], index, reach, &mut samples) {
+            if let Some(s) = self.opening_before(problem, [h, end], index, reach) {
                 first = Some((Guard::Contact { interface: self.closed[index] }, s));
             }
         }
@@ -150,7 +146,7 @@ impl Phase {
         }
         if first.is_none()
             && reach >= 1.0
-            && let Some((_, margins)) = samples.iter().find(|(place, _)| *place == 1.0)
+            && let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == 1.0)
         {
             self.forces.end_margins.copy_from_slice(margins);
             self.forces.are_end_margins_known = true;
@@ -159,21 +155,14 @@ impl Phase {
     }
 
     /// Where the closed interface of this index opens in a step of length and end `[h, end]`, 0 to `reach`.
-    fn opening_before(
-        &mut self,
-        problem: &Problem,
-        [h, end]: [f64; 2],
-        index: usize,
-        reach: f64,
-        samples: &mut MarginSamples,
-    ) -> Option<f64> {
+    fn opening_before(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, reach: f64) -> Option<f64> {
         let is_held = self.t < self.held_until;
         let opening = if is_held { Opening::Unclear } else { self.integrator.opening(&self.margins, index, reach * h) };
         if opening == Opening::StaysClosed {
             return None;
         }
         if let Opening::Opens { s, slope } = opening {
-            let guard = |s: f64| self.margin_at(problem, [h, end], index, s, samples);
+            let guard = |s: f64| self.margin_at(problem, [h, end], index, s);
             let opening = polished(guard, s * reach, slope / reach, reach);
             if opening.is_some() {
                 return opening;
@@ -184,19 +173,12 @@ impl Phase {
         if start <= 0.0 && is_held {
             return None;
         }
-        first_crossing(|s| self.margin_at(problem, [h, end], index, s, samples), start, reach)
+        first_crossing(|s| self.margin_at(problem, [h, end], index, s), start, reach)
     }
 
     /// The margin of a closed interface at a place in the step.
-    fn margin_at(
-        &mut self,
-        problem: &Problem,
-        [h, end]: [f64; 2],
-        index: usize,
-        s: f64,
-        samples: &mut MarginSamples,
-    ) -> f64 {
-        if let Some((_, margins)) = samples.iter().find(|(place, _)| *place == s) {
+    fn margin_at(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, s: f64) -> f64 {
+        if let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == s) {
             return margins[index];
         }
         // The end of the step is the state that the next one starts from, to the last bit.
@@ -209,8 +191,8 @@ impl Phase {
         let column = &problem.scene.column;
         let margins: PerBlock<f64> = self.closed.iter().map(|&interface| self.margin(column, interface)).collect();
         let margin = margins[index];
-        if samples.len() < samples.inline_size() {
-            samples.push((s, margins));
+        if self.margin_samples.len() < self.margin_samples.inline_size() {
+            self.margin_samples.push((s, margins));
         }
         margin
     }
@@ -264,12 +246,10 @@ impl Phase {
                 let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
                 Ended::Opening(interface, side)
             }
-            Guard::Tilt { link, .. } => {
-                Ended::Over(Over::Overturned(self.links.iter().position(|own| *own == link + 1).unwrap_or(0)))
-            }
+            Guard::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
             Guard::Gap(gap) => {
                 self.closing = self.closing_with(end, gap);
-                Ended::Closing(self.closing.clone())
+                Ended::Closing
             }
         })
     }
@@ -291,17 +271,17 @@ impl Phase {
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
 
-    /// See [`Inside::peak`](super::stretch::Inside::peak).
+    /// The largest size of a link's angle in the step if it exceeds `known` `[rad]`.
     pub(super) fn peak_of_step(&mut self, step: StepEnd, link: usize, known: f64) -> f64 {
         let angle = Difference { sign: 1.0, upper: link, lower: None };
-        let most = self.integrator.start()[link].abs() + self.integrator.reach(angle);
-        if most <= known {
+        let Excursion { start, end, reach } = self.integrator.excursion(angle);
+        if start.abs() + reach <= known {
             return known;
         }
-        let (x, end) = (self.integrator.start(), self.integrator.end());
         if self.integrator.is_monotonic(angle) {
-            return x[link].abs().max(end[link].abs());
+            return start.abs().max(end.abs());
         }
+        let (x, end) = (self.integrator.start(), self.integrator.end());
         let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], step.h);
         if control.iter().all(|c| c.abs() <= known) {
             return known;

@@ -9,10 +9,10 @@ use crate::response::Work;
 use rocking_codegen::pattern::Interface;
 
 /// Why a stretch ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Ended {
-    /// These interfaces (from zero) closed.
-    Closing(PerBlock<usize>),
+    /// Open interfaces closed: those that [`Inside::closing`] lists.
+    Closing,
     /// The resultant at a closed interface (from zero) reached a corner; the interface opens on this side.
     Opening(usize, Interface),
     /// The ground acceleration jumped.
@@ -71,8 +71,13 @@ pub(crate) trait Inside {
     /// Visits finer stretches in place of a coarse one, as far as they are requested.
     fn refine(&mut self, _problem: &Problem, _request: Request, _visit: &mut dyn FnMut(&mut Stretch)) {}
 
+    /// The interfaces (from zero) that close at the end of the stretch, if it ended with a closing.
+    fn closing(&self) -> &[usize] {
+        &[]
+    }
+
     /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
-    fn end(&mut self, after: Box<State>) -> Box<State>;
+    fn end<'s>(&mut self, after: &'s mut State) -> &'s mut State;
 }
 
 /// What a recorder requests of the inside of a multi-sample step.

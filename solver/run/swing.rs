@@ -43,13 +43,13 @@ impl Course {
 }
 
 impl Phase {
-    /// Swings to the next event, or to the end of the segment; nothing is found where closed forms do not apply.
-    pub(super) fn swing(&mut self, problem: &Problem) -> Found {
-        let segment = &problem.ground[self.segment];
-        if !segment.is_quiet() || self.held_until > self.t {
+    /// Swings to the next event, or to the end of the segment, on a ground at rest; nothing is found where closed forms do not apply.
+    #[inline(never)] // Its registers are not saved for stretches of other kinds.
+    pub(super) fn swing(&mut self, problem: &Problem, pendulum: Pendulum) -> Found {
+        if self.held_until > self.t {
             return Found::Nothing;
         }
-        let Some(pendulum) = self.pendulum else { return Found::Nothing };
+        let segment = &problem.ground[self.segment];
         let Some((course, mut end)) = self.course(problem, pendulum) else { return Found::Nothing };
         let left = segment.end - self.t;
         if !self.closed.is_empty() {
@@ -70,11 +70,12 @@ impl Phase {
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
         let until = if is_cut { segment.end } else { self.t + end.time };
-        let is_landed = !is_cut && matches!(end.ended, Ended::Closing(_));
-        let [theta, omega] = course.state([psi, v]);
-        let x = [if is_landed { 0.0 } else { theta }, omega];
-        self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x });
-        Found::Stretch((!is_cut).then_some(end.ended))
+        self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x: course.state([psi, v]) });
+        let ended = (!is_cut).then_some(end.ended);
+        if ended == Some(Ended::Closing) {
+            self.closing = PerBlock::filled(self.gaps[0].interface, 1);
+        }
+        Found::Stretch(ended)
     }
 
     /// The swing from the start of the stretch, and how it ends if no interface opens.
@@ -101,10 +102,8 @@ impl Phase {
         let is_below_crest = || overturned < 0.0 && swing.turning_point().is_some_and(|crest| overturned <= crest);
         let is_overturned = goes_out && (!has_crest || is_below_crest());
         let (ended, psi) = match is_overturned {
-            true => {
-                (Ended::Over(Over::Overturned(self.links.iter().position(|link| *link == 1).unwrap_or(0))), overturned)
-            }
-            false => (Ended::Closing(PerBlock::from_slice(&[gap.interface])), landing),
+            true => (Ended::Over(Over::Overturned(gap.interface)), overturned),
+            false => (Ended::Closing, landing),
         };
         let size = swing.rate_at(psi)?;
         let v = if is_overturned { size } else { -size };

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::rest;
 use super::state::{ContactMemory, State};
 use super::stretch::Ended;
-use crate::contact::{self, Decision, ImpactLaw, SingularMass};
+use crate::contact::{self, Decision, Gaps, ImpactLaw, SingularMass};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
@@ -29,24 +29,18 @@ pub(crate) struct Transition {
     /// Pattern, rates and impulses after it.
     pub decision: Decision,
     /// Interfaces released in this instant, with their sides.
-    released: Vec<(usize, Interface)>,
+    released: PerBlock<(usize, Interface)>,
     /// Whether it is one of the events whose number in one instant is limited.
     is_counted: bool,
 }
 
 impl Transition {
     /// `x⁺` of `x⁻`, in the storage of a state that is not needed any more.
-    pub fn after(&self, before: &State, mut storage: Box<State>) -> Box<State> {
+    pub fn after<'s>(&self, before: &State, after: &'s mut State) -> &'s mut State {
+        (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
+        for_size!(before.theta.len(), size => self.decide(size, before, after));
         let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
         let is_same_instant = last_events[1] == before.t;
-        let after = &mut *storage;
-        (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
-        after.theta.clone_from(&before.theta);
-        after.omega.clone_from(&self.decision.omega);
-        after.pattern = self.decision.pattern.clone();
-        if !(after.contact.released.is_empty() && self.released.is_empty()) {
-            after.contact.released.clone_from(&self.released);
-        }
         after.contact.hold = if self.decision.separation { hold.after_separation(before.t) } else { hold };
         after.contact.last_events = if self.is_event { [last_events[1], before.t] } else { last_events };
         after.contact.events_at_once = match (self.is_counted, is_same_instant) {
@@ -54,15 +48,33 @@ impl Transition {
             (true, false) => 0,
             (false, _) => events_at_once,
         };
-        snap(&after.pattern, &mut after.theta, &mut after.omega);
-        storage
+        if !(after.contact.released.is_empty() && self.released.is_empty()) {
+            after.contact.released.clone_from(&self.released);
+        }
+        after
+    }
+
+    /// Whether so many events have come to one instant with this one, which led to `after`, that they may go in a circle.
+    pub fn may_circle(&self, after: &State) -> bool {
+        self.is_counted && after.contact.events_at_once >= most_at_once(after)
+    }
+
+    /// Writes pattern, angles and rates of `x⁺` of a column of this size.
+    #[inline(always)]
+    fn decide(&self, size: impl Size, before: &State, after: &mut State) {
+        let (states, mut theta) = (size.copied(&self.decision.pattern.0), size.copied(&before.theta));
+        let mut omega = size.copied(&self.decision.omega);
+        snap(size, &states, &mut theta, &mut omega);
+        after.pattern = Pattern::from_states(&states);
+        after.theta.copy_from_slice(&theta);
+        after.omega.copy_from_slice(&omega);
     }
 }
 
-/// `x⁺` at time zero: interfaces are open where there is a gap or where the rates open one; then every closed interface is examined.
-pub(crate) fn start(problem: &Problem) -> Result<(Box<State>, Option<Transition>), SolveError> {
+/// `x⁻` at time zero: interfaces are open where there is a gap or where the rates open one.
+pub(crate) fn initial(problem: &Problem) -> State {
     let initial = &problem.scene.initial;
-    let mut state = Box::new(State::at_rest(problem.scene.column.len()));
+    let mut state = State::at_rest(problem.scene.column.len());
     for (own, given) in [(&mut state.theta, &initial.theta), (&mut state.omega, &initial.omega)] {
         own.iter_mut().zip(given).for_each(|(own, given)| *own = *given);
     }
@@ -77,38 +89,44 @@ pub(crate) fn start(problem: &Problem) -> Result<(Box<State>, Option<Transition>
         state.pattern.0[interface] = Interface::from_sign(opening.partial_cmp(&0.0).map_or(0, |order| order as i8));
         below = (state.theta[interface], state.omega[interface]);
     }
-    let is_at_rest = state.pattern.dof() == 0;
-    if is_at_rest && !rest::may_open(problem, state.segment, state.t) {
-        return Ok((state, None));
-    }
-    let decision = forces(problem, &state, &[])?;
-    let is_event = is_at_rest && decision.pattern != state.pattern;
-    let (interfaces, released) = (PerBlock::new(), Vec::new());
-    let kind = EventKind::Start;
-    let transition = Transition { kind, is_event, interfaces, decision, released, is_counted: false };
-    Ok((state, Some(transition)))
+    state
 }
 
-/// The transition at the end of a stretch.
-pub(crate) fn transition(problem: &Problem, before: &State, ended: &Ended) -> Result<Transition, SolveError> {
-    let is_at_rest = before.pattern.dof() == 0;
+/// The transition at time zero, if there is one: every closed interface is examined.
+pub(crate) fn start(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
+    let is_at_rest = state.pattern.lowest_open().is_none();
+    if is_at_rest && !rest::may_open(problem, state.segment, state.t) {
+        return Ok(None);
+    }
+    let decision = forces(problem, state, &[])?;
+    let is_event = is_at_rest && decision.pattern != state.pattern;
+    let (interfaces, released) = (PerBlock::new(), PerBlock::new());
+    let kind = EventKind::Start;
+    Ok(Some(Transition { kind, is_event, interfaces, decision, released, is_counted: false }))
+}
+
+/// The transition at the end of a stretch, with the interfaces (from zero) that close there.
+pub(crate) fn transition(
+    problem: &Problem,
+    before: &State,
+    ended: Ended,
+    closing: &[usize],
+) -> Result<Transition, SolveError> {
+    let kind_unless_at_rest = |kind| if before.pattern.lowest_open().is_none() { EventKind::Start } else { kind };
     match ended {
-        Ended::Closing(interfaces) => impact(problem, before, interfaces),
+        Ended::Closing => impact(problem, before, closing),
         Ended::Opening(interface, side) => {
-            let kind = if is_at_rest { EventKind::Start } else { EventKind::Opening };
-            opening(problem, before, *interface, *side, kind)
+            opening(problem, before, interface, side, kind_unless_at_rest(EventKind::Opening))
         }
-        Ended::Jump | Ended::Over(_) => {
-            let kind = if is_at_rest { EventKind::Start } else { EventKind::Jump };
-            jump(problem, before, kind)
-        }
+        Ended::Jump | Ended::Over(_) => jump(problem, before, kind_unless_at_rest(EventKind::Jump)),
     }
 }
 
 /// Interfaces that have reached `φ = 0` close.
 fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transition, SolveError> {
     let (theta, omega) = (&before.theta, &before.omega);
-    if closing.iter().all(|&interface| contact::is_motionless(theta, omega, interface)) {
+    let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
+    if closing.iter().all(|&interface| gaps.is_rounding(interface) && rates.is_rounding(interface)) {
         return Ok(withdraw(before, closing));
     }
     let law = ImpactLaw {
@@ -123,7 +141,7 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
             kind: EventKind::Impact,
             is_event: true,
             interfaces: PerBlock::from_slice(closing),
-            released: Vec::new(),
+            released: PerBlock::new(),
             is_counted: true,
         }),
         Err(SingularMass) => Err(singular(before)),
@@ -137,8 +155,8 @@ fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let mut pattern = before.pattern.clone();
     closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
     let omega = before.omega.clone();
-    let mut released = before.contact.released.clone();
-    released.retain(|(interface, _)| !closing.contains(interface));
+    let stays_open = |(interface, _): &&(usize, Interface)| !closing.contains(interface);
+    let released = before.contact.released.iter().filter(stays_open).copied().collect();
     Transition {
         decision: Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: PerBlock::new() },
         kind: EventKind::Impact,
@@ -157,11 +175,9 @@ fn opening(
     side: Interface,
     kind: EventKind,
 ) -> Result<Transition, SolveError> {
-    let mut released = Vec::new();
-    if before.contact.last_events[1] == before.t {
-        released.extend(before.contact.released.iter().copied().filter(|(other, _)| *other != interface));
-    }
-    released.push((interface, side));
+    let is_same_instant = before.contact.last_events[1] == before.t;
+    let others = before.contact.released.iter().filter(|(other, _)| is_same_instant && *other != interface);
+    let released: PerBlock<_> = others.copied().chain([(interface, side)]).collect();
     let opened = [interface];
     let opened: &[usize] = if kind == EventKind::Opening { &opened } else { &[] };
     Ok(Transition {
@@ -178,29 +194,29 @@ fn opening(
 fn jump(problem: &Problem, before: &State, kind: EventKind) -> Result<Transition, SolveError> {
     let decision = forces(problem, before, &[])?;
     let is_event = decision.pattern != before.pattern;
-    let (interfaces, released) = (PerBlock::new(), Vec::new());
+    let (interfaces, released) = (PerBlock::new(), PerBlock::new());
     Ok(Transition { decision, kind, is_event, interfaces, released, is_counted: false })
+}
+
+/// Events in one instant beyond which they may go in a circle.
+fn most_at_once(state: &State) -> usize {
+    EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
 /// The forced transition that breaks a circle of events in one instant, if one is due: what has not moved is closed, momentum conserved, as a
 /// separation.
-pub(crate) fn break_circle(
-    problem: &Problem,
-    last: &Transition,
-    state: &State,
-) -> Result<Option<Transition>, SolveError> {
-    let (events, most) = (state.contact.events_at_once, EVENTS_AT_ONCE * (state.theta.len() + 1));
-    if !last.is_counted || events < most {
-        return Ok(None);
-    }
+#[cold]
+pub(crate) fn break_circle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
+    let (events, most) = (state.contact.events_at_once, most_at_once(state));
     if events > 2 * most {
         return Err(SolveError::Stalled { time: state.t, events, pattern: state.pattern.to_string() });
     }
     let (theta, omega) = (&state.theta, &state.omega);
+    let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
     let is_still: &dyn Fn(usize) -> bool = match events {
-        events if events == most => &|interface| contact::is_motionless(theta, omega, interface),
+        events if events == most => &|interface| gaps.is_rounding(interface) && rates.is_rounding(interface),
         // Rates of some roundings, above what counts as motionless, go in circles as well.
-        events if events == most + most / 2 => &|interface| contact::is_gapless(theta, interface),
+        events if events == most + most / 2 => &|interface| gaps.is_rounding(interface),
         _ => return Ok(None),
     };
     let is_closing = |interface: &usize| state.pattern.0[*interface].is_open() && is_still(*interface);
@@ -211,7 +227,7 @@ pub(crate) fn break_circle(
         kind: EventKind::Impact,
         is_event: true,
         interfaces: closing,
-        released: Vec::new(),
+        released: PerBlock::new(),
         is_counted: false,
     }))
 }
@@ -233,20 +249,21 @@ fn singular(state: &State) -> SolveError {
 
 /// Makes closed interfaces, and interfaces that have only just opened, gapless and motionless to the last bit. Decided before anything is moved: a
 /// block that is snapped to the one below must not open a gap to the one above.
-fn snap(pattern: &Pattern, theta: &mut PerBlock<f64>, omega: &mut PerBlock<f64>) {
-    let is_closed = |interface: usize| !pattern.0[interface].is_open();
-    for_size!(theta.len(), size => {
-        let is_gapless = |interface: usize| is_closed(interface) || contact::is_gapless(theta, interface);
-        let is_motionless = |interface: usize| is_closed(interface) || contact::is_motionless(theta, omega, interface);
-        let joined = size.list_of(|i| [is_gapless(i), is_motionless(i)]);
-        for (interface, &[is_gapless, is_motionless]) in joined.iter().enumerate() {
-            let below = interface.checked_sub(1);
-            if is_gapless {
-                theta[interface] = below.map_or(0.0, |below| theta[below]);
-            }
-            if is_motionless {
-                omega[interface] = below.map_or(0.0, |below| omega[below]);
-            }
-        }
+#[inline(always)]
+fn snap(size: impl Size, states: &[Interface], theta: &mut [f64], omega: &mut [f64]) {
+    let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
+    let joined = size.list_of(|interface| {
+        let is_gapless = gaps.is_rounding(interface);
+        let is_closed = !states[interface].is_open();
+        [is_closed || is_gapless, is_closed || (is_gapless && rates.is_rounding(interface))]
     });
+    for (interface, &[is_gapless, is_motionless]) in joined.iter().enumerate() {
+        let below = interface.checked_sub(1);
+        if is_gapless {
+            theta[interface] = below.map_or(0.0, |below| theta[below]);
+        }
+        if is_motionless {
+            omega[interface] = below.map_or(0.0, |below| omega[below]);
+        }
+    }
 }
