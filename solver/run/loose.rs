@@ -312,7 +312,7 @@ const LEAST_ERROR: f64 = 1e-12;
 /// Share of its size below which a guard that starts from zero has not left it.
 const START_ROUNDING: f64 = 1e-15;
 
-/// Place in a step, before the first guard's zero, at which a guard that starts from zero is first examined.
+/// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
 const NEAR_START: f64 = 1e-4;
 
 /// What the inside of a step was evaluated to.
@@ -373,17 +373,21 @@ impl Step<'_, '_> {
         if !guard.may_start_from_zero() || start > noise {
             return first_crossing(|s| self.value(guard, s), start, limit);
         }
-        let mut near = NEAR_START * limit;
+        // A place at which the guard has left its start, before it comes back.
+        let (mut near, mut end) = (NEAR_START * limit, limit);
         while near < 0.1 * limit && self.value(guard, near).abs() <= 8.0 * noise {
             near *= 4.0;
         }
-        let (one, two) = (self.value(guard, near), self.value(guard, 2.0 * near));
-        if one.abs() <= 8.0 * noise {
-            return None;
+        while self.value(guard, near) < -8.0 * noise {
+            (near, end) = (0.1 * near, near);
         }
-        if one < 0.0 {
-            return Some(0.0);
+        let one = self.value(guard, near);
+        if one <= 8.0 * noise {
+            // It does not leave, or comes back before that can be resolved.
+            return (end < limit).then_some(0.0);
         }
+        let two = self.value(guard, (2.0 * near).min(end));
+        let limit = end;
         let order = (two / one).abs().log2().round().clamp(1.0, 3.0) as i32;
         first_crossing(|s| self.value(guard, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }

@@ -513,8 +513,12 @@ impl<'p> Run<'p> {
         }
         let mut touch = self.touch();
         touch[interface] = Touch::Faces;
-        if rate == 0.0 {
-            self.at.configuration.joints[interface] = Joint::Closed(Slip::Sticks);
+        let Joint::Corner(side, _, slip) = self.at.configuration.joints[interface] else { return None };
+        if f64::from(side) * rate >= 0.0 {
+            // A hop that cannot be resolved: it is over.
+            let mut joints = self.at.configuration.joints.clone();
+            joints[interface] = Joint::Closed(slip);
+            self.hold(&joints);
             return None;
         }
         self.strike(touch, EventKind::Impact, &[interface]).err()
