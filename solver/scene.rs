@@ -5,7 +5,8 @@ use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
 use rocking_ground::Excitation;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// What impacts do beyond the plastic law of docs/book/model.md, section 5.
@@ -50,7 +51,7 @@ pub struct Initial {
 }
 
 /// Whose right-hand sides are used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DynamicsSource {
@@ -61,8 +62,20 @@ pub enum DynamicsSource {
     Generic,
     /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones for
     /// what they have not got. Serialised they are a name, which cannot be read back.
-    #[serde(untagged, skip_deserializing)]
+    #[serde(untagged)]
     Supplied(Equations),
+}
+
+impl<'de> Deserialize<'de> for DynamicsSource {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<DynamicsSource, D::Error> {
+        match &*String::deserialize(from)? {
+            "generated" => Ok(DynamicsSource::Generated),
+            "generic" => Ok(DynamicsSource::Generic),
+            name => Err(D::Error::custom(format!(
+                "equations `{name}` are supplied by a program; read the scene with `generated` and supply them again"
+            ))),
+        }
+    }
 }
 
 /// What a run is to find.
