@@ -296,7 +296,10 @@ impl Scene {
             largest = [0, 1].map(|kind| largest[kind].max(sizes[kind]));
         }
         let extremes = [(LENGTHS, LENGTH_RATIO, "m"), (MASSES, MASS_RATIO, "kg")];
-        for (index, block) in blocks.iter().enumerate() {
+        // Equal blocks have equal faults: the first of them is named.
+        let is_first = |index: &usize| blocks[..*index].last() != Some(&blocks[*index]);
+        for index in (0..blocks.len()).filter(is_first) {
+            let block = &blocks[index];
             let quantities =
                 [("half_width", block.half_width, 0), ("half_height", block.half_height, 0), ("mass", block.mass, 1)];
             for (name, value, kind) in quantities {
