@@ -26,6 +26,9 @@ use std::ops::ControlFlow;
 /// Share of a size, and of the speed of a fall from there, below which gaps and speeds are rounding.
 const ROUNDING_SHARE: f64 = 1e-12;
 
+/// Events that follow each other within this share of the time, or of a second, count as one instant.
+const AT_ONCE: f64 = 1e-12;
+
 /// Events in one instant, per block, beyond which a run cannot go on.
 const EVENTS_AT_ONCE: usize = 16;
 
@@ -180,8 +183,8 @@ struct Run<'p> {
     /// A length of the column `[m]`, and the speed of a fall from there `[m/s]`.
     size: f64,
     speed: f64,
-    /// Interfaces that changed in the last event.
-    last_event: f64,
+    /// Time of the first of the events that follow each other at once `[s]`, and how many they are.
+    first_at_once: f64,
     events_at_once: usize,
     samples: Vec<Sample>,
     sample_segment: usize,
@@ -206,7 +209,7 @@ impl<'p> Run<'p> {
             friction,
             size,
             speed: (size * column.gravity()).sqrt(),
-            last_event: f64::NAN,
+            first_at_once: f64::NEG_INFINITY,
             events_at_once: 0,
             samples: Vec::new(),
             sample_segment: 0,
@@ -306,9 +309,11 @@ impl<'p> Run<'p> {
 
     /// Decides the accelerations at `x⁺` and enters the states that follow; why the run ends, if it does.
     fn enter(&mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> Option<StopReason> {
-        let is_same_instant = self.last_event == self.at.t;
-        self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
-        self.last_event = self.at.t;
+        let is_at_once = self.at.t - self.first_at_once <= AT_ONCE * self.at.t.max(1.0);
+        if !is_at_once {
+            self.first_at_once = self.at.t;
+        }
+        self.events_at_once = if is_at_once { self.events_at_once + 1 } else { 0 };
         if self.events_at_once > EVENTS_AT_ONCE * (self.column().len() + 1) {
             return Some(StopReason::Undetermined);
         }
@@ -328,9 +333,19 @@ impl<'p> Run<'p> {
                 now.omega[interface] = below.map_or(0.0, |below| now.omega[below]);
             }
         }
-        let Some(mut solution) = self.accelerate(&touch, hint) else {
-            self.report.jammed.push(self.at.t);
-            return self.strike(touch, EventKind::Impact, &[]).err();
+        let mut solution = match self.accelerate(&touch, hint) {
+            Some(solution) => solution,
+            None => {
+                // No acceleration is admissible: velocities jump as in an impact (Painlevé).
+                self.report.jammed.push(self.at.t);
+                if let Err(status) = self.strike(touch, EventKind::Impact, &[]) {
+                    return Some(status);
+                }
+                match self.accelerate(&self.touch(), None) {
+                    Some(solution) => solution,
+                    None => return Some(StopReason::Undetermined),
+                }
+            }
         };
         // Hops, bounces and slides lower than the resolution end at once.
         for _ in 0..self.column().len() + 1 {
@@ -493,6 +508,8 @@ impl<'p> Run<'p> {
                     configuration.apart_rate[interface] = answer.rates.apart[interface];
                 }
             }
+            let after = chain.motion(&Rates::of(&configuration));
+            self.report.impact_losses += before.energy(self.column()) - after.energy(self.column());
             self.at.configuration = configuration;
             self.adopt(joints);
         }
