@@ -26,6 +26,9 @@ use std::ops::ControlFlow;
 /// Share of a size, and of the speed of a fall from there, below which gaps and speeds are rounding.
 const ROUNDING_SHARE: f64 = 1e-12;
 
+/// Share of a block's size by which a corner that lands may be below the face: what the search for the landing leaves is far less.
+const SIDE_SHARE: f64 = 1e-8;
+
 /// Events that follow each other within this share of the time, or of a second, count as one instant.
 const AT_ONCE: f64 = 1e-12;
 
@@ -333,7 +336,10 @@ impl<'p> Run<'p> {
                 now.omega[interface] = below.map_or(0.0, |below| now.omega[below]);
             }
         }
-        let mut solution = match self.accelerate(&touch, hint) {
+        // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding.
+        let is_stale = |solution: &Solution| hint.is_some() && solution.joints == before.joints;
+        let found = self.accelerate(&touch, hint).filter(|solution| !is_stale(solution));
+        let mut solution = match found.or_else(|| self.search(&touch).solve_otherwise(&before.joints)) {
             Some(solution) => solution,
             None => {
                 // No acceleration is admissible: velocities jump as in an impact (Painlevé).
@@ -360,7 +366,8 @@ impl<'p> Run<'p> {
         if solution.is_ambiguous {
             self.report.ambiguous.push(self.at.t);
         }
-        self.adopt(&solution.joints);
+        let joints = self.search(&self.touch()).carried(&solution);
+        self.adopt(&joints);
         let changed: Vec<usize> = (0..before.joints.len())
             .filter(|&interface| before.joints[interface] != self.at.configuration.joints[interface])
             .collect();
@@ -394,10 +401,14 @@ impl<'p> Run<'p> {
         }
     }
 
-    fn accelerate(&self, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
+    /// The search for the accelerations of the present configuration.
+    fn search<'s>(&'s self, touch: &'s [Touch]) -> Search<'s> {
         let ground = self.problem.ground_at(self.at.segment, self.at.t);
-        let now = &self.at.configuration;
-        let search = Search::new(self.column(), now, touch, self.friction, Question::Accelerations(ground));
+        Search::new(self.column(), &self.at.configuration, touch, self.friction, Question::Accelerations(ground))
+    }
+
+    fn accelerate(&self, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
+        let search = self.search(touch);
         let mut first = search.first();
         if let Some((interface, joint)) = hint {
             first[interface] = joint;
@@ -414,16 +425,7 @@ impl<'p> Run<'p> {
                 _ => {}
             }
             let now = &mut self.at.configuration;
-            now.joints[interface] = match new {
-                // Under forces, coinciding corners go on along the face that carries them an instant later.
-                Joint::Corner(side, _, Slip::Slides(direction))
-                    if face(&self.problem.scene.column, interface, side, now.slide[interface]) == Face::Both =>
-                {
-                    let on = if direction == side { Face::Upper } else { Face::Lower };
-                    Joint::Corner(side, on, Slip::Slides(direction))
-                }
-                _ => new,
-            };
+            now.joints[interface] = new;
             if new.sticks() {
                 now.slide_rate[interface] = 0.0;
             }
@@ -544,6 +546,13 @@ impl<'p> Run<'p> {
     /// A free interface lands with a corner.
     fn land(&mut self, interface: usize, side: Sign, on: Face) -> Option<StopReason> {
         let chain = Chain::new(self.column(), &self.at.configuration);
+        let [_, above] = guards::gap(&chain, interface, side, on);
+        if above < -SIDE_SHARE * self.size {
+            // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
+            let before = self.at.configuration.clone();
+            self.event(EventKind::Collapsed, &[interface], &before, &[], 0.0);
+            return Some(StopReason::Collapsed);
+        }
         let slide = guards::slide_of_landing(&chain, interface, side, on);
         let other = guards::gap(&chain, interface, -side, on);
         let is_flat = self.at.configuration.gap_angle(interface).abs() <= ROUNDING_SHARE
@@ -565,10 +574,9 @@ impl<'p> Run<'p> {
         let motion = chain.motion(&Rates::of(&before));
         let question = Question::Impact(motion.clone());
         let search = Search::new(self.column(), &before, &touch, self.friction, question);
-        let Some(solution) = search.solve() else {
-            self.report.jammed.push(self.at.t);
-            return Err(StopReason::Undetermined);
-        };
+        // An impact without approach is one that changes the motion.
+        let found = if closing.is_empty() { search.solve_otherwise(&before.joints) } else { search.solve() };
+        let Some(solution) = found else { return Err(StopReason::Undetermined) };
         if solution.is_ambiguous {
             self.report.ambiguous.push(self.at.t);
         }
