@@ -1,6 +1,6 @@
 //! The brute-force oracle for contact with friction (`common/friction_oracle.rs`) against closed forms and against itself.
 //!
-//! Closed forms are those of docs/book/friction.md, section 3, by their numbers there: a homogeneous rectangle, `t = b/h`,
+//! Closed forms are those of docs/book/model.md, section 14, by their numbers there: a homogeneous rectangle, `t = b/h`,
 //! `A = ẍ_g/(g + ÿ_g)`. A ground acceleration to the right makes a block slide and tip to the left.
 
 #[path = "common/friction_oracle.rs"]

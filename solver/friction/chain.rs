@@ -1,4 +1,4 @@
-//! Kinematics of a column whose interfaces stick, slide or are free.
+//! Kinematics of a column whose interfaces stick, slide or are free (docs/book/model.md, section 14).
 //!
 //! From the middle of the lower face of interface `i` to the middle of the upper one leads
 //!

@@ -1,4 +1,4 @@
-//! Guards: functions of time whose first zero ends the states of the interfaces.
+//! Guards: functions of time whose first zero ends the states of the interfaces (docs/book/model.md, section 15).
 //!
 //! ```text
 //! sticks: its force leaves the cone         slides: its rate u̇ falls to zero        corner: N or φ falls to zero, or the corner passes the end of its face

@@ -1,4 +1,4 @@
-//! States of an interface with friction, and the column's configuration.
+//! States of an interface with friction, and the column's configuration (docs/book/model.md, section 13).
 //!
 //! ```text
 //! closed, sticks or slides         the faces lie on each other

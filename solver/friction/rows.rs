@@ -1,4 +1,4 @@
-//! Equations of motion and of impact with friction, row by row.
+//! Equations of motion and of impact with friction, row by row (docs/book/model.md, section 14).
 //!
 //! A row is d'Alembert's principle on a virtual motion: `Σ m_j A_j · δr_j + I_j α_j δθ_j = 0`. Angles and the translations of free interfaces are
 //! tested along themselves. A slide of interface `j` is tested along the face lifted by `ε μ` for a unit of slide, on which the contact does no work:

@@ -1,4 +1,4 @@
-//! The loop of a run with friction, and its record.
+//! The loop of a run with friction, and its record (docs/book/model.md, section 18).
 //!
 //! A scene whose friction is never used up is a scene without friction: it runs as one first, and what that run reports of friction and pressure
 //! decides whether its answer stands. Only otherwise blocks slide or fly, and the run is made anew by the laws of `friction/`.

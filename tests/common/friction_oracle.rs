@@ -2,7 +2,7 @@
 //!
 //! The oracle knows no slides, links or modes. Each block has three coordinates of its own in the frame of the moving ground; blocks
 //! touch at corners; a state of all contacts is a set of rows of constraints `G` and of columns of forces `C`; one dense linear system
-//! gives the motion and what the contacts transmit (docs/book/friction.md):
+//! gives the motion and what the contacts transmit (docs/book/model.md, sections 14, 16 and 17):
 //!
 //! ```text
 //!     [ m  -C ] [ q̈ ]   [ -m (ẍ_g, g + ÿ_g) ]              [ m  -C ] [ v⁺ ]   [ m v⁻ ]
