@@ -8,7 +8,7 @@ use crate::number::{fixed, significant};
 use crate::plot;
 use crate::plot::modes::fill;
 use crate::report::html::script;
-use crate::report::outcome::closed;
+use crate::report::outcome::{changed, closed};
 use rocking::Event;
 use rocking::Record;
 use rocking::pattern::Pattern;
@@ -205,12 +205,16 @@ fn largest_shown(results: &Results) -> Option<f64> {
     (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
-/// Interfaces, from 0, that closed in an impact, or else changed.
+/// Interfaces, from 0, that closed in an impact, slid, parted or landed, or else opened.
 fn interfaces(event: &Event) -> Vec<usize> {
-    if event.kind == EventKind::Impact {
-        return closed(event);
+    match event.kind {
+        EventKind::Impact | EventKind::Landing => closed(event),
+        // A jump names no interface, and a slip changes no sign.
+        EventKind::Start | EventKind::Opening | EventKind::Jump => (0..event.after.0.len())
+            .filter(|&interface| event.before.0[interface] != event.after.0[interface])
+            .collect(),
+        _ => changed(event),
     }
-    (0..event.after.0.len()).filter(|&interface| event.before.0[interface] != event.after.0[interface]).collect()
 }
 
 /// Notes below the player: drift of the ground that is taken out, rows that are left out.

@@ -203,7 +203,7 @@ function drawImpact(c, t, blocks, x, y) {
   const reach = FLASH * speed, seen = new Set();
   for (let i = eventAt(t); i >= 0 && t - run.events[i].t < reach; i--) {
     const { kind, at, t: when } = run.events[i];
-    if (kind !== "impact") continue;
+    if (!strikes(kind)) continue;
     const age = (t - when) / reach;
     for (const joint of at) {
       // Of a joint that chatters, the last impact.
