@@ -442,6 +442,16 @@ impl SlidingReport {
         self.way_slid[interface] > 0.0 || self.flights[interface] > 0
     }
 
+    /// Error of the energy balance, relative to the work of the ground or, without such work, to the largest of the other terms; `None` where
+    /// nothing slid or flew, or only the outcome was wanted.
+    pub fn balance(&self) -> Option<f64> {
+        let SlidingReport { ground_work, friction_work, impact_losses, energy_change, .. } = *self;
+        let open = ground_work + friction_work - impact_losses - energy_change;
+        let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs());
+        let scale = if ground_work == 0.0 { largest } else { ground_work.abs() };
+        (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
+    }
+
     /// What a user must know before believing a run with friction.
     fn warnings(&self, status: StopReason, t_final: f64) -> Vec<String> {
         let mut warnings = Vec::new();

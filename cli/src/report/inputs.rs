@@ -4,8 +4,8 @@ use crate::ground;
 use crate::number::{percent, significant, widths};
 use crate::report::html::definitions;
 use crate::text::escape;
-use rocking::Restitution;
 use rocking::run_folder::Results;
+use rocking::{Friction, Restitution};
 use serde_json::Value;
 use std::fmt::Write as _;
 
@@ -22,7 +22,7 @@ pub fn inputs(results: &Results) -> String {
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
         ("Gravity", format!("{} m/s²", significant(column.gravity(), 6))),
         ("Impacts", restitution(&results.restitution, column.housner_ratio())),
-        ("Friction", results.available_friction().map_or("not given".into(), |friction| significant(friction, 4))),
+        ("Friction", results.friction.as_ref().map_or("not given".into(), coefficients)),
         ("Ground, horizontal", component("horizontal", 0)),
         ("Ground, vertical", component("vertical", 1)),
     ];
@@ -57,6 +57,16 @@ fn blocks(results: &Results) -> String {
          <thead><tr><th scope=\"col\">block</th><th scope=\"col\">width [m]</th><th scope=\"col\">height [m]</th>\
          <th scope=\"col\">mass [kg]</th><th scope=\"col\">inertia [kg m²]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
+}
+
+/// Coefficients of friction in words.
+pub fn coefficients(friction: &Friction) -> String {
+    let list = |values: &[f64]| values.iter().map(|value| significant(*value, 4)).collect::<Vec<_>>().join(", ");
+    let order = if friction.fixed.len().max(friction.kinetic.len()) > 1 { ", base first" } else { "" };
+    match friction.fixed == friction.kinetic {
+        true => format!("{}{order}", list(&friction.fixed)),
+        false => format!("static {}, kinetic {}{order}", list(&friction.fixed), list(&friction.kinetic)),
+    }
 }
 
 /// The contact law; `housner` is the ratio of rates of the column as one body without restitution.
