@@ -79,3 +79,40 @@ fn a_drum_pushed_off_its_support_has_collapsed() {
     let figure = std::fs::read_to_string(folder.path().join("out/time-history.svg")).expect("a figure");
     assert!(figure.contains("collapsed"), "the end of the run is marked");
 }
+
+#[test]
+fn the_page_tells_what_slid_and_whether_the_energy_balance_closes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    run(folder.path(), SLIDES);
+    let page = page(folder.path());
+    assert!(!page.contains("which the model excludes") && !page.contains("the blocks would slide"), "it is modelled");
+    assert!(page.contains(
+        "<strong>The model holds for this run</strong>: sliding and flight are part of it; interfaces 1 and 2 slid"
+    ));
+    assert!(
+        page.contains("Slides per interface") && page.contains("the scene has 0.3, 0.2, base first"),
+        "with coefficients"
+    );
+    let sliding = summary(folder.path())["sliding"].clone();
+    let [ground, friction, losses, change] = ["ground_work", "friction_work", "impact_losses", "energy_change"]
+        .map(|key| sliding[key].as_f64().expect("a number"));
+    // Steps at the default tolerance of 1e-9 and Gauss's rule of order ten.
+    assert!((ground + friction - losses - change).abs() < 1e-9 * ground, "{sliding}");
+    assert!(page.contains("Energy balance: work of the ground") && page.contains("Relative error: "));
+    assert!(page.contains("<p>Ambiguous: none.</p>") && page.contains("<p>Jammed: none.</p>"));
+}
+
+#[test]
+fn slides_are_drawn_where_something_slides() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    run(folder.path(), SLIDES);
+    let figure = std::fs::read_to_string(out.join("slides.svg")).expect("a figure");
+    roxmltree::Document::parse(&figure).expect("XML");
+    assert!(figure.contains("Slide [cm]") && figure.contains("interface 2"), "{}", &figure[..500]);
+    assert!(page(folder.path()).contains("<figure id=\"figure-slides\">"));
+    // The next run of the same folder does not slide: an old figure would lie.
+    run(folder.path(), &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
+    assert!(!out.join("slides.svg").exists() && out.join("forces.svg").exists());
+    assert!(!page(folder.path()).contains("figure-slides"));
+}
