@@ -94,7 +94,7 @@ fn initial(results: &Results) -> Option<String> {
     let first = results.response.samples.first()?;
     let list = |values: &[f64]| values.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");
     let is_zero = |values: &[f64]| values.iter().all(|value| *value == 0.0);
-    let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s")]
+    let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s"), ("slides", &first.slide, "m")]
         .into_iter()
         .filter(|(_, values, _)| !is_zero(values))
         .map(|(name, values, unit)| format!("{name} = {} {unit}", list(values)))
