@@ -116,3 +116,36 @@ fn slides_are_drawn_where_something_slides() {
     assert!(!out.join("slides.svg").exists() && out.join("forces.svg").exists());
     assert!(!page(folder.path()).contains("figure-slides"));
 }
+
+/// A block of t = b/h = 1/4 (FRICTION: closed form 1): its coefficients to rock without sliding at 0.5, 1 and 2 g.
+#[test]
+fn a_check_says_what_slides_before_it_rocks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let check = |friction: f64, amplitude: f64| {
+        let scene = format!(
+            "friction = {friction}\n[column]\nblocks = 1\nhalf_width = 0.25\nhalf_height = 1.0\n\
+             [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = {amplitude}\nomega = 6.0\n"
+        );
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+        let found: Value =
+            serde_json::from_str(&succeeds(folder.path(), &["check", "scene.toml", "--json"])).expect("JSON");
+        (succeeds(folder.path(), &["check", "scene.toml"]), found["contacts"][0].clone())
+    };
+    for (amplitude, expected) in [(0.5, 0.30986), (1.0, 0.41558), (2.0, 0.58427)] {
+        let (text, contact) = check(0.45, amplitude);
+        // Given with five digits.
+        let needed = contact["coefficient_to_rock"].as_f64().expect("a number");
+        assert!((needed - expected).abs() < 5e-6, "{needed}, {expected}");
+        let (verdict, words) = match expected < 0.45 {
+            true => ("rocks", "rocks without sliding"),
+            false => ("slides-and-rocks", "slides and rocks"),
+        };
+        assert_eq!(contact["at_pga"], verdict);
+        assert!(text.contains("interface 1 opens at 0.25 g before it slides at 0.45 g; at the PGA it"), "{text}");
+        assert!(text.contains(words), "{text}");
+    }
+    let (text, contact) = check(0.2, 0.5);
+    assert!(text.contains("interface 1 slides at 0.2 g before it opens at 0.25 g"), "{text}");
+    assert_eq!((&contact["at_pga"], contact["coefficient_to_rock"].is_null()), (&"slides".into(), true));
+    assert_eq!(check(0.2, 0.1).1["at_pga"], "rests");
+}

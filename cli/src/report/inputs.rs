@@ -1,11 +1,11 @@
 //! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
-use crate::number::{percent, significant, widths};
+use crate::number::{coefficients, percent, significant, widths};
 use crate::report::html::definitions;
 use crate::text::escape;
+use rocking::Restitution;
 use rocking::run_folder::Results;
-use rocking::{Friction, Restitution};
 use serde_json::Value;
 use std::fmt::Write as _;
 
@@ -57,16 +57,6 @@ fn blocks(results: &Results) -> String {
          <thead><tr><th scope=\"col\">block</th><th scope=\"col\">width [m]</th><th scope=\"col\">height [m]</th>\
          <th scope=\"col\">mass [kg]</th><th scope=\"col\">inertia [kg m²]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
-}
-
-/// Coefficients of friction in words.
-pub fn coefficients(friction: &Friction) -> String {
-    let list = |values: &[f64]| values.iter().map(|value| significant(*value, 4)).collect::<Vec<_>>().join(", ");
-    let order = if friction.fixed.len().max(friction.kinetic.len()) > 1 { ", base first" } else { "" };
-    match friction.fixed == friction.kinetic {
-        true => format!("{}{order}", list(&friction.fixed)),
-        false => format!("static {}, kinetic {}{order}", list(&friction.fixed), list(&friction.kinetic)),
-    }
 }
 
 /// The contact law; `housner` is the ratio of rates of the column as one body without restitution.

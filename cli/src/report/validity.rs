@@ -1,8 +1,7 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations; with friction, what slid and flew, and
 //! whether the energy balance closes.
 
-use crate::number::{fixed, percent, significant};
-use crate::report::inputs::coefficients;
+use crate::number::{coefficients, fixed, percent, significant};
 use crate::text::escape;
 use rocking::run_folder::Results;
 use rocking::{ContactTimes, SlidingReport, StopReason};
