@@ -6,8 +6,10 @@ use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
 use rocking_ground::Excitation;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::f64::consts::FRAC_PI_2;
+use std::ops::RangeInclusive;
 
 /// What impacts do beyond the plastic law of docs/book/model.md, section 5.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -64,7 +66,7 @@ pub struct Initial {
 }
 
 /// Whose right-hand sides are used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DynamicsSource {
@@ -75,8 +77,20 @@ pub enum DynamicsSource {
     Generic,
     /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones for
     /// what they have not got. Serialised they are a name, which cannot be read back.
-    #[serde(untagged, skip_deserializing)]
+    #[serde(untagged)]
     Supplied(Equations),
+}
+
+impl<'de> Deserialize<'de> for DynamicsSource {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<DynamicsSource, D::Error> {
+        match &*String::deserialize(from)? {
+            "generated" => Ok(DynamicsSource::Generated),
+            "generic" => Ok(DynamicsSource::Generic),
+            name => Err(D::Error::custom(format!(
+                "equations `{name}` are supplied by a program; read the scene with `generated` and supply them again"
+            ))),
+        }
+    }
 }
 
 /// What a run is to find.
@@ -154,6 +168,31 @@ const SHORTEST_RUN: f64 = 1e-9;
 
 /// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
 pub(crate) const LARGEST: f64 = 1e6;
+
+/// Half-widths and half-heights of blocks `[m]`. A block of 1e-7 m rocks at thousands of radians a second, and its rotation of 1e-9 rad, below
+/// which an interface closes, moves a corner by the size of an atomic nucleus. Beyond, positions and areas of figures lose their digits.
+const LENGTHS: RangeInclusive<f64> = 1e-7..=1e6;
+
+/// Largest ratio of two lengths of a column. Corners are sums of lengths, rounded to 1e-16 of the largest: the smallest keeps eight digits.
+/// Larger, and the contact search cannot tell on which corner a resultant acts, and impacts follow each other for ever.
+const LENGTH_RATIO: f64 = 1e8;
+
+/// Masses of blocks `[kg]`, and per metre of thickness: products of masses with squares of lengths and rates stay in the range of doubles.
+const MASSES: RangeInclusive<f64> = 1e-30..=1e30;
+
+/// Largest ratio of two masses of a column. The mass matrix sums them, rounded to 1e-16 of the largest: the lightest block keeps six digits.
+/// Larger, and the matrix is singular to rounding.
+const MASS_RATIO: f64 = 1e10;
+
+/// Inertia of a block as a share of `m (b² + h²)`, dimensionless; one third for a rectangle, one with all mass in the corners. Beyond, the mass
+/// matrix loses as many digits.
+const INERTIAS: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// Gravity `[m/s²]`: below, a column takes days to fall; beyond, it rocks thousands of times a second.
+const GRAVITIES: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// Length of a run in `1/p` of the stack that rocks fastest, dimensionless: a run has some steps in each, and some microseconds a step.
+const MOST_RADIANS: f64 = 1e7;
 
 /// What is simulated: [`Scene::new`] with fields of its own.
 ///
@@ -252,11 +291,63 @@ impl Scene {
     /// [`SceneErrors`], everything found.
     pub fn check(&self) -> Result<(), SceneErrors> {
         let mut faults = Faults::default();
+        self.check_column(&mut faults);
         self.check_options(&mut faults);
         self.check_excitation(&mut faults);
         self.check_restitution(&mut faults);
         self.check_initial(&mut faults);
         if faults.0.is_empty() { Ok(()) } else { Err(SceneErrors(faults.0)) }
+    }
+
+    fn check_column(&self, faults: &mut Faults) {
+        let (blocks, gravity) = (self.column.blocks(), self.column.gravity());
+        if !GRAVITIES.contains(&gravity) {
+            faults.note("gravity", format!("{gravity:e} m/s² is out of range"), "give 1e-6 to 1e6 m/s²");
+        }
+        let mut largest = [0.0f64; 2];
+        for block in blocks {
+            let sizes = [block.half_width().max(block.half_height), block.mass];
+            largest = [0, 1].map(|kind| largest[kind].max(sizes[kind]));
+        }
+        let extremes = [(LENGTHS, LENGTH_RATIO, "m"), (MASSES, MASS_RATIO, "kg")];
+        // Equal blocks have equal faults: the first of them is named.
+        let is_first = |index: &usize| blocks[..*index].last() != Some(&blocks[*index]);
+        for index in (0..blocks.len()).filter(is_first) {
+            let block = &blocks[index];
+            let quantities =
+                [("half_width", block.half_width(), 0), ("half_height", block.half_height, 0), ("mass", block.mass, 1)];
+            for (name, value, kind) in quantities {
+                let (key, (range, ratio, unit)) = (format!("block[{}].{name}", index + 1), &extremes[kind]);
+                if !range.contains(&value) {
+                    let remedy = format!("give {:e} to {:e} {unit}", range.start(), range.end());
+                    faults.note(&key, format!("{value:e} {unit} is out of range"), &remedy);
+                } else if range.contains(&largest[kind]) && value * ratio < largest[kind] {
+                    let problem = format!("{value:e} {unit} is lost in rounding beside {:e} {unit}", largest[kind]);
+                    faults.note(&key, problem, &format!("let sizes differ by less than a factor of {ratio:e}"));
+                }
+            }
+            let diagonal = block.half_width() * block.half_width() + block.half_height * block.half_height;
+            let share = block.inertia / (block.mass * diagonal);
+            if !INERTIAS.contains(&share) {
+                let problem = format!("{:e} kg m² is {share:e} of mass · (half_width² + half_height²)", block.inertia);
+                faults.note(
+                    &format!("block[{}].inertia", index + 1),
+                    problem,
+                    "give a share of 1e-6 to 1e6, or leave it out",
+                );
+            }
+        }
+        let frequency = |interface: usize| self.column.stack(interface).frequency_parameter();
+        let fastest = (0..blocks.len()).map(frequency).fold(0.0, f64::max);
+        if faults.0.is_empty() && fastest * self.options.t_end > MOST_RADIANS {
+            let problem = format!(
+                "{} s are {:e} times 1/p = {:e} s of the smallest stack",
+                self.options.t_end,
+                fastest * self.options.t_end,
+                1.0 / fastest
+            );
+            faults.note("solver.t_end", problem, "give at most 1e7 times 1/p, or larger blocks");
+        }
     }
 
     fn check_options(&self, faults: &mut Faults) {
@@ -301,8 +392,8 @@ impl Scene {
             faults.note("solver.stick_angle", problem, "give at least 1e-20");
         }
         let rows = options.t_end / self.output_dt.unwrap_or(f64::INFINITY);
-        if options.t_end.is_finite() && rows > MOST_ROWS {
-            let problem = format!("{rows:e} rows up to t_end are too many");
+        if options.t_end.is_finite() && rows * (self.column.len() as f64 + BLOCKS_PER_ROW) > MOST_ROWS_OF_BLOCKS {
+            let problem = format!("{rows:e} rows up to t_end are too many for the memory");
             faults.note("output.dt", problem, "give output.dt a larger value, or lower solver.t_end");
         }
     }
@@ -377,5 +468,9 @@ impl Scene {
     }
 }
 
-/// Rows of a response beyond which an output interval is taken for a mistake.
-const MOST_ROWS: f64 = 1e7;
+/// Rows of a response, times blocks: a row takes 16 bytes of memory a block, and as much as ten blocks beside, twice while the list grows.
+/// Together 160 MB.
+const MOST_ROWS_OF_BLOCKS: f64 = 5e6;
+
+/// What a row takes beside its blocks, in blocks.
+const BLOCKS_PER_ROW: f64 = 10.0;

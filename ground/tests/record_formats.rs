@@ -625,12 +625,15 @@ fn every_record_beside_the_project_has_the_peak_of_its_readme() {
 fn a_record_remembers_its_origin_where_a_run_is_described() {
     let record = read("dyna/XX.MIB..HNE.D.64.ASC", &options()).into_record().expect("valid");
     let record = record.named("XX.MIB..HNE.D.64.ASC").scaled(2.0).expect("finite");
-    let json = serde_json::to_value(rocking_ground::Motion::Record(record)).expect("described");
+    let motion = rocking_ground::Motion::Record(record);
+    let json = serde_json::to_value(motion.description()).expect("described");
     assert_eq!(json["kind"], "record");
     assert_eq!((&json["samples"], &json["scale"], &json["component"]), (&42.into(), &2.0.into(), &"HNE".into()));
     assert_eq!((&json["file"], &json["station"]), (&"XX.MIB..HNE.D.64.ASC".into(), &"XX.MIB (MILL_BRIDGE)".into()));
     assert!((json["peak"].as_f64().expect("a number") - 4.786_711).abs() < 1e-9);
     assert!(json.get("accel").is_none());
+    let whole = serde_json::to_value(&motion).expect("serialised");
+    assert_eq!(serde_json::from_value::<rocking_ground::Motion>(whole).expect("a motion"), motion);
 }
 
 proptest! {

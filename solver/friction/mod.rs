@@ -15,6 +15,9 @@ pub mod joint;
 pub mod rows;
 pub mod search;
 
+#[cfg(test)]
+mod oracle_test;
+
 use search::Coefficients;
 use serde::{Deserialize, Serialize};
 

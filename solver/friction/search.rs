@@ -60,6 +60,9 @@ pub struct Solution {
 /// Share of the forces, or velocities, at work below which a condition is violated by rounding only.
 const ROUNDING_SHARE: f64 = 1e-10;
 
+/// Share of the speed at work by which an impact must change some velocity to be one.
+const JUMP_SHARE: f64 = 1e-9;
+
 /// Combinations that are tried one by one at most; beyond, the search ends without an answer. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
 
@@ -126,8 +129,42 @@ impl<'a> Search<'a> {
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
         match guided {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
-            _ => self.tried(&first),
+            _ => self.tried(&first, |_, _| true),
         }
+    }
+
+    /// The states that follow if these do not, and of an impact those that change the motion; `None` if there are no others.
+    pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
+        self.tried(&self.first(), |joints, answer| match self.question {
+            Question::Accelerations(_) => joints != excluded,
+            Question::Impact(_) => {
+                let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
+                fastest > JUMP_SHARE * self.scale.linear
+            }
+        })
+    }
+
+    /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them.
+    pub fn carried(&self, solution: &Solution) -> Vec<Joint> {
+        let mut joints = solution.joints.clone();
+        for interface in 0..joints.len() {
+            let Joint::Corner(side, _, Slip::Slides(direction)) = joints[interface] else { continue };
+            if face(self.column, interface, side, self.now.slide[interface]) != Face::Both {
+                continue;
+            }
+            let on = if direction == side { Face::Upper } else { Face::Lower };
+            joints[interface] = Joint::Corner(side, on, Slip::Slides(direction));
+            let holds = self.answer(&joints).is_some_and(|answer| {
+                let along = f64::from(direction) * answer.rates.slide[interface];
+                let is_given = self.given_slip(interface).is_some();
+                answer.contacts[interface].normal >= -ROUNDING_SHARE * self.scale.force
+                    && (is_given || along >= -ROUNDING_SHARE * self.scale.linear)
+            });
+            if !holds {
+                joints[interface] = Joint::Free;
+            }
+        }
+        joints
     }
 
     /// The states with which the search begins: what touches sticks, what slides goes on.
@@ -231,8 +268,8 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// All combinations, those with few changes first.
-    fn tried(&self, first: &[Joint]) -> Option<Solution> {
+    /// The best of all admissible combinations that are wanted: few changes first.
+    fn tried(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
         let choices: Vec<Vec<Joint>> = (0..first.len()).map(|i| self.choices(i)).collect();
         let count = choices.iter().fold(1usize, |count, list| count.saturating_mul(list.len()));
         if count > MOST_TRIED {
@@ -251,7 +288,7 @@ impl<'a> Search<'a> {
         for code in 0..count {
             let joints = combination(code);
             let Some(answer) = self.answer(&joints) else { continue };
-            if (0..joints.len()).all(|i| self.required(&joints, &answer, i).is_none()) {
+            if is_wanted(&joints, &answer) && (0..joints.len()).all(|i| self.required(&joints, &answer, i).is_none()) {
                 let changes = if matches!(self.question, Question::Impact(_)) { 0 } else { changes(&joints) };
                 let energy = answer.change.energy(self.column);
                 admissible.push((changes, energy, joints, answer));

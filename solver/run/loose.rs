@@ -373,6 +373,9 @@ impl Step<'_, '_> {
         if !guard.may_start_from_zero() || start > noise {
             return first_crossing(|s| self.value(guard, s), start, limit);
         }
+        if start < -8.0 * noise {
+            return Some(0.0);
+        }
         // A place at which the guard has left its start, before it comes back.
         let (mut near, mut end) = (NEAR_START * limit, limit);
         while near < 0.1 * limit && self.value(guard, near).abs() <= 8.0 * noise {

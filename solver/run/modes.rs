@@ -19,7 +19,15 @@ pub(crate) struct Modes {
     basis: Option<Basis>,
     rest: Rest,
     entered: Vec<Entered>,
+    /// Number of phases among the entered patterns.
+    kept: usize,
+    /// Work of the present run in phases that were dropped.
+    dropped: Work,
 }
+
+/// Phases that are kept. A column of 100 blocks enters tens of thousands of patterns, most of them once, with 100 kB each; columns of up to six
+/// blocks have fewer patterns than this.
+const MOST_KEPT: usize = 1000;
 
 /// All that a mode depends on.
 #[derive(PartialEq)]
@@ -35,7 +43,8 @@ struct Entered {
     pattern: Pattern,
     /// Name of its mode.
     name: String,
-    phase: Phase,
+    /// `None` where it was dropped: it is built again when it is entered.
+    phase: Option<Phase>,
     is_generic: bool,
     /// Whether the present run has entered it.
     is_entered: bool,
@@ -63,6 +72,7 @@ impl Modes {
             let both = |(_, pattern): (_, Pattern)| [pattern.mirror(), pattern];
             let patterns = modes(problem.scene.column.len()).flat_map(both);
             self.entered = patterns.map(|pattern| self.built(&pattern, problem)).collect();
+            self.kept = self.entered.len();
         }
         self.entered.iter_mut().for_each(|entered| entered.is_entered = false);
     }
@@ -81,17 +91,34 @@ impl Modes {
             self.rest.enter(problem, after);
             return (Modes::REST, &mut self.rest);
         }
+        if self.kept >= MOST_KEPT {
+            self.drop_phases();
+        }
         let index = match self.entered.iter().position(|entered| entered.pattern == after.pattern) {
             Some(index) => index,
             None => {
                 self.entered.push(self.built(&after.pattern, problem));
+                self.kept += 1;
                 self.entered.len() - 1
             }
         };
+        if self.entered[index].phase.is_none() {
+            self.entered[index].phase = self.built(&after.pattern, problem).phase;
+            self.kept += 1;
+        }
         let entered = &mut self.entered[index];
         entered.is_entered = true;
-        entered.phase.enter(problem, after);
-        (index + 1, &mut entered.phase)
+        let phase = entered.phase.as_mut().expect("it was built above");
+        phase.enter(problem, after);
+        (index + 1, phase)
+    }
+
+    /// Drops all phases, and keeps their work.
+    fn drop_phases(&mut self) {
+        for mut phase in self.entered.iter_mut().filter_map(|entered| entered.phase.take()) {
+            self.dropped.add(&phase.take_work());
+        }
+        self.kept = 0;
     }
 
     fn built(&self, pattern: &Pattern, problem: &Problem) -> Entered {
@@ -107,7 +134,7 @@ impl Modes {
         Entered {
             pattern: pattern.clone(),
             name: ModeName::of(pattern).to_string(),
-            phase: Phase::new(&mode, problem),
+            phase: Some(Phase::new(&mode, problem)),
             is_generic,
             is_entered: false,
         }
@@ -128,9 +155,12 @@ impl Modes {
     pub fn take_work(&mut self) -> Work {
         let with_vertical = self.ground() == GroundMotion::WithVertical;
         let mut work = Work { with_vertical, ..self.rest.take_work() };
+        work.add(&std::mem::take(&mut self.dropped));
         for entered in self.entered.iter_mut().filter(|entered| entered.is_entered) {
             work.modes_entered += 1;
-            work.add(&entered.phase.take_work());
+            if let Some(phase) = &mut entered.phase {
+                work.add(&phase.take_work());
+            }
         }
         work
     }

@@ -28,6 +28,12 @@ use std::ops::ControlFlow;
 /// Share of a size, and of the speed of a fall from there, below which gaps and speeds are rounding.
 const ROUNDING_SHARE: f64 = 1e-12;
 
+/// Share of a block's size by which a corner that lands may be below the face: what the search for the landing leaves is far less.
+const SIDE_SHARE: f64 = 1e-8;
+
+/// Events that follow each other within this share of the time, or of a second, count as one instant.
+const AT_ONCE: f64 = 1e-12;
+
 /// Events in one instant, per block, beyond which a run cannot go on.
 const EVENTS_AT_ONCE: usize = 16;
 
@@ -182,8 +188,8 @@ struct Run<'p> {
     /// A length of the column `[m]`, and the speed of a fall from there `[m/s]`.
     size: f64,
     speed: f64,
-    /// Interfaces that changed in the last event.
-    last_event: f64,
+    /// Time of the first of the events that follow each other at once `[s]`, and how many they are.
+    first_at_once: f64,
     events_at_once: usize,
     samples: Vec<Sample>,
     sample_segment: usize,
@@ -208,7 +214,7 @@ impl<'p> Run<'p> {
             friction,
             size,
             speed: (size * column.gravity()).sqrt(),
-            last_event: f64::NAN,
+            first_at_once: f64::NEG_INFINITY,
             events_at_once: 0,
             samples: Vec::new(),
             sample_segment: 0,
@@ -308,9 +314,11 @@ impl<'p> Run<'p> {
 
     /// Decides the accelerations at `x⁺` and enters the states that follow; why the run ends, if it does.
     fn enter(&mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> Option<StopReason> {
-        let is_same_instant = self.last_event == self.at.t;
-        self.events_at_once = if is_same_instant { self.events_at_once + 1 } else { 0 };
-        self.last_event = self.at.t;
+        let is_at_once = self.at.t - self.first_at_once <= AT_ONCE * self.at.t.max(1.0);
+        if !is_at_once {
+            self.first_at_once = self.at.t;
+        }
+        self.events_at_once = if is_at_once { self.events_at_once + 1 } else { 0 };
         if self.events_at_once > EVENTS_AT_ONCE * (self.column().len() + 1) {
             return Some(StopReason::Undetermined);
         }
@@ -330,9 +338,22 @@ impl<'p> Run<'p> {
                 now.omega[interface] = below.map_or(0.0, |below| now.omega[below]);
             }
         }
-        let Some(mut solution) = self.accelerate(&touch, hint) else {
-            self.report.jammed.push(self.at.t);
-            return self.strike(touch, EventKind::Impact, &[]).err();
+        // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding.
+        let is_stale = |solution: &Solution| hint.is_some() && solution.joints == before.joints;
+        let found = self.accelerate(&touch, hint).filter(|solution| !is_stale(solution));
+        let mut solution = match found.or_else(|| self.search(&touch).solve_otherwise(&before.joints)) {
+            Some(solution) => solution,
+            None => {
+                // No acceleration is admissible: velocities jump as in an impact (Painlevé).
+                self.report.jammed.push(self.at.t);
+                if let Err(status) = self.strike(touch, EventKind::Impact, &[]) {
+                    return Some(status);
+                }
+                match self.accelerate(&self.touch(), None) {
+                    Some(solution) => solution,
+                    None => return Some(StopReason::Undetermined),
+                }
+            }
         };
         // Hops, bounces and slides lower than the resolution end at once.
         for _ in 0..self.column().len() + 1 {
@@ -347,7 +368,8 @@ impl<'p> Run<'p> {
         if solution.is_ambiguous {
             self.report.ambiguous.push(self.at.t);
         }
-        self.adopt(&solution.joints);
+        let joints = self.search(&self.touch()).carried(&solution);
+        self.adopt(&joints);
         let changed: Vec<usize> = (0..before.joints.len())
             .filter(|&interface| before.joints[interface] != self.at.configuration.joints[interface])
             .collect();
@@ -381,10 +403,14 @@ impl<'p> Run<'p> {
         }
     }
 
-    fn accelerate(&self, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
+    /// The search for the accelerations of the present configuration.
+    fn search<'s>(&'s self, touch: &'s [Touch]) -> Search<'s> {
         let ground = self.problem.ground_at(self.at.segment, self.at.t);
-        let now = &self.at.configuration;
-        let search = Search::new(self.column(), now, touch, self.friction, Question::Accelerations(ground));
+        Search::new(self.column(), &self.at.configuration, touch, self.friction, Question::Accelerations(ground))
+    }
+
+    fn accelerate(&self, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
+        let search = self.search(touch);
         let mut first = search.first();
         if let Some((interface, joint)) = hint {
             first[interface] = joint;
@@ -401,16 +427,7 @@ impl<'p> Run<'p> {
                 _ => {}
             }
             let now = &mut self.at.configuration;
-            now.joints[interface] = match new {
-                // Under forces, coinciding corners go on along the face that carries them an instant later.
-                Joint::Corner(side, _, Slip::Slides(direction))
-                    if face(&self.problem.scene.column, interface, side, now.slide[interface]) == Face::Both =>
-                {
-                    let on = if direction == side { Face::Upper } else { Face::Lower };
-                    Joint::Corner(side, on, Slip::Slides(direction))
-                }
-                _ => new,
-            };
+            now.joints[interface] = new;
             if new.sticks() {
                 now.slide_rate[interface] = 0.0;
             }
@@ -495,6 +512,8 @@ impl<'p> Run<'p> {
                     configuration.apart_rate[interface] = answer.rates.apart[interface];
                 }
             }
+            let after = chain.motion(&Rates::of(&configuration));
+            self.report.impact_losses += before.energy(self.column()) - after.energy(self.column());
             self.at.configuration = configuration;
             self.adopt(joints);
         }
@@ -529,6 +548,13 @@ impl<'p> Run<'p> {
     /// A free interface lands with a corner.
     fn land(&mut self, interface: usize, side: Sign, on: Face) -> Option<StopReason> {
         let chain = Chain::new(self.column(), &self.at.configuration);
+        let [_, above] = guards::gap(&chain, interface, side, on);
+        if above < -SIDE_SHARE * self.size {
+            // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
+            let before = self.at.configuration.clone();
+            self.event(EventKind::Collapsed, &[interface], &before, &[], 0.0);
+            return Some(StopReason::Collapsed);
+        }
         let slide = guards::slide_of_landing(&chain, interface, side, on);
         let other = guards::gap(&chain, interface, -side, on);
         let is_flat = self.at.configuration.gap_angle(interface).abs() <= ROUNDING_SHARE
@@ -550,10 +576,9 @@ impl<'p> Run<'p> {
         let motion = chain.motion(&Rates::of(&before));
         let question = Question::Impact(motion.clone());
         let search = Search::new(self.column(), &before, &touch, self.friction, question);
-        let Some(solution) = search.solve() else {
-            self.report.jammed.push(self.at.t);
-            return Err(StopReason::Undetermined);
-        };
+        // An impact without approach is one that changes the motion.
+        let found = if closing.is_empty() { search.solve_otherwise(&before.joints) } else { search.solve() };
+        let Some(solution) = found else { return Err(StopReason::Undetermined) };
         if solution.is_ambiguous {
             self.report.ambiguous.push(self.at.t);
         }

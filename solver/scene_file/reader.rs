@@ -110,7 +110,13 @@ impl Reader<'_> {
 
     /// A fault that [`Scene::check`] found, at the key that it names.
     pub fn refused(&self, root: &Table, fault: &SceneError) -> SceneFileError {
-        let SceneError { key, problem, remedy, .. } = fault.clone();
+        let SceneError { mut key, problem, remedy, .. } = fault.clone();
+        // Equal blocks of a `[column]` have its sizes.
+        if let (Some((_, name)), true) =
+            (key.strip_prefix("block").and_then(|key| key.split_once('.')), root.has("column"))
+        {
+            key = format!("column.{name}");
+        }
         self.error(Wrong { place: root.find(&key), key, problem, remedy, cause: Cause::Value })
     }
 

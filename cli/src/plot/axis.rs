@@ -19,9 +19,13 @@ const ROOM: f64 = 0.06;
 /// Half of the range of an axis whose values are all zero: its numbers are short.
 const STILL: f64 = 0.1;
 
+/// Ranges below this are empty: steps between their ticks would leave the range of doubles.
+const SHORTEST: f64 = 1e-290;
+
 impl Axis {
-    /// From `range[0]` to `range[1]`, with at least so many ticks.
+    /// From `range[0]` to `range[1]`, with at least so many ticks; an empty range is widened, as no step divides it.
     pub fn over(label: &str, range: [f64; 2], ticks: usize) -> Axis {
+        let range = if range[1] - range[0] > SHORTEST { range } else { [range[0], range[0] + STILL] };
         Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
     }
 
@@ -109,6 +113,14 @@ pub fn brief(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A friction coefficient of zero and a run without friction demand once made an axis whose step was sought for ever.
+    #[test]
+    fn an_empty_range_is_widened() {
+        let axis = Axis::over("", [0.0, 0.0], 4);
+        assert_eq!((axis.range, axis.step), ([0.0, STILL], 0.02));
+        assert_eq!(Axis::over("", [0.0, 5e-324], 4), axis);
+    }
 
     #[test]
     fn ticks_are_at_round_numbers() {

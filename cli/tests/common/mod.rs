@@ -22,7 +22,7 @@ pub fn rocking(folder: &Path, arguments: &[&str]) -> Output {
 
 /// Address space of a command that may be given anything [KiB].
 #[cfg(unix)]
-const MEMORY: u32 = 1 << 20;
+const MEMORY: u32 = 200 << 10;
 
 /// `rocking` in `folder`, in little memory and at most ten seconds of processor time.
 #[cfg(unix)]
@@ -30,7 +30,7 @@ pub fn limited(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new("sh");
     command.args([
         "-c",
-        &format!("ulimit -v {MEMORY}; ulimit -t 10; exec \"$0\" \"$@\""),
+        &format!("ulimit -v {MEMORY}; ulimit -t 10; export MALLOC_ARENA_MAX=1; exec \"$0\" \"$@\""),
         env!("CARGO_BIN_EXE_rocking"),
     ]);
     command.args(arguments).current_dir(folder);

@@ -1,0 +1,223 @@
+//! Claims about runs with friction: closed forms, and what holds for all of them (docs/book/model.md, on friction).
+
+mod common;
+
+use approx::assert_relative_eq;
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use rocking::ground::Motion;
+use rocking::{Block, Column, EventKind, Friction, Response, Scene, StopReason, simulate};
+
+const GRAVITY: f64 = 9.81;
+
+fn scene(blocks: Vec<Block>, friction: Vec<f64>) -> Scene {
+    let mut scene = Scene::new(Column::new(blocks, GRAVITY).expect("valid"));
+    scene.friction = Some(Friction::new(friction.clone(), friction));
+    scene
+}
+
+fn run(scene: &Scene) -> Response {
+    simulate(scene).expect("it runs")
+}
+
+fn slide(response: &Response, interface: usize) -> f64 {
+    response.sliding.as_ref().expect("a run with friction").residual_slide[interface]
+}
+
+/// Newmark's block under a rectangular pulse `A g` for `t_1`: slides by `½ A g t_1² (A/μ - 1)`, stops at `A t_1/μ`.
+#[test]
+fn a_block_slides_under_a_rectangular_pulse_as_newmarks() {
+    let (a, mu, duration) = (0.8, 0.2, 0.3);
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.5, 1.0)], vec![mu]);
+    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: a * GRAVITY, start: 0.0, duration });
+    scene.options.t_end = 3.0;
+    let response = run(&scene);
+    // Constant accelerations: steps are exact but for rounding.
+    let expected = -0.5 * a * GRAVITY * duration * duration * (a / mu - 1.0);
+    assert_relative_eq!(slide(&response, 0), expected, max_relative = 1e-10);
+    let stop = response.events.iter().find(|event| event.kind == EventKind::Stick).expect("it stops");
+    assert_relative_eq!(stop.t, a * duration / mu, max_relative = 1e-10);
+    assert_eq!(response.status, StopReason::AtRest);
+}
+
+/// The same under a half-sine: from 0.083333 to 0.677308 s, 0.338955 m.
+#[test]
+fn a_block_slides_under_a_half_sine_as_newmarks() {
+    let mut scene = scene(vec![Block::rectangle(1.2, 0.5, 1.0)], vec![0.5]);
+    let omega = std::f64::consts::PI / 0.5;
+    scene.excitation.horizontal = Some(Motion::HalfSine { amplitude: GRAVITY, omega, start: 0.0 });
+    scene.options.t_end = 2.0;
+    scene.options.rtol = 1e-12;
+    scene.options.atol = 1e-14;
+    let response = run(&scene);
+    // Speed (A g T/π)(cos ωt_0 - cos ωt) - μ g (t - t_0), then at rest on a ground that stands still.
+    let start = (0.5f64).asin() / omega;
+    let speed = |t: f64| GRAVITY / omega * ((omega * start).cos() - (omega * t).cos()) - 0.5 * GRAVITY * (t - start);
+    let end = 0.5;
+    let way = |t: f64| {
+        let ramp = (omega * start).cos() * (t - start) - ((omega * t).sin() - (omega * start).sin()) / omega;
+        GRAVITY / omega * ramp - 0.25 * GRAVITY * (t - start) * (t - start)
+    };
+    let stop = end + speed(end) / (0.5 * GRAVITY);
+    let distance = way(end) + speed(end) * speed(end) / GRAVITY;
+    assert!((stop - 0.677308).abs() < 1e-6 && (distance - 0.338955).abs() < 1e-6);
+    let kinds: Vec<(EventKind, f64)> = response.events.iter().map(|event| (event.kind, event.t)).collect();
+    assert_relative_eq!(kinds[0].1, start, max_relative = 1e-10);
+    assert_relative_eq!(kinds.last().expect("two events").1, stop, max_relative = 1e-10);
+    assert_relative_eq!(slide(&response, 0), -distance, max_relative = 1e-10);
+}
+
+/// Two equal blocks that only slide, μ = (0.5, 0.3): relative accelerations at A = 0.6 and 1.
+#[test]
+fn two_blocks_slide_with_the_accelerations_of_the_closed_form() {
+    for (a, lower, upper) in [(0.6, 0.0, 2.943), (1.0, 2.943, 3.924)] {
+        let mut scene = scene(vec![Block::rectangle(2.0, 0.3, 1.0); 2], vec![0.5, 0.3]);
+        scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: a * GRAVITY, start: 0.0, duration: 1.0 });
+        scene.options.t_end = 0.1;
+        let response = run(&scene);
+        for (interface, expected) in [lower, upper].into_iter().enumerate() {
+            assert_relative_eq!(slide(&response, interface), -0.5 * expected * 0.01, max_relative = 1e-10);
+        }
+    }
+}
+
+/// A ground that falls faster than gravity: all blocks fly and land together at `t_1 (B + √(B(B - 1)))`.
+#[test]
+fn blocks_fly_and_land_together() {
+    for count in 1..=4 {
+        let mut scene = scene(vec![Block::rectangle(0.4, 0.3, 1.0); count], vec![0.6; count]);
+        scene.excitation.vertical = Some(Motion::Rectangular { amplitude: -1.5 * GRAVITY, start: 0.0, duration: 0.2 });
+        scene.options.t_end = 1.0;
+        scene.output_dt = Some(0.001);
+        let response = run(&scene);
+        let landing = response.events.iter().find(|event| event.kind == EventKind::Landing).expect("they land");
+        assert_relative_eq!(landing.t, 0.2 * (1.5 + 0.75f64.sqrt()), max_relative = 1e-10);
+        let highest = response.samples.iter().map(|sample| sample.gap[0]).fold(0.0, f64::max);
+        // Rows of a millisecond miss the top by ½ g (0.5 ms)².
+        assert!((highest - 0.14715).abs() < 2e-6, "{highest}");
+        assert_eq!(response.status, StopReason::AtRest, "{:?}", response.events);
+    }
+}
+
+/// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`, otherwise it slides and `ω⁺/ω⁻ = (1 - 2t² + 3μt)/(1 + 4t² - 3μt)`.
+#[test]
+fn a_landing_slides_below_the_friction_of_the_closed_form() {
+    let t = 0.25f64;
+    let critical = 3.0 * t / (4.0 + t * t);
+    for mu in [0.5 * critical, 6.0 / 65.0, 0.99 * critical, 1.01 * critical] {
+        let mut scene = scene(vec![Block::rectangle(0.25, 1.0, 1.0)], vec![mu]);
+        // Released slightly opened, it sticks until it lands.
+        scene.initial.theta = vec![1e-4];
+        scene.options.t_end = 0.5;
+        let response = run(&scene);
+        let impact = response.events.iter().find(|event| event.kind == EventKind::Impact).expect("it lands");
+        let found = impact.omega_after[0] / impact.omega_before[0];
+        let slides = (1.0 - 2.0 * t * t + 3.0 * mu * t) / (1.0 + 4.0 * t * t - 3.0 * mu * t);
+        let sticks = 1.0 - 1.5 * t * t / (1.0 + t * t);
+        let expected = if mu < critical { slides } else { sticks };
+        assert_relative_eq!(found, expected, max_relative = 1e-12);
+    }
+}
+
+/// From rest under a constant acceleration: rests, slides, rocks, or both at once, by the closed form.
+#[test]
+fn a_block_at_rest_starts_as_the_closed_form_says() {
+    for t in [0.25, 0.5] {
+        for a in [0.2, 0.5, 1.0, 2.0] {
+            let critical = (a * (1.0 + 4.0 * t * t) + 3.0 * t) / (4.0 + t * t + 3.0 * a * t);
+            for mu in [0.1, 0.3, critical - 1e-6, critical + 1e-6, 1.0, 3.0] {
+                let mut scene = scene(vec![Block::rectangle(t, 1.0, 1.0)], vec![mu]);
+                scene.excitation.horizontal =
+                    Some(Motion::Rectangular { amplitude: a * GRAVITY, start: 0.0, duration: 1.0 });
+                scene.options.t_end = 1e-3;
+                let response = run(&scene);
+                let way = slide(&response, 0).abs();
+                let moves = [way > 1e-16, response.peak_theta[0] > 1e-16];
+                let expected = match () {
+                    () if a <= f64::min(mu, t) => [false, false],
+                    () if mu < a && mu <= t => [true, false],
+                    () => [mu < critical, true],
+                };
+                assert_eq!(moves, expected, "t {t} a {a} mu {mu}: {way:e} {:?}", response.peak_theta);
+            }
+        }
+    }
+}
+
+fn random_scenes(count: usize) -> impl Iterator<Item = Scene> {
+    let mut runner = common::runner(0);
+    let block = (0.2f64..0.6, 0.3f64..1.0).prop_map(|(b, h)| Block::rectangle(b, h, 1.0));
+    let strategy = (prop::collection::vec(block, 1..4), 0.1f64..0.8, 3.0f64..12.0, 0.2f64..0.8);
+    (0..count).map(move |_| {
+        let (blocks, amplitude, omega, mu) =
+            strategy.new_tree(&mut runner).expect("a strategy without filters").current();
+        let count = blocks.len();
+        let mut scene = scene(blocks, vec![mu; count]);
+        scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: amplitude * GRAVITY, omega, start: 0.02 });
+        scene.options.t_end = 3.0;
+        scene.output_dt = Some(0.05);
+        scene
+    })
+}
+
+#[test]
+fn friction_that_is_never_used_up_changes_no_bit() {
+    let mut held = 0;
+    for mut scene in random_scenes(500) {
+        scene.friction = Some(Friction::uniform(5.0));
+        let with = run(&scene);
+        scene.friction = None;
+        let without = run(&scene);
+        let sliding = with.sliding.as_ref().expect("a run with friction");
+        if sliding.way_slid.iter().any(|way| *way > 0.0) || sliding.flights.iter().any(|flights| *flights > 0) {
+            continue;
+        }
+        held += 1;
+        assert_eq!(
+            (with.status, &with.events, &with.peak_theta),
+            (without.status, &without.events, &without.peak_theta)
+        );
+        let angles = |response: &Response| response.samples.iter().map(|s| s.theta.clone()).collect::<Vec<_>>();
+        assert_eq!(angles(&with), angles(&without));
+    }
+    assert!(held > 250, "{held} of 500");
+}
+
+#[test]
+fn mirror_images_slide_as_mirror_images() {
+    for scene in random_scenes(100) {
+        let mut mirrored = scene.clone();
+        let Some(Motion::SinePulse { amplitude, .. }) = &mut mirrored.excitation.horizontal else { unreachable!() };
+        *amplitude = -*amplitude;
+        let (one, other) = (run(&scene), run(&mirrored));
+        // Long runs amplify rounding: the first events are compared.
+        for (a, b) in one.samples.iter().zip(&other.samples).take(12) {
+            for (a, b) in a.theta.iter().zip(&b.theta).chain(a.slide.iter().zip(&b.slide)) {
+                assert!((a + b).abs() < 1e-6, "{a} {b}");
+            }
+        }
+    }
+}
+
+/// Ground's work and friction's work less what impacts lose is the change of energy.
+#[test]
+fn the_energy_balance_closes() {
+    let mut closed = 0;
+    for scene in random_scenes(200) {
+        let response = run(&scene);
+        let sliding = response.sliding.expect("a run with friction");
+        if sliding.ground_work == 0.0 || response.status == StopReason::Undetermined {
+            continue;
+        }
+        assert!(
+            sliding.friction_work <= 1e-9 * sliding.ground_work.abs()
+                && sliding.impact_losses >= -1e-9 * sliding.ground_work.abs()
+        );
+        let sum = sliding.ground_work + sliding.friction_work - sliding.impact_losses - sliding.energy_change;
+        let size = sliding.ground_work.abs().max(sliding.impact_losses);
+        // Steps keep their relative tolerance of 1e-9, some hundred of them, and hops below the resolution are snapped.
+        assert!(sum.abs() < 1e-5 * size, "{sum:e} of {size:e}: {sliding:?}");
+        closed += 1;
+    }
+    assert!(closed > 80, "{closed}");
+}
