@@ -512,6 +512,22 @@ impl Stack {
         self.half_width * self.gravity / self.centroid_height
     }
 
+    /// Friction coefficient from which on it rocks from rest without sliding under this horizontal acceleration of the ground `[m/s²]`:
+    /// `|T|/N` of a body that pivots about its corner, where the acceleration opens it; for one homogeneous rectangle with `t = b/h`,
+    /// `A = |ẍ_g|/g` it is `(A (1 + 4t²) + 3t) / (4 + t² + 3At)`.
+    ///
+    /// ```
+    /// let column = rocking::Column::equal_blocks(1, 0.25, 1.0, 1000.0, 9.81)?;
+    /// assert!((column.stack(0).coefficient_to_rock(9.81) - 0.41558).abs() < 5e-6);
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    pub fn coefficient_to_rock(&self, acceleration: f64) -> f64 {
+        let (c, h, push) = (self.half_width, self.centroid_height, acceleration.abs() / self.gravity);
+        // Angular acceleration over gravity.
+        let turn = self.mass * (push * h - c) / self.inertia;
+        (push - h * turn) / (1.0 + c * turn)
+    }
+
     /// Housner's ratio `ω⁺/ω⁻` of an impact, `1 - 2 m c² / I_O`; for one homogeneous rectangle `1 - 3/2 sin² α`. Of displaced blocks,
     /// with the centre of gravity moved over the centre of the contact.
     pub fn housner_ratio(&self) -> f64 {

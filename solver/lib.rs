@@ -65,7 +65,10 @@ pub use mechanics::mode::{IntegrateError, IntegrateOptions, Mode};
 pub use mechanics::{dynamics, generated, generic, kinematics, program};
 pub use numerics::per_block::PerBlock;
 pub use numerics::scalar_types as scalar;
-pub use response::{Event, EventKind, Impulse, ModeName, Response, Sample, StopReason, Work};
+pub use response::{
+    BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport,
+    StopReason, Work,
+};
 pub use rocking_codegen::{GroundMotion, pattern};
 pub use rocking_ground as ground;
 pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordError};

@@ -64,6 +64,13 @@ pub enum EventKind {
     Collapsed,
 }
 
+impl EventKind {
+    /// Whether blocks struck each other: an impact of an interface that closed, or a landing after a flight.
+    pub fn is_impact(self) -> bool {
+        matches!(self, EventKind::Impact | EventKind::Landing)
+    }
+}
+
 /// A change of the pattern, or an impact. Patterns are signs per interface, base first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -96,12 +103,27 @@ pub struct Event {
     pub omega_before: PerBlock<f64>,
     /// Rates after `[rad/s]`, per block.
     pub omega_after: PerBlock<f64>,
+    /// Where the blocks are, base first; empty for a run in which nothing slides or flies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub blocks: Vec<BlockAtEvent>,
     /// Kinetic energy lost over that before, 0 to 1; impacts only.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "known_number")]
     pub energy_lost: Option<f64>,
     /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub impulses: PerBlock<Impulse>,
+}
+
+/// A block at an event of a run in which blocks slide or fly, in the frame of the moving ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct BlockAtEvent {
+    /// Centroid, from the middle of the base of the aligned column `[m]`.
+    pub place: [f64; 2],
+    /// Its velocity before `[m/s]`.
+    pub velocity_before: [f64; 2],
+    /// Its velocity after `[m/s]`.
+    pub velocity_after: [f64; 2],
 }
 
 /// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
@@ -163,12 +185,27 @@ pub struct Sample {
     pub slide: Vec<f64>,
     /// Gaps of free interfaces `[m]`, zero of others; empty for a run without friction.
     pub gap: Vec<f64>,
+    /// Where the blocks are and what presses them together; empty for a run in which nothing slides or flies: angles and pattern tell it there.
+    pub blocks: Vec<BlockState>,
+}
+
+/// A block at an output time of a run in which blocks slide or fly.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct BlockState {
+    /// Centroid in the frame of the moving ground, from the middle of the base of the aligned column `[m]`.
+    pub place: [f64; 2],
+    /// Its velocity in that frame `[m/s]`.
+    pub velocity: [f64; 2],
+    /// Force of the contact below on the stack above, in the axes of the face that carries the contact; its moment is about the centre of a
+    /// closed contact, and about the point of a corner.
+    pub force: ContactForce,
 }
 
 impl Sample {
     /// The column at a time `[s]` with these angles `[rad]` and rates `[rad/s]`, on a ground without acceleration.
     pub fn new(t: f64, theta: Vec<f64>, omega: Vec<f64>, pattern: Pattern) -> Sample {
-        Sample { t, theta, omega, ground: [0.0; 2], pattern, slide: Vec::new(), gap: Vec::new() }
+        Sample { t, theta, omega, ground: [0.0; 2], pattern, slide: Vec::new(), gap: Vec::new(), blocks: Vec::new() }
     }
 }
 
@@ -329,6 +366,17 @@ impl Response {
         (self.status == StopReason::Overturned).then_some(self.t_final)
     }
 
+    /// The block that lost its support, from 1; events must have been recorded.
+    pub fn collapsed_block(&self) -> Option<usize> {
+        let event = self.events.last().filter(|event| event.kind == EventKind::Collapsed)?;
+        event.interface
+    }
+
+    /// What slid and flew; `None` where nothing did, with friction or without.
+    pub fn motion_at_contacts(&self) -> Option<&SlidingReport> {
+        self.sliding.as_ref().filter(|report| report.is_any())
+    }
+
     /// Times in the modes `[s]`, the longest first.
     pub fn modes_by_time(&self) -> Vec<(&str, f64)> {
         let mut modes: Vec<_> = self.time_in_mode.iter().map(|(mode, time)| (mode.as_str(), *time)).collect();
@@ -374,6 +422,36 @@ impl Response {
 }
 
 impl SlidingReport {
+    /// Whether the report is of so many interfaces, with numbers that a run may have written.
+    pub(crate) fn is_of(&self, blocks: usize) -> bool {
+        let lengths = [&self.peak_slide, &self.residual_slide, &self.way_slid];
+        let sums = [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.energy_change];
+        let moments = self.ambiguous.iter().chain(&self.jammed);
+        lengths.iter().all(|list| list.len() == blocks)
+            && (self.times.len(), self.flights.len()) == (blocks, blocks)
+            && lengths.into_iter().flatten().chain(&sums).chain(moments).all(|value| value.is_finite())
+    }
+
+    /// Whether an interface has slid or flown.
+    pub fn is_any(&self) -> bool {
+        (0..self.way_slid.len()).any(|interface| self.has_moved(interface))
+    }
+
+    /// Whether an interface (from zero) has slid or flown.
+    pub fn has_moved(&self, interface: usize) -> bool {
+        self.way_slid[interface] > 0.0 || self.flights[interface] > 0
+    }
+
+    /// Error of the energy balance, relative to the work of the ground or, without such work, to the largest of the other terms; `None` where
+    /// nothing slid or flew, or only the outcome was wanted.
+    pub fn balance(&self) -> Option<f64> {
+        let SlidingReport { ground_work, friction_work, impact_losses, energy_change, .. } = *self;
+        let open = ground_work + friction_work - impact_losses - energy_change;
+        let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs());
+        let scale = if ground_work == 0.0 { largest } else { ground_work.abs() };
+        (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
+    }
+
     /// What a user must know before believing a run with friction.
     fn warnings(&self, status: StopReason, t_final: f64) -> Vec<String> {
         let mut warnings = Vec::new();

@@ -18,7 +18,8 @@
 use crate::column::{Block, Column};
 use crate::friction::Friction;
 use crate::json::Explicit;
-use crate::response::{Event, Response, Sample};
+use crate::mechanics::dynamics::ContactForce;
+use crate::response::{BlockAtEvent, BlockState, Event, Response, Sample};
 use crate::scene::{Initial, Restitution, Scene, SolveOptions};
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Description, Motion};
@@ -269,23 +270,37 @@ fn events(mut file: impl Write, events: &[Event]) -> std::io::Result<()> {
     file.write_all(if events.is_empty() { b"[]\n" } else { b"\n]\n" })
 }
 
-/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates.
+/// Columns of [`BlockState`], one per block or interface each.
+const STATE_COLUMNS: [&str; 7] = ["x", "y", "vx", "vy", "normal", "tangential", "moment"];
+
+fn numbers_of(state: &BlockState) -> [f64; 7] {
+    let BlockState { place: [x, y], velocity: [vx, vy], force } = *state;
+    [x, y, vx, vy, force.normal, force.tangential, force.moment]
+}
+
+/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates, and where
+/// blocks slid or flew, [`STATE_COLUMNS`] after these.
 fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::Result<()> {
-    write!(file, "t")?;
-    (1..=blocks).try_for_each(|block| write!(file, ",theta_{block}"))?;
-    (1..=blocks).try_for_each(|block| write!(file, ",omega_{block}"))?;
-    let has_slides = samples.iter().any(|sample| !sample.slide.is_empty());
-    if has_slides {
-        (1..=blocks).try_for_each(|block| write!(file, ",slide_{block}"))?;
-        (1..=blocks).try_for_each(|block| write!(file, ",gap_{block}"))?;
+    let mut columns = vec!["theta", "omega"];
+    if samples.iter().any(|sample| !sample.slide.is_empty()) {
+        columns.extend(["slide", "gap"]);
     }
+    if samples.iter().any(|sample| !sample.blocks.is_empty()) {
+        columns.extend(STATE_COLUMNS);
+    }
+    write!(file, "t")?;
+    columns.iter().try_for_each(|name| (1..=blocks).try_for_each(|block| write!(file, ",{name}_{block}")))?;
     writeln!(file, ",ground_x,ground_y,pattern")?;
     for sample in samples {
         // `{:?}` is the shortest text that reads back to the same bits.
         write!(file, "{:?}", sample.t)?;
-        let angles = sample.theta.iter().chain(&sample.omega);
-        let mut numbers = angles.chain(&sample.slide).chain(&sample.gap).chain(&sample.ground);
-        numbers.try_for_each(|number| write!(file, ",{number:?}"))?;
+        let angles = sample.theta.iter().chain(&sample.omega).chain(&sample.slide).chain(&sample.gap);
+        angles.copied().try_for_each(|number| write!(file, ",{number:?}"))?;
+        if !sample.blocks.is_empty() {
+            let states: Vec<[f64; 7]> = sample.blocks.iter().map(numbers_of).collect();
+            (0..7).try_for_each(|at| states.iter().try_for_each(|state| write!(file, ",{:?}", state[at])))?;
+        }
+        sample.ground.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
         // A pattern with a comma is quoted.
         let quote = if blocks > 1 { "\"" } else { "" };
         writeln!(file, ",{quote}{}{quote}", sample.pattern)?;
@@ -375,8 +390,14 @@ impl Results {
         let is_event = |event: &Event| {
             let states = [&event.before, &event.after];
             let numbers = [&event.theta, &event.omega_before, &event.omega_after];
+            let is_placed = |block: &BlockAtEvent| {
+                let BlockAtEvent { place, velocity_before, velocity_after } = *block;
+                all_plausible([place, velocity_before, velocity_after].into_iter().flatten())
+            };
             states.iter().all(|pattern| pattern.0.len() == length)
                 && numbers.iter().all(|list| list.len() == length && all_plausible(list.iter().copied()))
+                && (event.blocks.is_empty() || event.blocks.len() == length)
+                && event.blocks.iter().all(is_placed)
                 && (0.0..=LARGEST_NUMBER).contains(&event.t)
         };
         if let Some(event) = list.iter().find(|event| !is_event(event)) {
@@ -407,6 +428,9 @@ impl Results {
         }
         if response.overturned_block.is_some_and(|block| !(1..=length).contains(&block)) {
             return Some("`overturned_block` is no block of the column".into());
+        }
+        if response.sliding.as_ref().is_some_and(|report| !report.is_of(length)) {
+            return Some(format!("what slid is not of {length} block(s), or a number is out of range"));
         }
         let times = || response.time_in_mode.values().chain([&options.t_end, &response.t_final]).copied();
         if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
@@ -447,15 +471,21 @@ fn json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
 fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
     let text = text(path)?;
     let mut samples: Vec<Sample> = Vec::new();
-    // Slides and gaps stand between rates and ground.
-    let slides = if text.lines().next().is_some_and(|head| head.contains(",slide_1,")) { blocks } else { 0 };
-    let count = 2 * blocks + 2 * slides + 3;
+    // Slides and gaps, and states of blocks, stand between rates and ground.
+    let has = |column: &str| text.lines().next().is_some_and(|head| head.contains(column));
+    let slides = if has(",slide_1,") { blocks } else { 0 };
+    let states = if has(",x_1,") { blocks } else { 0 };
+    let before_states = 1 + 2 * blocks + 2 * slides;
+    let count = before_states + STATE_COLUMNS.len() * states + 2;
+    // Forces grow with masses.
+    let is_force = |at: usize| (before_states + 4 * states..before_states + 7 * states).contains(&at);
     for (index, row) in text.lines().enumerate().skip(1).filter(|(_, row)| !row.is_empty()) {
         let broken = |problem: String| FolderError::Row { path: path.into(), line: index + 1, problem };
         let mut numbers = Vec::with_capacity(count);
         let mut rest = row;
         while let (Some((number, after)), true) = (rest.split_once(','), numbers.len() < count) {
-            let number = number.parse::<f64>().ok().filter(|number| all_plausible([*number]));
+            let is_taken = |number: &f64| all_plausible([*number]) || is_force(numbers.len()) && number.is_finite();
+            let number = number.parse::<f64>().ok().filter(is_taken);
             numbers.push(number.ok_or_else(|| broken("a number is missing, or not one of a run".into()))?);
             rest = after;
         }
@@ -466,6 +496,11 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
         if samples.last().is_some_and(|last| last.t >= numbers[0]) {
             return Err(broken(format!("t = {} s is not after the row above", numbers[0])));
         }
+        let state = |block: usize| {
+            let of = |column: usize| numbers[before_states + column * states + block];
+            let force = ContactForce { normal: of(4), tangential: of(5), moment: of(6) };
+            BlockState { place: [of(0), of(1)], velocity: [of(2), of(3)], force }
+        };
         samples.push(Sample {
             t: numbers[0],
             theta: numbers[1..=blocks].to_vec(),
@@ -473,6 +508,7 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
             slide: numbers[2 * blocks + 1..=2 * blocks + slides].to_vec(),
             gap: numbers[2 * blocks + slides + 1..=2 * blocks + 2 * slides].to_vec(),
             ground: [numbers[count - 2], numbers[count - 1]],
+            blocks: (0..states).map(state).collect(),
             pattern,
         });
     }

@@ -46,9 +46,6 @@ pub enum Failure {
     /// An option needs one record and not a folder.
     #[error("--{} is for a single record and {} is a folder; give one of its files", .1, .0.display())]
     FolderOption(PathBuf, &'static str),
-    /// An axis of a sweep has no effect on its table.
-    #[error("{}, key `axes.{}`: friction does not change the results of a sweep; remove the axis", .0.display(), .1)]
-    IdleAxis(PathBuf, String),
     /// No row of a sweep has a result: the table, its rows, and the first reason.
     #[error("{}: none of the {} point(s) has a result; the first says: {}", .0.display(), .1, .2)]
     NoResult(PathBuf, usize, String),

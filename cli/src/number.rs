@@ -49,6 +49,16 @@ pub fn widths(block: &rocking::Block, digits: usize) -> String {
     if bottom == top { bottom } else { format!("{bottom} to {top}") }
 }
 
+/// Coefficients of friction in words.
+pub fn coefficients(friction: &rocking::Friction) -> String {
+    let list = |values: &[f64]| values.iter().map(|value| significant(*value, 4)).collect::<Vec<_>>().join(", ");
+    let order = if friction.fixed.len().max(friction.kinetic.len()) > 1 { ", base first" } else { "" };
+    match friction.fixed == friction.kinetic {
+        true => format!("{}{order}", list(&friction.fixed)),
+        false => format!("static {}, kinetic {}{order}", list(&friction.fixed), list(&friction.kinetic)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

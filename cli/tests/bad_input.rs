@@ -111,6 +111,99 @@ fn restitution_and_initial_state() {
     refused(&format!("{SCENE}[initial]\ntheta = [0.1, 0.2]\n"), &["line 11", "`initial.theta`", "one per block"]);
 }
 
+/// Two equal drums; tables may follow.
+const DRUMS: &str = "[column]
+blocks = 2
+half_width = 0.4
+half_height = 1.6
+[solver]
+t_end = 1.0
+";
+
+#[test]
+fn friction_that_no_contact_has() {
+    let number = |value: &str| format!("friction = {value}\n{DRUMS}");
+    refused(&number("-0.1"), &["line 1", "`friction.static`", "-0.1 is out of range", "zero or above"]);
+    refused(&number("nan"), &["line 1", "`friction`", "not finite", "give a finite number"]);
+    refused(&number("inf"), &["line 1", "`friction`", "not finite", "give a finite number"]);
+    refused(&number("\"rough\""), &["line 1", "`friction`", "text stands here", "give a number"]);
+    let table = |keys: &str| format!("{DRUMS}[friction]\n{keys}\n");
+    refused(&table("static = 0.5\nkinetic = -0.5"), &["line 9", "`friction.kinetic`", "-0.5 is out of range"]);
+    refused(&table("static = [0.5, nan]"), &["line 8", "`friction.static`", "NaN", "give finite numbers"]);
+    refused(
+        &table("static = 0.5\nkinetic = 0.6"),
+        &["line 9", "`friction.kinetic`", "0.6 is above the static coefficient, 0.5, of interface 1", "no larger than"],
+    );
+    refused(&table("static = 0.5\nkinetic = [0.5, 0.6]"), &["line 9", "0.6 is above", "interface 2"]);
+    for list in ["[]", "[0.5, 0.4, 0.3]"] {
+        let scene = table(&format!("static = {list}"));
+        refused(
+            &scene,
+            &["line 8", "`friction.static`", "number(s) for 2 interface(s)", "one per interface, base first"],
+        );
+    }
+    refused(&table("static = 0.5\nkinetic = [0.5, 0.4, 0.3]"), &["line 9", "`friction.kinetic`", "one per interface"]);
+    refused(&table("kinetic = 0.3"), &["line 7", "`friction.static`", "it is missing", "write friction = 0.7"]);
+    refused(&table("static = 0.4\nkinetik = 0.3"), &["line 9", "`friction.kinetik`", "did you mean `kinetic`?"]);
+}
+
+#[test]
+fn drums_that_do_not_stand_on_each_other() {
+    let initial = |keys: &str| format!("{DRUMS}[initial]\n{keys}\n");
+    for slide in ["0.9", "-0.8"] {
+        let scene = initial(&format!("slide = [0.0, {slide}]"));
+        refused(
+            &scene,
+            &["line 8", "`initial.slide`", slide, "block 2 off its support", "0.8 m", "leave the faces some overlap"],
+        );
+    }
+    refused(
+        &initial("slide = [0.0]"),
+        &["line 8", "`initial.slide`", "1 slide(s) for 2 interface(s)", "one slide per interface"],
+    );
+    refused(&initial("slide = [0.0, nan]"), &["line 8", "`initial.slide`", "NaN", "give finite numbers"]);
+}
+
+#[test]
+fn tapered_blocks_of_no_width() {
+    let block = |keys: &str| format!("[[block]]\n{keys}\nhalf_height = 1.6\n");
+    let both = "give a finite number above zero";
+    refused(&block("bottom_half_width = 0.0\ntop_half_width = 0.3"), &["line 2", "`block[1].bottom_half_width`", both]);
+    refused(
+        &block("bottom_half_width = -0.4\ntop_half_width = 0.3"),
+        &["line 2", "`block[1].bottom_half_width`", both],
+    );
+    refused(
+        &block("bottom_half_width = 0.4\ntop_half_width = -0.1"),
+        &["line 3", "`block[1].top_half_width`", "out of range"],
+    );
+    refused(
+        &block("bottom_half_width = 0.4"),
+        &["line 1", "`block[1].top_half_width`", "it is missing", "half_width for both"],
+    );
+}
+
+#[test]
+fn drums_that_are_thrown_by_halves() {
+    let thrown = |keys: &str| format!("friction = 0.5\n{DRUMS}[initial]\n{keys}\n");
+    let all = "x = [0.0, 0.0]\ny = [0.9, 2.6]\nvx = [0.0, 0.0]\nvy = [0.0, 0.0]";
+    refused(
+        &thrown("x = [0.0, 0.0]"),
+        &["line 8", "`initial.y`", "missing beside initial.x", "give x, y, vx and vy together"],
+    );
+    refused(&thrown("vy = [0.0, 0.0]"), &["line 8", "`initial.x`", "missing beside initial.vy"]);
+    refused(
+        &thrown(&all.replace("y = [0.9, 2.6]", "y = [0.9]")),
+        &["line 10", "`initial.y`", "1 number(s) for 2 block(s)"],
+    );
+    refused(&thrown(&all.replace("2.6", "nan")), &["line 10", "`initial.y`", "NaN", "give finite numbers"]);
+    let without = thrown(all).replace("friction = 0.5\n", "");
+    refused(
+        &without,
+        &["line 8", "`initial.x`", "without friction, blocks stand on each other", "give friction, or leave it out"],
+    );
+}
+
 #[test]
 fn types_and_syntax() {
     refused(&with("omega = 10.0", "omega = \"ten\""), &["line 7", "omega", "text stands here", "give a number"]);

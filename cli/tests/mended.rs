@@ -87,14 +87,6 @@ fn a_figure_of_modes_has_the_format_of_its_name() {
 }
 
 #[test]
-fn friction_as_an_axis_is_refused() {
-    let folder = folder("scene = \"base.toml\"\n[axes]\nfriction = [0.3, 0.6]\n");
-    for command in ["sweep", "check"] {
-        fails(folder.path(), &[command, "sweep.toml"], 2, &["sweep.toml", "axes.friction", "remove the axis"]);
-    }
-}
-
-#[test]
 fn a_sweep_file_is_checked_as_a_sweep() {
     let folder = folder(SWEEP);
     let text = succeeds(folder.path(), &["check", "sweep.toml"]);

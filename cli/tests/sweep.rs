@@ -275,3 +275,56 @@ fn the_sweep_of_the_readme_runs() {
     assert_eq!(rows.len(), 17);
     assert!(rows[1..].iter().all(|row| row[4] != "error"), "{rows:?}");
 }
+
+/// Slabs that slide, and drums that rock; the rows are what `rocking run` says of the scenes.
+#[test]
+fn friction_is_an_axis_and_residual_slides_are_asked_for() {
+    let sweep = "scene = \"base.toml\"\nask = \"slides\"\n[axes]\nfriction = [0.2, 0.4, 2.5]\nhalf_width = [0.4, 1.0]\namplitude_g = [0.1, 0.6, 3.0]\n";
+    let folder = folder(sweep);
+    let text = table(folder.path(), &[]);
+    let rows = rows(&text);
+    assert_eq!(rows[0][1..4], ["friction", "column.half_width", "excitation.horizontal.amplitude_g"]);
+    assert_eq!(rows[0][8..], ["peak_1", "peak_2", "last_mode", "residual_slide_1", "residual_slide_2", "error"]);
+    let mut fates = std::collections::BTreeSet::new();
+    for row in &rows[1..] {
+        let scene = BASE
+            .replace("half_width = 0.4", &format!("half_width = {}", row[2]))
+            .replace("amplitude = 3.0", &format!("amplitude_g = {}", row[3]));
+        std::fs::write(folder.path().join("one.toml"), format!("friction = {}\n{scene}", row[1])).expect("written");
+        let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
+        let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+        for (interface, cell) in row[11..13].iter().enumerate() {
+            let residual = summary["sliding"]["residual_slide"][interface].as_f64().expect("a number");
+            let slide: f64 = cell.parse().expect("a number");
+            // Rows of a response do not change the motion.
+            assert!((slide - residual).abs() <= 1e-9 * residual.abs().max(1e-3), "{row:?}, {residual}");
+        }
+        let status = match row[4].as_str() {
+            "overturns" => "overturned",
+            "collapses" => "collapsed",
+            "undetermined" => "undetermined",
+            _ => "",
+        };
+        assert!(status.is_empty() || summary["status"] == status, "{row:?}");
+        fates.insert(row[4].clone());
+    }
+    assert!(["no-uplift", "slides", "rocks", "overturns"].iter().all(|fate| fates.contains(*fate)), "{fates:?}");
+    // Static and kinetic coefficients by their own names.
+    let base = format!("friction = {{ static = 0.5, kinetic = 0.3 }}\n{BASE}");
+    std::fs::write(folder.path().join("base.toml"), base).expect("written");
+    std::fs::write(folder.path().join("sweep.toml"), "scene = \"base.toml\"\n[axes]\nkinetic = [0.3, 0.4, 0.6]\n")
+        .expect("written");
+    let text = table(folder.path(), &[]);
+    assert!(text.starts_with("index,friction.kinetic,outcome") && text.contains("static"), "{text}");
+}
+
+#[test]
+fn residual_slides_of_scenes_without_friction_are_refused() {
+    let folder = folder("scene = \"base.toml\"\nask = \"slides\"\n[axes]\nomega_p = [2, 3]\n");
+    let output = common::rocking(folder.path(), &["sweep", "sweep.toml"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in ["sweep.toml", "line 2", "`ask`", "without friction", "let friction be an axis"] {
+        assert!(message.contains(part), "`{part}` is not in {message}");
+    }
+}

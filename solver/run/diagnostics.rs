@@ -1,6 +1,6 @@
 //! What follows from a column's state at one instant: its energy and the forces between its blocks.
 //!
-//! Histories hold angles and rates only. Whoever wants energies or contact forces at those times asks here, after the run, and
+//! Histories of blocks that only rock hold angles and rates. Whoever wants energies or contact forces at those times asks here, after the run, and
 //! nobody else pays for them.
 
 use super::rest;
@@ -13,12 +13,26 @@ impl Sample {
     /// Energies relative to the moving ground, with gravity `g`: vertical ground motion does work on them.
     pub fn energy(&self, column: &Column) -> Energy {
         let gravity = column.gravity();
+        if !self.blocks.is_empty() {
+            let motions = column.blocks().iter().zip(&self.blocks).zip(&self.omega);
+            return motions.fold(Energy::default(), |sum, ((block, state), omega)| {
+                let speed = state.velocity[0] * state.velocity[0] + state.velocity[1] * state.velocity[1];
+                Energy {
+                    kinetic: sum.kinetic + 0.5 * (block.mass * speed + block.inertia * omega * omega),
+                    potential: sum.potential + block.mass * gravity * state.place[1],
+                }
+            });
+        }
         Mode::new(column, &self.pattern)
             .map_or_else(|| rest::energy(column), |mode| mode.energy(&self.state_of_links(), gravity))
     }
 
-    /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4).
+    /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4); of a run in which blocks slide or fly those that it
+    /// recorded.
     pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
+        if !self.blocks.is_empty() {
+            return self.blocks.iter().map(|state| state.force).collect();
+        }
         let ground = Ground { x: self.ground[0], gravity: column.gravity() + self.ground[1] };
         match Mode::new(column, &self.pattern) {
             Some(mode) => mode.contact_forces(&self.state_of_links(), ground),
@@ -48,6 +62,7 @@ mod tests {
             pattern,
             slide: Vec::new(),
             gap: Vec::new(),
+            blocks: Vec::new(),
         }
     }
 

@@ -112,7 +112,16 @@ impl Recorder {
         let Segment { horizontal, vertical, .. } = &problem.ground[*cursor];
         let ground = [horizontal.value(t), vertical.value(t)];
         let (slide, gap) = (Vec::new(), Vec::new());
-        self.samples.push(Sample { t, theta, omega, ground, pattern: self.pattern.clone(), slide, gap });
+        self.samples.push(Sample {
+            t,
+            theta,
+            omega,
+            ground,
+            pattern: self.pattern.clone(),
+            slide,
+            gap,
+            blocks: Vec::new(),
+        });
         self.next_sample += 1;
     }
 
@@ -261,6 +270,7 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
         theta: all(&after.theta),
         omega_before: all(if strikes { &before.omega } else { &after.omega }),
         omega_after: all(&after.omega),
+        blocks: Vec::new(),
         energy_lost: (transition.kind == EventKind::Impact).then_some(transition.decision.energy_lost),
         impulses: if strikes { impulses() } else { PerBlock::new() },
     }

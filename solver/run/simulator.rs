@@ -134,7 +134,9 @@ impl Simulator {
         if scene.options.wanted != Wanted::Everything {
             sticking.output_dt = None;
         }
-        if let Ok(response) = self.run_valid(&sticking, &mut |_| ControlFlow::Continue(()))
+        // Blocks that are dropped or thrown do not begin on each other.
+        if scene.initial.x.is_empty()
+            && let Ok(response) = self.run_valid(&sticking, &mut |_| ControlFlow::Continue(()))
             && sliding::is_held(&scene.column, &coefficients, &response)
         {
             return Ok(sliding::held(&scene.column, response));

@@ -13,9 +13,11 @@ use crate::friction::guards::{self, Guard};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use crate::friction::rows::{Answer, Rows};
 use crate::friction::search::{Coefficients, Question, Search, Solution, Touch, centre, half_length};
+use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{
-    ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport, StopReason, Work,
+    BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport,
+    StopReason, Work,
 };
 use crate::scene::{Initial, Scene};
 use rocking_codegen::pattern::Pattern;
@@ -674,6 +676,13 @@ impl<'p> Run<'p> {
         let now = &self.at.configuration;
         let (old, new): (Pattern, Pattern) = (before.pattern(), now.pattern());
         let all = |values: &[f64]| PerBlock::from_slice(values);
+        let chain = Chain::new(self.column(), now);
+        let [was, is] = [before, now].map(|one| Chain::new(self.column(), one).motion(&Rates::of(one)).linear);
+        let block = |block: usize| BlockAtEvent {
+            place: chain.centroid[block],
+            velocity_before: was[block],
+            velocity_after: is[block],
+        };
         let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
         self.events.push(Event {
             t: self.at.t,
@@ -688,6 +697,7 @@ impl<'p> Run<'p> {
             theta: all(&now.theta),
             omega_before: all(&before.omega),
             omega_after: all(&now.omega),
+            blocks: (0..now.theta.len()).map(block).collect(),
             energy_lost: (!impulses.is_empty()).then_some(lost),
             impulses: PerBlock::from_slice(impulses),
         });
@@ -737,6 +747,17 @@ impl<'p> Run<'p> {
             _ => 0.0,
         };
         let blocks = configuration.theta.len();
+        let rates = Rates::of(configuration);
+        let motion = chain.motion(&rates);
+        let centres: Vec<f64> = (0..blocks).map(|i| centre(self.column(), i, configuration.slide[i])).collect();
+        let rows = Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres);
+        let forces = rows.accelerations(&rates, Ground::at(&ground[self.sample_segment], t, self.column().gravity()));
+        let state = |block: usize| BlockState {
+            place: chain.centroid[block],
+            velocity: motion.linear[block],
+            force: forces.as_ref().map_or_else(Default::default, |answer| answer.contacts[block]),
+        };
+        let states = (0..blocks).map(state).collect();
         self.samples.push(Sample {
             t,
             theta: configuration.theta.clone(),
@@ -745,11 +766,16 @@ impl<'p> Run<'p> {
             pattern: configuration.pattern(),
             slide: (0..blocks).map(slide).collect(),
             gap: (0..blocks).map(gap).collect(),
+            blocks: states,
         });
     }
 
     fn finish(mut self, status: StopReason, block: Option<usize>, work: Work) -> Response {
         let end = self.at.configuration.clone();
+        // A run that ends as it begins has one row all the same.
+        if self.samples.is_empty() && self.next_row().is_some() {
+            self.record_row(self.at.t, &end);
+        }
         if !matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined) {
             while let Some(t) = self.next_row() {
                 self.record_row(t, &end);

@@ -92,6 +92,7 @@ impl Template {
             "blocks" | "half_width" | "bottom_half_width" | "top_half_width" | "half_height" | "centroid_height"
             | "shape" | "depth" | "density" | "mass" | "inertia" => "column",
             "eta" | "factors" | "law" => "restitution",
+            "static" | "kinetic" => "friction",
             "theta" | "slide" => "initial",
             "t_end" | "method" | "rtol" | "atol" | "step" | "stick_angle" | "overturn_angle" => "solver",
             _ => "excitation.horizontal",

@@ -34,8 +34,9 @@ impl Sweep {
         };
         let ask = match root.text("ask").map_err(own)? {
             None => Ask::default(),
-            Some((name, _)) => Ask::parse(&name)
-                .ok_or_else(|| own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks"])))?,
+            Some((name, _)) => Ask::parse(&name).ok_or_else(|| {
+                own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides"]))
+            })?,
         };
         let template = Template::from_file(&base)?;
         let Some(mut table) = root.table("axes").map_err(own)? else {
@@ -52,6 +53,11 @@ impl Sweep {
         distinct(&placed).map_err(own)?;
         let (axes, places): (_, Vec<Place>) = placed.into_iter().unzip();
         let sweep = Sweep { template, axes, combine, ask };
+        if ask == Ask::Slides && sweep.scene(0).is_ok_and(|scene| scene.friction.is_none()) {
+            let problem =
+                format!("blocks do not slide without friction, and {} has none", sweep.template.file().display());
+            return Err(own(root.wrong("ask", problem, "give the base scene friction, or let friction be an axis")));
+        }
         let lengths: Vec<usize> = sweep.axes.iter().map(|axis| axis.values.len()).collect();
         let problem = match combine {
             Combine::Paired if lengths.iter().any(|length| *length != lengths[0]) => {

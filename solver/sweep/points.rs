@@ -6,7 +6,7 @@
 //! Within a thread they run one after another: sixteen side by side, with Taylor coefficients in lanes of eight, took longer, as events,
 //! contact and set-up stay scalar and lose their place in the cache.
 
-use crate::response::{ModeName, Response};
+use crate::response::{ModeName, Response, StopReason};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
@@ -55,6 +55,8 @@ pub enum Ask {
     Overturns,
     /// Largest angles and the mode at the end as well; a run goes on to its end.
     Peaks,
+    /// As [`Ask::Peaks`], and the slides at the end; of scenes with friction.
+    Slides,
 }
 
 impl Ask {
@@ -64,8 +66,14 @@ impl Ask {
             "outcome" => Some(Ask::Outcome),
             "overturns" => Some(Ask::Overturns),
             "peaks" => Some(Ask::Peaks),
+            "slides" => Some(Ask::Slides),
             _ => None,
         }
+    }
+
+    /// Whether runs go on to their end, and largest angles are asked for.
+    pub fn is_of_peaks(self) -> bool {
+        matches!(self, Ask::Peaks | Ask::Slides)
     }
 }
 
@@ -92,15 +100,28 @@ pub enum Fate {
     Rocks,
     /// It overturned.
     Overturns,
+    /// Blocks slid, and nothing rocked; only with friction, as all that follow.
+    Slides,
+    /// A block slid or flew off its support.
+    Collapses,
+    /// No motion follows from the laws of contact with friction.
+    Undetermined,
 }
 
 impl Fate {
-    /// As in a table: `no-uplift`, `rocks`, `overturns`.
+    /// All of them.
+    pub const ALL: [Fate; 6] =
+        [Fate::NoUplift, Fate::Slides, Fate::Rocks, Fate::Overturns, Fate::Collapses, Fate::Undetermined];
+
+    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`.
     pub fn name(self) -> &'static str {
         match self {
             Fate::NoUplift => "no-uplift",
             Fate::Rocks => "rocks",
             Fate::Overturns => "overturns",
+            Fate::Slides => "slides",
+            Fate::Collapses => "collapses",
+            Fate::Undetermined => "undetermined",
         }
     }
 }
@@ -114,7 +135,7 @@ pub struct Outcome {
     /// Impacts up to overturning, or to the end of the run; where only the outcome is asked and the column stands, up to where that
     /// was certain.
     pub impacts: usize,
-    /// The block that overturned first, from 1.
+    /// The block that overturned first, or lost its support, from 1.
     pub block: Option<usize>,
     /// When the column overturned, if that is asked for `[s]`.
     pub overturned_at: Option<f64>,
@@ -122,6 +143,8 @@ pub struct Outcome {
     pub peaks: Vec<f64>,
     /// Label of the mode at the end, `rest` where nothing moves; only if peaks are asked for.
     pub last_mode: Option<String>,
+    /// Slides at the end, base first `[m]`; only if they are asked for.
+    pub residual_slides: Vec<f64>,
 }
 
 /// Why a point has no result.
@@ -269,7 +292,7 @@ impl Sweep {
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,
-            Ask::Peaks => Wanted::Everything,
+            Ask::Peaks | Ask::Slides => Wanted::Everything,
         };
         Ok(scene)
     }
@@ -292,20 +315,28 @@ impl Sweep {
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
         let has_overturned = response.status.overturns();
-        let with_peaks = self.ask == Ask::Peaks;
+        let with_peaks = self.ask.is_of_peaks();
+        let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
         let share = |(block, peak): (usize, &f64)| peak / scene.column.stack(block).slenderness();
         let last_mode = || response.events.last().map_or(ModeName::REST, |event| event.mode).to_string();
         Outcome {
-            fate: match (has_overturned, response.work.phases > 0) {
-                (true, _) => Fate::Overturns,
-                (false, true) => Fate::Rocks,
-                (false, false) => Fate::NoUplift,
+            fate: match (response.status, response.work.phases > 0) {
+                _ if has_overturned => Fate::Overturns,
+                (StopReason::Collapsed, _) => Fate::Collapses,
+                (StopReason::Undetermined, _) => Fate::Undetermined,
+                _ if response.motion_at_contacts().is_some() && !rocked() => Fate::Slides,
+                (_, true) => Fate::Rocks,
+                (_, false) => Fate::NoUplift,
             },
             impacts: response.impacts,
-            block: response.overturned_block,
+            block: response.overturned_block.or_else(|| response.collapsed_block()),
             overturned_at: response.overturned_at().filter(|_| self.ask != Ask::Overturns),
             peaks: if with_peaks { response.peak_theta.iter().enumerate().map(share).collect() } else { Vec::new() },
             last_mode: with_peaks.then(last_mode),
+            residual_slides: match &response.sliding {
+                Some(report) if self.ask == Ask::Slides => report.residual_slide.clone(),
+                _ => Vec::new(),
+            },
         }
     }
 }

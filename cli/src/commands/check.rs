@@ -3,12 +3,12 @@
 use crate::commands::{inputs, sweep, thresholds};
 use crate::error::Failure;
 use crate::ground;
-use crate::number::{fixed, significant, widths};
+use crate::number::{coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use rocking::scene_file::{Derived, SceneFile};
 use rocking::sweep::{Axis, Combine};
-use rocking::{Block, Motion, Restitution, Scene};
+use rocking::{Block, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -83,6 +83,8 @@ struct Findings {
     stacks: Vec<thresholds::Row>,
     /// Factors of the plastic relative rates at the interfaces, dimensionless.
     restitution_factors: Vec<f64>,
+    /// What gives way first at each interface, of a scene with friction.
+    contacts: Vec<ContactFindings>,
     horizontal: Option<MotionFindings>,
     vertical: Option<MotionFindings>,
     /// Interfaces, from 1, that the largest horizontal acceleration would open from rest; at the column's own gravity.
@@ -91,6 +93,57 @@ struct Findings {
     rows: Option<u64>,
     /// Warnings of the readers of record files.
     warnings: Vec<String>,
+}
+
+/// What gives way first at an interface: the contact slides, or the stack above opens it, as one body on a ground that moves sideways only.
+#[derive(Debug, Serialize)]
+struct ContactFindings {
+    /// From 1, base first.
+    interface: usize,
+    /// Coefficient of static friction, dimensionless.
+    coefficient: f64,
+    /// Horizontal acceleration at which it slides, and at which it opens `[m/s²]`.
+    slides_at: f64,
+    opens_at: f64,
+    /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground.
+    at_pga: &'static str,
+    /// Coefficient from which on it would rock without sliding there; none where it does not open first.
+    coefficient_to_rock: Option<f64>,
+}
+
+impl ContactFindings {
+    /// The contact below a stack under a peak ground acceleration `[m/s²]`.
+    fn of(stack: &thresholds::Row, friction: &Friction, pga: f64) -> ContactFindings {
+        let coefficient = friction.fixed[(stack.interface - 1).min(friction.fixed.len() - 1)];
+        let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
+        let needed = (slides_at > opens_at && pga > opens_at).then(|| stack.stack.coefficient_to_rock(pga));
+        let at_pga = match needed {
+            Some(needed) if coefficient < needed => "slides-and-rocks",
+            Some(_) => "rocks",
+            None if pga > slides_at && slides_at <= opens_at => "slides",
+            None => "rests",
+        };
+        let interface = stack.interface;
+        ContactFindings { interface, coefficient, slides_at, opens_at, at_pga, coefficient_to_rock: needed }
+    }
+
+    /// In a sentence.
+    fn text(&self, gravity: f64) -> String {
+        let ContactFindings { interface, coefficient, .. } = self;
+        let [slides, opens] =
+            [self.slides_at, self.opens_at].map(|acceleration| significant(acceleration / gravity, 4));
+        if self.slides_at <= self.opens_at {
+            return format!("interface {interface} slides at {slides} g before it opens at {opens} g");
+        }
+        let both = self.coefficient_to_rock.map(|needed| {
+            let (needed, verb) = (
+                significant(needed, 4),
+                if self.at_pga == "rocks" { "rocks without sliding" } else { "slides and rocks" },
+            );
+            format!("; at the PGA it {verb}: that takes {needed} (mu_c), and it has {}", significant(*coefficient, 4))
+        });
+        format!("interface {interface} opens at {opens} g before it slides at {slides} g{}", both.unwrap_or_default())
+    }
 }
 
 /// A component of the ground motion.
@@ -131,6 +184,11 @@ impl Findings {
             blocks: column.blocks().to_vec(),
             derived,
             opens: opens.map(|stack| stack.interface).collect(),
+            contacts: scene
+                .friction
+                .iter()
+                .flat_map(|friction| stacks.iter().map(|stack| ContactFindings::of(stack, friction, pga)))
+                .collect(),
             stacks,
             restitution_factors: scene.restitution.factors(column),
             horizontal,
@@ -149,6 +207,7 @@ impl Findings {
         text.push('\n');
         self.column(&mut text, scene);
         self.ground(&mut text, scene);
+        self.friction(&mut text, scene);
         let options = &scene.options;
         let _ = writeln!(
             text,
@@ -229,6 +288,22 @@ impl Findings {
             ),
             _ => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
         };
+    }
+
+    fn friction(&self, text: &mut String, scene: &Scene) {
+        let gravity = scene.column.gravity();
+        let Some(friction) = &scene.friction else {
+            text.push_str("\nfriction is not given: blocks neither slide nor fly\n");
+            return;
+        };
+        let _ = writeln!(
+            text,
+            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest:",
+            coefficients(friction)
+        );
+        for contact in &self.contacts {
+            let _ = writeln!(text, "  {}", contact.text(gravity));
+        }
     }
 
     fn ground(&self, text: &mut String, scene: &Scene) {

@@ -3,6 +3,7 @@
 use crate::arguments::{Dynamics, Picture, Run};
 use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
+use crate::number::fixed;
 use crate::output;
 use crate::plot::NAMES;
 use crate::progress::Progress;
@@ -69,6 +70,14 @@ fn account(scene: &Scene, response: &Response) -> String {
         (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
         (StopReason::Falls, _) => format!("overturns, certain from t = {:.4} s on", response.t_final),
         (StopReason::AtRest, _) => format!("stands, at rest from t = {:.4} s on", response.t_final),
+        (StopReason::Collapsed, _) => format!(
+            "collapsed at t = {:.4} s ({} lost its support)",
+            response.t_final,
+            response.collapsed_block().map_or("a block".into(), |block| format!("block {block}"))
+        ),
+        (StopReason::Undetermined, _) => {
+            format!("undetermined from t = {:.4} s on: no motion follows from the laws of contact", response.t_final)
+        }
         _ => format!("stands at t = {:.4} s, still rocking", response.t_final),
     };
     let peaks: Vec<String> = response.peak_theta.iter().map(|angle| format!("{angle:.5}")).collect();
@@ -86,5 +95,12 @@ fn account(scene: &Scene, response: &Response) -> String {
     let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts);
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
+    if let Some(report) = response.motion_at_contacts() {
+        let slides: Vec<String> = report.residual_slide.iter().map(|slide| fixed(100.0 * slide, 3)).collect();
+        let flights: usize = report.flights.iter().sum();
+        let _ = writeln!(text, "slides at the end, base first: {} cm; {flights} flight(s)", slides.join(", "));
+    } else if response.sliding.is_some() {
+        let _ = writeln!(text, "friction holds: no block slides or flies");
+    }
     text
 }

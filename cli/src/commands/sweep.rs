@@ -80,14 +80,10 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
 }
 
-/// Reads a sweep, and refuses axes without effect on its rows.
+/// Reads a sweep, and refuses keys that no scene knows.
 pub fn read(file: &Path) -> Result<Sweep, Failure> {
     inputs::check(file)?;
     let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
-    // Friction demand is compared with the coefficient in the summary of a run only, and a table has none.
-    if let Some(axis) = sweep.axes.iter().find(|axis| axis.key == "friction") {
-        return Err(Failure::IdleAxis(file.into(), axis.key.clone()));
-    }
     check_keys(&sweep)?;
     Ok(sweep)
 }
@@ -145,40 +141,54 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     columns.push(Column::sparse("impacts", Kind::Whole));
     columns.push(Column::sparse("block", Kind::Whole));
     columns.push(Column::sparse(TIME, Kind::Number));
-    if sweep.ask == Ask::Peaks {
+    if sweep.ask.is_of_peaks() {
         let base = sweep.template.with(std::iter::empty()).map_err(Failure::scene)?;
         let counts = sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
         // Larger numbers are rows with errors.
         let counts = counts.filter_map(|count| count.to_string().parse().ok()).filter(|count| *count <= MOST_BLOCKS);
         let blocks = 1..=counts.max().unwrap_or(base.column.len());
-        columns.extend(blocks.map(|block| Column::sparse(format!("peak_{block}"), Kind::Number)));
+        let per_block = |name: &str| -> Vec<Column> {
+            blocks.clone().map(|block| Column::sparse(format!("{name}_{block}"), Kind::Number)).collect()
+        };
+        columns.extend(per_block("peak"));
         columns.push(Column::sparse("last_mode", Kind::Text));
+        if sweep.ask == Ask::Slides {
+            columns.extend(per_block("residual_slide"));
+        }
     }
     columns.push(Column::sparse("error", Kind::Text));
     Ok(columns)
 }
 
+/// Columns of every table besides its axes: index, outcome, impacts, block, time, error.
+const FIXED: usize = 6;
+
 /// A row as so many cells.
 fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
-    let mut cells = vec![row.index.to_string()];
+    let (mut cells, axes) = (vec![row.index.to_string()], row.settings.len());
     cells.extend(row.settings.iter().map(|setting| printable(&setting.to_string()).into_owned()));
     match &row.result {
         Ok(outcome) => {
             // A run that ends when its outcome is certain has not had all its impacts.
             let is_counted = match outcome.fate {
-                Fate::NoUplift => true,
+                Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
                 Fate::Overturns => ask != Ask::Overturns,
-                _ => ask == Ask::Peaks,
+                _ => ask.is_of_peaks(),
             };
             cells.push(outcome.fate.name().into());
             cells.push(if is_counted { outcome.impacts.to_string() } else { String::new() });
             cells.push(outcome.block.map_or(String::new(), |block| block.to_string()));
             cells.push(outcome.overturned_at.map_or(String::new(), |t| format!("{t:?}")));
+            let before_peaks = cells.len();
             cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
             if let Some(mode) = &outcome.last_mode {
-                // Columns of fewer blocks than the largest have blank peaks.
-                cells.resize(columns - 2, String::new());
+                // Columns of fewer blocks than the largest have blank peaks and slides.
+                let blocks =
+                    if ask == Ask::Slides { (columns - FIXED - axes - 1) / 2 } else { columns - FIXED - axes - 1 };
+                cells.resize(before_peaks + blocks, String::new());
                 cells.push(mode.clone());
+                cells.extend(outcome.residual_slides.iter().map(|slide| format!("{slide:?}")));
+                cells.resize(columns - 1, String::new());
             }
             cells.push(String::new());
         }
@@ -238,6 +248,10 @@ struct Tally {
     no_uplift: usize,
     rocks: usize,
     overturns: usize,
+    /// The last three are of scenes with friction.
+    slides: usize,
+    collapses: usize,
+    undetermined: usize,
     errors: usize,
 }
 
@@ -253,6 +267,9 @@ impl Tally {
                 name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
                 name if name == Fate::Rocks.name() => &mut tally.rocks,
                 name if name == Fate::Overturns.name() => &mut tally.overturns,
+                name if name == Fate::Slides.name() => &mut tally.slides,
+                name if name == Fate::Collapses.name() => &mut tally.collapses,
+                name if name == Fate::Undetermined.name() => &mut tally.undetermined,
                 _ => {
                     first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
                     &mut tally.errors
@@ -265,7 +282,15 @@ impl Tally {
 
 impl std::fmt::Display for Tally {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Tally { no_uplift, rocks, overturns, errors } = self;
-        writeln!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}, errors {errors}")
+        let Tally { no_uplift, rocks, overturns, errors, .. } = self;
+        write!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}")?;
+        for (name, count) in
+            [("slides", self.slides), ("collapses", self.collapses), ("undetermined", self.undetermined)]
+        {
+            if count > 0 {
+                write!(f, ", {name} {count}")?;
+            }
+        }
+        writeln!(f, ", errors {errors}")
     }
 }

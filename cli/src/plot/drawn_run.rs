@@ -6,7 +6,7 @@ use super::curve::Point;
 use rocking::Event;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{EventKind, ModeName, Sample, StopReason};
+use rocking::{ModeName, Sample, StopReason};
 
 /// The column at a row or an event. Lengths N, base first.
 #[derive(Clone, Debug)]
@@ -52,13 +52,18 @@ const AFTERMATH: f64 = 0.04;
 /// Curves of angles end at so many times the slenderness where the column overturns: the fall would flatten the rest.
 pub const FALL: f64 = 2.0;
 
+/// Whether a run with this end has no motion after it.
+fn ends_early(status: StopReason) -> bool {
+    matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined)
+}
+
 impl DrawnRun<'_> {
     /// Sorts a run for drawing.
     pub fn of(results: &Results) -> DrawnRun<'_> {
         let response = &results.response;
         let last = results.response.samples.last().map_or(0.0, |sample| sample.t);
         let (mut count, mut end) = (results.response.samples.len(), last.max(results.options.t_end));
-        if response.status == StopReason::Overturned {
+        if ends_early(response.status) {
             // The first row after it holds the column as it was then.
             count = (results.response.samples.partition_point(|sample| sample.t < response.t_final) + 1).min(count);
             end = end.min(response.t_final * (1.0 + AFTERMATH));
@@ -69,7 +74,7 @@ impl DrawnRun<'_> {
 
     /// Times of the impacts `[s]`.
     pub fn impacts(&self) -> impl Iterator<Item = f64> {
-        self.results.response.events.iter().filter(|event| event.kind == EventKind::Impact).map(|event| event.t)
+        self.results.response.events.iter().filter(|event| event.kind.is_impact()).map(|event| event.t)
     }
 
     /// Slenderness of the stack that stands on each interface, base first `[rad]`: `α_i = atan(c_i / h_Pi)`.
@@ -99,6 +104,8 @@ impl DrawnRun<'_> {
                 Some((response.t_final, format!("overturned (block {block})")))
             }
             (StopReason::Overturned, _) => Some((response.t_final, "overturned".into())),
+            (StopReason::Collapsed, _) => Some((response.t_final, "collapsed".into())),
+            (StopReason::Undetermined, _) => Some((response.t_final, "undetermined".into())),
             (StopReason::AtRest, _) if response.t_final > 0.0 && response.t_final < self.end => {
                 Some((response.t_final, "at rest".into()))
             }
@@ -108,7 +115,7 @@ impl DrawnRun<'_> {
 
     /// The patterns of the run in order of time, from 0 to its end.
     pub fn stretches(&self) -> Vec<Stretch> {
-        let end = if self.overturned() { self.results.response.t_final } else { self.end };
+        let end = if ends_early(self.results.response.status) { self.results.response.t_final } else { self.end };
         let named = |pattern: &Pattern, from: f64| Stretch {
             from,
             to: end,

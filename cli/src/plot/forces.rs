@@ -101,8 +101,11 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
 /// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
 fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64) -> f64 {
     let response = &motion.results.response;
-    let available =
-        motion.results.available_friction().map(|friction| format!("friction coefficient {}", brief(friction)));
+    let available = motion.results.friction.as_ref().map(|friction| {
+        let is_one = friction.fixed.len() == 1 && friction.kinetic == friction.fixed;
+        let which = if is_one { "" } else { "smallest static " };
+        format!("{which}friction coefficient {}", brief(friction.least()))
+    });
     // Below the panel and not along its line: there the name would lie on the curves.
     let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
     if !response.friction_demand.is_empty() {
@@ -124,7 +127,10 @@ fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
         "At output times: normal force of each interface over the weight above it (dashed: 1), and below the friction \
          coefficient it asks for",
     );
+    let response = &motion.results.response;
     match motion.results.available_friction() {
+        Some(friction) if response.motion_at_contacts().is_some() => caption
+            .push_str(&format!("; contacts slide where it reaches their coefficient, {} or above.", brief(friction))),
         Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
         None => caption.push_str("; the scene names no friction coefficient."),
     }
@@ -134,7 +140,10 @@ fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
         caption.push_str(" Larger demands leave the panel.");
     }
     if contacts.iter().flat_map(|contact| &contact.normal).any(|point| point[1] <= 0.0) {
-        caption.push_str(" Gaps: nothing presses there, and no friction is enough.");
+        caption.push_str(match &response.sliding {
+            Some(_) => " Gaps: nothing presses there, the blocks are apart.",
+            None => " Gaps: nothing presses there, and no friction is enough.",
+        });
     }
     caption
 }

@@ -1,10 +1,10 @@
 //! Figures of a run, of a record and of a sweep, as SVG and PNG.
 //!
 //! ```text
-//! results ──> drawn_run.rs ──> time_history.rs, phase_portrait.rs, energy.rs, forces.rs ──> sheet.rs ──> SVG, PNG
-//!             rows, events     what is drawn where                                             kuva
-//!                                   record.rs ──────────────────────────────────────────────┤
-//! table of a sweep ───────────────> spectrum.rs ────────────────────────────────────────────┘
+//! results ──> drawn_run.rs ──> time_history.rs, phase_portrait.rs, slides.rs, ──> sheet.rs ──> SVG, PNG
+//!             rows, events     energy.rs, forces.rs: what is drawn where             kuva
+//!                                   record.rs ──────────────────────────────────────┤
+//! table of a sweep ───────────────> spectrum.rs ────────────────────────────────────┘
 //! ```
 //!
 //! No mechanics: energies and forces come from the library. A figure is made of a run's files alone, and is the same, byte for
@@ -19,6 +19,7 @@ pub mod modes;
 mod phase_portrait;
 mod record;
 mod sheet;
+mod slides;
 pub mod spectrum;
 mod style;
 pub mod terminal;
@@ -31,11 +32,14 @@ pub use drawn_run::FALL;
 pub use record::record;
 pub use sheet::Figure;
 
-/// Names of the figures of a run, in the order of [`figures`].
-pub const NAMES: [&str; 4] = ["time-history", "phase-portrait", "energy", "forces"];
+/// Names of the figures of a run, in the order of [`figures`]; `slides` only where blocks slide or fly.
+pub const NAMES: [&str; 5] = ["time-history", "phase-portrait", "slides", "energy", "forces"];
 
 /// All figures of a run, in the order in which they are read.
 pub fn figures(results: &Results) -> Vec<Figure> {
     let motion = DrawnRun::of(results);
-    vec![time_history::draw(&motion), phase_portrait::draw(&motion), energy::draw(&motion), forces::draw(&motion)]
+    let mut figures = vec![time_history::draw(&motion), phase_portrait::draw(&motion)];
+    figures.extend(slides::draw(&motion));
+    figures.extend([energy::draw(&motion), forces::draw(&motion)]);
+    figures
 }

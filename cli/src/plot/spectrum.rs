@@ -59,6 +59,8 @@ impl Class {
             Class::AfterTwo => "#dd6a12",
             Class::AfterOne => "#0065a0",
             Class::AtOnce => "#1f1b2e",
+            Class::Slides => "#e9efdc",
+            Class::Collapses => "#7a1f3d",
             Class::Error => "#f3d6e4",
         }
     }
@@ -72,6 +74,8 @@ impl Class {
             Class::AfterTwo => "after 2 impacts",
             Class::AfterOne => "after 1 impact",
             Class::AtOnce => "without impact",
+            Class::Slides => "slides and stands",
+            Class::Collapses => "collapses: a block slides off",
             Class::Error => "no result (hatched)",
         }
     }

@@ -6,7 +6,7 @@ use super::drawn_run::{DrawnRun, FALL, Stretch, over_time};
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
-use rocking::Sample;
+use rocking::{Sample, StopReason};
 
 /// Heights `[px]`.
 const GROUND: f64 = 110.0;
@@ -268,8 +268,11 @@ fn caption(motion: &DrawnRun) -> String {
         caption.push_str(" Dashed: θ = ±α, beyond which a rigid stack at rest would fall.");
     }
     if let Some((t, words)) = motion.ending() {
-        let verb = if motion.overturned() { "" } else { "is " };
-        caption.push_str(&format!(" The column {verb}{words} at t = {t:.4} s."));
+        caption.push_str(&match motion.results.response.status {
+            StopReason::Undetermined => format!(" No motion follows from the laws of contact at t = {t:.4} s."),
+            StopReason::AtRest => format!(" The column is {words} at t = {t:.4} s."),
+            _ => format!(" The column {words} at t = {t:.4} s."),
+        });
     }
     if motion.results.response.events.is_empty() {
         caption.push_str(" Nothing sets the column in motion.");

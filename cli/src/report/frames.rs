@@ -8,12 +8,12 @@ use crate::number::{fixed, significant};
 use crate::plot;
 use crate::plot::modes::fill;
 use crate::report::html::script;
-use crate::report::outcome::closed;
+use crate::report::outcome::{changed, closed};
 use rocking::Event;
 use rocking::Record;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{Block, EventKind, StopReason};
+use rocking::{Block, Column, EventKind, StopReason};
 use serde_json::json;
 
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
@@ -28,6 +28,9 @@ const RATE_DIGITS: usize = 7;
 /// Digits behind the point of displacements `[m]` and accelerations `[m/s²]`.
 const GROUND_DIGITS: usize = 5;
 
+/// Digits behind the point of joints `[m]`.
+const JOINT_DIGITS: usize = 6;
+
 /// A drift below this share of the largest ground velocity is left: a pulse that ends at rest has none but rounding.
 const NO_DRIFT: f64 = 1e-3;
 
@@ -37,8 +40,43 @@ struct Frame<'a> {
     theta: &'a [f64],
     omega: &'a [f64],
     pattern: Pattern,
+    /// Where each block stands on the one below; empty for a run in which nothing slides or flies.
+    joints: Vec<Joint>,
     /// Ground acceleration `[m/s²]` and displacement `[m]`, `[x, y]` each.
     ground: [[f64; 2]; 2],
+}
+
+/// `[a, c, b]` `[m]`: from the middle of the lower face to the middle of the upper one leads `R(θ_{i-1}) (a, c) + R(θ_i) (b, 0)`, where `(a, c)` is
+/// the corner that is in contact, or next to it, and `b` the way from there along the upper face. Of a contact `c` is zero. Between events the three
+/// change evenly, so that the player may enlarge angles without blocks that part or overlap.
+type Joint = [f64; 3];
+
+/// The joints of blocks whose centroids are given, base first.
+fn joints(column: &Column, theta: &[f64], pattern: &Pattern, places: &[[f64; 2]]) -> Vec<Joint> {
+    // A turn by an angle, clockwise; back with its negative.
+    let turned = |angle: f64, [u, v]: [f64; 2]| {
+        let (sin, cos) = angle.sin_cos();
+        [u * cos + v * sin, v * cos - u * sin]
+    };
+    let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
+    let (mut top, mut below, mut reach) = ([0.0, 0.0], 0.0, f64::INFINITY);
+    let mut joints = Vec::with_capacity(places.len());
+    for (((block, place), angle), state) in column.blocks().iter().zip(places).zip(theta).zip(&pattern.0) {
+        let foot = less(*place, turned(*angle, [0.0, block.centroid_height]));
+        let (way, side) = (less(foot, top), f64::from(state.sign()));
+        let on_lower = |b: f64| turned(-below, less(way, turned(*angle, [b, 0.0])));
+        let mut b = -side * block.bottom_half_width;
+        let mut corner = on_lower(b);
+        if side * corner[0] > reach {
+            // The lower block's corner is in contact instead.
+            b = turned(-angle, less(way, turned(below, [side * reach, 0.0])))[0];
+            corner = on_lower(b);
+        }
+        joints.push([corner[0], corner[1], b]);
+        top = less(*place, turned(*angle, [0.0, block.centroid_height - 2.0 * block.half_height]));
+        (below, reach) = (*angle, block.top_half_width);
+    }
+    joints
 }
 
 /// Number of rows of which one is kept.
@@ -55,31 +93,40 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
     let last = rows.len() - 1;
     for (index, row) in rows.iter().enumerate() {
         while let Some(event) = events.next_if(|event| event.t <= row.t) {
-            frames.extend(sides(event, ground.at(results, index, event.t)));
+            frames.extend(sides(&results.column, event, ground.at(results, index, event.t)));
         }
         // Where a row falls on an event, the event has both sides of it.
         let is_told = frames.last().is_some_and(|frame| frame.t == row.t);
         if !is_told && (index % stride == 0 || index == last) {
             let at = ground.at(results, index, row.t);
+            let places: Vec<[f64; 2]> = row.blocks.iter().map(|block| block.place).collect();
             frames.push(Frame {
                 t: row.t,
                 theta: &row.theta,
                 omega: &row.omega,
                 pattern: row.pattern.clone(),
+                joints: joints(&results.column, &row.theta, &row.pattern, &places),
                 ground: at,
             });
         }
     }
     // Overturning ends the rows; what happened after the last of them belongs to the run all the same.
     for event in events {
-        frames.extend(sides(event, ground.at(results, last, event.t)));
+        frames.extend(sides(&results.column, event, ground.at(results, last, event.t)));
     }
     frames
 }
 
-fn sides(event: &Event, ground: [[f64; 2]; 2]) -> [Frame<'_>; 2] {
-    let side =
-        |pattern: &Pattern, omega| Frame { t: event.t, theta: &event.theta, omega, pattern: pattern.clone(), ground };
+fn sides<'a>(column: &Column, event: &'a Event, ground: [[f64; 2]; 2]) -> [Frame<'a>; 2] {
+    let places: Vec<[f64; 2]> = event.blocks.iter().map(|block| block.place).collect();
+    let side = |pattern: &Pattern, omega| Frame {
+        t: event.t,
+        theta: &event.theta,
+        omega,
+        pattern: pattern.clone(),
+        joints: joints(column, &event.theta, pattern, &places),
+        ground,
+    };
     [side(&event.before, &event.omega_before), side(&event.after, &event.omega_after)]
 }
 
@@ -180,6 +227,13 @@ pub fn json(results: &Results) -> String {
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {
         list(blocks.clone().map(|block| list(frames.iter().map(|frame| number(frame, block)).collect())).collect())
     };
+    // Rows and events of a run have all of them, or none.
+    let has_joints = frames.iter().all(|frame| frame.joints.len() == column.len());
+    let joint = |block: usize, part: usize| {
+        list(frames.iter().map(|frame| fixed(frame.joints[block][part], JOINT_DIGITS)).collect())
+    };
+    let of_block = |block: usize| list((0..3).map(|part| joint(block, part)).collect());
+    let joints = if has_joints { list(blocks.clone().map(of_block).collect()) } else { "null".into() };
     let theta = per_block(&|frame, block| fixed(frame.theta[block], ANGLE_DIGITS));
     let omega = per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS));
     // `{:?}` is the shortest text that reads back to the same bits.
@@ -193,7 +247,7 @@ pub fn json(results: &Results) -> String {
     let head = head.to_string();
     let head = head.trim_end_matches('}');
     script(&format!(
-        "{head},\n\"t\":{t},\n\"theta\":{theta},\n\"omega\":{omega},\n\"pattern\":{},\n\"ax\":{ax},\n\"ay\":{ay},\n\"dx\":{dx},\n\"dy\":{dy}}}",
+        "{head},\n\"t\":{t},\n\"theta\":{theta},\n\"omega\":{omega},\n\"joints\":{joints},\n\"pattern\":{},\n\"ax\":{ax},\n\"ay\":{ay},\n\"dx\":{dx},\n\"dy\":{dy}}}",
         list(states)
     ))
 }
@@ -205,12 +259,16 @@ fn largest_shown(results: &Results) -> Option<f64> {
     (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
-/// Interfaces, from 0, that closed in an impact, or else changed.
+/// Interfaces, from 0, that closed in an impact, slid, parted or landed, or else opened.
 fn interfaces(event: &Event) -> Vec<usize> {
-    if event.kind == EventKind::Impact {
-        return closed(event);
+    match event.kind {
+        EventKind::Impact | EventKind::Landing => closed(event),
+        // A jump names no interface, and a slip changes no sign.
+        EventKind::Start | EventKind::Opening | EventKind::Jump => (0..event.after.0.len())
+            .filter(|&interface| event.before.0[interface] != event.after.0[interface])
+            .collect(),
+        _ => changed(event),
     }
-    (0..event.after.0.len()).filter(|&interface| event.before.0[interface] != event.after.0[interface]).collect()
 }
 
 /// Notes below the player: drift of the ground that is taken out, rows that are left out.
@@ -232,6 +290,9 @@ pub fn notes(results: &Results) -> String {
                 taken.join(" and ")
             )
         });
+    }
+    if results.response.motion_at_contacts().is_some() {
+        notes.push("Blocks are drawn where they have slid or flown to, at true size whatever the angles; a block that slides has the colour of the one below.".into());
     }
     let stride = stride(results);
     if stride > 1 {

@@ -1,7 +1,7 @@
 //! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground;
-use crate::number::{percent, significant, widths};
+use crate::number::{coefficients, percent, significant, widths};
 use crate::report::html::definitions;
 use crate::text::escape;
 use rocking::Restitution;
@@ -22,7 +22,7 @@ pub fn inputs(results: &Results) -> String {
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
         ("Gravity", format!("{} m/s²", significant(column.gravity(), 6))),
         ("Impacts", restitution(&results.restitution, column.housner_ratio())),
-        ("Friction", results.available_friction().map_or("not given".into(), |friction| significant(friction, 4))),
+        ("Friction", results.friction.as_ref().map_or("not given".into(), coefficients)),
         ("Ground, horizontal", component("horizontal", 0)),
         ("Ground, vertical", component("vertical", 1)),
     ];
@@ -84,7 +84,7 @@ fn initial(results: &Results) -> Option<String> {
     let first = results.response.samples.first()?;
     let list = |values: &[f64]| values.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");
     let is_zero = |values: &[f64]| values.iter().all(|value| *value == 0.0);
-    let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s")]
+    let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s"), ("slides", &first.slide, "m")]
         .into_iter()
         .filter(|(_, values, _)| !is_zero(values))
         .map(|(name, values, unit)| format!("{name} = {} {unit}", list(values)))

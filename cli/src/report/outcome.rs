@@ -34,6 +34,20 @@ pub fn sentence(results: &Results) -> String {
         StopReason::Falls => {
             ("overturned", "The column <strong>overturns</strong>: nothing can stop it any more.".to_string())
         }
+        StopReason::Collapsed => {
+            let who = match response.collapsed_block() {
+                Some(block) => format!("block {block} loses its support"),
+                None => "a block loses its support".into(),
+            };
+            ("overturned", format!("The column <strong>collapses</strong> at t&nbsp;=&nbsp;{t}&nbsp;s: {who}."))
+        }
+        StopReason::Undetermined => (
+            "undetermined",
+            format!(
+                "The run <strong>ends without an outcome</strong> at t&nbsp;=&nbsp;{t}&nbsp;s: no motion follows from the laws of \
+                 contact with friction there."
+            ),
+        ),
         StopReason::EndOfTime if results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
@@ -48,11 +62,74 @@ pub fn sentence(results: &Results) -> String {
     let sign = match class {
         "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
         "stands" => "<path d=\"M5 13l5 5L19 7\"/>",
+        "undetermined" => "<path d=\"M8 9a4 4 0 1 1 4 4v2M12 19v.5\"/>",
         _ => "<path d=\"M4 12c3-6 5-6 8 0s5 6 8 0\"/>",
     };
     format!(
-        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>"
+        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}",
+        places(results)
     )
+}
+
+/// Slides below this are not worth a number `[m]`.
+const SMALLEST_SLIDE: f64 = 1e-6;
+
+/// Where each drum stayed, and what slid and flew; nothing for a scene without friction.
+fn places(results: &Results) -> String {
+    let response = &results.response;
+    let Some(report) = &response.sliding else { return String::new() };
+    if !report.is_any() {
+        return "<p>Friction holds: no block slides or flies.</p>\n".into();
+    }
+    let all = 0..results.column.len();
+    let moved: Vec<usize> = all.clone().filter(|&interface| report.has_moved(interface)).collect();
+    let below = |block: usize| if block == 0 { "the ground".into() } else { format!("block {block}") };
+    let place = |&block: &usize| {
+        let slide = report.residual_slide[block];
+        let where_to = match slide {
+            slide if slide.abs() < SMALLEST_SLIDE => "in the middle".to_string(),
+            slide => format!("{} to the {}", centimetres(slide), if slide > 0.0 { "right" } else { "left" }),
+        };
+        format!("block {} {where_to} on {}", block + 1, below(block))
+    };
+    let verb = match response.status {
+        StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined => "stood at the end of the run",
+        _ => "stayed",
+    };
+    let mut text = format!("<p>Where the drums {verb}: {}", moved.iter().map(place).collect::<Vec<_>>().join(", "));
+    text.push_str(match all.len() - moved.len() {
+        0 => ".",
+        1 => "; the other one has not slid.",
+        _ => "; the others have not slid.",
+    });
+    let way: Vec<String> = moved
+        .iter()
+        .filter(|&&interface| report.way_slid[interface] > 0.0)
+        .map(|&interface| format!("interface {} by {}", interface + 1, centimetres(report.way_slid[interface])))
+        .collect();
+    if !way.is_empty() {
+        let _ = write!(text, " Slid to and fro: {} in all.", way.join(", "));
+    }
+    let flights: usize = report.flights.iter().sum();
+    if flights > 0 {
+        let who: Vec<String> =
+            moved.iter().filter(|&&one| report.flights[one] > 0).map(|one| (one + 1).to_string()).collect();
+        let interfaces = if who.len() == 1 { "interface" } else { "interfaces" };
+        let times = if flights == 1 { "One flight".into() } else { format!("{flights} flights") };
+        let _ = write!(
+            text,
+            " {times} at {interfaces} {}, up to {} high.",
+            who.join(", "),
+            centimetres(report.highest_flight)
+        );
+    }
+    text.push_str("</p>\n");
+    text
+}
+
+/// A length, without its sign, in cm.
+fn centimetres(length: f64) -> String {
+    format!("{}&nbsp;cm", significant(100.0 * length.abs(), 3))
 }
 
 /// The figures that are asked for first.
@@ -66,8 +143,9 @@ pub fn tiles(results: &Results) -> String {
             format!("{} rad; {} of the column's α", significant(peak, 4), percent(peak / results.column.slenderness()));
         tiles.push(("largest angle", degrees(peak), of));
     }
-    let starts = results.response.events.iter().filter(|event| event.kind != EventKind::Impact).count();
-    tiles.push(("impacts", response.impacts.to_string(), format!("{starts} other event(s): starts, openings")));
+    let starts = results.response.events.iter().filter(|event| !event.kind.is_impact()).count();
+    let kinds = if response.sliding.is_some() { "starts, openings, slips, flights" } else { "starts, openings" };
+    tiles.push(("impacts", response.impacts.to_string(), format!("{starts} other event(s): {kinds}")));
     let total: f64 = response.time_in_mode.values().sum();
     if let Some((mode, time)) = response.modes_by_time().first().copied() {
         let name = if mode == "rest" { "at rest".to_string() } else { format!("mode {}", escape(mode)) };
@@ -123,6 +201,9 @@ fn bar(share: f64) -> String {
 
 /// Interfaces that closed in an impact, from 0: open before, and without a gap.
 pub fn closed(event: &Event) -> Vec<usize> {
+    if event.kind == EventKind::Landing {
+        return changed(event);
+    }
     let gap = |interface: usize| {
         let below = if interface == 0 { 0.0 } else { event.theta[interface - 1] };
         (event.theta[interface] - below).abs()
@@ -131,12 +212,22 @@ pub fn closed(event: &Event) -> Vec<usize> {
     (0..event.theta.len()).filter(|&interface| was_open(interface) && gap(interface) < CLOSED_GAP).collect()
 }
 
+/// Interfaces, from 0, that an event names, or else that it changed.
+pub fn changed(event: &Event) -> Vec<usize> {
+    let all = 0..event.after.0.len();
+    match (event.interfaces.is_empty(), event.interface) {
+        (false, _) => all.filter(|interface| event.interfaces.contains(&(interface + 1))).collect(),
+        (true, Some(named)) => all.filter(|interface| interface + 1 == named).collect(),
+        _ => all.filter(|&at| event.before.0[at] != event.after.0[at]).collect(),
+    }
+}
+
 /// Gaps of an interface that has closed are rounding; hops that the solver follows are above its stick angle, 1e-9 rad `[rad]`.
 const CLOSED_GAP: f64 = 1e-12;
 
 /// Number of impacts, their interfaces, and the times of the first and the last.
 pub fn impacts(results: &Results) -> String {
-    let impacts: Vec<&Event> = results.response.events.iter().filter(|event| event.kind == EventKind::Impact).collect();
+    let impacts: Vec<&Event> = results.response.events.iter().filter(|event| event.kind.is_impact()).collect();
     let (Some(first), Some(last)) = (impacts.first(), impacts.last()) else {
         return "<p>There is no impact in this run.</p>\n".into();
     };

@@ -1,8 +1,10 @@
-//! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations.
+//! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations; with friction, what slid and flew, and
+//! whether the energy balance closes.
 
-use crate::number::{percent, significant};
+use crate::number::{coefficients, fixed, percent, significant};
 use crate::text::escape;
 use rocking::run_folder::Results;
+use rocking::{ContactTimes, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
@@ -17,6 +19,8 @@ enum Verdict {
     Holds(String),
     /// The model holds for joints that are rough enough; the scene gives no friction coefficient.
     Conditional(String),
+    /// The model holds but for what is named.
+    Noted(String, Vec<String>),
     /// The reasons against it.
     Fails(Vec<String>),
     /// Contact forces were not recorded.
@@ -28,8 +32,78 @@ fn largest_demand(results: &Results) -> Option<(usize, f64)> {
     results.response.friction_demand.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
+/// Relative error of the energy balance above which a run is not trusted.
+const BALANCE: f64 = 1e-6;
+
+/// The verdict on a run whose friction is modelled.
+fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
+    let response = &results.response;
+    if response.status == StopReason::Undetermined {
+        let t = significant(response.t_final, 5);
+        return Verdict::Fails(vec![format!("no motion follows from the laws of contact with friction at t = {t} s")]);
+    }
+    if !report.is_any() {
+        let why = match largest_demand(results) {
+            Some((worst, demand)) if demand > 0.0 => format!(
+                "friction holds, no block slides or flies; {} comes nearest to sliding, with |T|/N up to {}",
+                named(&[worst]),
+                significant(demand, 3)
+            ),
+            _ => "friction holds, no block slides or flies".into(),
+        };
+        return Verdict::Holds(why);
+    }
+    let moved = |kind: fn(&SlidingReport, usize) -> bool| -> Vec<usize> {
+        (0..report.way_slid.len()).filter(|&interface| kind(report, interface)).collect()
+    };
+    let slid = moved(|report, interface| report.way_slid[interface] > 0.0);
+    let flew = moved(|report, interface| report.flights[interface] > 0);
+    let mut told = Vec::new();
+    if !slid.is_empty() {
+        told.push(format!("{} slid", named(&slid)));
+    }
+    if !flew.is_empty() {
+        told.push(format!("{} parted for a time", named(&flew)));
+    }
+    let mut why = format!("sliding and flight are part of it; {}", told.join(", "));
+    let mut notes = Vec::new();
+    match report.balance() {
+        Some(error) if error <= BALANCE => {
+            let _ = write!(why, ", and the energy balance closes to {}", significant(error, 1));
+        }
+        Some(error) => notes.push(format!("the energy balance is open by {} of the ground's work", percent(error))),
+        None => {}
+    }
+    for (instants, what) in [
+        (&report.ambiguous, "friction admits several motions, and the one with the fewest changes was taken"),
+        (&report.jammed, "friction admits no smooth motion: the blocks jam, and strike"),
+    ] {
+        if !instants.is_empty() {
+            notes.push(format!("at {}, {what}", times(instants)));
+        }
+    }
+    if notes.is_empty() { Verdict::Holds(why) } else { Verdict::Noted(why, notes) }
+}
+
+/// Instants that are listed.
+const TIMES_SHOWN: usize = 5;
+
+/// Instants in words.
+fn times(instants: &[f64]) -> String {
+    let listed: Vec<String> = instants.iter().take(TIMES_SHOWN).map(|one| significant(*one, 6)).collect();
+    match instants.len() {
+        1 => format!("t = {} s", listed[0]),
+        count => {
+            format!("{count} instants, t = {}{} s", listed.join(", "), if count > listed.len() { ", …" } else { "" })
+        }
+    }
+}
+
 fn judge(results: &Results) -> Verdict {
     let response = &results.response;
+    if let Some(report) = &response.sliding {
+        return judge_sliding(results, report);
+    }
     let mut reasons = Vec::new();
     if let Some(first) = response.separations.first() {
         let count = response.separations.len();
@@ -102,6 +176,12 @@ pub fn verdict(results: &Results) -> String {
                 "<p><strong>The model holds if the joints are rough enough</strong>: {why}. The scene names no coefficient.</p>"
             ),
         ),
+        Verdict::Noted(why, notes) => {
+            let notes: String = notes.iter().map(|note| format!("<li>{note}</li>")).collect();
+            let words =
+                format!("<p><strong>The model holds, with reservations</strong>: {why}. But:</p><ul>{notes}</ul>");
+            ("conditional", "?", words)
+        }
         Verdict::Fails(reasons) => {
             let reasons: String = reasons.iter().map(|reason| format!("<li>{reason}</li>")).collect();
             ("fails", "!", format!("<p><strong>The model does not hold for this run</strong>:</p><ul>{reasons}</ul>"))
@@ -125,7 +205,9 @@ pub fn details(results: &Results) -> String {
         let weight = column.mass_above(interface) * column.gravity();
         let demand = response.friction_demand[interface];
         let force = response.min_normal_force[interface];
-        let slides = results.available_friction().is_some_and(|available| demand > available);
+        // Where friction is modelled, none is beyond it.
+        let slides =
+            response.sliding.is_none() && results.available_friction().is_some_and(|friction| demand > friction);
         let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
         let share = known(format!("{} <span class=\"note\">{}</span>", significant(force, 4), percent(force / weight)));
         let _ = writeln!(
@@ -139,8 +221,8 @@ pub fn details(results: &Results) -> String {
     }
     let mut text = String::new();
     if !rows.is_empty() {
-        let available = results.available_friction().map_or("the scene names no coefficient".into(), |friction| {
-            format!("the scene has {}", significant(friction, 3))
+        let available = results.friction.as_ref().map_or("the scene names no coefficient".into(), |friction| {
+            format!("the scene has {}", coefficients(friction))
         });
         let _ = write!(
             text,
@@ -150,25 +232,22 @@ pub fn details(results: &Results) -> String {
              <tbody>\n{rows}</tbody></table></div>\n"
         );
     }
-    text.push_str(
-        "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
-         interface needs so as not to slide; a normal force that falls to zero is a block about to lift off. Peaks that last a \
-         few milliseconds count in full.</p>\n",
-    );
-    if response.overturned_at().is_some() {
+    match &response.sliding {
+        Some(report) => text.push_str(&slides(report)),
+        None => text.push_str(
+            "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
+             interface needs so as not to slide; a normal force that falls to zero is a block about to lift off. Peaks that last a \
+             few milliseconds count in full.</p>\n",
+        ),
+    }
+    if response.sliding.is_none() && response.overturned_at().is_some() {
         text.push_str(
             "<p>The column falls in this run, and the fall is included: its friction demand grows with the lean.</p>\n",
         );
     }
-    let separations = match response.separations.len() {
-        0 => "<p>Separations: none.</p>\n".to_string(),
-        count => {
-            let times: Vec<String> = response.separations.iter().take(5).map(|one| significant(one.t, 6)).collect();
-            let more = if count > times.len() { ", …" } else { "" };
-            format!("<p>Separations: {count}, at t = {}{more} s.</p>\n", times.join(", "))
-        }
-    };
-    text.push_str(&separations);
+    if response.sliding.is_none() {
+        text.push_str(&separations(results));
+    }
     if !results.warnings.is_empty() {
         let list: String = results.warnings.iter().map(|warning| format!("<li>{}</li>", escape(warning))).collect();
         let list = format!("<ul class=\"warnings\">{list}</ul>");
@@ -176,6 +255,73 @@ pub fn details(results: &Results) -> String {
             0..=WARNINGS_SHOWN => writeln!(text, "<h3>Warnings of the run</h3>\n{list}"),
             count => writeln!(text, "<details><summary>{count} warnings of the run</summary>\n{list}</details>"),
         };
+    }
+    text
+}
+
+/// Contact problems without admissible pattern.
+fn separations(results: &Results) -> String {
+    let instants: Vec<f64> = results.response.separations.iter().map(|one| one.t).collect();
+    match instants.len() {
+        0 => "<p>Separations: none.</p>\n".into(),
+        count => format!(
+            "<p>Separations: {count}, at {}.</p>\n",
+            times(&instants).trim_start_matches(&format!("{count} instants, "))
+        ),
+    }
+}
+
+/// What slid and flew, per interface, with the energy balance and the instants that friction leaves open.
+fn slides(report: &SlidingReport) -> String {
+    let mut text = String::from(
+        "<p>Blocks stick, slide and fly by Coulomb's law and Moreau's law of impact: where a contact sticks, |T|/N stays below its static \
+         coefficient; while it slides, |T|/N is the kinetic one; where the normal force falls to zero, the blocks part.</p>\n",
+    );
+    if !report.is_any() {
+        text.push_str("<p>In this run nothing slides or flies: it is the run without friction.</p>\n");
+        return text;
+    }
+    let cm = |length: f64| fixed(100.0 * length, 3);
+    let mut rows = String::new();
+    for (interface, ContactTimes { sliding, free, .. }) in report.times.iter().enumerate().rev() {
+        let _ = writeln!(
+            rows,
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            interface + 1,
+            cm(report.residual_slide[interface]),
+            cm(report.peak_slide[interface]),
+            cm(report.way_slid[interface]),
+            fixed(*sliding, 3),
+            report.flights[interface],
+            fixed(*free, 3)
+        );
+    }
+    let _ = write!(
+        text,
+        "<div class=\"wide\"><table>\n<caption>Slides per interface, the top one first; to the right is positive.</caption>\n\
+         <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">slide at the end [cm]</th><th scope=\"col\">largest [cm]</th>\
+         <th scope=\"col\">way slid [cm]</th><th scope=\"col\">time sliding [s]</th><th scope=\"col\">flights</th>\
+         <th scope=\"col\">time free [s]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    );
+    if report.highest_flight > 0.0 {
+        let _ = writeln!(text, "<p>Largest gap of a flight: {} cm.</p>", significant(100.0 * report.highest_flight, 3));
+    }
+    if let Some(error) = report.balance() {
+        let joules = |work: f64| format!("{}&nbsp;J", significant(work, 5).replace('-', "\u{2212}"));
+        let _ = writeln!(
+            text,
+            "<p>Energy balance: work of the ground {}, of friction {}, lost at impacts {}; change of energy {}. \
+             Relative error: {}.</p>",
+            joules(report.ground_work),
+            joules(report.friction_work),
+            joules(report.impact_losses),
+            joules(report.energy_change),
+            significant(error, 2)
+        );
+    }
+    for (name, instants) in [("Ambiguous", &report.ambiguous), ("Jammed", &report.jammed)] {
+        let words = if instants.is_empty() { "none".into() } else { times(instants) };
+        let _ = writeln!(text, "<p>{name}: {words}.</p>");
     }
     text
 }

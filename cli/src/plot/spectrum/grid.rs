@@ -16,6 +16,8 @@ const MOST_PANELS: usize = 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     NoUplift,
+    /// Blocks slid, and nothing rocked.
+    Slides,
     Rocks,
     /// The column overturned, and its impacts were not counted: the sweep asked only whether it does.
     Overturns,
@@ -25,20 +27,24 @@ pub enum Class {
     AfterOne,
     /// The column overturned without an impact.
     AtOnce,
-    /// The point has no result.
+    /// A block lost its support.
+    Collapses,
+    /// The point has no result, or no motion follows from the laws of contact.
     Error,
 }
 
 impl Class {
     /// All, in this order.
-    pub const ALL: [Class; 8] = [
+    pub const ALL: [Class; 10] = [
         Class::NoUplift,
+        Class::Slides,
         Class::Rocks,
         Class::Overturns,
         Class::AfterMore,
         Class::AfterTwo,
         Class::AfterOne,
         Class::AtOnce,
+        Class::Collapses,
         Class::Error,
     ];
 
@@ -46,13 +52,15 @@ impl Class {
     fn of(outcome: &str, impacts: &str) -> Option<Class> {
         Some(match (outcome, impacts) {
             ("no-uplift", _) => Class::NoUplift,
+            ("slides", _) => Class::Slides,
+            ("collapses", _) => Class::Collapses,
             ("rocks", _) => Class::Rocks,
             ("overturns", "") => Class::Overturns,
             ("overturns", "0") => Class::AtOnce,
             ("overturns", "1") => Class::AfterOne,
             ("overturns", "2") => Class::AfterTwo,
             ("overturns", _) => Class::AfterMore,
-            ("error", _) => Class::Error,
+            ("error" | "undetermined", _) => Class::Error,
             _ => return None,
         })
     }

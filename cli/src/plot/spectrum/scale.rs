@@ -87,7 +87,7 @@ fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
 }
 
 /// Keys of scenes by their last part, and what they are with their unit.
-const LABELS: [(&str, &str); 28] = [
+const LABELS: [(&str, &str); 30] = [
     ("amplitude_uplift", "a / (g tan α)"),
     ("omega_p", "Ω / p"),
     ("amplitude", "a [m/s²]"),
@@ -113,6 +113,8 @@ const LABELS: [(&str, &str); 28] = [
     ("inertia", "Inertia [kg m²]"),
     ("gravity", "g [m/s²]"),
     ("friction", "Friction coefficient"),
+    ("friction.static", "Static friction coefficient"),
+    ("friction.kinetic", "Kinetic friction coefficient"),
     ("t_end", "End of the run [s]"),
     ("stick_angle", "Stick angle [rad]"),
     ("overturn_angle", "Overturning angle [rad]"),

@@ -9,7 +9,11 @@ function markReadouts() {
   }
 }
 const signed = (value, digits) => (value < 0 ? "\u2212" : "+") + Math.abs(value).toFixed(digits);
-const WORDS = { start: "starts to move", opening: "opening", impact: "impact", jump: "the ground jumps" };
+const WORDS = {
+  start: "starts to move", opening: "opening", impact: "impact", jump: "the ground jumps", slip: "begins to slide", stick: "stops sliding",
+  flight: "lifts off", landing: "lands", edge: "a corner passes an edge", collapsed: "loses its support",
+};
+const strikes = kind => kind === "impact" || kind === "landing";
 const text = (target, value) => { if (target.textContent !== value) target.textContent = value; };
 const eventAt = t => lastNotAbove(run.events, t, event => event.t);
 

@@ -47,7 +47,7 @@ function frameView() {
   const step = Math.max(1, Math.floor(last / LOOKED_AT));
   for (let frame = 0; frame <= last; frame += step) {
     const theta = enlarged(run.theta.map(list => list[frame]), factor);
-    for (const { corners } of outlines(theta, run.patterns[run.pattern[frame]].signs)) {
+    for (const { corners } of outlines(theta, run.patterns[run.pattern[frame]].signs, jointsAt({ frame, share: 0 }))) {
       for (const [x, y] of corners) { low = Math.min(low, x); high = Math.max(high, x); up = Math.max(up, y); }
     }
     [run.dx, run.dy].forEach((list, axis) => {
@@ -116,7 +116,7 @@ function drawStage(state) {
   c.fill();
 
   const { signs, link } = state.pattern;
-  const blocks = outlines(enlarged(state.theta, factor), signs);
+  const blocks = outlines(enlarged(state.theta, factor), signs, state.joints);
   blocks.forEach((block, i) => drawDrum(c, block.corners.map(([u, v]) => [x(u), y(v)]), run.fills[link[i]], i + 1));
   // Closed interfaces between blocks: the line between the two gives way to dashes.
   blocks.forEach((block, i) => {
@@ -203,7 +203,7 @@ function drawImpact(c, t, blocks, x, y) {
   const reach = FLASH * speed, seen = new Set();
   for (let i = eventAt(t); i >= 0 && t - run.events[i].t < reach; i--) {
     const { kind, at, t: when } = run.events[i];
-    if (kind !== "impact") continue;
+    if (!strikes(kind)) continue;
     const age = (t - when) / reach;
     for (const joint of at) {
       // Of a joint that chatters, the last impact.

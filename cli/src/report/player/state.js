@@ -5,6 +5,8 @@
 //   angles rad, the largest that the curves show, null for all
 //   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0, mode after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
+//   joints [N][3][F] m, null where nothing slides or flies: a, c, b; the middle of the face below to that of the block's base is (a, c) in the axes
+//   of the block below and then (b, 0) in its own
 //   ax, ay, dx, dy [F] ground acceleration m/s² and displacement m, null where there is none
 //
 // Address: ?t=3.2 starts there, paused; ?play=1 plays; ?speed=, ?angles= choose; ?show=animation leaves the rest out;
@@ -62,32 +64,43 @@ function anglesAt({ frame, step, share: s }) {
   });
 }
 
+// Where blocks stand on each other at a place, null where nothing slides or flies.
+const jointsAt = place => run.joints && run.joints.map(parts => parts.map(list => linear(list, place)));
+
 function stateAt(t) {
   const place = placeOf(t);
   return {
     t, theta: anglesAt(place), pattern: run.patterns[run.pattern[place.frame]],
-    ground: [linear(run.dx, place), linear(run.dy, place)],
+    joints: jointsAt(place), ground: [linear(run.dx, place), linear(run.dy, place)],
     acceleration: [linear(run.ax, place), linear(run.ay, place)],
   };
 }
 
 // Corners of the blocks (bottom left, bottom right, top right, top left) and pivots, the origin at the centre of the base on the
-// ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below.
-function outlines(theta, signs) {
+// ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below; where there are joints, at (a, c).
+const FLIES = 5e-6; // m; joints are written to a tenth of it
+function outlines(theta, signs, joints) {
   const turn = (angle, u, v) => [u * Math.cos(angle) + v * Math.sin(angle), v * Math.cos(angle) - u * Math.sin(angle)];
   // Middle of the face below, and its angle.
   let face = [0, 0], below = 0;
   return run.blocks.map(([bottom, top, h], i) => {
-    const [half, onLower, onUpper] = run.contact[i], own = theta[i], offset = signs[i] * half;
+    const own = theta[i];
+    let [half, onLower, onUpper] = run.contact[i], offset = signs[i] * half, rise = 0, way = -offset - onUpper;
+    if (joints) {
+      const [a, c, b] = joints[i], reach = i > 0 ? run.blocks[i - 1][1] : Infinity, slide = a + b;
+      const [left, right] = [Math.max(-reach, slide - bottom), Math.min(reach, slide + bottom)];
+      [half, onLower, rise, way] = [(right - left) / 2, (left + right) / 2, c, b];
+      offset = a - onLower;
+    }
     const from = (point, u, v) => { const [x, y] = turn(own, u, v); return [point[0] + x, point[1] + y]; };
-    const onFace = u => { const [x, y] = turn(below, u, 0); return [face[0] + x, face[1] + y]; };
-    const pivot = onFace(onLower + offset);
+    const onFace = (u, v = 0) => { const [x, y] = turn(below, u, v); return [face[0] + x, face[1] + y]; };
+    const pivot = onFace(onLower + offset, rise);
     const contact = [-1, 1].map(side => onFace(onLower + side * half));
-    const base = from(pivot, -offset - onUpper, 0);
+    const base = from(pivot, way, 0);
     const corners = [[-bottom, 0], [bottom, 0], [top, 2 * h], [-top, 2 * h]].map(([u, v]) => from(base, u, v));
     face = from(base, 0, 2 * h);
     below = own;
-    return { corners, pivot: signs[i] === 0 ? null : pivot, contact };
+    return { corners, pivot: signs[i] === 0 || rise > FLIES ? null : pivot, contact };
   });
 }
 
@@ -111,7 +124,7 @@ window.rocking = {
   at(t) {
     const state = stateAt(t);
     return {
-      t, theta: state.theta, corners: outlines(state.theta, state.pattern.signs).map(block => block.corners),
+      t, theta: state.theta, corners: outlines(state.theta, state.pattern.signs, state.joints).map(block => block.corners),
       pattern: state.pattern.text, mode: state.pattern.mode === null ? "rest" : state.pattern.mode,
       ground: state.ground,
     };

@@ -47,7 +47,7 @@ function drawStripOnce() {
   c.lineWidth = 1;
   c.beginPath();
   for (const { t, kind } of run.events) {
-    if (kind !== "impact") continue;
+    if (!strikes(kind)) continue;
     c.moveTo(stripX(t, width), 0);
     c.lineTo(stripX(t, width), 5);
   }

@@ -1,0 +1,90 @@
+//! Slides over time, and below the gaps of blocks in flight: only of runs in which something slides or flies.
+
+use super::axis::{Axis, brief};
+use super::curve::Point;
+use super::drawn_run::{DrawnRun, over_time};
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
+use super::style::{self, Stroke};
+use super::time_history::{mark_ending, time_axis};
+use rocking::{Sample, SlidingReport};
+
+/// Heights `[px]`.
+const SLIDES: f64 = 240.0;
+const GAPS: f64 = 110.0;
+const GAP: f64 = 16.0;
+
+/// The figure; none where no slide changes and nothing flies.
+pub fn draw(motion: &DrawnRun) -> Option<Figure> {
+    let report = motion.results.response.motion_at_contacts()?;
+    let interfaces = motion.results.column.len();
+    if motion.samples.iter().any(|sample| sample.slide.len() != interfaces || sample.gap.len() != interfaces) {
+        return None;
+    }
+    let curves = |of: fn(&Sample) -> &[f64]| -> Vec<Vec<Point>> {
+        (0..interfaces).map(|interface| over_time(motion.samples, |sample| of(sample)[interface])).collect()
+    };
+    let (slides, gaps) = (curves(|sample| &sample.slide), curves(|sample| &sample.gap));
+    let has_gaps = gaps.iter().flatten().any(|point| point[1] > 0.0);
+
+    let mut sheet = Sheet::new("Slides of the interfaces over time");
+    let entries: Vec<(Key, String)> = (0..interfaces)
+        .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
+        .collect();
+    let top = sheet.legend(0.0, &entries) + 4.0;
+    let time = time_axis(motion);
+    let upper = if has_gaps { time.unnumbered() } else { time.clone() };
+    let mut panel = curves_panel(&mut sheet, motion, (top, SLIDES), upper, ("Slide", &slides));
+    mark_ending(&mut sheet, motion, &panel, Anchor::End);
+    if has_gaps {
+        panel = curves_panel(&mut sheet, motion, (panel.frame.bottom() + GAP, GAPS), time, ("Gap", &gaps));
+    }
+    sheet.height = sheet.label_below(&panel) + 8.0;
+    Some(Figure::new("slides", caption(motion, report, has_gaps), sheet))
+}
+
+/// A panel from `top` down and so high, with a curve for each interface `[m]`.
+fn curves_panel(
+    sheet: &mut Sheet,
+    motion: &DrawnRun,
+    (top, height): (f64, f64),
+    time: Axis,
+    (name, curves): (&str, &[Vec<Point>]),
+) -> Panel {
+    // A block that falls slides far; what happened before is seen, if anything did.
+    let until = |t: f64| curves.iter().flatten().filter(move |point| point[0] <= t).map(|point| point[1]).chain([0.0]);
+    let fall = motion.falls_at().filter(|fall| until(*fall).any(|value| value != 0.0)).unwrap_or(f64::INFINITY);
+    let values: Vec<f64> = until(fall).collect();
+    let (factor, unit) = match values.iter().fold(0.0, |most: f64, value| most.max(value.abs())) {
+        value if value >= 1.0 => (1.0, "m"),
+        value if value >= 0.01 => (1e2, "cm"),
+        _ => (1e3, "mm"),
+    };
+    let axis = Axis::around(&format!("{name} [{unit}]"), values.iter().map(|value| value * factor), 3);
+    let panel = Panel::wide(top, height, time, Some(axis));
+    sheet.axes(&panel);
+    sheet.label_upwards(&panel);
+    sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
+    for (interface, points) in curves.iter().enumerate() {
+        let scaled: Vec<Point> = points.iter().map(|[t, value]| [*t, value * factor]).collect();
+        sheet.history(&panel, &scaled, &style::line(interface));
+    }
+    panel
+}
+
+fn caption(motion: &DrawnRun, report: &SlidingReport, has_gaps: bool) -> String {
+    let mut caption = String::from(
+        "Slides at output times: how far the middle of a block's base lies to the right of the middle of the face below, along that face",
+    );
+    caption.push_str(if has_gaps { "; below, the gaps of blocks that have parted." } else { "." });
+    let ends: Vec<String> = report
+        .residual_slide
+        .iter()
+        .enumerate()
+        .map(|(interface, slide)| format!("{} cm at interface {}", brief(100.0 * slide), interface + 1))
+        .collect();
+    caption.push_str(&format!(" At the end: {}.", ends.join(", ")));
+    if motion.falls_at().is_some() {
+        caption.push_str(" Curves leave the panel where the column falls.");
+    }
+    caption
+}

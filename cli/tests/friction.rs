@@ -1,0 +1,151 @@
+//! Runs in which blocks slide and fly, as a user sees them.
+
+mod common;
+
+use common::succeeds;
+use serde_json::Value;
+use std::path::Path;
+
+/// Two wide blocks: they slide and do not rock.
+const SLIDES: &str = "title = \"Two slabs\"
+friction = { static = [0.3, 0.2], kinetic = [0.3, 0.2] }
+[[block]]
+half_width = 1.0
+half_height = 0.4
+[[block]]
+half_width = 1.0
+half_height = 0.4
+[excitation.horizontal]
+kind = \"sine-pulse\"
+amplitude_g = 0.5
+omega = 6.0
+[solver]
+t_end = 3.0
+";
+
+/// Runs a scene in `folder` into `out`. Returns what is printed.
+fn run(folder: &Path, scene: &str) -> String {
+    std::fs::write(folder.join("scene.toml"), scene).expect("written");
+    succeeds(folder, &["run", "scene.toml", "--out", "out", "--report", "--plots"])
+}
+
+fn summary(folder: &Path) -> Value {
+    let text = std::fs::read_to_string(folder.join("out/summary.json")).expect("a summary");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn page(folder: &Path) -> String {
+    std::fs::read_to_string(folder.join("out/report.html")).expect("a page")
+}
+
+#[test]
+fn a_run_says_where_each_drum_stayed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let account = run(folder.path(), SLIDES);
+    let sliding = summary(folder.path())["sliding"].clone();
+    let residual: Vec<f64> =
+        sliding["residual_slide"].as_array().expect("a list").iter().flat_map(Value::as_f64).collect();
+    assert!(residual.iter().all(|slide| slide.abs() > 1e-5), "{residual:?}");
+    assert!(account.contains(&format!(", {:.3} cm; 0 flight(s)", 100.0 * residual[1])), "{account}");
+    let page = page(folder.path());
+    let stayed = page.lines().find(|line| line.contains("Where the drums stayed")).expect("the sentence");
+    for (block, slide) in residual.iter().enumerate() {
+        let side = if *slide > 0.0 { "right" } else { "left" };
+        let place = stayed.find(&format!("block {} ", block + 1)).expect("it has slid");
+        assert!(stayed[place..].split(" on ").next().is_some_and(|part| part.contains(side)), "{stayed}");
+    }
+    assert!(stayed.contains(&format!("block 2 {:.2}&nbsp;cm", 100.0 * residual[1].abs())), "{stayed}");
+    assert!(!stayed.contains("flight"), "{stayed}");
+}
+
+#[test]
+fn friction_that_holds_is_said_to_hold() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let account = run(folder.path(), &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
+    assert!(account.contains("friction holds: no block slides or flies"), "{account}");
+    assert!(page(folder.path()).contains("Friction holds: no block slides or flies."));
+}
+
+#[test]
+fn a_drum_pushed_off_its_support_has_collapsed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let far = SLIDES.replace("amplitude_g = 0.5", "amplitude_g = 1.0").replace("omega = 6.0", "omega = 0.8");
+    let account =
+        run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
+    assert_eq!(summary(folder.path())["status"], "collapsed", "{account}");
+    assert!(account.contains("collapsed at t = ") && account.contains("(block 2 lost its support)"), "{account}");
+    let page = page(folder.path());
+    assert!(page.contains("<strong>collapses</strong>") && page.contains("block 2 loses its support"));
+    let figure = std::fs::read_to_string(folder.path().join("out/time-history.svg")).expect("a figure");
+    assert!(figure.contains("collapsed"), "the end of the run is marked");
+}
+
+#[test]
+fn the_page_tells_what_slid_and_whether_the_energy_balance_closes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    run(folder.path(), SLIDES);
+    let page = page(folder.path());
+    assert!(!page.contains("which the model excludes") && !page.contains("the blocks would slide"), "it is modelled");
+    assert!(page.contains(
+        "<strong>The model holds for this run</strong>: sliding and flight are part of it; interfaces 1 and 2 slid"
+    ));
+    assert!(
+        page.contains("Slides per interface") && page.contains("the scene has 0.3, 0.2, base first"),
+        "with coefficients"
+    );
+    let sliding = summary(folder.path())["sliding"].clone();
+    let [ground, friction, losses, change] = ["ground_work", "friction_work", "impact_losses", "energy_change"]
+        .map(|key| sliding[key].as_f64().expect("a number"));
+    // Steps at the default tolerance of 1e-9 and Gauss's rule of order ten.
+    assert!((ground + friction - losses - change).abs() < 1e-9 * ground, "{sliding}");
+    assert!(page.contains("Energy balance: work of the ground") && page.contains("Relative error: "));
+    assert!(page.contains("<p>Ambiguous: none.</p>") && page.contains("<p>Jammed: none.</p>"));
+}
+
+#[test]
+fn slides_are_drawn_where_something_slides() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    run(folder.path(), SLIDES);
+    let figure = std::fs::read_to_string(out.join("slides.svg")).expect("a figure");
+    roxmltree::Document::parse(&figure).expect("XML");
+    assert!(figure.contains("Slide [cm]") && figure.contains("interface 2"), "{}", &figure[..500]);
+    assert!(page(folder.path()).contains("<figure id=\"figure-slides\">"));
+    // The next run of the same folder does not slide: an old figure would lie.
+    run(folder.path(), &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
+    assert!(!out.join("slides.svg").exists() && out.join("forces.svg").exists());
+    assert!(!page(folder.path()).contains("figure-slides"));
+}
+
+/// A block of t = b/h = 1/4 (FRICTION: closed form 1): its coefficients to rock without sliding at 0.5, 1 and 2 g.
+#[test]
+fn a_check_says_what_slides_before_it_rocks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let check = |friction: f64, amplitude: f64| {
+        let scene = format!(
+            "friction = {friction}\n[column]\nblocks = 1\nhalf_width = 0.25\nhalf_height = 1.0\n\
+             [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = {amplitude}\nomega = 6.0\n"
+        );
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+        let found: Value =
+            serde_json::from_str(&succeeds(folder.path(), &["check", "scene.toml", "--json"])).expect("JSON");
+        (succeeds(folder.path(), &["check", "scene.toml"]), found["contacts"][0].clone())
+    };
+    for (amplitude, expected) in [(0.5, 0.30986), (1.0, 0.41558), (2.0, 0.58427)] {
+        let (text, contact) = check(0.45, amplitude);
+        // Given with five digits.
+        let needed = contact["coefficient_to_rock"].as_f64().expect("a number");
+        assert!((needed - expected).abs() < 5e-6, "{needed}, {expected}");
+        let (verdict, words) = match expected < 0.45 {
+            true => ("rocks", "rocks without sliding"),
+            false => ("slides-and-rocks", "slides and rocks"),
+        };
+        assert_eq!(contact["at_pga"], verdict);
+        assert!(text.contains("interface 1 opens at 0.25 g before it slides at 0.45 g; at the PGA it"), "{text}");
+        assert!(text.contains(words), "{text}");
+    }
+    let (text, contact) = check(0.2, 0.5);
+    assert!(text.contains("interface 1 slides at 0.2 g before it opens at 0.25 g"), "{text}");
+    assert_eq!((&contact["at_pga"], contact["coefficient_to_rock"].is_null()), (&"slides".into(), true));
+    assert_eq!(check(0.2, 0.1).1["at_pga"], "rests");
+}
