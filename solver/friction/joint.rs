@@ -18,7 +18,7 @@ use rocking_codegen::pattern::{Interface, Pattern};
 pub type Sign = i8;
 
 /// How a contact resists sliding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Slip {
     /// No relative motion along the face.
     Sticks,
@@ -37,7 +37,7 @@ impl Slip {
 }
 
 /// The face on which a corner stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
     /// The upper block's corner stands on the lower face.
     Lower,
@@ -48,7 +48,7 @@ pub enum Face {
 }
 
 /// State of an interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Joint {
     /// The faces lie on each other.
     Closed(Slip),

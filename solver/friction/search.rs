@@ -16,6 +16,8 @@ use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashSet};
 
 /// What touches at an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +67,9 @@ const JUMP_SHARE: f64 = 1e-9;
 
 /// Combinations that are tried one by one at most; beyond, the search ends without an answer. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
+
+/// Combinations that are explored at most where not all can be tried: some tenths of a second for eight blocks.
+const MOST_EXPLORED: usize = 6000;
 
 /// Coefficient of friction from which on several states may be admissible (docs/book/model.md, section 16): all are tried then.
 const AMBIGUOUS_FROM: f64 = 0.8;
@@ -129,19 +134,20 @@ impl<'a> Search<'a> {
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
         match guided {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
-            _ => self.tried(&first, |_, _| true),
+            _ => self.tried(&first, |_, _| true).or_else(|| self.explored(&first, |_, _| true)),
         }
     }
 
     /// The states that follow if these do not, and of an impact those that change the motion; `None` if there are no others.
     pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
-        self.tried(&self.first(), |joints, answer| match self.question {
+        let is_other = |joints: &[Joint], answer: &Answer| match self.question {
             Question::Accelerations(_) => joints != excluded,
             Question::Impact(_) => {
                 let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
                 fastest > JUMP_SHARE * self.scale.linear
             }
-        })
+        };
+        self.tried(&self.first(), is_other).or_else(|| self.explored(&self.first(), is_other))
     }
 
     /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them.
@@ -302,6 +308,44 @@ impl<'a> Search<'a> {
         };
         let is_ambiguous = admissible.iter().any(|(_, _, _, other)| is_other(other));
         Some(Solution { joints, answer, is_ambiguous })
+    }
+
+    /// The first admissible combination that is wanted, of columns with too many combinations to try them all: from combination to
+    /// neighbouring combination, where one violated interface takes another state, those with few violated conditions first.
+    fn explored(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
+        let mut seen: HashSet<Vec<Joint>> = HashSet::from([first.to_vec()]);
+        // Violated conditions and order of discovery; the combination.
+        let mut open: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
+        let mut found: Vec<(Vec<Joint>, Vec<usize>)> = Vec::new();
+        let mut next = vec![first.to_vec()];
+        loop {
+            for joints in next.drain(..) {
+                let Some(answer) = self.answer(&joints) else { continue };
+                let violated: Vec<usize> =
+                    (0..joints.len()).filter(|&i| self.required(&joints, &answer, i).is_some()).collect();
+                if violated.is_empty() && is_wanted(&joints, &answer) {
+                    return Some(Solution { joints, answer, is_ambiguous: false });
+                }
+                open.push(Reverse((violated.len(), found.len())));
+                found.push((joints, violated));
+            }
+            if found.len() > MOST_EXPLORED {
+                return None;
+            }
+            let Reverse((_, index)) = open.pop()?;
+            let (joints, violated) = found[index].clone();
+            // A combination that is admissible but not wanted may have a neighbour at any interface.
+            let places = if violated.is_empty() { (0..joints.len()).collect() } else { violated };
+            for interface in places {
+                for choice in self.choices(interface) {
+                    let mut neighbour = joints.clone();
+                    neighbour[interface] = choice;
+                    if seen.insert(neighbour.clone()) {
+                        next.push(neighbour);
+                    }
+                }
+            }
+        }
     }
 
     /// The state that a violated condition of an interface names; `None` if all conditions hold.
