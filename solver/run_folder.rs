@@ -436,7 +436,8 @@ impl Results {
         if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Some("an angle or a time is out of range".into());
         }
-        let of_block = |block: &Block| [block.half_width(), block.half_height, block.mass, block.inertia];
+        let of_block =
+            |block: &Block| [block.bottom_half_width, block.half_width(), block.half_height, block.mass, block.inertia];
         let sizes = column.blocks().iter().flat_map(of_block).chain([column.gravity()]);
         sizes.into_iter().any(|size| !SIZES.contains(&size)).then(|| "the column's sizes are out of range".into())
     }

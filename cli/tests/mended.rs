@@ -281,8 +281,8 @@ fn damaged_run_folders_are_refused_with_file_and_remedy() {
     for (file, from, to) in [
         ("summary.json", "\"t_end\": 2.0", "\"t_end\": 1e300"),
         ("summary.json", "\"t_end\": 2.0", "\"t_end\": -2.0"),
-        ("summary.json", "\"half_width\": 0.4", "\"half_width\": 5e-324"),
-        ("summary.json", "\"half_width\": 0.4", "\"half_width\": 1e300"),
+        ("summary.json", "\"bottom_half_width\": 0.4", "\"bottom_half_width\": 5e-324"),
+        ("summary.json", "\"bottom_half_width\": 0.4", "\"bottom_half_width\": 1e300"),
         ("summary.json", "\"overturned_block\": null", "\"overturned_block\": 9"),
         ("summary.json", "\"peak_theta\": [", "\"peak_theta\": [0.1,"),
         ("summary.json", "\"friction_demand\": [", "\"friction_demand\": [0.1,"),
