@@ -10,7 +10,7 @@ fn scene() -> Scene {
     let blocks = vec![Block::rectangle(0.4, 0.7, 2700.0), Block::with_mass(0.3, 1.0 / 3.0, 0.1)];
     let mut scene = Scene::new(Column::new(blocks, 9.81).expect("valid"));
     scene.title = "two \"blocks\"".into();
-    scene.friction = Some(0.7);
+    scene.friction = Some(rocking::Friction::uniform(0.7));
     scene.restitution = Restitution::Factors(vec![0.1, 1.0 / 3.0]);
     scene.initial.theta = vec![1e-3, -2e-3];
     scene.options.t_end = 0.1 + 0.2;
