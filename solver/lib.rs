@@ -26,6 +26,9 @@
 //!     motion  <- rest or the mode of x⁺                                                        run/modes.rs
 //! ```
 //!
+//! A scene with [`Friction`] runs like this first. Where its friction is used up or a contact would part, it is run anew by another loop
+//! (run/sliding.rs), over the ten states that an interface with friction may have: blocks slide, fly and land.
+//!
 //! # Example
 //!
 //! ```

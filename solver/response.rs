@@ -258,7 +258,7 @@ impl Work {
     }
 }
 
-/// A contact problem without admissible pattern: a block would fly or slide, and the model cannot follow.
+/// A contact problem without admissible pattern, in a run without sliding: a block would fly or slide, and that run cannot follow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Separation {
@@ -273,9 +273,9 @@ pub struct Separation {
 #[serde(default)]
 #[non_exhaustive]
 pub struct SlidingReport {
-    /// Largest slide from the aligned column `[m]`.
+    /// Largest size of the slide from the aligned column `[m]`, flights left out.
     pub peak_slide: Vec<f64>,
-    /// Slide at the end `[m]`.
+    /// Slide at the end `[m]`; of a free interface along the lower face.
     pub residual_slide: Vec<f64>,
     /// Length of the way slid `[m]`.
     pub way_slid: Vec<f64>,
