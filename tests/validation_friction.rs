@@ -79,8 +79,23 @@ fn off(run: &Value) -> (f64, f64, usize) {
         }
         println!("{:?} {:?} {:#?}", response.status, response.t_final, response.sliding);
     }
+    // The references give the distance of the middles of the faces, along the lower one: where a corner carries the contact, the slide is that
+    // of the corner.
     let residual = numbers(&run["residual"]);
-    let slides = response.sliding.expect("a run with friction").residual_slide;
+    let last = response.samples.last().expect("rows");
+    let widths: Vec<f64> = scene.column.blocks().iter().map(|block| block.half_width()).collect();
+    let middles = |interface: usize, slide: f64| {
+        let below = interface.checked_sub(1);
+        let phi = last.theta[interface] - below.map_or(0.0, |below| last.theta[below]);
+        let side = f64::from(last.pattern.0[interface].sign());
+        let lower = below.map_or(f64::INFINITY, |below| widths[below]);
+        match side * slide + widths[interface] > lower {
+            true => side * lower + (slide - side * lower) * phi.cos(),
+            false => slide + side * widths[interface] * (1.0 - phi.cos()),
+        }
+    };
+    let slides = &response.sliding.as_ref().expect("a run with friction").residual_slide;
+    let slides: Vec<f64> = slides.iter().enumerate().map(|(i, slide)| middles(i, *slide)).collect();
     let slides = slides.iter().zip(residual).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     (angles, slides, response.samples.len())
 }

@@ -203,8 +203,8 @@ impl<'p> Mover<'p> {
         };
         let until = Instant { t, segment, configuration: from.configuration.clone() };
         let mut smooth = self.smooth(from);
-        let mut at = from.segment;
         reader.read(self.problem, [from.t, t], &mut |time| {
+            let mut at = from.segment;
             while at + 1 < ground.len() && ground[at].end <= time {
                 at += 1;
             }

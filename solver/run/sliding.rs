@@ -43,7 +43,8 @@ pub(super) fn is_held(column: &Column, friction: &Coefficients, response: &Respo
     let holds = |interface: usize| {
         let below = interface.checked_sub(1).map(|below| column.blocks()[below].top_half_width);
         // Demands are in the axes of the lower block. Where the upper face may carry a corner, its axes are turned by the gap of angles.
-        let turn = if below.is_some_and(|below| column.blocks()[interface].bottom_half_width > below) {
+        let reach = column.blocks()[interface].bottom_half_width + column.slides()[interface].abs();
+        let turn = if below.is_some_and(|below| reach > below * (1.0 + 1e-12)) {
             let peak = |block: usize| response.peak_theta[block];
             peak(interface) + interface.checked_sub(1).map_or(0.0, peak)
         } else {
@@ -295,8 +296,13 @@ impl<'p> Run<'p> {
                     let gaps = faces.iter().map(|face| (*face, guards::gap(&chain, interface, side, *face)));
                     let close: Vec<_> =
                         gaps.filter(|(_, [beside, above])| *beside <= gap && above.abs() <= gap).collect();
+                    // A bounce lower than the resolution is none.
+                    let length = self.column().blocks()[interface].bottom_half_width;
+                    let bounce =
+                        (2.0 * self.column().gravity() * self.problem.scene.options.stick_angle * length).sqrt();
                     let stays = |face: Face| {
-                        leaving_speed(self.column(), now, &chain, &rates, interface, side, face).abs() <= speed
+                        let leaving = leaving_speed(self.column(), now, &chain, &rates, interface, side, face);
+                        leaving >= -speed && leaving <= speed.max(bounce)
                     };
                     // Coinciding corners touch both faces, or neither.
                     !close.is_empty() && close.iter().all(|(face, _)| stays(*face))
@@ -324,10 +330,14 @@ impl<'p> Run<'p> {
         }
         let before = self.at.configuration.clone();
         let touch = self.touch();
-        for (interface, touch) in touch.iter().enumerate() {
-            if *touch != Touch::Nothing && before.joints[interface] == Joint::Free {
-                self.settle(interface, *touch);
+        let met: Vec<usize> =
+            (0..touch.len()).filter(|&i| touch[i] != Touch::Nothing && before.joints[i] == Joint::Free).collect();
+        if !met.is_empty() {
+            let mut joints = before.joints.clone();
+            for &interface in &met {
+                joints[interface] = self.settle(interface, touch[interface]);
             }
+            self.hold(&joints);
         }
         // What lies on each other without a rate between has the same rate to the last bit.
         for (interface, touch) in touch.iter().enumerate() {
@@ -439,9 +449,10 @@ impl<'p> Run<'p> {
         }
     }
 
-    /// Makes a free interface that touches one with the slide that it has.
-    fn settle(&mut self, interface: usize, touch: Touch) {
-        let chain = Chain::new(self.column(), &self.at.configuration);
+    /// The contact that a free interface has met without an impact, with its slide and the direction of its slip.
+    fn settle(&mut self, interface: usize, touch: Touch) -> Joint {
+        let now = &self.at.configuration;
+        let chain = Chain::new(self.column(), now);
         let side = match touch {
             Touch::Corner(side) => side,
             _ => 1,
@@ -451,7 +462,17 @@ impl<'p> Run<'p> {
         let on =
             if interface == 0 || beside <= tolerance && above.abs() <= tolerance { Face::Lower } else { Face::Upper };
         let slide = guards::slide_of_landing(&chain, interface, side, on);
+        let rate =
+            rate_of(now, |moved| guards::slide_of_landing(&Chain::new(self.column(), moved), interface, side, on));
+        let slip = match rate.abs() <= 1e3 * ROUNDING_SHARE * self.speed {
+            true => Slip::Sticks,
+            false => Slip::Slides(if rate > 0.0 { 1 } else { -1 }),
+        };
         self.at.configuration.slide[interface] = slide;
+        match touch {
+            Touch::Corner(_) => self.corner(interface, side, slip),
+            _ => Joint::Closed(slip),
+        }
     }
 
     /// An interface and its neighbours that would move by less than the resolution before they come back, and the states that end it.
@@ -901,8 +922,12 @@ fn leaving_speed(
     side: Sign,
     face: Face,
 ) -> f64 {
-    // By the gap itself: it is linear in the rates, and a step of a nanosecond at them moves the blocks by far less than rounding resolves.
-    let _ = (column, chain, rates);
+    let _ = (chain, rates);
+    rate_of(now, |moved| guards::gap(&Chain::new(column, moved), interface, side, face)[1])
+}
+
+/// The rate of a length that depends on where the blocks are: its difference over two microseconds at the rates that they have.
+fn rate_of(now: &Configuration, length: impl Fn(&Configuration) -> f64) -> f64 {
     let h = 1e-6;
     let moved = |h: f64| {
         let mut other = now.clone();
@@ -911,7 +936,7 @@ fn leaving_speed(
         for (apart, rate) in other.apart.iter_mut().zip(&now.apart_rate) {
             *apart = [apart[0] + h * rate[0], apart[1] + h * rate[1]];
         }
-        guards::gap(&Chain::new(column, &other), interface, side, face)[1]
+        length(&other)
     };
     (moved(h) - moved(-h)) / (2.0 * h)
 }
