@@ -384,8 +384,9 @@ impl Response {
         modes
     }
 
-    /// What a user must know before believing the run: separation, tension, and friction beyond `friction`.
-    pub fn warnings(&self) -> Vec<String> {
+    /// What a user must know before believing the run: separation and tension, and of a run without sliding where it needs more than a friction
+    /// coefficient.
+    pub fn warnings(&self, friction: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
         if let Some(sliding) = &self.sliding {
             return self.with_build(sliding.warnings(self.status, self.t_final));
@@ -404,6 +405,19 @@ impl Response {
             let least = four_digits(least);
             warnings
                 .push(format!("{interfaces}: the normal force falls to {least} N: the contact would part, {model}"));
+        }
+        let Some(available) = friction else { return self.with_build(warnings) };
+        let slides = |demand: &f64| demand.is_finite() && *demand > available;
+        if let Some((interfaces, _)) = worst(&self.friction_demand, |demand| demand.is_infinite(), |_, _| false) {
+            warnings.push(format!(
+                "{interfaces}: no friction coefficient is enough, as the contact parts: the blocks would slide, {model}"
+            ));
+        }
+        if let Some((interfaces, most)) = worst(&self.friction_demand, slides, |a, b| a > b) {
+            warnings.push(format!(
+                "{interfaces}: the run needs a friction coefficient of {most:.3}, the scene has {available}: the blocks would \
+                 slide, {model}"
+            ));
         }
         self.with_build(warnings)
     }

@@ -119,7 +119,7 @@ impl<'a> Run<'a> {
     /// A run with its warnings, without scene file, duration, or outdated files.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         let mut warnings = scene.excitation.warnings();
-        warnings.extend(response.warnings());
+        warnings.extend(response.warnings(None));
         let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, Vec::new());
         Run { scene, response, scene_text, wall_seconds, warnings, outdated }
     }
