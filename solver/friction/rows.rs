@@ -166,8 +166,8 @@ impl<'c, 'a> Rows<'c, 'a> {
         let contact = |interface: usize| {
             let ([along, across], point) = (self.chain.axes(interface), self.points[interface]);
             let (mut force, mut moment) = ([0.0, 0.0], 0.0);
-            for j in interface..blocks.len() {
-                let (block, load) = (&blocks[j], change.linear[j].map(|a| blocks[j].mass * a));
+            for (j, block) in blocks.iter().enumerate().skip(interface) {
+                let load = change.linear[j].map(|a| block.mass * a);
                 let r = [self.chain.centroid[j][0] - point[0], self.chain.centroid[j][1] - point[1]];
                 force = [force[0] + load[0], force[1] + load[1]];
                 moment += block.inertia * change.angular[j] + r[1] * load[0] - r[0] * load[1];

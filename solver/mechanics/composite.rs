@@ -59,7 +59,7 @@ pub(super) struct Links<'a> {
 
 impl<'a> Links<'a> {
     pub fn new(column: &'a Column, pattern: &Pattern) -> Links<'a> {
-        let (mut blocks, mut pivots) = (vec![0..0], vec![0.0]);
+        let (mut blocks, mut pivots) = (Vec::from([Range { start: 0, end: 0 }]), vec![0.0]);
         for (index, state) in pattern.0.iter().enumerate() {
             if state.is_open() {
                 blocks.push(index..index);

@@ -430,8 +430,8 @@ impl<'p> Run<'p> {
 
     /// Takes over states found for the present configuration.
     fn adopt(&mut self, joints: &[Joint]) {
-        for interface in 0..joints.len() {
-            let (old, new) = (self.at.configuration.joints[interface], joints[interface]);
+        for (interface, &new) in joints.iter().enumerate() {
+            let old = self.at.configuration.joints[interface];
             match new {
                 Joint::Free if old != Joint::Free => self.set_free(interface),
                 _ => {}
@@ -484,21 +484,21 @@ impl<'p> Run<'p> {
         };
         let mut joints = solution.joints.clone();
         let mut is_any = false;
-        for interface in 0..joints.len() {
+        for (interface, held) in joints.iter_mut().enumerate() {
             let turn = difference(&solution.answer.rates.omega, interface);
-            match joints[interface] {
+            match *held {
                 Joint::Corner(_, _, slip)
                     if now.gap_angle(interface).abs() <= ROUNDING_SHARE
                         && returns(now.gap_rate(interface), turn, least) =>
                 {
-                    joints[interface] = Joint::Closed(slip);
+                    *held = Joint::Closed(slip);
                     is_any = true;
                 }
                 Joint::Closed(Slip::Slides(_)) | Joint::Corner(_, _, Slip::Slides(_)) => {
                     let length = half_length(self.column(), interface, now.slide[interface]);
                     let slip = (now.slide_rate[interface], solution.answer.rates.slide[interface]);
                     if returns(slip.0, slip.1, least * length) {
-                        joints[interface] = match joints[interface] {
+                        *held = match *held {
                             Joint::Corner(side, ..) => self.corner(interface, side, Slip::Sticks),
                             _ => Joint::Closed(Slip::Sticks),
                         };
@@ -660,7 +660,7 @@ impl<'p> Run<'p> {
         let all_stick =
             plastic.joints.iter().zip(touch).all(|(joint, touch)| joint.sticks() || *touch == Touch::Nothing);
         let rebounds = |&i: &usize| kappa[i] != 1.0 && matches!(plastic.joints[i], Joint::Corner(..));
-        if !all_stick || !closing.iter().any(|i| rebounds(i)) {
+        if !all_stick || !closing.iter().any(rebounds) {
             return plastic.answer.clone();
         }
         let mut rates = plastic.answer.rates.clone();
