@@ -47,10 +47,10 @@ fn what_a_constructor_refuses_is_not_read() {
     let whole = text(&scene());
     for (from, to, problem) in [
         ("\"mass\":0.1", "\"mass\":-0.1", "mass = -0.1"),
-        ("\"half_width\":0.3", "\"half_width\":0.0", "half_width = 0"),
+        ("\"bottom_half_width\":0.3", "\"bottom_half_width\":0.0", "half_width = 0"),
         ("\"gravity\":9.81", "\"gravity\":0.0", "gravity = 0"),
         ("\"dt\":0.01", "\"dt\":-0.01", "interval"),
-        ("\"friction\":0.7", "\"friktion\":0.7", "friktion"),
+        ("\"friction\":{", "\"friktion\":{", "friktion"),
         ("\"generic\"", "\"six blocks\"", "six blocks"),
     ] {
         assert!(whole.contains(from), "{from}");
@@ -62,12 +62,12 @@ fn what_a_constructor_refuses_is_not_read() {
 #[test]
 fn a_check_names_all_faults_once() {
     let whole =
-        text(&scene()).replace("\"friction\":0.7", "\"friction\":-1.0").replace("\"theta\":[", "\"theta\":[7.0,");
+        text(&scene()).replace("\"static\":[0.7]", "\"static\":[-1.0]").replace("\"theta\":[", "\"theta\":[7.0,");
     let mut scene: Scene = serde_json::from_str(&whole).expect("numbers");
     scene.options.t_end = -1.0;
     scene.options.rtol = f64::NAN;
     let errors = scene.check().expect_err("faults");
     let keys: Vec<&str> = errors.faults().iter().map(|fault| fault.key.as_str()).collect();
-    assert_eq!(keys, ["solver.t_end", "solver.rtol", "friction", "initial.theta"]);
+    assert_eq!(keys, ["solver.t_end", "solver.rtol", "friction.static", "initial.theta"]);
     assert_eq!(errors.to_string().lines().count(), 4, "{errors}");
 }
