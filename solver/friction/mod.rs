@@ -9,8 +9,8 @@
 //! Time does not pass here: `run/` integrates.
 
 pub mod chain;
+pub mod gaps;
 pub mod guards;
-
 pub mod joint;
 pub mod rows;
 pub mod search;

@@ -11,11 +11,11 @@
 //! state; where it goes in circles, combinations are tried one by one, few changes first.
 
 use super::chain::{Chain, Motion, Rates};
+use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
-use crate::mechanics::kinematics::Vec2;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 
@@ -105,7 +105,7 @@ impl<'a> Search<'a> {
         friction: &'a Coefficients,
         question: Question,
     ) -> Search<'a> {
-        let size = column.blocks().iter().fold(0.0f64, |size, block| size.max(block.half_height + block.half_width()));
+        let size = column.size();
         let mass: f64 = column.blocks().iter().map(|block| block.mass).sum();
         let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
         let linear = match &question {
@@ -414,8 +414,8 @@ impl<'a> Search<'a> {
             Touch::Nothing => None,
             Touch::Corner(side) => {
                 let face = face(self.column, interface, side, self.now.slide[interface]);
-                let lower = || self.gap_motion(answer, interface, side, Face::Lower);
-                let upper = || self.gap_motion(answer, interface, side, Face::Upper);
+                let leaving = |face| self.leaving(answer, Corner { interface, side, face });
+                let (lower, upper) = (|| leaving(Face::Lower), || leaving(Face::Upper));
                 let apart = match face {
                     Face::Lower => lower(),
                     Face::Upper => upper(),
@@ -429,7 +429,7 @@ impl<'a> Search<'a> {
                         Face::Upper => Face::Upper,
                         _ => Face::Lower,
                     };
-                    self.gap_motion(answer, interface, side, face) < slack
+                    self.leaving(answer, Corner { interface, side, face }) < slack
                 });
                 match sinking {
                     [true, true] => Some(Joint::Closed(Slip::Sticks)),
@@ -442,48 +442,14 @@ impl<'a> Search<'a> {
     }
 
     /// Acceleration, or velocity, with which a corner leaves the other face.
-    fn gap_motion(&self, answer: &Answer, interface: usize, side: Sign, face: Face) -> f64 {
-        let below = interface.checked_sub(1);
-        let of = |values: &[f64]| [below.map_or(0.0, |below| values[below]), values[interface]];
+    fn leaving(&self, answer: &Answer, corner: Corner) -> f64 {
         let chain = Chain::new(self.column, self.now);
-        let side = f64::from(side);
-        // The frame of the face, the frame of the corner, and the corner from the middle of the corner's own face.
-        let (own, corner) = match face {
-            Face::Upper => (side * below.map_or(0.0, |b| self.column.blocks()[b].top_half_width), -1.0),
-            _ => (side * self.column.blocks()[interface].bottom_half_width, 1.0),
-        };
-        let [lower_angle, upper_angle] = of(&self.now.theta);
-        let [lower_rate, upper_rate] = of(&self.now.omega);
-        let [lower_turn, upper_turn] = of(&answer.rates.omega);
-        let (frame, carrier) = match face {
-            Face::Upper => ((upper_angle, upper_rate, upper_turn), (lower_angle, lower_rate, lower_turn)),
-            _ => ((lower_angle, lower_rate, lower_turn), (upper_angle, upper_rate, upper_turn)),
-        };
-        let (sin, cos) = libm::sincos(carrier.0);
-        let arm = [own * cos, -own * sin];
-        let swept = |rate: f64, r: Vec2| [rate * r[1], -rate * r[0]];
-        let apart = chain.apart(interface).map(|x| corner * x);
-        let apart_rate = chain.apart_rate(interface, &self.now_rates).map(|x| corner * x);
-        let apart_change = answer.rates.apart[interface].map(|x| corner * x);
-        let place = [apart[0] + arm[0], apart[1] + arm[1]];
-        let (sin, cos) = libm::sincos(frame.0);
-        let in_frame = |[x, y]: Vec2| [x * cos - y * sin, x * sin + y * cos];
-        let rho = in_frame(place);
+        let change = answer.rates.apart[corner.interface];
         match self.question {
-            Question::Impact(_) => {
-                let turning = swept(carrier.2, arm);
-                let velocity = in_frame([apart_change[0] + turning[0], apart_change[1] + turning[1]]);
-                corner * (velocity[1] + frame.2 * rho[0])
-            }
+            Question::Impact(_) => gaps::gap_velocity(&chain, change, &answer.rates.omega, corner)[1],
             Question::Accelerations(_) => {
-                let turning = swept(carrier.1, arm);
-                let velocity = in_frame([apart_rate[0] + turning[0], apart_rate[1] + turning[1]]);
-                let along = velocity[0] - frame.1 * rho[1];
-                let turning = swept(carrier.2, arm);
-                let square = carrier.1 * carrier.1;
-                let total = [0, 1].map(|axis| apart_change[axis] + turning[axis] - square * arm[axis]);
-                let own = in_frame(total)[1];
-                corner * (own + 2.0 * frame.1 * along + frame.2 * rho[0] + frame.1 * frame.1 * rho[1])
+                let rate = chain.apart_rate(corner.interface, &self.now_rates);
+                gaps::gap_acceleration(&chain, [rate, change], [&self.now.omega, &answer.rates.omega], corner)
             }
         }
     }
