@@ -120,7 +120,7 @@ pub struct Chain<'a> {
     column: &'a Column,
     links: Vec<Link>,
     /// From the middle of a block's base to its centroid and to the middle of its top.
-    to_centroid: Vec<Vec2>,
+    pub to_centroid: Vec<Vec2>,
     to_top: Vec<Vec2>,
     /// Middles of the bases `[m]`.
     pub foot: Vec<Vec2>,
@@ -237,6 +237,21 @@ impl<'a> Chain<'a> {
             below = plus(foot, scaled(self.to_top[i], -upper * upper));
         }
         accelerations
+    }
+
+    /// Velocity of the middle of a block's base in a motion of the blocks `[m/s]`.
+    pub fn foot_rate(&self, block: usize, motion: &Motion) -> Vec2 {
+        plus(motion.linear[block], swept(-motion.angular[block], self.to_centroid[block]))
+    }
+
+    /// Velocity of the middle of a block's top face in a motion of the blocks `[m/s]`.
+    pub fn top_rate(&self, block: usize, motion: &Motion) -> Vec2 {
+        plus(motion.linear[block], swept(motion.angular[block], self.from_centroid_to_top(block)))
+    }
+
+    /// From the centroid of a block to the middle of its top face `[m]`.
+    pub fn from_centroid_to_top(&self, block: usize) -> Vec2 {
+        plus(self.to_top[block], scaled(self.to_centroid[block], -1.0))
     }
 
     /// Directions along and across the face that carries the contact of an interface, to the right and upwards.

@@ -89,19 +89,37 @@ pub fn gap_velocity(chain: &Chain, apart_rate: Vec2, omega: &[f64], corner: Corn
     view.velocity(chain, apart_rate, omega).map(|v| view.sign * v)
 }
 
-/// Acceleration of the gap `[m/s²]`, for first and second rates of the free interface and of the blocks' angles.
+/// Second rates of the slide and of the gap `[m/s²]`, for first and second rates of the free interface and of the blocks' angles.
 pub fn gap_acceleration(
     chain: &Chain,
     [apart_rate, apart_acceleration]: [Vec2; 2],
     [omega, alpha]: [&[f64]; 2],
     corner: Corner,
-) -> f64 {
+) -> [f64; 2] {
     let view = View::new(chain, corner);
-    let ([u, v], [along, _]) = (view.position(chain), view.velocity(chain, apart_rate, omega));
+    let ([u, v], [u_rate, v_rate]) = (view.position(chain), view.velocity(chain, apart_rate, omega));
     let (turning, own) = (of(view.frame, omega), of(view.carrier, omega));
+    let change = of(view.frame, alpha);
     let swept = plus(swept(of(view.carrier, alpha), view.arm), scaled(view.arm, -own * own));
-    let [_, across] = chain.in_block_axes(view.frame, plus(scaled(apart_acceleration, view.sign), swept));
-    view.sign * (across + 2.0 * turning * along + of(view.frame, alpha) * u + turning * turning * v)
+    let total = plus(scaled(apart_acceleration, view.sign), swept);
+    let [along, across] = chain.in_block_axes(view.frame, total);
+    let square = turning * turning;
+    [
+        view.sign * (along - 2.0 * turning * v_rate - change * v + square * u),
+        view.sign * (across + 2.0 * turning * u_rate + change * u + square * v),
+    ]
+}
+
+/// The point where a corner is `[m]`, and the directions along and across the face that it may stand on.
+pub fn place_and_axes(chain: &Chain, corner: Corner) -> (Vec2, [Vec2; 2]) {
+    let view = View::new(chain, corner);
+    let middle = match (view.frame, corner.face) {
+        (_, Face::Upper) => chain.foot[corner.interface],
+        (Some(below), _) => chain.top[below],
+        (None, _) => [0.0, 0.0],
+    };
+    let axes = [[1.0, 0.0], [0.0, 1.0]].map(|axis| chain.in_ground_axes(view.frame, axis));
+    (plus(middle, view.place), axes)
 }
 
 /// The slide with which an interface whose corner touches is where it is `[m]`.

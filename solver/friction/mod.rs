@@ -9,6 +9,7 @@
 //! Time does not pass here: `run/` integrates.
 
 pub mod chain;
+mod complementarity;
 pub mod gaps;
 pub mod guards;
 pub mod joint;

@@ -11,6 +11,7 @@
 //! state; where it goes in circles, combinations are tried one by one, few changes first.
 
 use super::chain::{Chain, Motion, Rates};
+use super::complementarity;
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};
@@ -134,8 +135,40 @@ impl<'a> Search<'a> {
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
         match guided {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
-            _ => self.tried(&first, |_, _| true).or_else(|| self.explored(&first, |_, _| true)),
+            _ if may_be_ambiguous => self.tried(&first, |_, _| true),
+            _ => {
+                let complementary = self.complementary().and_then(|joints| self.guided(joints));
+                if std::env::var("LCP").is_ok() {
+                    eprintln!("guided failed: LCP {} {}", self.complementary().is_some(), complementary.is_some());
+                }
+                let found = complementary
+                    .or_else(|| self.tried(&first, |_, _| true).or_else(|| self.explored(&first, |_, _| true)));
+                if std::env::var("LCP").is_ok() {
+                    eprintln!("      finally {}", found.is_some());
+                }
+                found
+            }
         }
+    }
+
+    /// The states that solve the problem as one of complementarity.
+    fn complementary(&self) -> Option<Vec<Joint>> {
+        let coefficients = match self.question {
+            Question::Accelerations(_) => &self.friction.fixed,
+            Question::Impact(_) => &self.friction.kinetic,
+        };
+        let slip = |interface: usize| match self.given_slip(interface) {
+            Some(Slip::Slides(direction)) => Some(direction),
+            _ => None,
+        };
+        let slips: Vec<Option<Sign>> = (0..self.touch.len()).map(slip).collect();
+        let joints = complementarity::states(self.column, self.now, self.touch, coefficients, &slips, &self.question)?;
+        // Coinciding corners slide along the face that carries them.
+        let carried = |(interface, joint): (usize, Joint)| match joint {
+            Joint::Corner(side, _, slip) => self.corner(interface, side, slip),
+            joint => joint,
+        };
+        Some(joints.into_iter().enumerate().map(carried).collect())
     }
 
     /// The states that follow if these do not, and of an impact those that change the motion; `None` if there are no others.
@@ -449,7 +482,7 @@ impl<'a> Search<'a> {
             Question::Impact(_) => gaps::gap_velocity(&chain, change, &answer.rates.omega, corner)[1],
             Question::Accelerations(_) => {
                 let rate = chain.apart_rate(corner.interface, &self.now_rates);
-                gaps::gap_acceleration(&chain, [rate, change], [&self.now.omega, &answer.rates.omega], corner)
+                gaps::gap_acceleration(&chain, [rate, change], [&self.now.omega, &answer.rates.omega], corner)[1]
             }
         }
     }

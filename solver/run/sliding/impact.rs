@@ -76,6 +76,7 @@ impl Instant<'_> {
         }
         self.now.joints.clone_from(&solution.joints);
         answer.rates.give(&mut self.now);
+        self.stop_slides_without_direction();
         self.part_coinciding_corners();
         let energy = motion.energy(self.column());
         let after = Chain::new(self.column(), &self.now).motion(&Rates::of(&self.now));
@@ -85,6 +86,15 @@ impl Instant<'_> {
         let share = if energy > 0.0 { lost / energy } else { 0.0 };
         self.change(kind, closing.to_vec(), &before, Some((impulses, share)));
         Ok(())
+    }
+
+    /// A slide whose rate is against its direction has none but rounding: whether it begins is decided by accelerations.
+    fn stop_slides_without_direction(&mut self) {
+        for (joint, rate) in self.now.joints.iter().zip(&mut self.now.slide_rate) {
+            if joint.slip().is_some_and(|slip| slip.sign() * *rate < 0.0) {
+                *rate = 0.0;
+            }
+        }
     }
 
     /// Coinciding corners that slide go on along the face that carries them an instant later, or part from each other where it is open.

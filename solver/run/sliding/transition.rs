@@ -156,8 +156,11 @@ impl<'p> Instant<'p> {
     /// The states with which the column moves on from here.
     fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<Vec<Joint>, StopReason> {
         let touch = self.joined();
-        // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding.
-        let is_stale = |solution: &Solution| hint.is_some() && solution.joints == before.joints;
+        // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding; a slide that has
+        // come to rest may begin anew.
+        let is_new = |joint: Joint, interface: usize| joint.sticks() && !before.joints[interface].sticks();
+        let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
+        let is_stale = |solution: &Solution| !may_repeat && solution.joints == before.joints;
         let found = self.accelerations(&touch, hint).filter(|solution| !is_stale(solution));
         let mut solution = match found.or_else(|| self.search(&touch).solve_otherwise(&before.joints)) {
             Some(solution) => solution,
