@@ -1,6 +1,8 @@
 //! The inside of a step: the first guard that falls to zero.
 
 use super::smooth::Smooth;
+use crate::friction::chain::Chain;
+use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::Configuration;
 use crate::friction::rows::Answer;
@@ -78,41 +80,62 @@ impl<'s, 'p> Step<'s, 'p> {
         let mut first: Option<(f64, Guard)> = None;
         for &guard in list {
             let limit = first.map_or(1.0, |(s, _)| s);
-            if let Some(s) = self.crossing(guard, limit) {
+            let found = match guard {
+                Guard::Land(corner) => self.landing(corner, limit),
+                _ => self.crossing(guard, &|step, s| step.value(guard, s), limit),
+            };
+            if let Some(s) = found {
                 first = Some((s, guard));
             }
         }
         first
     }
 
+    /// The first place up to `limit` at which a corner lands. Height and distance beside the face are smooth, the larger of both is not: a corner that
+    /// comes from above is followed by its height alone.
+    fn landing(&mut self, corner: Corner, limit: f64) -> Option<f64> {
+        let guard = Guard::Land(corner);
+        let gap = |step: &mut Self, s: f64| {
+            let column = step.smooth.column;
+            gaps::gap(&Chain::new(column, &step.at(s, false).0), corner)
+        };
+        if gap(self, 0.0)[1] >= -START_ROUNDING * self.size(guard) {
+            let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
+            if s > 0.0 && gap(self, s)[0] <= 0.0 {
+                return Some(s);
+            }
+        }
+        self.crossing(guard, &|step, s| step.value(guard, s), limit)
+    }
+
     /// The first place up to `limit` at which a guard falls to zero. A root at the start is divided out, as often as the guard's derivatives
     /// vanish there.
-    fn crossing(&mut self, guard: Guard, limit: f64) -> Option<f64> {
-        let start = self.value(guard, 0.0);
+    fn crossing(&mut self, guard: Guard, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64) -> Option<f64> {
+        let start = value(self, 0.0);
         let noise = START_ROUNDING * self.size(guard);
         if !guard.may_start_from_zero() || start > noise {
-            return first_crossing(|s| self.value(guard, s), start, limit);
+            return first_crossing(|s| value(self, s), start, limit);
         }
         if start < -8.0 * noise {
             return Some(0.0);
         }
         // A place at which the guard has left its start, before it comes back.
         let (mut near, mut end) = (NEAR_START * limit, limit);
-        while near < 0.1 * limit && self.value(guard, near).abs() <= 8.0 * noise {
+        while near < 0.1 * limit && value(self, near).abs() <= 8.0 * noise {
             near *= 4.0;
         }
-        while self.value(guard, near) < -8.0 * noise {
+        while value(self, near) < -8.0 * noise {
             (near, end) = (0.1 * near, near);
         }
-        let one = self.value(guard, near);
+        let one = value(self, near);
         if one <= 8.0 * noise {
             // It does not leave, or comes back before that can be resolved.
             return (end < limit).then_some(0.0);
         }
-        let two = self.value(guard, (2.0 * near).min(end));
+        let two = value(self, (2.0 * near).min(end));
         let limit = end;
         let order = (two / one).abs().log2().round().clamp(1.0, 3.0) as i32;
-        first_crossing(|s| self.value(guard, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
+        first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }
 
     /// The size of a guard's values: what rounding is relative to.
