@@ -246,11 +246,11 @@ impl<'a> Chain<'a> {
 
     /// Velocity of the middle of a block's top face in a motion of the blocks `[m/s]`.
     pub fn top_rate(&self, block: usize, motion: &Motion) -> Vec2 {
-        plus(motion.linear[block], swept(motion.angular[block], self.from_centroid_to_top(block)))
+        plus(motion.linear[block], swept(motion.angular[block], self.centroid_to_top(block)))
     }
 
     /// From the centroid of a block to the middle of its top face `[m]`.
-    pub fn from_centroid_to_top(&self, block: usize) -> Vec2 {
+    pub fn centroid_to_top(&self, block: usize) -> Vec2 {
         plus(self.to_top[block], scaled(self.to_centroid[block], -1.0))
     }
 

@@ -104,8 +104,8 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
             let (upper, lower) = (of(&now.omega, Some(interface)), of(&now.omega, below));
             // Ends of the axes are drawn to the centroids, which fall; the ground does not.
             let foot = scaled(chain.to_centroid[interface], upper * upper);
-            let top = below
-                .map_or([ground.x, ground.gravity], |below| scaled(chain.from_centroid_to_top(below), -lower * lower));
+            let top =
+                below.map_or([ground.x, ground.gravity], |below| scaled(chain.centroid_to_top(below), -lower * lower));
             let apart = [foot[0] - top[0], foot[1] - top[1]];
             gaps::gap_acceleration(chain, [chain.apart_rate(interface, &rates), apart], [&now.omega, &still], corner)
         }

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
-//! state; where it goes in circles, combinations are tried one by one, few changes first.
+//! state. Where it goes in circles, it begins anew with the states of a complementarity problem ([`super::complementarity`]); where that has no answer,
+//! combinations are tried one by one, few changes first.
 
 use super::chain::{Chain, Motion, Rates};
 use super::complementarity;
@@ -17,8 +18,6 @@ use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashSet};
 
 /// What touches at an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,9 +67,6 @@ const JUMP_SHARE: f64 = 1e-9;
 
 /// Combinations that are tried one by one at most; beyond, the search ends without an answer. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
-
-/// Combinations that are explored at most where not all can be tried: some tenths of a second for eight blocks.
-const MOST_EXPLORED: usize = 6000;
 
 /// Coefficient of friction from which on several states may be admissible (docs/book/model.md, section 16): all are tried then.
 const AMBIGUOUS_FROM: f64 = 0.8;
@@ -138,15 +134,7 @@ impl<'a> Search<'a> {
             _ if may_be_ambiguous => self.tried(&first, |_, _| true),
             _ => {
                 let complementary = self.complementary().and_then(|joints| self.guided(joints));
-                if std::env::var("LCP").is_ok() {
-                    eprintln!("guided failed: LCP {} {}", self.complementary().is_some(), complementary.is_some());
-                }
-                let found = complementary
-                    .or_else(|| self.tried(&first, |_, _| true).or_else(|| self.explored(&first, |_, _| true)));
-                if std::env::var("LCP").is_ok() {
-                    eprintln!("      finally {}", found.is_some());
-                }
-                found
+                complementary.or_else(|| self.tried(&first, |_, _| true))
             }
         }
     }
@@ -180,7 +168,7 @@ impl<'a> Search<'a> {
                 fastest > JUMP_SHARE * self.scale.linear
             }
         };
-        self.tried(&self.first(), is_other).or_else(|| self.explored(&self.first(), is_other))
+        self.tried(&self.first(), is_other)
     }
 
     /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them.
@@ -341,44 +329,6 @@ impl<'a> Search<'a> {
         };
         let is_ambiguous = admissible.iter().any(|(_, _, _, other)| is_other(other));
         Some(Solution { joints, answer, is_ambiguous })
-    }
-
-    /// The first admissible combination that is wanted, of columns with too many combinations to try them all: from combination to
-    /// neighbouring combination, where one violated interface takes another state, those with few violated conditions first.
-    fn explored(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
-        let mut seen: HashSet<Vec<Joint>> = HashSet::from([first.to_vec()]);
-        // Violated conditions and order of discovery; the combination.
-        let mut open: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
-        let mut found: Vec<(Vec<Joint>, Vec<usize>)> = Vec::new();
-        let mut next = vec![first.to_vec()];
-        loop {
-            for joints in next.drain(..) {
-                let Some(answer) = self.answer(&joints) else { continue };
-                let violated: Vec<usize> =
-                    (0..joints.len()).filter(|&i| self.required(&joints, &answer, i).is_some()).collect();
-                if violated.is_empty() && is_wanted(&joints, &answer) {
-                    return Some(Solution { joints, answer, is_ambiguous: false });
-                }
-                open.push(Reverse((violated.len(), found.len())));
-                found.push((joints, violated));
-            }
-            if found.len() > MOST_EXPLORED {
-                return None;
-            }
-            let Reverse((_, index)) = open.pop()?;
-            let (joints, violated) = found[index].clone();
-            // A combination that is admissible but not wanted may have a neighbour at any interface.
-            let places = if violated.is_empty() { (0..joints.len()).collect() } else { violated };
-            for interface in places {
-                for choice in self.choices(interface) {
-                    let mut neighbour = joints.clone();
-                    neighbour[interface] = choice;
-                    if seen.insert(neighbour.clone()) {
-                        next.push(neighbour);
-                    }
-                }
-            }
-        }
     }
 
     /// The state that a violated condition of an interface names; `None` if all conditions hold.

@@ -7,6 +7,9 @@ const PIVOTS_PER_UNKNOWN: usize = 20;
 /// Share of the largest entry of the entering column below which an entry is no pivot.
 const PIVOT_SHARE: f64 = 1e-11;
 
+/// Share of the largest entry of `q` below which the artificial variable is rounding.
+const LEVEL_SHARE: f64 = 1e-13;
+
 /// Solves `w = M z + q` for `z`, with `M` given row by row; `None` if the method ends on a ray, which says that there is no solution for the matrices
 /// of contact problems without given slips.
 pub fn lemke(m: &[f64], q: &[f64]) -> Option<Vec<f64>> {
@@ -25,9 +28,17 @@ pub fn lemke(m: &[f64], q: &[f64]) -> Option<Vec<f64>> {
         }
         // The complement of what has left enters.
         entering = if left < size { left + size } else { left - size };
-        leaving = tableau.leaving(entering)?;
+        leaving = match tableau.leaving(entering) {
+            Some(row) => row,
+            // A ray on which the artificial variable is nothing but rounding begins at a solution.
+            None => return (tableau.artificial_level() <= LEVEL_SHARE * largest(q)).then(|| tableau.solution()),
+        };
     }
     None
+}
+
+fn largest(q: &[f64]) -> f64 {
+    q.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
 /// Rows of `[w | z | z_0 | q]`, with the basic variable of each row.
@@ -58,6 +69,12 @@ impl Tableau {
 
     fn artificial(&self) -> usize {
         2 * self.size
+    }
+
+    /// Value of the artificial variable.
+    fn artificial_level(&self) -> f64 {
+        let row = self.basis.iter().position(|variable| *variable == self.artificial());
+        row.map_or(0.0, |row| self.at(row, 2 * self.size + 1))
     }
 
     fn at(&self, row: usize, column: usize) -> f64 {
