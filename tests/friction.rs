@@ -92,14 +92,17 @@ fn blocks_fly_and_land_together() {
         let response = run(&scene);
         let landing = response.events.iter().find(|event| event.kind == EventKind::Landing).expect("they land");
         assert_relative_eq!(landing.t, 0.2 * (1.5 + 0.75f64.sqrt()), max_relative = 1e-10);
+        // The top of the flight, at `B t_1 = 0.3 s`, is a row: `½ B (B - 1) g t_1²`. Accelerations are constant, so that steps err by rounding.
         let highest = response.samples.iter().map(|sample| sample.gap[0]).fold(0.0, f64::max);
-        // Rows of a millisecond miss the top by ½ g (0.5 ms)².
-        assert!((highest - 0.14715).abs() < 2e-6, "{highest}");
+        assert_relative_eq!(highest, 0.14715, max_relative = 1e-10);
+        for block in &landing.blocks {
+            assert_relative_eq!(block.velocity_before[1], -GRAVITY * 0.2 * 0.75f64.sqrt(), max_relative = 1e-10);
+        }
         assert_eq!(response.status, StopReason::AtRest, "{:?}", response.events);
     }
 }
 
-/// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`. That it slides below is a claim about the oracle, with which the search agrees.
+/// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`.
 #[test]
 fn a_landing_sticks_above_the_friction_of_the_closed_form() {
     let t = 0.25f64;
@@ -116,6 +119,158 @@ fn a_landing_sticks_above_the_friction_of_the_closed_form() {
         let sticks = 1.0 - 1.5 * t * t / (1.0 + t * t);
         assert_relative_eq!(found, sticks, max_relative = 1e-12);
     }
+}
+
+/// Below that friction the landing slides, with `ω⁺/ω⁻ = (1 - 2t² + 3μt)/(1 + 4t² - 3μt)` and impulses on the cone.
+#[test]
+fn a_landing_slides_below_the_friction_of_the_closed_form() {
+    for t in [0.15f64, 0.25, 0.4, 0.6] {
+        let critical = 3.0 * t / (4.0 + t * t);
+        for share in [0.0, 0.1, 0.5, 0.9, 1.0 - 1e-6] {
+            let mu = share * critical;
+            let mut scene = scene(vec![Block::rectangle(t, 1.0, 1.0)], vec![mu]);
+            // It falls for 1e-11 s before it lands, and slides meanwhile: its rate changes by 1e-10 of itself.
+            scene.initial.theta = vec![1e-11];
+            scene.initial.omega = vec![-1.0];
+            scene.options.t_end = 1e-3;
+            scene.options.stick_angle = 1e-13;
+            let response = run(&scene);
+            let impact = response.events.iter().find(|event| event.kind == EventKind::Impact).expect("it lands");
+            let found = impact.omega_after[0] / impact.omega_before[0];
+            let expected = (1.0 - 2.0 * t * t + 3.0 * mu * t) / (1.0 + 4.0 * t * t - 3.0 * mu * t);
+            assert_relative_eq!(found, expected, max_relative = 1e-9);
+            let impulse = impact.impulses[0];
+            assert!((impulse.tangential.abs() - mu * impulse.normal).abs() < 1e-12 * impulse.normal, "{impulse:?}");
+            // Less slip than the search's tolerance is none: just below the critical friction the slide ends at once.
+            let sliding = response.sliding.expect("a run with friction");
+            assert!(share > 0.99 || sliding.residual_slide[0].abs() > 1e-6, "t {t} mu {mu}: {sliding:?}");
+        }
+    }
+}
+
+/// Sliding and rocking from rest: `N = m g (1 + t²)/D`, `|θ̈| = 3 g (μ - t)/(h D)`, `D = 1 + 4t² - 3μt`.
+#[test]
+fn sliding_and_rocking_from_rest_begins_as_the_closed_form() {
+    for (t, a) in [(0.25f64, 0.5), (0.25, 1.0), (0.25, 2.0), (0.5, 1.0), (0.5, 2.0)] {
+        let critical = (a * (1.0 + 4.0 * t * t) + 3.0 * t) / (4.0 + t * t + 3.0 * a * t);
+        for share in [0.1, 0.5, 0.9] {
+            let mu = t + share * (critical - t);
+            let block = Block::rectangle(t, 1.0, 1.0);
+            let mut scene = scene(vec![block], vec![mu]);
+            scene.excitation.horizontal =
+                Some(Motion::Rectangular { amplitude: a * GRAVITY, start: 0.0, duration: 1.0 });
+            scene.options.t_end = 1e-4;
+            scene.output_dt = Some(1e-4);
+            let response = run(&scene);
+            let below = 1.0 + 4.0 * t * t - 3.0 * mu * t;
+            let force = response.samples[0].blocks[0].force;
+            // One system of equations for all: rounding, and condition numbers of some ten.
+            assert_relative_eq!(force.normal, block.mass * GRAVITY * (1.0 + t * t) / below, max_relative = 1e-12);
+            assert_relative_eq!(force.tangential.abs(), mu * force.normal, max_relative = 1e-12);
+            // `θ = ½ θ̈ t²` with the acceleration of the start, which changes with `θ̈ t²`, 1e-7.
+            let expected = 3.0 * GRAVITY * (mu - t) / below;
+            let theta = response.samples.last().expect("rows").theta[0];
+            assert_relative_eq!(theta.abs(), 0.5e-8 * expected, max_relative = 1e-6);
+        }
+    }
+}
+
+/// A block released at `θ_0` sticks if `μ ≥ 3τ/(4 + τ²)`, `τ = tan(α - θ_0)`.
+#[test]
+fn a_released_block_sticks_above_the_friction_of_the_closed_form() {
+    for alpha in [0.2f64, 0.4, 0.7] {
+        for share in [0.05, 0.3, 0.8] {
+            let tau = (alpha * (1.0 - share)).tan();
+            let critical = 3.0 * tau / (4.0 + tau * tau);
+            for factor in [0.5, 1.0 - 1e-8, 1.0 + 1e-8, 1.5] {
+                let mut scene = scene(vec![Block::rectangle(alpha.tan(), 1.0, 1.0)], vec![factor * critical]);
+                scene.initial.theta = vec![share * alpha];
+                scene.options.t_end = 1e-3;
+                // The least friction that holds grows as the block falls: just above, the block sticks for a moment.
+                let times = run(&scene).sliding.expect("a run with friction").times[0];
+                assert_eq!(
+                    times.sticking > 0.0,
+                    factor > 1.0,
+                    "alpha {alpha} share {share} factor {factor}: {times:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A flat landing with velocity `(u_x, u_y)`: rests, slides flat, pivots, or pivots and slides.
+#[test]
+fn a_flat_landing_has_its_four_ends() {
+    let mut ends = [0; 4];
+    for k in [0.5f64, 1.0, 2.0, 4.0] {
+        let t = 1.0 / k;
+        for r in [0.1f64, 0.3, 0.7, 1.5, 3.0, 6.0] {
+            for mu in [0.05f64, 0.2, 0.45, 0.8, 1.2] {
+                let block = Block::rectangle(t, 1.0, 1.0);
+                let mut scene = scene(vec![block], vec![mu]);
+                let initial = &mut scene.initial;
+                (initial.theta, initial.omega) = (vec![0.0], vec![0.0]);
+                (initial.x, initial.y) = (vec![0.0], vec![1.0 + 1e-3]);
+                (initial.vx, initial.vy) = (vec![1.0], vec![-r]);
+                scene.options.t_end = 0.1;
+                let response = run(&scene);
+                let landing = response.events.iter().find(|event| event.kind == EventKind::Landing).expect("it lands");
+                let [across, down] = landing.blocks[0].velocity_before;
+                assert_relative_eq!(down, -(r * r + 2e-3 * GRAVITY).sqrt(), max_relative = 1e-10);
+                let r = (down / across).abs();
+                let [after, up] = landing.blocks[0].velocity_after;
+                let turn = landing.omega_after[0];
+                let pivots = mu * (1.0 + 4.0 * k * k) > 3.0 * k
+                    && r >= (4.0 + k * k - 3.0 * mu * k) / (mu * (1.0 + 4.0 * k * k) - 3.0 * k);
+                let (end, expected) = match () {
+                    () if r >= k && mu >= 1.0 / r => (0, [0.0, 0.0, 0.0]),
+                    () if mu < t && mu < 1.0 / r => (1, [across - mu * down.abs(), 0.0, 0.0]),
+                    () if pivots => {
+                        let turn = 3.0 * (across - t * down.abs()) / (4.0 * (1.0 + t * t));
+                        (2, [turn, t * turn, turn])
+                    }
+                    // Momentum along the ground: what friction takes of it.
+                    () => {
+                        let turn = 3.0 * (mu - t) * down.abs() / (1.0 + 4.0 * t * t - 3.0 * mu * t);
+                        (3, [across - mu * (down.abs() + t * turn), t * turn, turn])
+                    }
+                };
+                ends[end] += 1;
+                for (found, expected) in [after, up, turn].into_iter().zip(expected) {
+                    assert!(
+                        (found - expected).abs() < 1e-10 * (1.0 + r),
+                        "k {k} r {r} mu {mu} end {end}: {landing:?} {expected}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(ends.iter().all(|count| *count > 3), "{ends:?}");
+}
+
+/// One block that pivots and slides on the leading corner has no acceleration if `μ ≥ (1 + 4τ²)/(3τ)`, `τ = tan(α - θ)` (Painlevé).
+#[test]
+fn painleves_block_jams_from_the_friction_of_the_closed_form_on() {
+    let mut jammed = 0;
+    for (alpha, theta) in [(0.5f64, 0.05), (0.6, 0.1), (0.8, 0.2), (1.0, 0.3)] {
+        let (b, h) = (alpha.tan(), 1.0f64);
+        let tau = (alpha - theta).tan();
+        let critical = (1.0 + 4.0 * tau * tau) / (3.0 * tau);
+        for factor in [0.5, 0.9, 1.0 - 1e-6, 1.0 + 1e-6, 1.2] {
+            let mut scene = scene(vec![Block::rectangle(b, h, 1.0)], vec![factor * critical]);
+            // On the right corner, which slides to the right.
+            let initial = &mut scene.initial;
+            (initial.theta, initial.omega) = (vec![theta], vec![0.0]);
+            (initial.x, initial.y) = (vec![0.0], vec![b * theta.sin() + h * theta.cos()]);
+            (initial.vx, initial.vy) = (vec![1.0], vec![0.0]);
+            scene.options.t_end = 1e-6;
+            let sliding = run(&scene).sliding.expect("a run with friction");
+            let is_jammed = sliding.jammed.first() == Some(&0.0);
+            assert_eq!(is_jammed, factor > 1.0, "alpha {alpha} theta {theta} factor {factor}: {sliding:?}");
+            jammed += usize::from(is_jammed);
+        }
+    }
+    assert_eq!(jammed, 8);
 }
 
 /// From rest under a constant acceleration: rests, slides, rocks, or both at once, by the closed form.
@@ -198,8 +353,10 @@ fn mirror_images_slide_as_mirror_images() {
 /// Ground's work and friction's work less what impacts lose is the change of energy.
 #[test]
 fn the_energy_balance_closes() {
-    let mut closed = 0;
-    for scene in random_scenes(200) {
+    let (mut closed, mut within) = (0, 0);
+    for mut scene in random_scenes(200) {
+        // At the default of 1e-9 the steps' own errors are 1e-8 of the ground's work.
+        (scene.options.rtol, scene.options.atol) = (1e-12, 1e-15);
         let response = run(&scene);
         let sliding = response.sliding.expect("a run with friction");
         if sliding.ground_work == 0.0 || response.status == StopReason::Undetermined {
@@ -210,10 +367,12 @@ fn the_energy_balance_closes() {
                 && sliding.impact_losses >= -1e-9 * sliding.ground_work.abs()
         );
         let sum = sliding.ground_work + sliding.friction_work - sliding.impact_losses - sliding.energy_change;
+        // The ground's work is a sum in which parts may cancel; what impacts have lost has been put in.
         let size = sliding.ground_work.abs().max(sliding.impact_losses);
-        // Measured: mostly 1e-9, 2e-5 in one of these scenes, 2e-3 in one of three hundred others: what is snapped where hops end is not all counted.
-        assert!(sum.abs() < 1e-2 * size, "{sum:e} of {size:e}: {sliding:?}");
+        // Measured: 3e-10 at most in 129 of 135 scenes, 2e-5 at most in the others, where the rate of a slide is lost at the end of a chatter.
+        assert!(sum.abs() < 3e-5 * size, "{sum:e} of {size:e}: {sliding:?}");
         closed += 1;
+        within += usize::from(sum.abs() < 1e-9 * size);
     }
-    assert!(closed > 80, "{closed}");
+    assert!(closed > 80 && 20 * within > 19 * closed, "{within} of {closed}");
 }

@@ -131,9 +131,15 @@ fn off(own: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
 /// Both solve systems of up to nine and twenty rows with condition numbers of some thousands.
 const SAME: f64 = 1e-8;
 
+/// Margin of a condition, as a share of the problem's scale, within which the two may take different states.
+const NEAR: f64 = 1e-7;
+
+/// What the motions of two states differ by at most where the worst margin is smaller than that.
+const NEAR_SAME: f64 = 1e-6;
+
 fn compare(seed: u64, cases: usize) {
     let mut random = Uniform(seed);
-    let mut compared = [0; 2];
+    let (mut compared, mut several) = ([0; 2], [0; 2]);
     for index in 0..cases {
         let strikes = index % 2 == 1;
         let Case { column, now, touch, friction, stack, state } = case(&mut random, strikes);
@@ -145,11 +151,11 @@ fn compare(seed: u64, cases: usize) {
         } else {
             accelerations(&stack, &state, [ground.x, ground.gravity - 9.81])
         };
-        // Near a limit rounding decides, and several answers are a matter of rules.
-        let [only] = &found[..] else { continue };
-        if only.margin.abs() < 1e-7 {
+        // Of several answers a rule chooses.
+        let [only] = &found[..] else {
+            several[usize::from(strikes)] += 1;
             continue;
-        }
+        };
         let question = if strikes { Question::Impact(before.clone()) } else { Question::Accelerations(ground) };
         let own = Search::new(&column, &now, &touch, &friction, question).solve().expect("the oracle has an answer");
         let motion = |block: usize| {
@@ -163,8 +169,10 @@ fn compare(seed: u64, cases: usize) {
             }
         };
         let motion: Vec<[f64; 3]> = (0..column.len()).map(motion).collect();
+        // Near a limit rounding decides between states whose motions are the same there.
+        let same = if only.margin.abs() < NEAR { NEAR_SAME } else { SAME };
         assert!(
-            off(&motion, &only.motion) < SAME,
+            off(&motion, &only.motion) < same,
             "case {index}: {:?} of {:?}\n{motion:?}\n{:?} {:?}",
             own.joints,
             now,
@@ -173,8 +181,8 @@ fn compare(seed: u64, cases: usize) {
         );
         compared[usize::from(strikes)] += 1;
     }
-    println!("{compared:?} of {cases} compared");
-    assert!(compared.iter().all(|count| *count > cases / 8), "{compared:?}");
+    println!("{compared:?} of {cases} compared (accelerations, impacts), {several:?} with several answers or none");
+    assert!(compared.iter().all(|count| *count > 9 * cases / 20), "{compared:?}");
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn steps(random: &mut Random, amplitude: f64) -> Vec<f64> {
     accel
 }
 
-fn motion(random: &mut Random, amplitude: f64, t_end: f64) -> Motion {
+pub fn motion(random: &mut Random, amplitude: f64, t_end: f64) -> Motion {
     let omega = if random.once_in(6) { random.scale(60.0, 2000.0) } else { random.scale(0.5, 60.0) };
     let start = if random.once_in(3) { 0.0 } else { random.within(0.0, 0.4 * t_end) };
     let (phase, duration) = (random.within(-3.0, 3.0), random.scale(0.01, 1.0) * t_end);
@@ -120,7 +120,7 @@ fn motion(random: &mut Random, amplitude: f64, t_end: f64) -> Motion {
     }
 }
 
-fn tilts(random: &mut Random, scene: &mut Scene) {
+pub fn tilts(random: &mut Random, scene: &mut Scene) {
     let count = scene.column.len();
     let (mut theta, mut omega) = (vec![0.0; count], vec![0.0; count]);
     match random.below(5) {
@@ -212,6 +212,12 @@ pub fn mirrored(scene: &Scene) -> Scene {
     let negate = |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value = -*value);
     negate(&mut mirrored.initial.theta);
     negate(&mut mirrored.initial.omega);
+    negate(&mut mirrored.initial.x);
+    negate(&mut mirrored.initial.vx);
+    if scene.column.slides().iter().any(|slide| *slide != 0.0) {
+        let slides = scene.column.slides().iter().map(|slide| -slide).collect();
+        mirrored.column = scene.column.clone().displaced(slides).expect("a column as good as its mirror image");
+    }
     mirrored.excitation.horizontal = scene.excitation.horizontal.clone().map(reversed);
     mirrored
 }
