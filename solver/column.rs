@@ -327,6 +327,11 @@ impl Column {
         self.blocks.is_empty()
     }
 
+    /// Largest sum of half-height and half-width of a block `[m]`: what lengths are compared with.
+    pub(crate) fn size(&self) -> f64 {
+        self.blocks.iter().fold(0.0, |size, block| size.max(block.half_height + block.half_width()))
+    }
+
     /// `[m/s²]`
     pub fn gravity(&self) -> f64 {
         self.gravity

@@ -27,7 +27,7 @@
 //! ```
 //!
 //! A scene with [`Friction`] runs like this first. Where its friction is used up or a contact would part, it is run anew by another loop
-//! (run/sliding.rs), over the ten states that an interface with friction may have: blocks slide, fly and land.
+//! (run/sliding/), over the ten states that an interface with friction may have: blocks slide, fly and land.
 //!
 //! # Example
 //!

@@ -60,6 +60,17 @@ impl Rates {
         let Configuration { omega, slide_rate, apart_rate, .. } = configuration;
         Rates { omega: omega.clone(), slide: slide_rate.clone(), apart: apart_rate.clone() }
     }
+
+    /// Gives a configuration these rates; those of free interfaces only where an interface is free.
+    pub fn give(&self, configuration: &mut Configuration) {
+        configuration.omega.clone_from(&self.omega);
+        configuration.slide_rate.clone_from(&self.slide);
+        for (interface, joint) in configuration.joints.iter().enumerate() {
+            if *joint == Joint::Free {
+                configuration.apart_rate[interface] = self.apart[interface];
+            }
+        }
+    }
 }
 
 /// Sine and cosine of an angle.
@@ -77,15 +88,15 @@ impl Turn {
 }
 
 /// Velocity of a point at `r` from a point at rest, of a body that turns clockwise at this rate.
-fn swept(rate: f64, r: Vec2) -> Vec2 {
+pub(super) fn swept(rate: f64, r: Vec2) -> Vec2 {
     [rate * r[1], -rate * r[0]]
 }
 
-fn plus(a: Vec2, b: Vec2) -> Vec2 {
+pub(super) fn plus(a: Vec2, b: Vec2) -> Vec2 {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-fn scaled(a: Vec2, factor: f64) -> Vec2 {
+pub(super) fn scaled(a: Vec2, factor: f64) -> Vec2 {
     [a[0] * factor, a[1] * factor]
 }
 
@@ -109,7 +120,7 @@ pub struct Chain<'a> {
     column: &'a Column,
     links: Vec<Link>,
     /// From the middle of a block's base to its centroid and to the middle of its top.
-    to_centroid: Vec<Vec2>,
+    pub to_centroid: Vec<Vec2>,
     to_top: Vec<Vec2>,
     /// Middles of the bases `[m]`.
     pub foot: Vec<Vec2>,
@@ -228,6 +239,21 @@ impl<'a> Chain<'a> {
         accelerations
     }
 
+    /// Velocity of the middle of a block's base in a motion of the blocks `[m/s]`.
+    pub fn foot_rate(&self, block: usize, motion: &Motion) -> Vec2 {
+        plus(motion.linear[block], swept(-motion.angular[block], self.to_centroid[block]))
+    }
+
+    /// Velocity of the middle of a block's top face in a motion of the blocks `[m/s]`.
+    pub fn top_rate(&self, block: usize, motion: &Motion) -> Vec2 {
+        plus(motion.linear[block], swept(motion.angular[block], self.centroid_to_top(block)))
+    }
+
+    /// From the centroid of a block to the middle of its top face `[m]`.
+    pub fn centroid_to_top(&self, block: usize) -> Vec2 {
+        plus(self.to_top[block], scaled(self.to_centroid[block], -1.0))
+    }
+
     /// Directions along and across the face that carries the contact of an interface, to the right and upwards.
     pub fn axes(&self, interface: usize) -> [Vec2; 2] {
         let along = self.links[interface].along;
@@ -242,27 +268,26 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Point on the upper face of an interface at this distance to the right of its middle `[m]`.
-    pub fn on_upper_face(&self, interface: usize, u: f64) -> Vec2 {
-        plus(self.foot[interface], self.turns[interface].rotate([u, 0.0]))
-    }
-
     /// The point of contact of a corner at an interface `[m]`.
     pub fn pivot(&self, interface: usize) -> Vec2 {
         let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.top[below]);
         plus(below, self.links[interface].on_lower)
     }
 
-    /// A vector of the ground's axes in the axes of the block below an interface.
-    pub fn in_lower_axes(&self, interface: usize, [x, y]: Vec2) -> Vec2 {
-        let turn = interface.checked_sub(1).map_or(Turn { sin: 0.0, cos: 1.0 }, |below| self.turns[below]);
-        [x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos]
+    /// The turn of a block; of the ground, none.
+    fn turn(&self, block: Option<usize>) -> Turn {
+        block.map_or(Turn { sin: 0.0, cos: 1.0 }, |block| self.turns[block])
     }
 
-    /// A vector of the ground's axes in the axes of the block above an interface.
-    pub fn in_upper_axes(&self, interface: usize, [x, y]: Vec2) -> Vec2 {
-        let turn = self.turns[interface];
-        [x * turn.cos - y * turn.sin, x * turn.sin + y * turn.cos]
+    /// A vector of the ground's axes in the axes of a block, or of the ground.
+    pub fn in_block_axes(&self, block: Option<usize>, [x, y]: Vec2) -> Vec2 {
+        let Turn { sin, cos } = self.turn(block);
+        [x * cos - y * sin, x * sin + y * cos]
+    }
+
+    /// A vector of the axes of a block, or of the ground, in the ground's axes.
+    pub fn in_ground_axes(&self, block: Option<usize>, vector: Vec2) -> Vec2 {
+        self.turn(block).rotate(vector)
     }
 
     /// The column.

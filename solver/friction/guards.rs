@@ -6,6 +6,7 @@
 //! ```
 
 use super::chain::Chain;
+use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip};
 use super::rows::Answer;
 use super::search::{Coefficients, cone_margins, half_length};
@@ -28,8 +29,8 @@ pub enum Guard {
     Edge(usize),
     /// The contact's length falls to zero.
     Collapse(usize),
-    /// A corner of a free interface, of this side, reaches the other block's face: the lower or the upper one.
-    Land(usize, Sign, Face),
+    /// A corner of a free interface reaches the other block's face.
+    Land(Corner),
     /// The angle of a block reaches the overturning angle.
     Overturn(usize),
 }
@@ -76,12 +77,7 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
                 if i > 0 {
                     guards.push(Guard::Collapse(i));
                 }
-                for side in [1, -1] {
-                    guards.push(Guard::Land(i, side, Face::Lower));
-                    if i > 0 {
-                        guards.push(Guard::Land(i, side, Face::Upper));
-                    }
-                }
+                guards.extend([1, -1].into_iter().flat_map(|side| Corner::of_side(i, side)).map(Guard::Land));
             }
         }
         guards.push(Guard::Overturn(i));
@@ -120,10 +116,10 @@ pub fn value(
             }
             _ => f64::INFINITY,
         },
-        Guard::Collapse(i) if now.joints[i] == Joint::Free => overlap(&Chain::new(column, now), i),
+        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(&Chain::new(column, now), i),
         Guard::Collapse(i) => half_length(column, i, now.slide[i]),
-        Guard::Land(i, side, face) => {
-            let [beside, above] = gap(&Chain::new(column, now), i, side, face);
+        Guard::Land(corner) => {
+            let [beside, above] = gaps::gap(&Chain::new(column, now), corner);
             beside.max(above)
         }
         Guard::Overturn(block) => overturn_angle - now.theta[block].abs(),
@@ -134,55 +130,4 @@ pub fn value(
 fn beyond(column: &Column, interface: usize, side: Sign, slide: f64) -> f64 {
     let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| column.blocks()[below].top_half_width);
     f64::from(side) * slide + column.blocks()[interface].bottom_half_width - lower
-}
-
-/// How far the faces of a free interface reach over each other, along the lower one `[m]`.
-fn overlap(chain: &Chain, interface: usize) -> f64 {
-    let blocks = chain.column().blocks();
-    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| blocks[below].top_half_width);
-    let [u, _] = chain.in_lower_axes(interface, chain.apart(interface));
-    blocks[interface].bottom_half_width + lower - u.abs()
-}
-
-/// A corner of a free interface seen from the face that it may land on `[m]`: how far it is beside the face, and how far above it.
-pub fn gap(chain: &Chain, interface: usize, side: Sign, face: Face) -> [f64; 2] {
-    let blocks = chain.column().blocks();
-    let below = interface.checked_sub(1);
-    let own = blocks[interface].bottom_half_width;
-    let lower = below.map_or(f64::INFINITY, |below| blocks[below].top_half_width);
-    let side = f64::from(side);
-    let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
-    match face {
-        Face::Upper => {
-            let corner = chain.on_lower_face(interface, side * lower);
-            let [u, v] = chain.in_upper_axes(interface, less(corner, chain.foot[interface]));
-            [u.abs() - own, -v]
-        }
-        _ => {
-            let corner = chain.on_upper_face(interface, side * own);
-            let middle = below.map_or([0.0, 0.0], |below| chain.top[below]);
-            let [u, v] = chain.in_lower_axes(interface, less(corner, middle));
-            [u.abs() - lower, v]
-        }
-    }
-}
-
-/// The slide with which an interface that touches with a corner of this side is where it is `[m]`.
-pub fn slide_of_landing(chain: &Chain, interface: usize, side: Sign, on: Face) -> f64 {
-    let blocks = chain.column().blocks();
-    let side = f64::from(side);
-    let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
-    match on {
-        Face::Upper => {
-            let lower = side * interface.checked_sub(1).map_or(0.0, |below| blocks[below].top_half_width);
-            let corner = chain.on_lower_face(interface, lower);
-            lower - chain.in_upper_axes(interface, less(corner, chain.foot[interface]))[0]
-        }
-        _ => {
-            let own = side * blocks[interface].bottom_half_width;
-            let corner = chain.on_upper_face(interface, own);
-            let middle = interface.checked_sub(1).map_or([0.0, 0.0], |below| chain.top[below]);
-            chain.in_lower_axes(interface, less(corner, middle))[0] - own
-        }
-    }
 }

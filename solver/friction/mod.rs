@@ -9,8 +9,9 @@
 //! Time does not pass here: `run/` integrates.
 
 pub mod chain;
+mod complementarity;
+pub mod gaps;
 pub mod guards;
-
 pub mod joint;
 pub mod rows;
 pub mod search;

@@ -69,6 +69,17 @@ pub struct Answer {
     pub contacts: Vec<ContactForce>,
 }
 
+impl Answer {
+    /// No accelerations and no forces.
+    pub fn none(blocks: usize) -> Answer {
+        Answer {
+            rates: Rates::zero(blocks),
+            change: Motion::default(),
+            contacts: vec![ContactForce::default(); blocks],
+        }
+    }
+}
+
 /// The rows of a configuration.
 #[derive(Debug)]
 pub struct Rows<'c, 'a> {

@@ -8,16 +8,16 @@
 //! ```
 //!
 //! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
-//! state; where it goes in circles, combinations are tried one by one, few changes first.
+//! state. Where it goes in circles, it begins anew with the states of a complementarity problem ([`super::complementarity`]); where that has no answer,
+//! combinations are tried one by one, few changes first.
 
 use super::chain::{Chain, Motion, Rates};
+use super::complementarity;
+use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
-use crate::mechanics::kinematics::Vec2;
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashSet};
 
 /// What touches at an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,9 +68,6 @@ const JUMP_SHARE: f64 = 1e-9;
 /// Combinations that are tried one by one at most; beyond, the search ends without an answer. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
 
-/// Combinations that are explored at most where not all can be tried: some tenths of a second for eight blocks.
-const MOST_EXPLORED: usize = 6000;
-
 /// Coefficient of friction from which on several states may be admissible (docs/book/model.md, section 16): all are tried then.
 const AMBIGUOUS_FROM: f64 = 0.8;
 
@@ -105,7 +102,7 @@ impl<'a> Search<'a> {
         friction: &'a Coefficients,
         question: Question,
     ) -> Search<'a> {
-        let size = column.blocks().iter().fold(0.0f64, |size, block| size.max(block.half_height + block.half_width()));
+        let size = column.size();
         let mass: f64 = column.blocks().iter().map(|block| block.mass).sum();
         let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
         let linear = match &question {
@@ -134,8 +131,32 @@ impl<'a> Search<'a> {
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
         match guided {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
-            _ => self.tried(&first, |_, _| true).or_else(|| self.explored(&first, |_, _| true)),
+            _ if may_be_ambiguous => self.tried(&first, |_, _| true),
+            _ => {
+                let complementary = self.complementary().and_then(|joints| self.guided(joints));
+                complementary.or_else(|| self.tried(&first, |_, _| true))
+            }
         }
+    }
+
+    /// The states that solve the problem as one of complementarity.
+    fn complementary(&self) -> Option<Vec<Joint>> {
+        let coefficients = match self.question {
+            Question::Accelerations(_) => &self.friction.fixed,
+            Question::Impact(_) => &self.friction.kinetic,
+        };
+        let slip = |interface: usize| match self.given_slip(interface) {
+            Some(Slip::Slides(direction)) => Some(direction),
+            _ => None,
+        };
+        let slips: Vec<Option<Sign>> = (0..self.touch.len()).map(slip).collect();
+        let joints = complementarity::states(self.column, self.now, self.touch, coefficients, &slips, &self.question)?;
+        // Coinciding corners slide along the face that carries them.
+        let carried = |(interface, joint): (usize, Joint)| match joint {
+            Joint::Corner(side, _, slip) => self.corner(interface, side, slip),
+            joint => joint,
+        };
+        Some(joints.into_iter().enumerate().map(carried).collect())
     }
 
     /// The states that follow if these do not, and of an impact those that change the motion; `None` if there are no others.
@@ -147,7 +168,7 @@ impl<'a> Search<'a> {
                 fastest > JUMP_SHARE * self.scale.linear
             }
         };
-        self.tried(&self.first(), is_other).or_else(|| self.explored(&self.first(), is_other))
+        self.tried(&self.first(), is_other)
     }
 
     /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them.
@@ -310,44 +331,6 @@ impl<'a> Search<'a> {
         Some(Solution { joints, answer, is_ambiguous })
     }
 
-    /// The first admissible combination that is wanted, of columns with too many combinations to try them all: from combination to
-    /// neighbouring combination, where one violated interface takes another state, those with few violated conditions first.
-    fn explored(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
-        let mut seen: HashSet<Vec<Joint>> = HashSet::from([first.to_vec()]);
-        // Violated conditions and order of discovery; the combination.
-        let mut open: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
-        let mut found: Vec<(Vec<Joint>, Vec<usize>)> = Vec::new();
-        let mut next = vec![first.to_vec()];
-        loop {
-            for joints in next.drain(..) {
-                let Some(answer) = self.answer(&joints) else { continue };
-                let violated: Vec<usize> =
-                    (0..joints.len()).filter(|&i| self.required(&joints, &answer, i).is_some()).collect();
-                if violated.is_empty() && is_wanted(&joints, &answer) {
-                    return Some(Solution { joints, answer, is_ambiguous: false });
-                }
-                open.push(Reverse((violated.len(), found.len())));
-                found.push((joints, violated));
-            }
-            if found.len() > MOST_EXPLORED {
-                return None;
-            }
-            let Reverse((_, index)) = open.pop()?;
-            let (joints, violated) = found[index].clone();
-            // A combination that is admissible but not wanted may have a neighbour at any interface.
-            let places = if violated.is_empty() { (0..joints.len()).collect() } else { violated };
-            for interface in places {
-                for choice in self.choices(interface) {
-                    let mut neighbour = joints.clone();
-                    neighbour[interface] = choice;
-                    if seen.insert(neighbour.clone()) {
-                        next.push(neighbour);
-                    }
-                }
-            }
-        }
-    }
-
     /// The state that a violated condition of an interface names; `None` if all conditions hold.
     fn required(&self, joints: &[Joint], answer: &Answer, interface: usize) -> Option<Joint> {
         let (joint, contact) = (joints[interface], answer.contacts[interface]);
@@ -414,8 +397,8 @@ impl<'a> Search<'a> {
             Touch::Nothing => None,
             Touch::Corner(side) => {
                 let face = face(self.column, interface, side, self.now.slide[interface]);
-                let lower = || self.gap_motion(answer, interface, side, Face::Lower);
-                let upper = || self.gap_motion(answer, interface, side, Face::Upper);
+                let leaving = |face| self.leaving(answer, Corner { interface, side, face });
+                let (lower, upper) = (|| leaving(Face::Lower), || leaving(Face::Upper));
                 let apart = match face {
                     Face::Lower => lower(),
                     Face::Upper => upper(),
@@ -429,7 +412,7 @@ impl<'a> Search<'a> {
                         Face::Upper => Face::Upper,
                         _ => Face::Lower,
                     };
-                    self.gap_motion(answer, interface, side, face) < slack
+                    self.leaving(answer, Corner { interface, side, face }) < slack
                 });
                 match sinking {
                     [true, true] => Some(Joint::Closed(Slip::Sticks)),
@@ -442,48 +425,14 @@ impl<'a> Search<'a> {
     }
 
     /// Acceleration, or velocity, with which a corner leaves the other face.
-    fn gap_motion(&self, answer: &Answer, interface: usize, side: Sign, face: Face) -> f64 {
-        let below = interface.checked_sub(1);
-        let of = |values: &[f64]| [below.map_or(0.0, |below| values[below]), values[interface]];
+    fn leaving(&self, answer: &Answer, corner: Corner) -> f64 {
         let chain = Chain::new(self.column, self.now);
-        let side = f64::from(side);
-        // The frame of the face, the frame of the corner, and the corner from the middle of the corner's own face.
-        let (own, corner) = match face {
-            Face::Upper => (side * below.map_or(0.0, |b| self.column.blocks()[b].top_half_width), -1.0),
-            _ => (side * self.column.blocks()[interface].bottom_half_width, 1.0),
-        };
-        let [lower_angle, upper_angle] = of(&self.now.theta);
-        let [lower_rate, upper_rate] = of(&self.now.omega);
-        let [lower_turn, upper_turn] = of(&answer.rates.omega);
-        let (frame, carrier) = match face {
-            Face::Upper => ((upper_angle, upper_rate, upper_turn), (lower_angle, lower_rate, lower_turn)),
-            _ => ((lower_angle, lower_rate, lower_turn), (upper_angle, upper_rate, upper_turn)),
-        };
-        let (sin, cos) = libm::sincos(carrier.0);
-        let arm = [own * cos, -own * sin];
-        let swept = |rate: f64, r: Vec2| [rate * r[1], -rate * r[0]];
-        let apart = chain.apart(interface).map(|x| corner * x);
-        let apart_rate = chain.apart_rate(interface, &self.now_rates).map(|x| corner * x);
-        let apart_change = answer.rates.apart[interface].map(|x| corner * x);
-        let place = [apart[0] + arm[0], apart[1] + arm[1]];
-        let (sin, cos) = libm::sincos(frame.0);
-        let in_frame = |[x, y]: Vec2| [x * cos - y * sin, x * sin + y * cos];
-        let rho = in_frame(place);
+        let change = answer.rates.apart[corner.interface];
         match self.question {
-            Question::Impact(_) => {
-                let turning = swept(carrier.2, arm);
-                let velocity = in_frame([apart_change[0] + turning[0], apart_change[1] + turning[1]]);
-                corner * (velocity[1] + frame.2 * rho[0])
-            }
+            Question::Impact(_) => gaps::gap_velocity(&chain, change, &answer.rates.omega, corner)[1],
             Question::Accelerations(_) => {
-                let turning = swept(carrier.1, arm);
-                let velocity = in_frame([apart_rate[0] + turning[0], apart_rate[1] + turning[1]]);
-                let along = velocity[0] - frame.1 * rho[1];
-                let turning = swept(carrier.2, arm);
-                let square = carrier.1 * carrier.1;
-                let total = [0, 1].map(|axis| apart_change[axis] + turning[axis] - square * arm[axis]);
-                let own = in_frame(total)[1];
-                corner * (own + 2.0 * frame.1 * along + frame.2 * rho[0] + frame.1 * frame.1 * rho[1])
+                let rate = chain.apart_rate(corner.interface, &self.now_rates);
+                gaps::gap_acceleration(&chain, [rate, change], [&self.now.omega, &answer.rates.omega], corner)[1]
             }
         }
     }

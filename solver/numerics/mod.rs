@@ -1,9 +1,10 @@
-//! Numerical methods that know nothing of blocks: scalars and sines, polynomials, guards, methods of integration.
+//! Numerical methods that know nothing of blocks: scalars and sines, polynomials, guards, complementarity, methods of integration.
 //!
 //! Nothing here imports from another room of the library.
 
 pub mod guards;
 pub mod lanes;
+pub mod lemke;
 pub mod ode;
 pub mod per_block;
 pub mod polynomial;

@@ -3,7 +3,6 @@
 pub mod certainty;
 mod diagnostics;
 mod error;
-mod loose;
 mod modes;
 mod multi_sample_step;
 mod phase;

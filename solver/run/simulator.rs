@@ -5,7 +5,7 @@ use super::error::SolveError;
 use super::modes::Modes;
 use super::problem::{Problem, Skips};
 use super::recorder::Recorder;
-use super::sliding;
+use super::sliding::{self, sticking};
 use super::stretch::Ended;
 use super::transition::{self, break_circle, transition};
 use crate::friction::Friction;
@@ -135,11 +135,15 @@ impl Simulator {
             sticking.output_dt = None;
         }
         // Blocks that are dropped or thrown do not begin on each other.
-        if scene.initial.x.is_empty()
-            && let Ok(response) = self.run_valid(&sticking, &mut |_| ControlFlow::Continue(()))
-            && sliding::is_held(&scene.column, &coefficients, &response)
-        {
-            return Ok(sliding::held(&scene.column, response));
+        if scene.initial.x.is_empty() {
+            match self.run_valid(&sticking, progress) {
+                Ok(response) if sticking::stands(&scene.column, &coefficients, &response) => {
+                    return Ok(sticking::reported(&scene.column, response));
+                }
+                Err(cancelled @ SolveError::Cancelled { .. }) => return Err(cancelled),
+                // What a column without sliding cannot do, one that slides may.
+                Ok(_) | Err(_) => {}
+            }
         }
         let lookahead = Default::default();
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);

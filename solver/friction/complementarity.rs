@@ -1,0 +1,206 @@
+//! The contact problem as a linear complementarity problem (Stewart & Trinkle 1996; Anitescu & Potra 1997): states of all interfaces at once.
+//!
+//! Every corner that touches is a contact with a normal force and a tangential one; a closed interface has two contacts, at the ends of its length. With
+//! `g` the change of a gap and `s` that of a slide, velocities after an impact or accelerations,
+//!
+//! ```text
+//! 0 <= λ  ⊥  g >= 0        0 <= β±  ⊥  σ ± s >= 0        0 <= σ  ⊥  μ λ - β⁺ - β⁻ >= 0        force  λ across + (β⁺ - β⁻) along
+//! ```
+//!
+//! and where a slip is given, the force is `λ (across - ε μ along)`. Impacts always have a solution, which Lemke's method finds; accelerations may have none.
+//! The answer is a guess: rounding decides what is critical, so that the search examines it like any other.
+
+use super::chain::{Chain, Motion, Rates, plus, scaled};
+use super::gaps::{self, Corner};
+use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
+use super::search::{Question, Touch};
+use crate::column::Column;
+use crate::mechanics::kinematics::Vec2;
+use crate::numerics::lemke::lemke;
+
+/// Share of the largest change at work below which a gap or a slide does not change.
+const UNCHANGED: f64 = 1e-9;
+
+/// A corner that touches.
+struct Contact {
+    corner: Corner,
+    coefficient: f64,
+    /// Direction of its slide, where that is given.
+    slip: Option<Sign>,
+    /// Changes of slide and gap where no contact transmits a force.
+    free: [f64; 2],
+    /// Point and directions along and across the face.
+    place: Vec2,
+    axes: [Vec2; 2],
+}
+
+/// The states of all interfaces that solve the problem; `None` if Lemke's method finds none. `slips` are given directions of slides.
+pub fn states(
+    column: &Column,
+    now: &Configuration,
+    touch: &[Touch],
+    coefficients: &[f64],
+    slips: &[Option<Sign>],
+    question: &Question,
+) -> Option<Vec<Joint>> {
+    let chain = Chain::new(column, now);
+    let corners = |(interface, touch): (usize, &Touch)| -> Vec<Corner> {
+        let on = |side: Sign| face(column, interface, side, now.slide[interface]);
+        let corner = |side: Sign, face: Face| Corner { interface, side, face };
+        match *touch {
+            Touch::Nothing => Vec::new(),
+            // Faces that lie on each other have one direction.
+            Touch::Faces => [-1, 1].into_iter().map(|side| corner(side, on(side))).collect(),
+            Touch::Corner(side) if on(side) == Face::Both => {
+                [Face::Lower, Face::Upper].map(|face| corner(side, face)).into()
+            }
+            Touch::Corner(side) => vec![corner(side, on(side))],
+        }
+    };
+    let contact = |corner: Corner| {
+        let (place, axes) = gaps::place_and_axes(&chain, corner);
+        let (coefficient, slip) = (coefficients[corner.interface], slips[corner.interface]);
+        Contact { corner, coefficient, slip, free: free_change(&chain, now, question, corner), place, axes }
+    };
+    let contacts: Vec<Contact> = touch.iter().enumerate().flat_map(corners).map(contact).collect();
+    let changes = solved(&chain, &contacts)?;
+    let most = contacts.iter().fold(0.0f64, |most, own| most.max(own.free[0].abs()).max(own.free[1].abs()));
+    let joint = |(interface, touch): (usize, &Touch)| {
+        let own = contacts.iter().zip(&changes).filter(|(contact, _)| contact.corner.interface == interface);
+        let held: Vec<(&Contact, f64)> = own
+            .filter(|(_, [_, gap])| *gap <= UNCHANGED * most)
+            .map(|(contact, [slide, _])| (contact, *slide))
+            .collect();
+        let Some((first, slide)) = held.first() else { return Joint::Free };
+        let slip = match (first.slip, slide.abs() <= UNCHANGED * most) {
+            (Some(given), _) => Slip::Slides(given),
+            (None, true) => Slip::Sticks,
+            (None, false) => Slip::Slides(if *slide > 0.0 { 1 } else { -1 }),
+        };
+        match touch {
+            Touch::Faces if held.len() == 2 => Joint::Closed(slip),
+            _ => {
+                Joint::Corner(first.corner.side, face(column, interface, first.corner.side, now.slide[interface]), slip)
+            }
+        }
+    };
+    Some(touch.iter().enumerate().map(joint).collect())
+}
+
+/// Changes of slide and gap of a corner where no contact transmits a force: velocities as they are, or accelerations of falling blocks.
+fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: Corner) -> [f64; 2] {
+    let interface = corner.interface;
+    let below = interface.checked_sub(1);
+    let of = |values: &[f64], block: Option<usize>| block.map_or(0.0, |block| values[block]);
+    match question {
+        Question::Impact(before) => {
+            let foot = chain.foot_rate(interface, before);
+            let top = below.map_or([0.0, 0.0], |below| chain.top_rate(below, before));
+            gaps::gap_velocity(chain, plus(foot, scaled(top, -1.0)), &before.angular, corner)
+        }
+        Question::Accelerations(ground) => {
+            let rates = Rates::of(now);
+            let still = vec![0.0; chain.len()];
+            let (upper, lower) = (of(&now.omega, Some(interface)), of(&now.omega, below));
+            // Ends of the axes are drawn to the centroids, which fall; the ground does not.
+            let foot = scaled(chain.to_centroid[interface], upper * upper);
+            let top =
+                below.map_or([ground.x, ground.gravity], |below| scaled(chain.centroid_to_top(below), -lower * lower));
+            let apart = [foot[0] - top[0], foot[1] - top[1]];
+            gaps::gap_acceleration(chain, [chain.apart_rate(interface, &rates), apart], [&now.omega, &still], corner)
+        }
+    }
+}
+
+/// Changes of slide and gap of each contact.
+fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
+    // Forces in units of a mass, so that the matrix is of the order of one.
+    let blocks = chain.column().blocks();
+    let unit = blocks.iter().map(|block| block.mass).sum::<f64>() / blocks.len() as f64;
+    let jacobians: Vec<[Motion; 2]> =
+        contacts.iter().map(|own| own.axes.map(|axis| jacobian(chain, own, axis))).collect();
+    let response = |a: &Motion, b: &Motion| {
+        let parts = blocks.iter().enumerate().map(|(j, block)| {
+            let linear = a.linear[j][0] * b.linear[j][0] + a.linear[j][1] * b.linear[j][1];
+            unit * (linear / block.mass + a.angular[j] * b.angular[j] / block.inertia)
+        });
+        parts.sum::<f64>()
+    };
+    // Forces of each unknown along and across, by contact.
+    let mut unknowns: Vec<(usize, [f64; 2])> = Vec::new();
+    let mut rows: Vec<(usize, Row)> = Vec::new();
+    for (index, contact) in contacts.iter().enumerate() {
+        match contact.slip {
+            Some(direction) => {
+                unknowns.push((index, [-f64::from(direction) * contact.coefficient, 1.0]));
+                rows.push((index, Row::Gap));
+            }
+            None => {
+                unknowns.extend([(index, [0.0, 1.0]), (index, [1.0, 0.0]), (index, [-1.0, 0.0]), (index, [0.0, 0.0])]);
+                rows.extend([
+                    (index, Row::Gap),
+                    (index, Row::Slide(1.0)),
+                    (index, Row::Slide(-1.0)),
+                    (index, Row::Cone),
+                ]);
+            }
+        }
+    }
+    // Row of changes: d(change)/d(unknown).
+    let change = |at: usize, axis: usize, (by, force): &(usize, [f64; 2])| {
+        (0..2)
+            .filter(|k| force[*k] != 0.0)
+            .map(|k| force[k] * response(&jacobians[at][axis], &jacobians[*by][k]))
+            .sum::<f64>()
+    };
+    let size = rows.len();
+    let (mut m, mut q) = (vec![0.0; size * size], vec![0.0; size]);
+    for (row, &(at, kind)) in rows.iter().enumerate() {
+        let own = &mut m[row * size..(row + 1) * size];
+        match kind {
+            Row::Gap => {
+                q[row] = contacts[at].free[1];
+                own.iter_mut().zip(&unknowns).for_each(|(entry, unknown)| *entry = change(at, 1, unknown));
+            }
+            Row::Slide(sign) => {
+                q[row] = sign * contacts[at].free[0];
+                own.iter_mut().zip(&unknowns).for_each(|(entry, unknown)| *entry = sign * change(at, 0, unknown));
+                // The bound of the slide follows both tangential forces.
+                own[if sign > 0.0 { row + 2 } else { row + 1 }] += 1.0;
+            }
+            Row::Cone => {
+                own[row - 3] = contacts[at].coefficient;
+                (own[row - 2], own[row - 1]) = (-1.0, -1.0);
+            }
+        }
+    }
+    let z = lemke(&m, &q)?;
+    let total = |at: usize, axis: usize| {
+        contacts[at].free[axis] + unknowns.iter().zip(&z).map(|(unknown, z)| z * change(at, axis, unknown)).sum::<f64>()
+    };
+    Some((0..contacts.len()).map(|at| [total(at, 0), total(at, 1)]).collect())
+}
+
+/// What a row of the problem says.
+#[derive(Clone, Copy)]
+enum Row {
+    /// The gap does not close.
+    Gap,
+    /// The slide to this side is no faster than its bound.
+    Slide(f64),
+    /// The tangential force is within the cone.
+    Cone,
+}
+
+/// Virtual motion of the blocks whose work a force of a contact along an axis does: the upper block with it, the lower one against it.
+fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> Motion {
+    let mut motion = Motion { linear: vec![[0.0; 2]; chain.len()], angular: vec![0.0; chain.len()] };
+    let interface = contact.corner.interface;
+    for (block, sign) in [(Some(interface), 1.0), (interface.checked_sub(1), -1.0)] {
+        let Some(block) = block else { continue };
+        let arm = [contact.place[0] - chain.centroid[block][0], contact.place[1] - chain.centroid[block][1]];
+        motion.linear[block] = scaled(axis, sign);
+        motion.angular[block] = sign * (axis[0] * arm[1] - axis[1] * arm[0]);
+    }
+    motion
+}

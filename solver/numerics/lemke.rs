@@ -1,0 +1,159 @@
+//! Linear complementarity problems, by Lemke's method: `w = M z + q` with `w >= 0`, `z >= 0` and `w · z = 0`
+//! (Cottle, Pang & Stone, The Linear Complementarity Problem, 1992, section 4.4).
+
+/// Pivots per unknown beyond which the method has lost its way.
+const PIVOTS_PER_UNKNOWN: usize = 20;
+
+/// Share of the largest entry of the entering column below which an entry is no pivot.
+const PIVOT_SHARE: f64 = 1e-11;
+
+/// Share of the largest entry of `q` below which the artificial variable is rounding.
+const LEVEL_SHARE: f64 = 1e-13;
+
+/// Solves `w = M z + q` for `z`, with `M` given row by row; `None` if the method ends on a ray, which says that there is no solution for the matrices
+/// of contact problems without given slips.
+pub fn lemke(m: &[f64], q: &[f64]) -> Option<Vec<f64>> {
+    let size = q.len();
+    if q.iter().all(|value| *value >= 0.0) {
+        return Some(vec![0.0; size]);
+    }
+    let mut tableau = Tableau::new(m, q);
+    // The artificial variable enters where q is lowest; its column is -1 throughout.
+    let mut leaving = (0..size).min_by(|a, b| q[*a].total_cmp(&q[*b]))?;
+    let mut entering = tableau.artificial();
+    for _ in 0..PIVOTS_PER_UNKNOWN * size {
+        let left = tableau.exchange(leaving, entering);
+        if left == tableau.artificial() {
+            return Some(tableau.solution());
+        }
+        // The complement of what has left enters.
+        entering = if left < size { left + size } else { left - size };
+        leaving = match tableau.leaving(entering) {
+            Some(row) => row,
+            // A ray on which the artificial variable is nothing but rounding begins at a solution.
+            None => return (tableau.artificial_level() <= LEVEL_SHARE * largest(q)).then(|| tableau.solution()),
+        };
+    }
+    None
+}
+
+fn largest(q: &[f64]) -> f64 {
+    q.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// Rows of `[w | z | z_0 | q]`, with the basic variable of each row.
+struct Tableau {
+    size: usize,
+    width: usize,
+    rows: Vec<f64>,
+    basis: Vec<usize>,
+}
+
+impl Tableau {
+    /// `w - M z - z_0 = q`
+    fn new(m: &[f64], q: &[f64]) -> Tableau {
+        let size = q.len();
+        let width = 2 * size + 2;
+        let mut rows = vec![0.0; size * width];
+        for row in 0..size {
+            let own = &mut rows[row * width..(row + 1) * width];
+            own[row] = 1.0;
+            for column in 0..size {
+                own[size + column] = -m[row * size + column];
+            }
+            own[2 * size] = -1.0;
+            own[2 * size + 1] = q[row];
+        }
+        Tableau { size, width, rows, basis: (0..size).collect() }
+    }
+
+    fn artificial(&self) -> usize {
+        2 * self.size
+    }
+
+    /// Value of the artificial variable.
+    fn artificial_level(&self) -> f64 {
+        let row = self.basis.iter().position(|variable| *variable == self.artificial());
+        row.map_or(0.0, |row| self.at(row, 2 * self.size + 1))
+    }
+
+    fn at(&self, row: usize, column: usize) -> f64 {
+        self.rows[row * self.width + column]
+    }
+
+    /// Makes a variable basic in a row; the variable that was so before.
+    fn exchange(&mut self, row: usize, entering: usize) -> usize {
+        let (width, pivot) = (self.width, self.at(row, entering));
+        self.rows[row * width..(row + 1) * width].iter_mut().for_each(|entry| *entry /= pivot);
+        let own = self.rows[row * width..(row + 1) * width].to_vec();
+        for (other, entries) in self.rows.chunks_exact_mut(width).enumerate().filter(|(other, _)| *other != row) {
+            debug_assert_ne!(other, row);
+            let factor = entries[entering];
+            if factor != 0.0 {
+                entries.iter_mut().zip(&own).for_each(|(entry, own)| *entry -= factor * own);
+            }
+        }
+        std::mem::replace(&mut self.basis[row], entering)
+    }
+
+    /// The row that limits an entering variable, ties decided lexicographically, the artificial variable first; `None` if none does.
+    fn leaving(&self, entering: usize) -> Option<usize> {
+        let largest = (0..self.size).fold(0.0f64, |most, row| most.max(self.at(row, entering).abs()));
+        let is_pivot = |row: &usize| self.at(*row, entering) > PIVOT_SHARE * largest;
+        let ratio = |row: usize, column: usize| self.at(row, column) / self.at(row, entering);
+        let compare = |a: &usize, b: &usize| {
+            let right = ratio(*a, 2 * self.size + 1).total_cmp(&ratio(*b, 2 * self.size + 1));
+            let is_artificial = |row: usize| self.basis[row] == self.artificial();
+            let first = right.then(is_artificial(*b).cmp(&is_artificial(*a)));
+            (0..self.size)
+                .fold(first, |order, column| order.then_with(|| ratio(*a, column).total_cmp(&ratio(*b, column))))
+        };
+        (0..self.size).filter(is_pivot).min_by(compare)
+    }
+
+    fn solution(&self) -> Vec<f64> {
+        let mut z = vec![0.0; self.size];
+        for (row, &variable) in self.basis.iter().enumerate() {
+            if (self.size..2 * self.size).contains(&variable) {
+                z[variable - self.size] = self.at(row, 2 * self.size + 1).max(0.0);
+            }
+        }
+        z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lemke;
+
+    fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
+        let size = q.len();
+        let w = |row: usize| q[row] + (0..size).map(|column| m[row * size + column] * z[column]).sum::<f64>();
+        (0..size).map(|row| w(row).min(z[row]).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn positive_definite_problems_are_solved() {
+        let mut seed = 1u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        for size in 1..20 {
+            let a: Vec<f64> = (0..size * size).map(|_| random()).collect();
+            let q: Vec<f64> = (0..size).map(|_| random()).collect();
+            let product = |i: usize, j: usize| (0..size).map(|k| a[i * size + k] * a[j * size + k]).sum::<f64>();
+            let m: Vec<f64> = (0..size * size)
+                .map(|at| product(at / size, at % size) + if at % (size + 1) == 0 { 0.1 } else { 0.0 })
+                .collect();
+            let z = lemke(&m, &q).expect("a positive definite problem has a solution");
+            assert!(residual(&m, &q, &z) < 1e-10, "{size}");
+        }
+    }
+
+    #[test]
+    fn a_problem_without_solution_ends_on_a_ray() {
+        assert_eq!(lemke(&[-1.0], &[-1.0]), None);
+        assert_eq!(lemke(&[1.0], &[-2.0]), Some(vec![2.0]));
+    }
+}

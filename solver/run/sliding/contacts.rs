@@ -1,0 +1,134 @@
+//! What touches: contacts found from gaps and speeds, and the slide with which a corner lands.
+
+use crate::column::Column;
+use crate::friction::chain::{Chain, Rates};
+use crate::friction::gaps::{self, Corner};
+use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
+use crate::friction::search::Touch;
+use crate::run::problem::Problem;
+
+/// Share of a size, and of an angle, below which a gap is rounding.
+const GAP_SHARE: f64 = 1e-12;
+
+/// Share of the speed of a fall from a block's height below which a speed is rounding.
+const SPEED_SHARE: f64 = 1e-9;
+
+/// Share of a block's size by which the other corner's gap tells which of two faces a contact lies on.
+const FACE_SHARE: f64 = 1e-9;
+
+/// What a run takes for rounding, from the size of its column.
+#[derive(Clone, Copy, Debug)]
+pub struct Resolution {
+    /// Largest half-height and half-width of a block, added `[m]`.
+    pub size: f64,
+    /// Gap between blocks that touch `[m]`.
+    pub gap: f64,
+    /// Gap of angles of faces that lie on each other `[rad]`.
+    pub angle: f64,
+    /// Relative speed of contacts that stay `[m/s]`.
+    pub speed: f64,
+    /// Relative rate of faces that stay on each other `[rad/s]`.
+    pub rate: f64,
+}
+
+impl Resolution {
+    pub fn new(column: &Column) -> Resolution {
+        let size = column.size();
+        let speed = SPEED_SHARE * (size * column.gravity()).sqrt();
+        Resolution { size, gap: GAP_SHARE * size, angle: GAP_SHARE, speed, rate: speed / size }
+    }
+}
+
+/// What touches without force or with it.
+pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) -> Vec<Touch> {
+    let chain = Chain::new(&problem.scene.column, now);
+    let rates = Rates::of(now);
+    let touch = |interface: usize| match now.joints[interface] {
+        Joint::Closed(_) => Touch::Faces,
+        Joint::Corner(side, ..) => {
+            let is_flat =
+                now.gap_angle(interface).abs() <= resolution.angle && now.gap_rate(interface).abs() <= resolution.rate;
+            if is_flat { Touch::Faces } else { Touch::Corner(side) }
+        }
+        Joint::Free => {
+            let touches = |side| stays_at(problem, resolution, &chain, &rates, interface, side);
+            match (touches(1), touches(-1)) {
+                (true, true) => Touch::Faces,
+                (true, false) => Touch::Corner(1),
+                (false, true) => Touch::Corner(-1),
+                (false, false) => Touch::Nothing,
+            }
+        }
+    };
+    (0..now.joints.len()).map(touch).collect()
+}
+
+/// Whether the corners of a side of a free interface touch and do not leave each other: a bounce lower than the resolution is none. Coinciding
+/// corners touch both faces, or neither.
+fn stays_at(
+    problem: &Problem,
+    resolution: Resolution,
+    chain: &Chain,
+    rates: &Rates,
+    interface: usize,
+    side: Sign,
+) -> bool {
+    let column = &problem.scene.column;
+    let length = column.blocks()[interface].bottom_half_width;
+    let bounce = (2.0 * column.gravity() * problem.scene.options.stick_angle * length).sqrt();
+    let close = |corner: &Corner| {
+        let [beside, above] = gaps::gap(chain, *corner);
+        beside <= resolution.gap && above.abs() <= resolution.gap
+    };
+    let stays = |corner: &Corner| {
+        let [_, leaving] = gaps::gap_rate(chain, rates, *corner);
+        leaving >= -resolution.speed && leaving <= resolution.speed.max(bounce)
+    };
+    let corners: Vec<Corner> = Corner::of_side(interface, side).filter(close).collect();
+    !corners.is_empty() && corners.iter().all(stays)
+}
+
+/// The contact that a free interface has met without an impact, with its slide `[m]` and the direction of its slip.
+pub fn met(
+    column: &Column,
+    resolution: Resolution,
+    now: &Configuration,
+    interface: usize,
+    touch: Touch,
+) -> (Joint, f64) {
+    let chain = Chain::new(column, now);
+    let side = if let Touch::Corner(side) = touch { side } else { 1 };
+    let lower = Corner { interface, side, face: Face::Lower };
+    let [beside, above] = gaps::gap(&chain, lower);
+    let tolerance = FACE_SHARE * resolution.size;
+    let is_lower = interface == 0 || beside <= tolerance && above.abs() <= tolerance;
+    let corner = if is_lower { lower } else { Corner { face: Face::Upper, ..lower } };
+    let slide = gaps::slide_of_landing(&chain, corner);
+    let [rate, _] = gaps::gap_rate(&chain, &Rates::of(now), corner);
+    let slip =
+        if rate.abs() <= resolution.speed { Slip::Sticks } else { Slip::Slides(if rate > 0.0 { 1 } else { -1 }) };
+    let joint = match touch {
+        Touch::Corner(_) => Joint::Corner(side, face(column, interface, side, slide), slip),
+        _ => Joint::Closed(slip),
+    };
+    (joint, slide)
+}
+
+/// Distance between the blocks of a free interface, at the corners that may land `[m]`.
+pub fn lowest_gap(chain: &Chain, interface: usize) -> f64 {
+    let gap = |corner: Corner| {
+        let [beside, above] = gaps::gap(chain, corner);
+        if beside <= 0.0 { above } else { f64::INFINITY }
+    };
+    let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
+    let least = corners.map(gap).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least.max(0.0) } else { 0.0 }
+}
+
+/// The slide of an interface `[m]`; of a free one along the lower face.
+pub fn slide(chain: &Chain, now: &Configuration, interface: usize) -> f64 {
+    match now.joints[interface] {
+        Joint::Free => chain.in_block_axes(interface.checked_sub(1), chain.apart(interface))[0],
+        _ => now.slide[interface],
+    }
+}

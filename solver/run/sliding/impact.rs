@@ -1,0 +1,153 @@
+//! Impacts with friction: gaps that close, corners that land, and velocities that jump because no acceleration is admissible.
+
+use super::transition::Instant;
+use crate::friction::chain::{Chain, Motion, Rates};
+use crate::friction::gaps::{self, Corner};
+use crate::friction::joint::{Configuration, Face, Joint, Slip, difference, face};
+use crate::friction::rows::{Answer, Rows};
+use crate::friction::search::{Question, Search, Solution, Touch, centre};
+use crate::response::{EventKind, Impulse, StopReason};
+
+/// Share of a block's size by which a corner that lands may be below the face: what the search for the landing leaves is far less.
+const SIDE_SHARE: f64 = 1e-8;
+
+impl Instant<'_> {
+    /// An interface whose gap of angles has closed.
+    pub fn close(&mut self, interface: usize) {
+        let Joint::Corner(side, _, slip) = self.now.joints[interface] else { return };
+        let rate = self.now.gap_rate(interface);
+        let angle = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
+        // Blocks that are joined to it turn with it.
+        let is_joined = |joint: &Joint| matches!(joint, Joint::Closed(_));
+        let joined = self.now.joints[interface + 1..].iter().take_while(|joint| is_joined(joint)).count();
+        self.now.theta[interface..=interface + joined].fill(angle);
+        if f64::from(side) * rate >= 0.0 {
+            // A hop that cannot be resolved: it is over.
+            let mut joints = self.now.joints.clone();
+            joints[interface] = Joint::Closed(slip);
+            return self.hold(&joints);
+        }
+        let mut touch = self.touching();
+        touch[interface] = Touch::Faces;
+        self.stop = self.strike(&touch, EventKind::Impact, &[interface]).err();
+    }
+
+    /// A free interface lands with a corner.
+    pub fn land(&mut self, corner: Corner) {
+        let Corner { interface, side, .. } = corner;
+        let chain = Chain::new(self.column(), &self.now);
+        let [_, above] = gaps::gap(&chain, corner);
+        if above < -SIDE_SHARE * self.resolution.size {
+            // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
+            let before = self.now.clone();
+            self.change(EventKind::Collapsed, vec![interface], &before, None);
+            self.stop = Some(StopReason::Collapsed);
+            return;
+        }
+        let [beside, other_above] = gaps::gap(&chain, Corner { side: -side, ..corner });
+        let is_flat = self.now.gap_angle(interface).abs() <= self.resolution.angle
+            || beside <= 0.0 && other_above.abs() <= self.resolution.gap;
+        self.now.slide[interface] = gaps::slide_of_landing(&chain, corner);
+        let mut touch = self.touching();
+        touch[interface] = if is_flat { Touch::Faces } else { Touch::Corner(side) };
+        if is_flat {
+            self.now.theta[interface] = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
+        }
+        self.stop = self.strike(&touch, EventKind::Landing, &[interface]).err();
+    }
+
+    /// An impact of all that touches, with the interfaces that close. One without is a jump of velocities that changes the motion.
+    ///
+    /// # Errors
+    /// Why the run ends, if no motion follows.
+    pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), StopReason> {
+        let before = self.now.clone();
+        let chain = Chain::new(self.column(), &before);
+        let motion = chain.motion(&Rates::of(&before));
+        let search = Search::new(self.column(), &before, touch, self.friction, Question::Impact(motion.clone()));
+        let found = if closing.is_empty() { search.solve_otherwise(&before.joints) } else { search.solve() };
+        let solution = found.ok_or(StopReason::Undetermined)?;
+        self.ambiguous += usize::from(solution.is_ambiguous);
+        let answer = self.rebounding(&before, touch, &motion, &solution, closing);
+        for (interface, joint) in solution.joints.iter().enumerate() {
+            if *joint == Joint::Free && before.joints[interface] != Joint::Free {
+                self.now.apart[interface] = chain.apart(interface);
+            }
+        }
+        self.now.joints.clone_from(&solution.joints);
+        answer.rates.give(&mut self.now);
+        self.stop_slides_without_direction();
+        self.part_coinciding_corners();
+        let energy = motion.energy(self.column());
+        let after = Chain::new(self.column(), &self.now).motion(&Rates::of(&self.now));
+        let lost = energy - after.energy(self.column());
+        self.energy_lost += lost;
+        let impulses = answer.contacts.iter().map(Impulse::from).collect();
+        let share = if energy > 0.0 { lost / energy } else { 0.0 };
+        self.change(kind, closing.to_vec(), &before, Some((impulses, share)));
+        Ok(())
+    }
+
+    /// A slide whose rate is against its direction has none but rounding: whether it begins is decided by accelerations.
+    fn stop_slides_without_direction(&mut self) {
+        for (joint, rate) in self.now.joints.iter().zip(&mut self.now.slide_rate) {
+            if joint.slip().is_some_and(|slip| slip.sign() * *rate < 0.0) {
+                *rate = 0.0;
+            }
+        }
+    }
+
+    /// Coinciding corners that slide go on along the face that carries them an instant later, or part from each other where it is open.
+    fn part_coinciding_corners(&mut self) {
+        for interface in 0..self.now.joints.len() {
+            let Joint::Corner(side, _, Slip::Slides(direction)) = self.now.joints[interface] else { continue };
+            if face(self.column(), interface, side, self.now.slide[interface]) != Face::Both {
+                continue;
+            }
+            if self.now.gap_angle(interface).abs() > self.resolution.angle {
+                self.set_free(interface);
+            } else {
+                let on = if direction == side { Face::Upper } else { Face::Lower };
+                self.now.joints[interface] = Joint::Corner(side, on, Slip::Slides(direction));
+            }
+        }
+    }
+
+    /// The answer of an impact with the restitution of the scene, where that breaks no cone and raises no energy.
+    fn rebounding(
+        &self,
+        before: &Configuration,
+        touch: &[Touch],
+        motion: &Motion,
+        plastic: &Solution,
+        closing: &[usize],
+    ) -> Answer {
+        let kappa = &self.problem.kappa;
+        let all_stick =
+            plastic.joints.iter().zip(touch).all(|(joint, touch)| joint.sticks() || *touch == Touch::Nothing);
+        let rebounds = |&i: &usize| kappa[i] != 1.0 && matches!(plastic.joints[i], Joint::Corner(..));
+        if !all_stick || !closing.iter().any(rebounds) {
+            return plastic.answer.clone();
+        }
+        let mut rates = plastic.answer.rates.clone();
+        let mut below = 0.0;
+        for interface in 0..rates.omega.len() {
+            let own = difference(&plastic.answer.rates.omega, interface);
+            let factor = if closing.contains(&interface) && rebounds(&interface) { kappa[interface] } else { 1.0 };
+            below += factor * own;
+            rates.omega[interface] = below;
+        }
+        let mut configuration = before.clone();
+        configuration.joints.clone_from(&plastic.joints);
+        let chain = Chain::new(self.column(), &configuration);
+        let centres: Vec<f64> = (0..rates.omega.len()).map(|i| centre(self.column(), i, before.slide[i])).collect();
+        let rows = Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres);
+        let answer = rows.given(rates, motion);
+        let gains = chain.motion(&answer.rates).energy(self.column()) > motion.energy(self.column());
+        let holds = answer.contacts.iter().enumerate().all(|(i, contact)| {
+            touch[i] == Touch::Nothing
+                || contact.normal >= 0.0 && contact.tangential.abs() <= self.friction.kinetic[i] * contact.normal
+        });
+        if gains || !holds { plastic.answer.clone() } else { answer }
+    }
+}

@@ -1,0 +1,177 @@
+//! Time passes: at rest until the ground starts the column, in motion by steps of an explicit method until a guard falls to zero.
+
+use super::recorder::Recorder;
+use super::smooth::Smooth;
+use super::state::{Ended, State};
+use super::step::Step;
+use crate::column::Column;
+use crate::friction::guards;
+use crate::friction::joint::{Joint, Slip};
+use crate::friction::search::Coefficients;
+use crate::numerics::ode::explicit::{Explicit, System, Tableau};
+use crate::numerics::ode::interpolant::Interpolant;
+use crate::numerics::ode::methods::{ForTableau, Method};
+use crate::numerics::ode::tableaus::dop853::Dop853;
+use crate::response::Work;
+use crate::run::error::SolveError;
+use crate::run::problem::Problem;
+use crate::run::rest;
+
+/// First step of a run `[s]`; step control corrects it.
+const FIRST_STEP: f64 = 1e-3;
+
+/// Safety factor of the step control, and the least error that it takes for one.
+const SAFETY: f64 = 0.9;
+const LEAST_ERROR: f64 = 1e-12;
+
+/// What moves a column with friction.
+pub struct Mover<'p> {
+    problem: &'p Problem<'p>,
+    friction: &'p Coefficients,
+    /// Step length that the steps before suggest `[s]`.
+    pace: Option<f64>,
+    pub work: Work,
+}
+
+/// A phase to be integrated by the tableau of a method.
+struct Passing<'m, 'p> {
+    mover: &'m mut Mover<'p>,
+    from: &'m State,
+    recorder: &'m mut Recorder<'p>,
+}
+
+impl ForTableau for Passing<'_, '_> {
+    type Built = Result<(State, Ended), SolveError>;
+
+    fn with<M: Tableau>(self) -> Self::Built {
+        self.mover.steps::<M>(self.from, self.recorder)
+    }
+}
+
+impl<'p> Mover<'p> {
+    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients) -> Mover<'p> {
+        Mover { problem, friction, pace: None, work: Work::default() }
+    }
+
+    fn column(&self) -> &'p Column {
+        &self.problem.scene.column
+    }
+
+    /// Moves the column until something happens.
+    pub fn pass(&mut self, from: &State, recorder: &mut Recorder<'p>) -> Result<(State, Ended), SolveError> {
+        let is_still = from.configuration.joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks))
+            && from.configuration.omega.iter().all(|rate| *rate == 0.0);
+        if is_still {
+            return Ok(self.wait(from, recorder));
+        }
+        let method = self.problem.scene.options.method;
+        // Series of equations with friction are not symmetric; order 8 takes their place.
+        let method = if method.stepper() == Method::Taylor { Method::Dop853 } else { method };
+        match method.explicit(Passing { mover: self, from, recorder }) {
+            Ok(result) => result,
+            Err(passing) => passing.with::<Dop853>(),
+        }
+    }
+
+    /// Waits at rest for the ground to start the column.
+    fn wait(&mut self, from: &State, recorder: &mut Recorder<'p>) -> (State, Ended) {
+        let column = self.column().clone().displaced(from.configuration.slide.clone());
+        let column = column.unwrap_or_else(|_| self.column().clone());
+        let ground = self.problem.ground;
+        let starts = |segment: usize, t: f64| rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
+        let mut smooth = self.smooth(from);
+        let (mut t, mut segment) = (from.t, from.segment);
+        let ended = loop {
+            self.work.rest_stretches += 1;
+            let start = starts(segment, t);
+            let until = start.map_or(ground[segment].end, |(start, _)| start);
+            smooth.segment = &ground[segment];
+            recorder.read(segment, [t, until], &mut |time| smooth.at_rest(time));
+            t = until;
+            if let Some((_, guard)) = start {
+                break Ended::Guard(guard);
+            }
+            if segment + 1 == ground.len() {
+                break Ended::Rest;
+            }
+            segment += 1;
+            let is_thrown = || starts(segment, t).is_some_and(|(start, _)| start <= t);
+            if ground[segment].jumps && is_thrown() {
+                break Ended::Jump;
+            }
+        };
+        (State { t, segment, configuration: from.configuration.clone() }, ended)
+    }
+
+    fn smooth(&self, from: &State) -> Smooth<'p> {
+        Smooth::new(self.column(), self.friction, &from.configuration, &self.problem.ground[from.segment])
+    }
+
+    /// Steps until a guard falls to zero, the ground jumps, or the time is over.
+    fn steps<M: Tableau>(&mut self, from: &State, recorder: &mut Recorder<'p>) -> Result<(State, Ended), SolveError> {
+        let problem = self.problem;
+        let mut smooth = self.smooth(from);
+        let (mut t, mut segment) = (from.t, from.segment);
+        let mut x = smooth.state(&from.configuration);
+        let mut method = Explicit::<Vec<f64>, M>::new(&x);
+        let mut interpolant = Interpolant::new(&x);
+        let mut slope = x.clone();
+        let list = guards::guards(&from.configuration.joints);
+        let mut wanted = self.pace.unwrap_or(FIRST_STEP);
+        self.work.phases += 1;
+        let ended = loop {
+            let left = smooth.segment.end - t;
+            if t + left <= t {
+                t = smooth.segment.end;
+                if segment + 1 == problem.ground.len() {
+                    break Ended::Time;
+                }
+                segment += 1;
+                smooth.segment = &problem.ground[segment];
+                if smooth.segment.jumps {
+                    break Ended::Jump;
+                }
+                continue;
+            }
+            smooth.slope(t, &x, &mut slope);
+            if !problem.scene.options.method.has_step_control() {
+                wanted = problem.scene.options.step;
+            }
+            let mut h = wanted.min(left);
+            loop {
+                let error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
+                let factor = SAFETY * error.max(LEAST_ERROR).powf(-1.0 / M::ERROR_ORDER as f64);
+                if error <= 1.0 {
+                    wanted = if h < wanted && factor > 1.0 { wanted } else { h * factor.clamp(0.2, 4.0) };
+                    break;
+                }
+                self.work.rejected += 1;
+                h *= if error.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 };
+                wanted = h;
+                if t + h <= t {
+                    let mode = format!("{} with friction", from.configuration.pattern());
+                    return Err(SolveError::StepTooSmall { time: t, step: h, mode });
+                }
+            }
+            method.accept(&mut smooth);
+            method.interpolate(&mut smooth, &mut interpolant);
+            self.work.steps += 1;
+            let mut step = Step::new(&mut smooth, &interpolant, [t, h], problem.scene.options.overturn_angle);
+            let first = step.first_of(&list);
+            let s = first.map_or(1.0, |(s, _)| s);
+            let until = if s == 1.0 { t + h } else { t + s * h };
+            recorder.read(segment, [t, until], &mut |time| step.known_at(((time - t) / h).clamp(0.0, s)));
+            let last = step.configuration(s);
+            if let Some((_, guard)) = first {
+                x = smooth.state(&last);
+                t = until;
+                break Ended::Guard(guard);
+            }
+            x.clone_from(method.end());
+            t = until;
+        };
+        self.pace = Some(wanted);
+        self.work.rhs_calls += smooth.calls;
+        Ok((State { t, segment, configuration: smooth.configuration(&x) }, ended))
+    }
+}

@@ -1,0 +1,324 @@
+//! The recorder of a run with friction: the only writer of rows, events, peaks, forces, work and times.
+
+use super::contacts::{lowest_gap, slide};
+use super::state::State;
+use super::transition::{Change, Transition};
+use crate::column::Column;
+use crate::friction::chain::{Chain, Rates};
+use crate::friction::joint::{Configuration, Joint, Slip};
+use crate::friction::rows::{Answer, Rows};
+use crate::friction::search::{Coefficients, centre};
+use crate::mechanics::dynamics::Ground;
+use crate::numerics::guards::first_crossing;
+use crate::numerics::per_block::PerBlock;
+use crate::response::{
+    BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport,
+    StopReason, Work,
+};
+use crate::run::problem::Problem;
+use rocking_codegen::pattern::Pattern;
+use rocking_ground::Segment;
+use std::collections::BTreeMap;
+
+/// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
+const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
+
+/// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_24),
+    (0.5, 0.284_444_444_444_444_45),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_24),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+/// The inside of a step: configuration, accelerations and forces at a time.
+pub type Inside<'s> = dyn FnMut(f64) -> (Configuration, Answer) + 's;
+
+/// The record of a run under way.
+pub struct Recorder<'p> {
+    problem: &'p Problem<'p>,
+    friction: &'p Coefficients,
+    samples: Vec<Sample>,
+    /// Segment of the row recorded last.
+    sample_segment: usize,
+    events: Vec<Event>,
+    impacts: usize,
+    /// Per block `[rad]`.
+    peak_theta: Vec<f64>,
+    /// Per interface, dimensionless.
+    friction_demand: Vec<f64>,
+    /// The same of impulses at impacts.
+    impulse_friction_demand: Vec<f64>,
+    /// Per interface `[N]`.
+    min_normal_force: Vec<f64>,
+    time_in_mode: BTreeMap<String, f64>,
+    report: SlidingReport,
+    /// Relative to the ground `[J]`.
+    energy_at_start: f64,
+}
+
+impl<'p> Recorder<'p> {
+    /// The record of a run that begins with a state.
+    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, start: &State) -> Recorder<'p> {
+        let Configuration { theta, slide, .. } = &start.configuration;
+        let blocks = theta.len();
+        let sizes = |values: &[f64]| values.iter().map(|value| value.abs()).collect();
+        Recorder {
+            problem,
+            friction,
+            samples: Vec::new(),
+            sample_segment: 0,
+            events: Vec::new(),
+            impacts: 0,
+            peak_theta: sizes(theta),
+            friction_demand: vec![0.0; blocks],
+            impulse_friction_demand: vec![0.0; blocks],
+            min_normal_force: vec![f64::INFINITY; blocks],
+            time_in_mode: BTreeMap::new(),
+            report: SlidingReport {
+                peak_slide: sizes(slide),
+                way_slid: vec![0.0; blocks],
+                times: vec![ContactTimes::default(); blocks],
+                flights: vec![0; blocks],
+                ..SlidingReport::default()
+            },
+            energy_at_start: energy(&problem.scene.column, &start.configuration),
+        }
+    }
+
+    fn column(&self) -> &'p Column {
+        &self.problem.scene.column
+    }
+
+    /// Records a transition.
+    pub fn transition(&mut self, t: f64, transition: &Transition) {
+        self.report.impact_losses += transition.energy_lost;
+        self.report.ambiguous.extend(std::iter::repeat_n(t, transition.ambiguous));
+        self.report.jammed.extend(transition.is_jammed.then_some(t));
+        for change in &transition.changes {
+            self.change(t, change);
+        }
+    }
+
+    /// Records an event.
+    fn change(&mut self, t: f64, change: &Change) {
+        let Change { kind, interfaces, before, after, impact } = change;
+        for (interface, flights) in self.report.flights.iter_mut().enumerate() {
+            let has_landed = *kind == EventKind::Landing && interfaces.contains(&interface);
+            let was_free = before.joints[interface] == Joint::Free && !has_landed;
+            *flights += usize::from(after.joints[interface] == Joint::Free && !was_free);
+        }
+        if let Some((impulses, _)) = impact {
+            self.impacts += 1;
+            self.impulses(impulses);
+        }
+        let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
+        let place = Chain::new(self.column(), after).centroid;
+        let [was, is] = [before, after].map(|one| Chain::new(self.column(), one).motion(&Rates::of(one)).linear);
+        let block =
+            |block: usize| BlockAtEvent { place: place[block], velocity_before: was[block], velocity_after: is[block] };
+        let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
+        self.events.push(Event {
+            t,
+            kind: *kind,
+            interface: numbers.first().copied(),
+            interfaces: if numbers.len() > 1 { PerBlock::from_slice(&numbers) } else { PerBlock::new() },
+            mode_before: ModeName::of(&old),
+            mode: ModeName::of(&new),
+            mirrored: new.is_mirrored(),
+            before: old,
+            after: new,
+            theta: PerBlock::from_slice(&after.theta),
+            omega_before: PerBlock::from_slice(&before.omega),
+            omega_after: PerBlock::from_slice(&after.omega),
+            blocks: (0..place.len()).map(block).collect(),
+            energy_lost: impact.as_ref().map(|(_, share)| *share),
+            impulses: impact.as_ref().map_or_else(PerBlock::new, |(impulses, _)| PerBlock::from_slice(impulses)),
+        });
+    }
+
+    fn impulses(&mut self, impulses: &[Impulse]) {
+        let largest = impulses.iter().fold(0.0f64, |most, own| most.max(own.normal.abs() + own.tangential.abs()));
+        for (demand, own) in self.impulse_friction_demand.iter_mut().zip(impulses) {
+            if own.normal > NEGLIGIBLE_IMPULSE * largest {
+                *demand = demand.max(own.tangential.abs() / own.normal);
+            }
+        }
+    }
+
+    /// Records that the states of a stretch are left.
+    pub fn leave(&mut self, from: &State, until: &State) {
+        let span = until.t - from.t;
+        let (now, end) = (&from.configuration, &until.configuration);
+        *self.time_in_mode.entry(ModeName::of(&now.pattern()).to_string()).or_insert(0.0) += span;
+        let chain = Chain::new(self.column(), end);
+        let SlidingReport { times, way_slid, peak_slide, .. } = &mut self.report;
+        for (interface, times) in times.iter_mut().enumerate() {
+            match now.joints[interface].slip() {
+                Some(Slip::Sticks) => times.sticking += span,
+                Some(Slip::Slides(_)) => {
+                    times.sliding += span;
+                    way_slid[interface] += (end.slide[interface] - now.slide[interface]).abs();
+                }
+                None => times.free += span,
+            }
+            peak_slide[interface] = peak_slide[interface].max(slide(&chain, end, interface).abs());
+        }
+    }
+
+    /// Records rows, peaks, forces and work of a step that ends the earlier part of a stretch.
+    pub fn read(&mut self, segment: usize, [from, until]: [f64; 2], inside: &mut Inside) {
+        if !self.problem.is_recorded() {
+            return;
+        }
+        while let Some(t) = self.next_row().filter(|t| *t < until) {
+            let (configuration, _) = inside(t.max(from));
+            self.row(t, &configuration);
+        }
+        let (start, _) = inside(from);
+        let mut before = (from, start.omega);
+        for (node, weight) in GAUSS {
+            let t = from + node * (until - from);
+            let (configuration, answer) = inside(t);
+            self.crests([before.0, t], [&before.1, &configuration.omega], inside);
+            self.forces_and_work(segment, t, weight * (until - from), &configuration, &answer);
+            before = (t, configuration.omega);
+        }
+        let (end, _) = inside(until);
+        self.crests([before.0, until], [&before.1, &end.omega], inside);
+        self.angles(&end);
+    }
+
+    /// Records the crests of angles between two times at which the blocks turn like this.
+    fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], inside: &mut Inside) {
+        for block in 0..rates[0].len() {
+            let [start, end] = rates.map(|rates| rates[block]);
+            if start * end >= 0.0 {
+                continue;
+            }
+            let mut rate = |s: f64| start.signum() * inside(from + s * (until - from)).0.omega[block];
+            if let Some(s) = first_crossing(&mut rate, start.abs(), 1.0) {
+                let (crest, _) = inside(from + s * (until - from));
+                self.angles(&crest);
+            }
+        }
+    }
+
+    fn angles(&mut self, configuration: &Configuration) {
+        for (peak, angle) in self.peak_theta.iter_mut().zip(&configuration.theta) {
+            *peak = peak.max(angle.abs());
+        }
+    }
+
+    /// Records the forces at a time inside a step, and their work over a part of the step `[s]`.
+    fn forces_and_work(&mut self, segment: usize, t: f64, part: f64, now: &Configuration, answer: &Answer) {
+        let chain = Chain::new(self.column(), now);
+        let motion = chain.motion(&Rates::of(now));
+        let [ax, ay] = self.problem.ground[segment].accelerations(t);
+        for (block, v) in self.column().blocks().iter().zip(&motion.linear) {
+            self.report.ground_work -= part * block.mass * (ax * v[0] + ay * v[1]);
+        }
+        for (interface, contact) in answer.contacts.iter().enumerate() {
+            if now.joints[interface] == Joint::Free {
+                self.report.highest_flight = self.report.highest_flight.max(lowest_gap(&chain, interface));
+                let peak = &mut self.report.peak_slide[interface];
+                *peak = peak.max(slide(&chain, now, interface).abs());
+                continue;
+            }
+            self.report.friction_work += part * contact.tangential * now.slide_rate[interface];
+            self.min_normal_force[interface] = self.min_normal_force[interface].min(contact.normal);
+            if contact.normal > 0.0 {
+                let demand = contact.tangential.abs() / contact.normal;
+                self.friction_demand[interface] = self.friction_demand[interface].max(demand);
+            }
+        }
+    }
+
+    /// The next output time `[s]`, if there is one up to the end.
+    fn next_row(&self) -> Option<f64> {
+        let dt = self.problem.scene.output_dt.filter(|_| self.problem.is_recorded())?;
+        let t = self.samples.len() as f64 * dt;
+        // The last row is not lost to the rounding of a product.
+        (t <= self.problem.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
+    }
+
+    fn row(&mut self, t: f64, now: &Configuration) {
+        let ground = self.problem.ground;
+        while self.sample_segment + 1 < ground.len() && ground[self.sample_segment].end <= t {
+            self.sample_segment += 1;
+        }
+        let segment = &ground[self.sample_segment];
+        let Segment { horizontal, vertical, .. } = segment;
+        let chain = Chain::new(self.column(), now);
+        let gap = |interface: usize| match now.joints[interface] {
+            Joint::Free => lowest_gap(&chain, interface),
+            _ => 0.0,
+        };
+        let blocks = now.theta.len();
+        let rates = Rates::of(now);
+        let motion = chain.motion(&rates);
+        let centres: Vec<f64> = (0..blocks).map(|i| centre(self.column(), i, now.slide[i])).collect();
+        let rows = Rows::new(&chain, &now.joints, &self.friction.kinetic, &centres);
+        let forces = rows.accelerations(&rates, Ground::at(segment, t, self.column().gravity()));
+        let state = |block: usize| BlockState {
+            place: chain.centroid[block],
+            velocity: motion.linear[block],
+            force: forces.as_ref().map_or_else(Default::default, |answer| answer.contacts[block]),
+        };
+        self.samples.push(Sample {
+            t,
+            theta: now.theta.clone(),
+            omega: now.omega.clone(),
+            ground: [horizontal.value(t), vertical.value(t)],
+            pattern: now.pattern(),
+            slide: (0..blocks).map(|interface| slide(&chain, now, interface)).collect(),
+            gap: (0..blocks).map(gap).collect(),
+            blocks: (0..blocks).map(state).collect(),
+        });
+    }
+
+    /// The response of a run that ends in a state, with the block or interface (from zero) that ended it.
+    pub fn finish(mut self, end: State, status: StopReason, place: Option<usize>, work: Work) -> Response {
+        let now = &end.configuration;
+        // A run that ends as it begins has one row all the same.
+        if self.samples.is_empty() && self.next_row().is_some() {
+            self.row(end.t, now);
+        }
+        if !matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined) {
+            while let Some(t) = self.next_row() {
+                self.row(t, now);
+            }
+        }
+        let chain = Chain::new(self.column(), now);
+        self.report.residual_slide = (0..now.theta.len()).map(|interface| slide(&chain, now, interface)).collect();
+        self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
+        let recorded = |list: Vec<f64>| if self.problem.is_recorded() { list } else { Vec::new() };
+        Response {
+            status,
+            t_final: end.t,
+            overturned_block: (status == StopReason::Overturned).then_some(place).flatten().map(|block| block + 1),
+            samples: self.samples,
+            events: self.events,
+            impacts: self.impacts,
+            peak_theta: recorded(self.peak_theta),
+            time_in_mode: self.time_in_mode,
+            friction_demand: recorded(self.friction_demand),
+            impulse_friction_demand: recorded(self.impulse_friction_demand),
+            min_normal_force: recorded(self.min_normal_force),
+            separations: Vec::new(),
+            work,
+            used_generic: false,
+            sliding: Some(self.report),
+        }
+    }
+}
+
+/// Kinetic and potential energy relative to the moving ground `[J]`.
+fn energy(column: &Column, configuration: &Configuration) -> f64 {
+    let chain = Chain::new(column, configuration);
+    let motion = chain.motion(&Rates::of(configuration));
+    let lifted = column.blocks().iter().zip(&chain.centroid);
+    let potential: f64 = lifted.map(|(block, place)| block.mass * column.gravity() * place[1]).sum();
+    motion.energy(column) + potential
+}

@@ -1,0 +1,112 @@
+//! Smooth motion: the right-hand side of the equations of one set of states.
+
+use crate::column::Column;
+use crate::friction::chain::{Chain, Rates};
+use crate::friction::joint::Configuration;
+use crate::friction::rows::{Answer, Coordinate, Rows, coordinates};
+use crate::friction::search::{Coefficients, centre};
+use crate::mechanics::dynamics::Ground;
+use crate::numerics::ode::explicit::System;
+use rocking_ground::Segment;
+
+/// Right-hand side of a set of states.
+pub struct Smooth<'p> {
+    pub column: &'p Column,
+    pub friction: &'p Coefficients,
+    base: Configuration,
+    coordinates: Vec<Coordinate>,
+    pub gravity: f64,
+    pub segment: &'p Segment,
+    /// Evaluations so far.
+    pub calls: usize,
+}
+
+impl<'p> Smooth<'p> {
+    /// The motion of the states of a configuration on a segment of the ground motion.
+    pub fn new(
+        column: &'p Column,
+        friction: &'p Coefficients,
+        base: &Configuration,
+        segment: &'p Segment,
+    ) -> Smooth<'p> {
+        let coordinates = coordinates(&base.joints);
+        Smooth { column, friction, base: base.clone(), coordinates, gravity: column.gravity(), segment, calls: 0 }
+    }
+
+    /// Number of free coordinates.
+    pub fn dof(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Values and rates of the free coordinates of a configuration, length 2·dof.
+    pub fn state(&self, configuration: &Configuration) -> Vec<f64> {
+        let value = |coordinate: &Coordinate| match coordinate {
+            Coordinate::Angle(range) => [configuration.theta[range.start], configuration.omega[range.start]],
+            Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
+            Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
+        };
+        let both: Vec<[f64; 2]> = self.coordinates.iter().map(value).collect();
+        both.iter().map(|x| x[0]).chain(both.iter().map(|x| x[1])).collect()
+    }
+
+    pub fn configuration(&self, x: &[f64]) -> Configuration {
+        let mut configuration = self.base.clone();
+        let (values, rates) = x.split_at(self.coordinates.len());
+        for ((coordinate, &value), &rate) in self.coordinates.iter().zip(values).zip(rates) {
+            match coordinate {
+                Coordinate::Angle(range) => {
+                    configuration.theta[range.clone()].fill(value);
+                    configuration.omega[range.clone()].fill(rate);
+                }
+                Coordinate::Slide(i) => (configuration.slide[*i], configuration.slide_rate[*i]) = (value, rate),
+                Coordinate::Apart(i, axis) => {
+                    (configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]) = (value, rate);
+                }
+            }
+        }
+        configuration
+    }
+
+    /// Accelerations and forces at a time; `None` where the rows do not determine them.
+    pub fn answer(&mut self, t: f64, configuration: &Configuration) -> Option<Answer> {
+        self.calls += 1;
+        let chain = Chain::new(self.column, configuration);
+        let centres: Vec<f64> =
+            (0..self.column.len()).map(|i| centre(self.column, i, configuration.slide[i])).collect();
+        let rows = Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres);
+        rows.accelerations(&Rates::of(configuration), Ground::at(self.segment, t, self.gravity))
+    }
+
+    /// Configuration, accelerations and forces inside a step; no accelerations where the rows have no solution.
+    pub fn known(&mut self, t: f64, configuration: &Configuration) -> (Configuration, Answer) {
+        let answer = self.answer(t, configuration).unwrap_or_else(|| Answer::none(self.column.len()));
+        (configuration.clone(), answer)
+    }
+
+    /// The same where nothing moves.
+    pub fn at_rest(&mut self, t: f64) -> (Configuration, Answer) {
+        self.known(t, &self.base.clone())
+    }
+}
+
+impl System for Smooth<'_> {
+    type State = Vec<f64>;
+
+    fn slope(&mut self, t: f64, x: &Vec<f64>, slope: &mut Vec<f64>) {
+        let dof = self.coordinates.len();
+        slope[..dof].copy_from_slice(&x[dof..]);
+        let configuration = self.configuration(x);
+        match self.answer(t, &configuration) {
+            Some(answer) => {
+                for (coordinate, value) in self.coordinates.iter().zip(&mut slope[dof..]) {
+                    *value = match coordinate {
+                        Coordinate::Angle(range) => answer.rates.omega[range.start],
+                        Coordinate::Slide(i) => answer.rates.slide[*i],
+                        Coordinate::Apart(i, axis) => answer.rates.apart[*i][*axis],
+                    };
+                }
+            }
+            None => slope[dof..].fill(f64::NAN),
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The inside of a step: the first guard that falls to zero.
+
+use super::smooth::Smooth;
+use crate::friction::chain::Chain;
+use crate::friction::gaps::{self, Corner};
+use crate::friction::guards::{self, Guard};
+use crate::friction::joint::Configuration;
+use crate::friction::rows::Answer;
+use crate::numerics::guards::first_crossing;
+use crate::numerics::ode::interpolant::Interpolant;
+
+/// Share of its size below which a guard that starts from zero has not left it.
+const START_ROUNDING: f64 = 1e-15;
+
+/// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
+const NEAR_START: f64 = 1e-4;
+
+/// What the inside of a step was evaluated to.
+type Known = (Configuration, Option<Answer>);
+
+/// An accepted step with what has been evaluated inside it.
+pub struct Step<'s, 'p> {
+    smooth: &'s mut Smooth<'p>,
+    interpolant: &'s Interpolant<Vec<f64>>,
+    t: f64,
+    h: f64,
+    known: Vec<(f64, Known)>,
+    overturn_angle: f64,
+}
+
+impl<'s, 'p> Step<'s, 'p> {
+    /// A step from a time on, of a length `[s]`.
+    pub fn new(
+        smooth: &'s mut Smooth<'p>,
+        interpolant: &'s Interpolant<Vec<f64>>,
+        [t, h]: [f64; 2],
+        overturn_angle: f64,
+    ) -> Step<'s, 'p> {
+        Step { smooth, interpolant, t, h, known: Vec::new(), overturn_angle }
+    }
+
+    /// The configuration at a place of the step, 0 to 1.
+    pub fn configuration(&mut self, s: f64) -> Configuration {
+        self.at(s, false).0.clone()
+    }
+
+    /// The same with accelerations and forces.
+    pub fn known_at(&mut self, s: f64) -> (Configuration, Answer) {
+        let (configuration, answer) = self.at(s, true).clone();
+        let blocks = configuration.theta.len();
+        (configuration, answer.unwrap_or_else(|| Answer::none(blocks)))
+    }
+
+    /// The configuration at a place of the step, 0 to 1, and accelerations and forces where they are needed.
+    fn at(&mut self, s: f64, needs_forces: bool) -> &Known {
+        let index = match self.known.iter().position(|(place, _)| *place == s) {
+            Some(index) => index,
+            None => {
+                let mut x = vec![0.0; 2 * self.smooth.dof()];
+                self.interpolant.evaluate(s, &mut x);
+                self.known.push((s, (self.smooth.configuration(&x), None)));
+                self.known.len() - 1
+            }
+        };
+        let (_, (configuration, answer)) = &mut self.known[index];
+        if needs_forces && answer.is_none() {
+            *answer = self.smooth.answer(self.t + s * self.h, configuration);
+        }
+        &self.known[index].1
+    }
+
+    fn value(&mut self, guard: Guard, s: f64) -> f64 {
+        let (column, friction, overturn_angle) = (self.smooth.column, self.smooth.friction, self.overturn_angle);
+        let (configuration, answer) = self.at(s, guard.needs_forces());
+        guards::value(guard, column, configuration, answer.as_ref(), friction, overturn_angle)
+    }
+
+    /// The first guard that falls to zero, and where.
+    pub fn first_of(&mut self, list: &[Guard]) -> Option<(f64, Guard)> {
+        let mut first: Option<(f64, Guard)> = None;
+        for &guard in list {
+            let limit = first.map_or(1.0, |(s, _)| s);
+            let found = match guard {
+                Guard::Land(corner) => self.landing(corner, limit),
+                _ => self.crossing(guard, &|step, s| step.value(guard, s), limit),
+            };
+            if let Some(s) = found {
+                first = Some((s, guard));
+            }
+        }
+        first
+    }
+
+    /// The first place up to `limit` at which a corner lands. Height and distance beside the face are smooth, the larger of both is not: a corner that
+    /// comes from above is followed by its height alone.
+    fn landing(&mut self, corner: Corner, limit: f64) -> Option<f64> {
+        let guard = Guard::Land(corner);
+        let gap = |step: &mut Self, s: f64| {
+            let column = step.smooth.column;
+            gaps::gap(&Chain::new(column, &step.at(s, false).0), corner)
+        };
+        if gap(self, 0.0)[1] >= -START_ROUNDING * self.size(guard) {
+            let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
+            if s > 0.0 && gap(self, s)[0] <= 0.0 {
+                return Some(s);
+            }
+        }
+        self.crossing(guard, &|step, s| step.value(guard, s), limit)
+    }
+
+    /// The first place up to `limit` at which a guard falls to zero. A root at the start is divided out, as often as the guard's derivatives
+    /// vanish there.
+    fn crossing(&mut self, guard: Guard, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64) -> Option<f64> {
+        let start = value(self, 0.0);
+        let noise = START_ROUNDING * self.size(guard);
+        if !guard.may_start_from_zero() || start > noise {
+            return first_crossing(|s| value(self, s), start, limit);
+        }
+        if start < -8.0 * noise {
+            return Some(0.0);
+        }
+        // A place at which the guard has left its start, before it comes back.
+        let (mut near, mut end) = (NEAR_START * limit, limit);
+        while near < 0.1 * limit && value(self, near).abs() <= 8.0 * noise {
+            near *= 4.0;
+        }
+        while value(self, near) < -8.0 * noise {
+            (near, end) = (0.1 * near, near);
+        }
+        let one = value(self, near);
+        if one <= 8.0 * noise {
+            // It does not leave, or comes back before that can be resolved.
+            return (end < limit).then_some(0.0);
+        }
+        let two = value(self, (2.0 * near).min(end));
+        let limit = end;
+        let order = (two / one).abs().log2().round().clamp(1.0, 3.0) as i32;
+        first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
+    }
+
+    /// The size of a guard's values: what rounding is relative to.
+    fn size(&self, guard: Guard) -> f64 {
+        let size = self.smooth.column.size();
+        match guard {
+            Guard::Close(_) => {
+                self.known.first().map_or(1.0, |(_, (c, _))| c.theta.iter().fold(1e-6f64, |m, a| m.max(a.abs())))
+            }
+            Guard::Stop(_) => (size * self.smooth.gravity).sqrt(),
+            _ => size,
+        }
+    }
+}

@@ -1,0 +1,332 @@
+//! Transitions: from `x⁻` at the end of a stretch to `x⁺`, by the laws of contact with friction.
+
+use super::contacts::{self, Resolution, touching};
+use super::state::{Ended, State};
+use crate::column::Column;
+use crate::friction::chain::{Chain, Rates};
+use crate::friction::guards::Guard;
+use crate::friction::joint::{Configuration, Joint, Sign, Slip, difference, face};
+use crate::friction::rows::Rows;
+use crate::friction::search::{Coefficients, Question, Search, Solution, Touch, half_length};
+use crate::response::{EventKind, Impulse, StopReason};
+use crate::run::problem::Problem;
+
+/// A transition of a run: what the laws of contact have decided about `x⁻`.
+pub struct Transition {
+    /// Blocks and interfaces at `x⁺`.
+    pub after: Configuration,
+    /// What happened on the way there, in order.
+    pub changes: Vec<Change>,
+    /// Energy lost at impacts and at hops that end `[J]`.
+    pub energy_lost: f64,
+    /// How often several motions were admissible.
+    pub ambiguous: usize,
+    /// Whether no acceleration was admissible.
+    pub is_jammed: bool,
+    /// Why the run is over, and the block or interface (from zero) that ended it.
+    pub stop: Option<(StopReason, Option<usize>)>,
+}
+
+/// An event within a transition.
+pub struct Change {
+    pub kind: EventKind,
+    /// Interfaces (from zero).
+    pub interfaces: Vec<usize>,
+    pub before: Configuration,
+    pub after: Configuration,
+    /// Impulses of an impact, and the share of the energy that it took.
+    pub impact: Option<(Vec<Impulse>, f64)>,
+}
+
+/// The transition at time zero.
+pub fn start(problem: &Problem, friction: &Coefficients, at: &State) -> Transition {
+    Instant::new(problem, friction, at).decided(EventKind::Start, None)
+}
+
+/// The transition at the end of a stretch.
+pub fn transition(problem: &Problem, friction: &Coefficients, before: &State, ended: Ended) -> Transition {
+    let mut instant = Instant::new(problem, friction, before);
+    let Ended::Guard(guard) = ended else { return instant.decided(EventKind::Jump, None) };
+    let (kind, hint) = match guard {
+        Guard::Overturn(block) => return instant.over(StopReason::Overturned, Some(block)),
+        Guard::Collapse(interface) => return instant.collapsed(interface),
+        Guard::Close(interface) => {
+            instant.close(interface);
+            (EventKind::Impact, None)
+        }
+        Guard::Land(corner) => {
+            instant.land(corner);
+            (EventKind::Landing, None)
+        }
+        Guard::Edge(interface) => {
+            instant.set_free(interface);
+            instant.change(EventKind::Edge, vec![interface], &before.configuration, None);
+            (EventKind::Flight, None)
+        }
+        Guard::Stop(interface) => {
+            instant.now.slide_rate[interface] = 0.0;
+            (EventKind::Stick, instant.with_slip(interface, Slip::Sticks))
+        }
+        Guard::Cone(interface, direction) => (EventKind::Slip, instant.with_slip(interface, Slip::Slides(direction))),
+        Guard::Press(interface) => (EventKind::Flight, Some((interface, Joint::Free))),
+        Guard::Tip(interface, side) => {
+            let slip = instant.now.joints[interface].slip().unwrap_or(Slip::Sticks);
+            (EventKind::Opening, Some((interface, instant.corner(interface, side, slip))))
+        }
+    };
+    instant.decided(kind, hint)
+}
+
+/// An instant that is being decided: the column on its way from `x⁻` to `x⁺`.
+pub(super) struct Instant<'p> {
+    pub problem: &'p Problem<'p>,
+    pub friction: &'p Coefficients,
+    pub resolution: Resolution,
+    segment: usize,
+    t: f64,
+    pub now: Configuration,
+    changes: Vec<Change>,
+    pub energy_lost: f64,
+    pub ambiguous: usize,
+    is_jammed: bool,
+    pub stop: Option<StopReason>,
+}
+
+impl<'p> Instant<'p> {
+    fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, at: &State) -> Instant<'p> {
+        Instant {
+            problem,
+            friction,
+            resolution: Resolution::new(&problem.scene.column),
+            segment: at.segment,
+            t: at.t,
+            now: at.configuration.clone(),
+            changes: Vec::new(),
+            energy_lost: 0.0,
+            ambiguous: 0,
+            is_jammed: false,
+            stop: None,
+        }
+    }
+
+    pub fn column(&self) -> &'p Column {
+        &self.problem.scene.column
+    }
+
+    fn over(self, reason: StopReason, place: Option<usize>) -> Transition {
+        let Instant { now, changes, energy_lost, ambiguous, is_jammed, .. } = self;
+        Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop: Some((reason, place)) }
+    }
+
+    /// The contact at an interface has come to its end.
+    fn collapsed(mut self, interface: usize) -> Transition {
+        let before = self.now.clone();
+        self.change(EventKind::Collapsed, vec![interface], &before, None);
+        self.over(StopReason::Collapsed, Some(interface))
+    }
+
+    /// Notes what has happened.
+    pub fn change(
+        &mut self,
+        kind: EventKind,
+        interfaces: Vec<usize>,
+        before: &Configuration,
+        impact: Option<(Vec<Impulse>, f64)>,
+    ) {
+        self.changes.push(Change { kind, interfaces, before: before.clone(), after: self.now.clone(), impact });
+    }
+
+    /// The transition with the accelerations at `x⁺` decided. A hint is the state of an interface that the guard that ended the stretch names.
+    fn decided(mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> Transition {
+        if self.stop.is_none() {
+            let before = self.now.clone();
+            match self.accelerated(&before, hint) {
+                Ok(joints) => {
+                    self.adopt(&joints);
+                    self.name(kind, &before);
+                }
+                Err(reason) => self.stop = Some(reason),
+            }
+        }
+        let stop = self.stop.map(|reason| (reason, None));
+        let Instant { now, changes, energy_lost, ambiguous, is_jammed, .. } = self;
+        Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop }
+    }
+
+    /// The states with which the column moves on from here.
+    fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<Vec<Joint>, StopReason> {
+        let touch = self.joined();
+        // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding; a slide that has
+        // come to rest may begin anew.
+        let is_new = |joint: Joint, interface: usize| joint.sticks() && !before.joints[interface].sticks();
+        let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
+        let is_stale = |solution: &Solution| !may_repeat && solution.joints == before.joints;
+        let found = self.accelerations(&touch, hint).filter(|solution| !is_stale(solution));
+        let mut solution = match found.or_else(|| self.search(&touch).solve_otherwise(&before.joints)) {
+            Some(solution) => solution,
+            None => {
+                // No acceleration is admissible: velocities jump as in an impact (Painlevé).
+                self.is_jammed = true;
+                self.strike(&touch, EventKind::Impact, &[])?;
+                self.accelerations(&self.touching(), None).ok_or(StopReason::Undetermined)?
+            }
+        };
+        // Hops, bounces and slides lower than the resolution end at once.
+        for _ in 0..self.column().len() + 1 {
+            let Some(held) = self.too_low(&solution) else { break };
+            self.hold(&held);
+            solution = self.accelerations(&self.touching(), None).ok_or(StopReason::Undetermined)?;
+        }
+        self.ambiguous += usize::from(solution.is_ambiguous);
+        Ok(self.search(&self.touching()).carried(&solution))
+    }
+
+    pub fn touching(&self) -> Vec<Touch> {
+        touching(self.problem, self.resolution, &self.now)
+    }
+
+    /// What touches, with free interfaces that have met joined and faces that stay on each other at one angle and rate to the last bit.
+    fn joined(&mut self) -> Vec<Touch> {
+        let touch = self.touching();
+        let has_met = |&i: &usize| touch[i] != Touch::Nothing && self.now.joints[i] == Joint::Free;
+        let met: Vec<usize> = (0..touch.len()).filter(has_met).collect();
+        if !met.is_empty() {
+            let mut joints = self.now.joints.clone();
+            for interface in met {
+                (joints[interface], self.now.slide[interface]) =
+                    contacts::met(self.column(), self.resolution, &self.now, interface, touch[interface]);
+            }
+            self.hold(&joints);
+        }
+        for (interface, touch) in touch.iter().enumerate() {
+            if *touch == Touch::Faces && self.now.joints[interface] != Joint::Free {
+                self.lay(interface);
+            }
+        }
+        touch
+    }
+
+    /// Gives a block the angle and the rate of the one below.
+    pub fn lay(&mut self, interface: usize) {
+        let below = interface.checked_sub(1);
+        self.now.theta[interface] = below.map_or(0.0, |below| self.now.theta[below]);
+        self.now.omega[interface] = below.map_or(0.0, |below| self.now.omega[below]);
+    }
+
+    /// Notes what the states that follow are called.
+    fn name(&mut self, kind: EventKind, before: &Configuration) {
+        let after = &self.now.joints;
+        let changed: Vec<usize> = (0..after.len()).filter(|&i| before.joints[i] != after[i]).collect();
+        let has_struck = matches!(kind, EventKind::Impact | EventKind::Landing);
+        let Some(&first) = changed.first().filter(|_| !has_struck) else { return };
+        let was_still = before.joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks));
+        let kind = match (kind, before.joints[first], after[first]) {
+            (EventKind::Opening, ..) if was_still => EventKind::Start,
+            (EventKind::Jump | EventKind::Slip | EventKind::Stick, _, Joint::Free) => EventKind::Flight,
+            (EventKind::Slip | EventKind::Stick, Joint::Closed(_), Joint::Corner(..)) => EventKind::Opening,
+            (EventKind::Slip | EventKind::Stick, _, now) if now.sticks() => EventKind::Stick,
+            (EventKind::Slip | EventKind::Stick, ..) => EventKind::Slip,
+            _ => kind,
+        };
+        self.change(kind, changed, before, None);
+    }
+
+    /// The search for the accelerations of the present configuration.
+    fn search<'s>(&'s self, touch: &'s [Touch]) -> Search<'s> {
+        let ground = self.problem.ground_at(self.segment, self.t);
+        Search::new(self.column(), &self.now, touch, self.friction, Question::Accelerations(ground))
+    }
+
+    fn accelerations(&self, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
+        let search = self.search(touch);
+        let mut first = search.first();
+        if let Some((interface, joint)) = hint {
+            first[interface] = joint;
+        }
+        search.solve_from(first)
+    }
+
+    /// Takes over states found for the present configuration.
+    pub fn adopt(&mut self, joints: &[Joint]) {
+        for (interface, &new) in joints.iter().enumerate() {
+            if new == Joint::Free && self.now.joints[interface] != Joint::Free {
+                self.set_free(interface);
+            }
+            self.now.joints[interface] = new;
+            if new.sticks() {
+                self.now.slide_rate[interface] = 0.0;
+            }
+            if let Joint::Closed(_) = new {
+                self.lay(interface);
+            }
+        }
+    }
+
+    /// Parts a contact: its coordinates become those of a free interface.
+    pub fn set_free(&mut self, interface: usize) {
+        let chain = Chain::new(self.column(), &self.now);
+        let (apart, rate) = (chain.apart(interface), chain.apart_rate(interface, &Rates::of(&self.now)));
+        (self.now.apart[interface], self.now.apart_rate[interface]) = (apart, rate);
+        self.now.joints[interface] = Joint::Free;
+        self.now.slide_rate[interface] = 0.0;
+    }
+
+    pub fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
+        Joint::Corner(side, face(self.column(), interface, side, self.now.slide[interface]), slip)
+    }
+
+    fn with_slip(&self, interface: usize, slip: Slip) -> Option<(usize, Joint)> {
+        let joint = match self.now.joints[interface] {
+            Joint::Closed(_) => Joint::Closed(slip),
+            Joint::Corner(side, ..) => self.corner(interface, side, slip),
+            Joint::Free => return None,
+        };
+        Some((interface, joint))
+    }
+
+    /// The states without the hops and slides that would come back before they exceed the resolution; `None` if there are none.
+    fn too_low(&self, solution: &Solution) -> Option<Vec<Joint>> {
+        let least = self.problem.scene.options.stick_angle;
+        let returns = |rate: f64, change: f64, least: f64| {
+            rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
+        };
+        let hops = |interface: usize| {
+            let turn = difference(&solution.answer.rates.omega, interface);
+            self.now.gap_angle(interface).abs() <= self.resolution.angle
+                && returns(self.now.gap_rate(interface), turn, least)
+        };
+        let stops = |interface: usize| {
+            let length = half_length(self.column(), interface, self.now.slide[interface]);
+            returns(self.now.slide_rate[interface], solution.answer.rates.slide[interface], least * length)
+        };
+        let held = |(interface, &joint): (usize, &Joint)| match joint {
+            Joint::Corner(_, _, slip) if hops(interface) => Joint::Closed(slip),
+            Joint::Corner(side, _, Slip::Slides(_)) if stops(interface) => self.corner(interface, side, Slip::Sticks),
+            Joint::Closed(Slip::Slides(_)) if stops(interface) => Joint::Closed(Slip::Sticks),
+            joint => joint,
+        };
+        let joints: Vec<Joint> = solution.joints.iter().enumerate().map(held).collect();
+        (joints != solution.joints).then_some(joints)
+    }
+
+    /// Brings the blocks to the motion that these states allow, momentum conserved.
+    pub fn hold(&mut self, joints: &[Joint]) {
+        let chain = Chain::new(self.column(), &self.now);
+        let before = chain.motion(&Rates::of(&self.now));
+        let mut held = self.now.clone();
+        for (interface, joint) in joints.iter().enumerate() {
+            if *joint == Joint::Free {
+                held.apart[interface] = chain.apart(interface);
+            }
+        }
+        held.joints = joints.to_vec();
+        let chain = Chain::new(self.column(), &held);
+        let none = vec![0.0; joints.len()];
+        let Some(answer) = Rows::new(&chain, joints, &none, &none).impact(&before) else { return };
+        answer.rates.give(&mut held);
+        let after = chain.motion(&Rates::of(&held));
+        self.energy_lost += before.energy(self.column()) - after.energy(self.column());
+        self.now = held;
+        self.adopt(joints);
+    }
+}
