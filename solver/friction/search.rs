@@ -384,8 +384,11 @@ impl<'a> Search<'a> {
             }
             Slip::Slides(direction) => {
                 let along = f64::from(direction) * answer.rates.slide[interface];
-                let is_free_to_turn = self.given_slip(interface).is_none();
-                (is_free_to_turn && along < -ROUNDING_SHARE * self.scale.linear).then_some(Slip::Sticks)
+                match self.given_slip(interface) {
+                    // A slide that goes on against its rate would lose that rate at once.
+                    Some(given) => (Some(given) != joint.slip()).then_some(given),
+                    None => (along < -ROUNDING_SHARE * self.scale.linear).then_some(Slip::Sticks),
+                }
             }
         }
     }

@@ -107,11 +107,18 @@ pub fn met(
     let [rate, _] = gaps::gap_rate(&chain, &Rates::of(now), corner);
     let slip =
         if rate.abs() <= resolution.speed { Slip::Sticks } else { Slip::Slides(if rate > 0.0 { 1 } else { -1 }) };
-    let joint = match touch {
-        Touch::Corner(_) => Joint::Corner(side, face(column, interface, side, slide), slip),
-        _ => Joint::Closed(slip),
+    let joint = match (touch, slip, face(column, interface, side, slide)) {
+        (Touch::Faces | Touch::Nothing, ..) => Joint::Closed(slip),
+        (_, Slip::Slides(direction), Face::Both) => carried(side, direction),
+        (_, _, face) => Joint::Corner(side, face, slip),
     };
     (joint, slide)
+}
+
+/// Coinciding corners of a side that slide: the face that carries them an instant later carries them.
+pub fn carried(side: Sign, direction: Sign) -> Joint {
+    let face = if direction == side { Face::Upper } else { Face::Lower };
+    Joint::Corner(side, face, Slip::Slides(direction))
 }
 
 /// Distance between the blocks of a free interface, at the corners that may land `[m]`.

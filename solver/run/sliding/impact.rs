@@ -1,5 +1,6 @@
 //! Impacts with friction: gaps that close, corners that land, and velocities that jump because no acceleration is admissible.
 
+use super::contacts::carried;
 use super::transition::Instant;
 use crate::friction::chain::{Chain, Motion, Rates};
 use crate::friction::gaps::{self, Corner};
@@ -107,8 +108,7 @@ impl Instant<'_> {
             if self.now.gap_angle(interface).abs() > self.resolution.angle {
                 self.set_free(interface);
             } else {
-                let on = if direction == side { Face::Upper } else { Face::Lower };
-                self.now.joints[interface] = Joint::Corner(side, on, Slip::Slides(direction));
+                self.now.joints[interface] = carried(side, direction);
             }
         }
     }

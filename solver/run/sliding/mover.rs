@@ -24,12 +24,18 @@ const FIRST_STEP: f64 = 1e-3;
 const SAFETY: f64 = 0.9;
 const LEAST_ERROR: f64 = 1e-12;
 
+/// Time for which the column waits after a start in vain `[s]`; it doubles as long as starts are in vain.
+const LEAST_WAIT: f64 = 1e-9;
+
 /// What moves a column with friction.
 pub struct Mover<'p> {
     problem: &'p Problem<'p>,
     friction: &'p Coefficients,
     /// Step length that the steps before suggest `[s]`.
     pace: Option<f64>,
+    /// When the last wait ended with a start `[s]`, and for how long a start at that time has been in vain `[s]`.
+    started: f64,
+    vain: f64,
     pub work: Work,
 }
 
@@ -50,7 +56,7 @@ impl ForTableau for Passing<'_, '_> {
 
 impl<'p> Mover<'p> {
     pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients) -> Mover<'p> {
-        Mover { problem, friction, pace: None, work: Work::default() }
+        Mover { problem, friction, pace: None, started: f64::NEG_INFINITY, vain: 0.0, work: Work::default() }
     }
 
     fn column(&self) -> &'p Column {
@@ -81,14 +87,18 @@ impl<'p> Mover<'p> {
         let starts = |segment: usize, t: f64| rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
         let mut smooth = self.smooth(from);
         let (mut t, mut segment) = (from.t, from.segment);
+        // A ground that comes to what starts the column and goes no further has started nothing.
+        let is_vain = from.t - self.started <= self.vain;
+        self.vain = if is_vain { (2.0 * self.vain).max(LEAST_WAIT) } else { 0.0 };
         let ended = loop {
             self.work.rest_stretches += 1;
-            let start = starts(segment, t);
+            let start = starts(segment, (from.t + self.vain).max(t));
             let until = start.map_or(ground[segment].end, |(start, _)| start);
             smooth.segment = &ground[segment];
             recorder.read(segment, [t, until], &mut |time| smooth.at_rest(time));
             t = until;
-            if let Some((_, guard)) = start {
+            if let Some((start, guard)) = start {
+                self.started = start;
                 break Ended::Guard(guard);
             }
             if segment + 1 == ground.len() {
@@ -156,7 +166,7 @@ impl<'p> Mover<'p> {
             method.accept(&mut smooth);
             method.interpolate(&mut smooth, &mut interpolant);
             self.work.steps += 1;
-            let mut step = Step::new(&mut smooth, &interpolant, [t, h], problem.scene.options.overturn_angle);
+            let mut step = Step::new(&mut smooth, &interpolant, [t, h], &problem.scene.options);
             let first = step.first_of(&list);
             let s = first.map_or(1.0, |(s, _)| s);
             let until = if s == 1.0 { t + h } else { t + s * h };

@@ -8,9 +8,13 @@ use crate::friction::joint::Configuration;
 use crate::friction::rows::Answer;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::ode::interpolant::Interpolant;
+use crate::scene::SolveOptions;
 
 /// Share of its size below which a guard that starts from zero has not left it.
 const START_ROUNDING: f64 = 1e-15;
+
+/// Share of the resolution of hops, bounces and slides below which a guard that starts from zero has not left it.
+const LOW_SHARE: f64 = 1e-3;
 
 /// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
 const NEAR_START: f64 = 1e-4;
@@ -26,6 +30,7 @@ pub struct Step<'s, 'p> {
     h: f64,
     known: Vec<(f64, Known)>,
     overturn_angle: f64,
+    stick_angle: f64,
 }
 
 impl<'s, 'p> Step<'s, 'p> {
@@ -34,9 +39,10 @@ impl<'s, 'p> Step<'s, 'p> {
         smooth: &'s mut Smooth<'p>,
         interpolant: &'s Interpolant<Vec<f64>>,
         [t, h]: [f64; 2],
-        overturn_angle: f64,
+        options: &SolveOptions,
     ) -> Step<'s, 'p> {
-        Step { smooth, interpolant, t, h, known: Vec::new(), overturn_angle }
+        let &SolveOptions { overturn_angle, stick_angle, .. } = options;
+        Step { smooth, interpolant, t, h, known: Vec::new(), overturn_angle, stick_angle }
     }
 
     /// The configuration at a place of the step, 0 to 1.
@@ -99,7 +105,7 @@ impl<'s, 'p> Step<'s, 'p> {
             let column = step.smooth.column;
             gaps::gap(&Chain::new(column, &step.at(s, false).0), corner)
         };
-        if gap(self, 0.0)[1] >= -START_ROUNDING * self.size(guard) {
+        if gap(self, 0.0)[1] >= -self.noise(guard) {
             let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
                 return Some(s);
@@ -112,7 +118,7 @@ impl<'s, 'p> Step<'s, 'p> {
     /// vanish there.
     fn crossing(&mut self, guard: Guard, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64) -> Option<f64> {
         let start = value(self, 0.0);
-        let noise = START_ROUNDING * self.size(guard);
+        let noise = self.noise(guard);
         if !guard.may_start_from_zero() || start > noise {
             return first_crossing(|s| value(self, s), start, limit);
         }
@@ -138,15 +144,22 @@ impl<'s, 'p> Step<'s, 'p> {
         first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }
 
-    /// The size of a guard's values: what rounding is relative to.
-    fn size(&self, guard: Guard) -> f64 {
+    /// What a guard's values that start from zero must exceed to have left it: rounding, and a share of the hops, bounces and slides that are too low to be
+    /// followed.
+    fn noise(&self, guard: Guard) -> f64 {
         let size = self.smooth.column.size();
+        let least = LOW_SHARE * self.stick_angle;
         match guard {
             Guard::Close(_) => {
-                self.known.first().map_or(1.0, |(_, (c, _))| c.theta.iter().fold(1e-6f64, |m, a| m.max(a.abs())))
+                let largest = |c: &Configuration| c.theta.iter().fold(0.0f64, |most, angle| most.max(angle.abs()));
+                let angle = self.known.first().map_or(1.0, |(_, (configuration, _))| largest(configuration));
+                (START_ROUNDING * angle).max(least)
             }
-            Guard::Stop(_) => (size * self.smooth.gravity).sqrt(),
-            _ => size,
+            Guard::Stop(_) => {
+                let speed = (size * self.smooth.gravity).sqrt();
+                speed * START_ROUNDING.max(LOW_SHARE * self.stick_angle.sqrt())
+            }
+            _ => size * START_ROUNDING.max(least),
         }
     }
 }

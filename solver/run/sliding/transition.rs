@@ -175,7 +175,8 @@ impl<'p> Instant<'p> {
         for _ in 0..self.column().len() + 1 {
             let Some(held) = self.too_low(&solution) else { break };
             self.hold(&held);
-            solution = self.accelerations(&self.touching(), None).ok_or(StopReason::Undetermined)?;
+            let touch = self.joined();
+            solution = self.accelerations(&touch, None).ok_or(StopReason::Undetermined)?;
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
         Ok(self.search(&self.touching()).carried(&solution))
@@ -217,8 +218,14 @@ impl<'p> Instant<'p> {
     fn name(&mut self, kind: EventKind, before: &Configuration) {
         let after = &self.now.joints;
         let changed: Vec<usize> = (0..after.len()).filter(|&i| before.joints[i] != after[i]).collect();
-        let has_struck = matches!(kind, EventKind::Impact | EventKind::Landing);
-        let Some(&first) = changed.first().filter(|_| !has_struck) else { return };
+        if matches!(kind, EventKind::Impact | EventKind::Landing) {
+            // What the accelerations decide belongs to the impact.
+            if let Some(change) = self.changes.last_mut() {
+                change.after.clone_from(&self.now);
+            }
+            return;
+        }
+        let Some(&first) = changed.first() else { return };
         let was_still = before.joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks));
         let kind = match (kind, before.joints[first], after[first]) {
             (EventKind::Opening, ..) if was_still => EventKind::Start,
