@@ -18,9 +18,14 @@ fn runs(column: &str, amplitude: &str) -> [Response; 2] {
 /// Slides below are none `[m]`.
 const NO_SLIDE: f64 = 1e-6;
 
-/// Largest slides `[m]`, base first.
-fn slides(response: &Response) -> Vec<f64> {
-    response.sliding.as_ref().expect("a run with friction").peak_slide.clone()
+/// Length of the way slid at each interface `[m]`, base first; flights have none.
+fn ways(response: &Response) -> &[f64] {
+    &response.sliding.as_ref().expect("a run with friction").way_slid
+}
+
+/// Slides at the end `[m]`, base first.
+fn residuals(response: &Response) -> &[f64] {
+    &response.sliding.as_ref().expect("a run with friction").residual_slide
 }
 
 /// The first row in which some interface has slid `[s]`, and the interface, from 1.
@@ -36,10 +41,12 @@ fn print_row(column: &str, amplitude: &str, [without, with]: &[Response; 2]) {
         (Some(t), Some(block)) => format!("block {block} at {t:.2} s"),
         _ => "stands".into(),
     };
-    let millimetres = |slide: &f64| if *slide > NO_SLIDE { format!("{:.2}", 1e3 * slide) } else { "0".into() };
-    let slides = slides(with).iter().map(millimetres).collect::<Vec<_>>().join(", ");
+    let millimetres = |slide: &f64| if slide.abs() > NO_SLIDE { format!("{:.2}", 1e3 * slide) } else { "0".into() };
+    let list = |slides: &[f64]| slides.iter().map(millimetres).collect::<Vec<_>>().join(", ");
+    let left = if with.status == StopReason::Overturned { String::new() } else { list(residuals(with)) };
     let first = first_slide(with).map_or("never".into(), |(t, interface)| format!("{interface} at {t:.2} s"));
-    println!("| {column} | {amplitude} | {} | {} | {first} | {slides} |", outcome(without), outcome(with));
+    let (before, after, way) = (outcome(without), outcome(with), list(ways(with)));
+    println!("| {column} | {amplitude} | {before} | {after} | {first} | {way} | {left} |");
 }
 
 /// In all 18 cases the friction that the paper's program had changes no outcome and no block that overturns first, and the time of overturning by
@@ -65,7 +72,7 @@ fn the_papers_outcomes_hold_with_its_friction() {
 fn one_block_slides_only_where_it_falls() {
     for amplitude in AMPLITUDES {
         let [without, with] = runs("1-block", amplitude);
-        let has_slid = slides(&with)[0] > 0.0;
+        let has_slid = ways(&with)[0] > 0.0;
         assert_eq!(has_slid, with.status == StopReason::Overturned, "{amplitude}");
         if has_slid {
             let (t, _) = first_slide(&with).expect("rows until it falls");
@@ -76,27 +83,33 @@ fn one_block_slides_only_where_it_falls() {
     }
 }
 
-/// Two blocks slide at impacts: by less than 0.2 mm where they stand, 2 mm before they fall.
+/// Two blocks slide at impacts: by less than 0.2 mm where they stand, 4 mm before they fall.
 #[test]
-fn two_blocks_slide_by_less_than_two_millimetres() {
+fn two_blocks_slide_by_millimetres() {
     for amplitude in AMPLITUDES {
         let [_, with] = runs("2-blocks", amplitude);
-        let most = if with.status == StopReason::Overturned { 2e-3 } else { 2e-4 };
-        let slides = slides(&with);
-        assert!(slides.iter().all(|slide| *slide < most), "{amplitude}: {slides:?}");
-        assert!(slides[0] > 1e-5, "{amplitude}: {slides:?}");
+        let most = if with.status == StopReason::Overturned { 4e-3 } else { 2e-4 };
+        let ways = ways(&with);
+        assert!(ways.iter().all(|way| *way < most), "{amplitude}: {ways:?}");
+        assert!(ways[0] > 1e-5, "{amplitude}: {ways:?}");
     }
 }
 
 /// Three blocks slide by up to 9 mm at 3 αg, 24 mm at 6.3 and 40 mm at 7.2, mostly at the base.
 #[test]
 fn three_blocks_slide_by_millimetres_to_centimetres() {
-    let most =
-        [[5.8, 9.3, 3.0], [5.8, 9.3, 3.1], [23.6, 0.03, 5.1], [23.7, 0.03, 5.1], [39.8, 0.0, 1.8], [40.1, 0.0, 1.8]];
-    for (amplitude, most) in AMPLITUDES.into_iter().zip(most) {
+    let expected = [
+        [5.81, 8.46, 3.14],
+        [5.83, 8.45, 3.23],
+        [23.81, 0.03, 5.15],
+        [23.94, 0.03, 5.10],
+        [39.77, 0.0, 1.79],
+        [40.06, 0.0, 1.76],
+    ];
+    for (amplitude, expected) in AMPLITUDES.into_iter().zip(expected) {
         let [_, with] = runs("3-blocks", amplitude);
-        for (found, expected) in slides(&with).into_iter().zip(most) {
-            assert!((1e3 * found - expected).abs() < 0.06, "{amplitude}: {found} m, {expected} mm");
+        for (found, expected) in ways(&with).iter().zip(expected) {
+            assert!((1e3 * found - expected).abs() < 0.02, "{amplitude}: {found} m, {expected} mm");
         }
     }
 }

@@ -7,6 +7,7 @@
 //! | [`scenes::record`]: one block, 30 s of record | all but SciPy |
 //! | [`scenes::spectrum`]: 100 x 100 runs on two threads | Runge-Kutta by hand |
 //! | [`scenes::column`]: three blocks, one-sine pulse, 10 s | none |
+//! | [`scenes::friction`]: three drums that slide, 4 s | Moreau-Jean by hand |
 //!
 //! Every contender's answer is compared with one in double-doubles before it is timed; a time counts against the fastest of
 //! ours that errs no more. What biases the figures is said in each scene and in [`contest`].
@@ -45,5 +46,6 @@ fn main() -> std::io::Result<()> {
     points.extend(scenes::record::run(&python));
     points.extend(scenes::column::run());
     points.extend(scenes::spectrum::run());
+    points.extend(scenes::friction::run());
     report::write(&points)
 }

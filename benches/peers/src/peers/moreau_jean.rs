@@ -17,7 +17,7 @@
 //! References: J. J. Moreau (1999), Numerical aspects of the sweeping process, Comput. Methods Appl. Mech. Engrg. 177, 329-349; M. Jean (1999), The
 //! non-smooth contact dynamics method, ibid., 235-257.
 
-#![allow(dead_code, reason = "run by tests; no benchmark's scene has friction")]
+#![allow(dead_code, reason = "tests use what the benchmark does not")]
 
 /// In the plane: `x` to the right, `y` up.
 pub type Vec2 = [f64; 2];

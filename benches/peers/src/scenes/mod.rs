@@ -1,6 +1,7 @@
 //! What is run, a file per scene.
 
 pub mod column;
+pub mod friction;
 pub mod hinges;
 pub mod pulse;
 pub mod record;
