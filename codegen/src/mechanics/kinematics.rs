@@ -106,6 +106,12 @@ impl Symbols {
             inertia,
         }
     }
+
+    /// The angles with their first and second derivatives.
+    pub(super) fn coordinates(&self) -> Vec<[Expr; 3]> {
+        let rates = self.omega.iter().zip(&self.alpha);
+        self.theta.iter().zip(rates).map(|(&theta, (&omega, &alpha))| [theta, omega, alpha]).collect()
+    }
 }
 
 /// Positions of the centroids relative to the moving ground, base first, length N:
@@ -143,7 +149,7 @@ pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<
 }
 
 /// `R(θ)(u, v) = (u cos θ + v sin θ, -u sin θ + v cos θ)`, clockwise positive.
-fn rotate(arena: &mut Arena, angle: Option<Expr>, [u, v]: Vector) -> Vector {
+pub(super) fn rotate(arena: &mut Arena, angle: Option<Expr>, [u, v]: Vector) -> Vector {
     let Some(angle) = angle else { return [u, v] };
     let (sine, cosine) = (arena.sin(angle), arena.cos(angle));
     let (uc, vs, us, vc) = (arena.mul(u, cosine), arena.mul(v, sine), arena.mul(u, sine), arena.mul(v, cosine));
@@ -168,13 +174,16 @@ pub fn dot(arena: &mut Arena, a: Vector, b: Vector) -> Expr {
 
 /// Velocity or, applied twice, acceleration: `Σ_a ∂/∂θ_a · ω_a + ∂/∂ω_a · θ̈_a`, the total time derivative.
 pub(super) fn time_derivative(arena: &mut Arena, symbols: &Symbols, expr: Expr) -> Expr {
+    total_derivative(arena, &symbols.coordinates(), expr)
+}
+
+/// The total time derivative of an expression in coordinates that are given with their first and second derivatives.
+pub(super) fn total_derivative(arena: &mut Arena, coordinates: &[[Expr; 3]], expr: Expr) -> Expr {
     let mut terms = Vec::new();
-    for link in 0..symbols.theta.len() {
-        for (coordinate, rate) in
-            [(symbols.theta[link], symbols.omega[link]), (symbols.omega[link], symbols.alpha[link])]
-        {
+    for [value, rate, acceleration] in coordinates {
+        for (coordinate, derivative) in [(*value, *rate), (*rate, *acceleration)] {
             let slope = arena.differentiate(expr, coordinate);
-            terms.push(arena.mul(slope, rate));
+            terms.push(arena.mul(slope, derivative));
         }
     }
     arena.total(terms)

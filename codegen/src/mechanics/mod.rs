@@ -7,6 +7,7 @@ mod contact;
 mod kinematics;
 mod lagrange;
 mod series;
+mod translation;
 
 pub(crate) use contact::normal_and_tangent;
 pub use contact::{InterfaceForces, interface_forces};
@@ -14,3 +15,4 @@ pub(crate) use kinematics::block_angles;
 pub use kinematics::{Bodies, Symbols, Vector, centroids};
 pub use lagrange::{Equations, equations_of_motion};
 pub use series::{WeightForm, weight_form};
+pub use translation::{Moving, Translation, moving_links};

@@ -1,0 +1,139 @@
+//! Generated programs against the hand-written rows, in all combinations of states of one to three blocks.
+
+use super::chain::{Chain, Rates};
+use super::generated::Generated;
+use super::joint::{Configuration, Face, Joint, Sign, Slip};
+use super::rows::{Coordinate, Rows, coordinates};
+use crate::column::{Block, Column, Shape};
+use crate::mechanics::dynamics::Ground;
+use crate::mechanics::generated::{MAX_BLOCKS, moving};
+use std::collections::BTreeSet;
+
+/// xorshift64* (Vigna 2016), from -1 to 1.
+struct Random(u64);
+
+impl Random {
+    fn within(&mut self, a: f64, b: f64) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        a + (b - a) * (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// All states of an interface, sliding on either face.
+fn states(interface: usize) -> Vec<Joint> {
+    let mut states = vec![Joint::Free];
+    for slip in [Slip::Sticks, Slip::Slides(1), Slip::Slides(-1)] {
+        states.push(Joint::Closed(slip));
+        for side in [1, -1] {
+            states.push(Joint::Corner(side, Face::Lower, slip));
+            // The ground has no corner.
+            if interface > 0 {
+                states.push(Joint::Corner(side, Face::Upper, slip));
+            }
+        }
+    }
+    states
+}
+
+/// A tapered and displaced column in these states, all else random.
+fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Configuration) {
+    let block = |random: &mut Random| {
+        let (bottom, half_height) = (random.within(0.4, 0.6), random.within(0.3, 1.2));
+        let half_widths = [bottom, bottom * random.within(0.8, 1.1)];
+        let mut block = Block::of_shape(Shape::Prism, half_widths, half_height, random.within(200.0, 3000.0));
+        block.centroid_height *= random.within(0.9, 1.1);
+        block
+    };
+    let column = Column::new(joints.iter().map(|_| block(random)).collect(), 9.81).expect("valid");
+    let (mut theta, mut omega) = (Vec::new(), Vec::new());
+    for joint in joints {
+        let (below, rate) = (theta.last().copied().unwrap_or(0.0), omega.last().copied().unwrap_or(0.0));
+        let is_closed = matches!(joint, Joint::Closed(_));
+        theta.push(if is_closed { below } else { random.within(-0.6, 0.6) });
+        omega.push(if is_closed { rate } else { random.within(-2.0, 2.0) });
+    }
+    let mut vector = |size: f64| [random.within(-size, size), random.within(-size, size)];
+    let (slide, slide_rate) =
+        joints.iter().map(|_| (0.3 * vector(1.0)[0], vector(1.0))).unzip::<f64, [f64; 2], Vec<_>, Vec<_>>();
+    // Pivots of contacts that stick are those of the corners that the slides leave innermost.
+    let configuration = Configuration {
+        joints: joints.to_vec(),
+        theta,
+        omega,
+        slide_rate: joints
+            .iter()
+            .zip(&slide_rate)
+            .map(|(joint, rate)| joint.slip().map_or(0.0, Slip::sign) * rate[0].abs())
+            .collect(),
+        apart: joints.iter().map(|_| vector(0.5)).collect(),
+        apart_rate: joints.iter().map(|joint| if *joint == Joint::Free { vector(1.5) } else { [0.0; 2] }).collect(),
+        slide,
+    };
+    (column, configuration)
+}
+
+fn value(coordinate: &Coordinate, configuration: &Configuration) -> [f64; 2] {
+    match coordinate {
+        Coordinate::Angle(blocks) => [configuration.theta[blocks.start], configuration.omega[blocks.start]],
+        Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
+        Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
+    }
+}
+
+/// Largest difference of the two, relative to the largest acceleration; free angles and translations. `None` without a program.
+fn difference(random: &mut Random, joints: &[Joint]) -> Option<(f64, (usize, usize))> {
+    let (column, configuration) = random_configuration(random, joints);
+    let kinetic: Vec<f64> = joints.iter().map(|_| random.within(0.0, 0.5)).collect();
+    let ground = Ground { x: random.within(-8.0, 8.0), gravity: random.within(4.0, 15.0) };
+    let coordinates = coordinates(joints);
+    let mut generated = Generated::new(&column, &configuration, &kinetic)?;
+    let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| value(coordinate, &configuration)).collect();
+    let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
+    let mut ours = vec![0.0; coordinates.len()];
+    generated.accelerations(&values, &rates, ground, &mut ours);
+    let chain = Chain::new(&column, &configuration);
+    let rows = Rows::new(&chain, joints, &kinetic, &vec![0.0; joints.len()]);
+    let answer = rows.accelerations(&Rates::of(&configuration), ground).expect("moderate friction");
+    let theirs = coordinates.iter().map(|coordinate| match coordinate {
+        Coordinate::Angle(blocks) => answer.rates.omega[blocks.start],
+        Coordinate::Slide(i) => answer.rates.slide[*i],
+        Coordinate::Apart(i, axis) => answer.rates.apart[*i][*axis],
+    });
+    let theirs: Vec<f64> = theirs.collect();
+    let scale = theirs.iter().fold(ground.gravity, |most, a| most.max(a.abs()));
+    let worst = ours.iter().zip(&theirs).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs() / scale));
+    assert!(worst.is_finite(), "{joints:?}: {ours:?} against {theirs:?}");
+    let angles = coordinates.iter().filter(|coordinate| matches!(coordinate, Coordinate::Angle(_))).count();
+    Some((worst, (angles, coordinates.len() - angles)))
+}
+
+#[test]
+fn generated_programs_give_the_accelerations_of_the_rows_in_all_states() {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let (mut worst, mut seen) = (0.0f64, BTreeSet::new());
+    for blocks in 1..=MAX_BLOCKS.min(3) {
+        let mut combinations = vec![Vec::new()];
+        for interface in 0..blocks {
+            let longer = |joints: &Vec<Joint>| {
+                states(interface).into_iter().map(|state| [joints.as_slice(), &[state]].concat()).collect::<Vec<_>>()
+            };
+            combinations = combinations.iter().flat_map(longer).collect();
+        }
+        for joints in &combinations {
+            if coordinates(joints).iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
+                continue;
+            }
+            let (difference, program) =
+                difference(&mut random, joints).expect("columns of up to three blocks have all programs");
+            worst = worst.max(difference);
+            assert!(difference < 1e-9, "{joints:?}: {difference:e}");
+            seen.insert(program);
+        }
+    }
+    eprintln!("largest difference {worst:e}");
+    let small =
+        moving::COVERED.into_iter().filter(|(angles, translations)| *angles <= 3 && *translations <= 3 + angles);
+    assert!(small.clone().all(|program| seen.contains(&program)), "not all programs were compared: {seen:?}");
+}
