@@ -16,6 +16,7 @@ mod derivation;
 pub mod emit;
 mod error;
 mod ground;
+pub mod joints;
 pub mod mechanics;
 pub mod moving;
 pub mod optimise;

@@ -2,11 +2,12 @@
 
 use super::chain::{Chain, Rates};
 use super::generated::Generated;
-use super::joint::{Configuration, Face, Joint, Sign, Slip};
+use super::joint::{Configuration, Face, Joint, Slip};
 use super::rows::{Coordinate, Rows, coordinates};
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::generated::{MAX_BLOCKS, moving};
+use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeSet;
 
 /// xorshift64* (Vigna 2016), from -1 to 1.
@@ -55,22 +56,20 @@ fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Confi
         omega.push(if is_closed { rate } else { random.within(-2.0, 2.0) });
     }
     let mut vector = |size: f64| [random.within(-size, size), random.within(-size, size)];
-    let (slide, slide_rate) =
-        joints.iter().map(|_| (0.3 * vector(1.0)[0], vector(1.0))).unzip::<f64, [f64; 2], Vec<_>, Vec<_>>();
-    // Pivots of contacts that stick are those of the corners that the slides leave innermost.
-    let configuration = Configuration {
+    let mut configuration = Configuration {
         joints: joints.to_vec(),
         theta,
         omega,
-        slide_rate: joints
-            .iter()
-            .zip(&slide_rate)
-            .map(|(joint, rate)| joint.slip().map_or(0.0, Slip::sign) * rate[0].abs())
-            .collect(),
+        slide: joints.iter().map(|_| vector(0.3)[0]).collect(),
+        slide_rate: joints.iter().map(|joint| joint.slip().map_or(0.0, Slip::sign) * vector(1.0)[0].abs()).collect(),
         apart: joints.iter().map(|_| vector(0.5)).collect(),
-        apart_rate: joints.iter().map(|joint| if *joint == Joint::Free { vector(1.5) } else { [0.0; 2] }).collect(),
-        slide,
+        apart_rate: joints.iter().map(|_| vector(1.5)).collect(),
     };
+    for (joint, rate) in joints.iter().zip(&mut configuration.apart_rate) {
+        if *joint != Joint::Free {
+            *rate = [0.0; 2];
+        }
+    }
     (column, configuration)
 }
 
@@ -85,17 +84,22 @@ fn value(coordinate: &Coordinate, configuration: &Configuration) -> [f64; 2] {
 /// Largest difference of the two, relative to the largest acceleration; free angles and translations. `None` without a program.
 fn difference(random: &mut Random, joints: &[Joint]) -> Option<(f64, (usize, usize))> {
     let (column, configuration) = random_configuration(random, joints);
+    compare(random, &column, &configuration)
+}
+
+fn compare(random: &mut Random, column: &Column, configuration: &Configuration) -> Option<(f64, (usize, usize))> {
+    let joints = configuration.joints.as_slice();
     let kinetic: Vec<f64> = joints.iter().map(|_| random.within(0.0, 0.5)).collect();
     let ground = Ground { x: random.within(-8.0, 8.0), gravity: random.within(4.0, 15.0) };
     let coordinates = coordinates(joints);
-    let mut generated = Generated::new(&column, &configuration, &kinetic)?;
-    let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| value(coordinate, &configuration)).collect();
+    let mut generated = Generated::new(column, configuration, &kinetic)?;
+    let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| value(coordinate, configuration)).collect();
     let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
     let mut ours = vec![0.0; coordinates.len()];
     generated.accelerations(&values, &rates, ground, &mut ours);
-    let chain = Chain::new(&column, &configuration);
+    let chain = Chain::new(column, configuration);
     let rows = Rows::new(&chain, joints, &kinetic, &vec![0.0; joints.len()]);
-    let answer = rows.accelerations(&Rates::of(&configuration), ground).expect("moderate friction");
+    let answer = rows.accelerations(&Rates::of(configuration), ground).expect("moderate friction");
     let theirs = coordinates.iter().map(|coordinate| match coordinate {
         Coordinate::Angle(blocks) => answer.rates.omega[blocks.start],
         Coordinate::Slide(i) => answer.rates.slide[*i],
@@ -136,4 +140,31 @@ fn generated_programs_give_the_accelerations_of_the_rows_in_all_states() {
     let small =
         moving::COVERED.into_iter().filter(|(angles, translations)| *angles <= 3 && *translations <= 3 + angles);
     assert!(small.clone().all(|program| seen.contains(&program)), "not all programs were compared: {seen:?}");
+}
+
+/// States that stick run on the equations of displaced blocks: the pivots are those of the corners that the slides leave innermost.
+#[test]
+fn sticking_states_have_the_accelerations_of_the_rows() {
+    let mut random = Random(0x2545_F491_4F6C_DD1D);
+    for trial in 0..2000 {
+        let signs: Vec<i8> =
+            (0..1 + trial % MAX_BLOCKS.min(3)).map(|_| random.within(-1.5, 1.5).round() as i8).collect();
+        let pattern = Pattern::from_signs(&signs);
+        let all_stick = vec![Joint::Closed(Slip::Sticks); signs.len()];
+        let (column, _) = random_configuration(&mut random, &all_stick);
+        let slides = signs.iter().map(|_| random.within(-0.1, 0.1)).collect();
+        let Ok(column) = column.displaced(slides) else { continue };
+        let (mut theta, mut omega) = (Vec::new(), Vec::new());
+        for &sign in &signs {
+            let (below, rate) = (theta.last().copied().unwrap_or(0.0), omega.last().copied().unwrap_or(0.0));
+            theta.push(below + f64::from(sign) * random.within(0.0, 0.3));
+            omega.push(if sign == 0 { rate } else { random.within(-2.0, 2.0) });
+        }
+        let configuration = Configuration::sticking(&column, &pattern, &theta, &omega);
+        if pattern.dof() == 0 {
+            continue;
+        }
+        let worst = compare(&mut random, &column, &configuration).expect("the build has the equations of the mode").0;
+        assert!(worst < 1e-10, "{pattern}: {worst:e}");
+    }
 }

@@ -16,6 +16,7 @@ use super::problem::Problem;
 use super::rest;
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
+use crate::friction::generated::Generated;
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::friction::rows::{Answer, Coordinate, Rows, coordinates};
@@ -26,6 +27,7 @@ use crate::numerics::ode::explicit::{Explicit, System, Tableau};
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::numerics::ode::methods::{ForTableau, Method};
 use crate::response::Work;
+use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
 
 /// Where a run with friction is.
@@ -73,6 +75,8 @@ struct Smooth<'p> {
     friction: &'p Coefficients,
     base: Configuration,
     coordinates: Vec<Coordinate>,
+    /// Accelerations where the build has a program for the states; the rows serve the rest.
+    generated: Option<Generated>,
     gravity: f64,
     segment: &'p Segment,
     calls: usize,
@@ -124,6 +128,12 @@ impl System for Smooth<'_> {
     fn slope(&mut self, t: f64, x: &Vec<f64>, slope: &mut Vec<f64>) {
         let dof = self.coordinates.len();
         slope[..dof].copy_from_slice(&x[dof..]);
+        if let Some(generated) = &mut self.generated {
+            self.calls += 1;
+            let (values, rates) = x.split_at(dof);
+            let ground = Ground::at(self.segment, t, self.gravity);
+            return generated.accelerations(values, rates, ground, &mut slope[dof..]);
+        }
         let configuration = self.configuration(x);
         match self.answer(t, &configuration) {
             Some(answer) => {
@@ -222,6 +232,9 @@ impl<'p> Mover<'p> {
             friction: self.friction,
             base: from.configuration.clone(),
             coordinates: coordinates(&from.configuration.joints),
+            generated: (self.problem.scene.options.dynamics != DynamicsSource::Generic)
+                .then(|| Generated::new(self.column(), &from.configuration, &self.friction.kinetic))
+                .flatten(),
             gravity: self.column().gravity(),
             segment: &self.problem.ground[from.segment],
             calls: 0,

@@ -29,6 +29,10 @@ pub struct Symbols {
     pub psi: Expr,
     /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
     pub pivot: Vec<Expr>,
+    /// The same on the upper faces, length N: less the slides of interfaces that slide.
+    pub pivot_above: Vec<Expr>,
+    /// From the lower to the upper pivot of interfaces in flight, in the axes of the ground `[m]`, length N.
+    pub apart: Vec<Option<Vector>>,
     /// Half-heights `h_i [m]` of rectangles, length N.
     pub half_height: Vec<Expr>,
     /// Centroids in the axes of the blocks `[m]`, from the centre of the contact below, length N: `(0, h_i)` for rectangles.
@@ -98,6 +102,8 @@ impl Symbols {
             gravity,
             steady_gravity,
             psi,
+            pivot_above: pivot.clone(),
+            apart: vec![None; blocks],
             pivot,
             half_height,
             centroid,
@@ -119,20 +125,21 @@ impl Symbols {
 /// their `top` and `centroid` instead of `(0, 2 h)` and `(0, h)`.
 ///
 /// Blocks of one link share an angle: their body vectors are added before they are turned, so the pivots of closed
-/// interfaces cancel. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
+/// interfaces cancel. Where an interface slides, its pivots on the two faces differ; where it flies, a translation lies between them. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
 pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<Expr>]) -> Vec<Vector> {
     let zero = arena.zero();
     // The chain so far: one body vector (u, v) per run of blocks with equal angle, base first.
     let mut chain: Vec<(Option<Expr>, Vector)> = vec![(None, [symbols.pivot[0], zero])];
     let mut positions = Vec::with_capacity(angle_of_block.len());
     for (block, &angle) in angle_of_block.iter().enumerate() {
+        chain.extend(symbols.apart[block].map(|apart| (None, apart)));
         if chain.last().is_some_and(|(last, _)| *last != angle) {
             chain.push((angle, [zero, zero]));
         }
         let own = chain.len() - 1;
         let ([centroid_u, centroid_v], [top_u, top_v]) = (symbols.centroid[block], symbols.top[block]);
         let [u, v] = chain[own].1;
-        let base = arena.sub(u, symbols.pivot[block]);
+        let base = arena.sub(u, symbols.pivot_above[block]);
         let to_centroid = [arena.add(base, centroid_u), arena.add(v, centroid_v)];
         let mut position = [zero, zero];
         for (link, (angle, vector)) in chain.iter().enumerate() {
