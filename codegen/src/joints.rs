@@ -10,7 +10,7 @@
 //! A corner that slides is the upper block's, on the face below. `u` after the state (`+>u`) lets the upper face slide on the corner of the
 //! block below, which has other equations. Combinations of states are written like patterns, base first: `(+>,0<,f)`.
 
-use crate::pattern::{Interface, Linkage};
+use crate::pattern::{Interface, Linkage, Pattern};
 use std::fmt;
 
 /// How a contact resists sliding.
@@ -168,6 +168,16 @@ impl Joints {
     /// Free translations.
     pub fn translations(&self) -> usize {
         self.0.iter().map(|joint| joint.translations()).sum()
+    }
+
+    /// The pattern of states that all stick; `None` where an interface slides or flies.
+    pub fn pattern(&self) -> Option<Pattern> {
+        let state = |joint: &Joint| match joint {
+            Joint::Contact(interface, Slip::Sticks, _) => Some(*interface),
+            _ => None,
+        };
+        let states: Vec<Interface> = self.0.iter().map(state).collect::<Option<_>>()?;
+        Some(Pattern::from_states(&states))
     }
 
     /// Which interfaces turn.

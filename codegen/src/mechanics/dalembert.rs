@@ -40,6 +40,8 @@ pub struct Rows {
     pub symbols: Symbols,
     /// Angles, then translations, both base first.
     pub coordinates: Vec<Coordinate>,
+    /// Pivot offsets `[m]`, per interface; those of closed interfaces and of interfaces in flight do not occur.
+    pub pivots: Vec<Expr>,
     /// Coefficients of kinetic friction, per interface; only those of interfaces that slide occur.
     pub friction: Vec<Expr>,
     /// Positions of the centroids relative to the ground `[m]`, per block.
@@ -64,6 +66,7 @@ pub fn rows_of_motion(arena: &mut Arena, joints: &Joints) -> Rows {
             acceleration: symbols.alpha[link],
         })
         .collect();
+    let pivots = symbols.pivot.clone();
     let friction: Vec<Expr> =
         (1..=blocks).map(|i| arena.symbol(format!("mu_{i}"), Level::Scene, Unit::default())).collect();
     for (index, joint) in joints.0.iter().enumerate() {
@@ -89,8 +92,16 @@ pub fn rows_of_motion(arena: &mut Arena, joints: &Joints) -> Rows {
         }
     }
     let centroids = centroids(arena, &symbols, &block_angles(&symbols, &linkage));
-    let mut rows =
-        Rows { symbols, coordinates, friction, centroids, matrix: Vec::new(), bias: Vec::new(), forcing: Vec::new() };
+    let mut rows = Rows {
+        symbols,
+        coordinates,
+        pivots,
+        friction,
+        centroids,
+        matrix: Vec::new(),
+        bias: Vec::new(),
+        forcing: Vec::new(),
+    };
     rows.derive(arena, joints);
     rows
 }
