@@ -13,7 +13,7 @@ const UPPER: f64 = 30.0;
 const HEIGHT: f64 = 46.0;
 /// Angle of an interface that turns `[deg]`, way of a slide and height of a flight `[px]`.
 const TURN_DEG: f64 = 12.0;
-const SLIDE: f64 = 14.0;
+const SLIDE: f64 = 10.0;
 const FLIGHT: f64 = 16.0;
 
 /// Lengths on the page `[px]`: distances of the drawings, and of the lines of text below them.

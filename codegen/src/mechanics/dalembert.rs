@@ -33,6 +33,19 @@ pub enum Kind {
     Apart(usize, usize),
 }
 
+impl Kind {
+    /// The interface of a translation, from 1.
+    ///
+    /// # Panics
+    /// Of an angle.
+    fn interface(self) -> usize {
+        match self {
+            Kind::Slide(interface) | Kind::Apart(interface, _) => interface,
+            Kind::Angle(_) => unreachable!("an angle belongs to a link"),
+        }
+    }
+}
+
 /// The equations of motion of one combination of states: `Σ_b matrix[a][b] q̈_b + bias[a] + forcing[a] = 0`.
 #[derive(Debug)]
 pub struct Rows {
@@ -107,13 +120,75 @@ pub fn rows_of_motion(arena: &mut Arena, joints: &Joints) -> Rows {
 }
 
 fn translation(arena: &mut Arena, kind: Kind, name: String) -> Coordinate {
+    // A slide is in moments and levers, which are taken at the slides of the moment; that it changes is in the derivatives.
+    let value = arena.symbol(name.as_str(), Level::Scene, Unit(1, 0, 0));
     let mut symbol = |suffix: &str, unit: Unit| arena.symbol(format!("{name}{suffix}"), Level::State, unit);
-    let value = symbol("", Unit(1, 0, 0));
     let (rate, acceleration) = (symbol("_dot", Unit(1, 0, -1)), symbol("_ddot", Unit(1, 0, -2)));
     Coordinate { kind, value, rate, acceleration }
 }
 
+/// What the links and translations of a combination of states carry, at the slides of the moment. Vectors are (lateral, axial), to the right and
+/// along the axis of a link, upwards.
+#[derive(Clone, Debug)]
+pub struct Quantities {
+    /// Moments of inertia about the pivots of the links, with all masses above in the next pivot `[kg m²]`.
+    pub inertia: Vec<Expr>,
+    /// First moments of the same `[kg m]`.
+    pub moment: Vec<Vector>,
+    /// From the pivot of each link to the next, of all but the last `[m]`.
+    pub lever: Vec<Vector>,
+    /// Mass that each translation carries `[kg]`.
+    pub mass: Vec<Expr>,
+    /// First moment of that mass about the pivot of each link `[kg m]`, `[translation][link]`.
+    pub carried: Vec<Vec<Vector>>,
+}
+
 impl Rows {
+    /// Reads the derivation backwards into what its links and translations carry.
+    ///
+    /// # Panics
+    /// If first moments do not turn with their links, which those of rigid bodies do.
+    pub fn quantities(&self, arena: &mut Arena) -> Quantities {
+        let angles = self.symbols.theta.len();
+        let last = self.centroids.len() - 1;
+        let inertia = (0..angles).map(|link| arena.expand(self.matrix[link][link])).collect();
+        let moment = (0..angles).map(|link| self.first_moment(arena, 0, link)).collect();
+        let lever = (1..angles)
+            .map(|above| {
+                let derivative = jacobian(arena, self.centroids[last], self.symbols.theta[above - 1]);
+                self.in_link(arena, derivative, above - 1)
+            })
+            .collect();
+        let interfaces: Vec<usize> = self.coordinates[angles..].iter().map(|each| each.kind.interface()).collect();
+        let mass =
+            interfaces.iter().map(|&interface| arena.total(self.symbols.mass[interface - 1..].to_vec())).collect();
+        let carried = interfaces
+            .iter()
+            .map(|interface| (0..angles).map(|link| self.first_moment(arena, interface - 1, link)).collect())
+            .collect();
+        Quantities { inertia, moment, lever, mass, carried }
+    }
+
+    /// `Σ_{i>=first} m_i ∂G_i/∂θ_a = R'(θ_a) (lateral, axial)`
+    fn first_moment(&self, arena: &mut Arena, first: usize, link: usize) -> Vector {
+        let mut total = [Vec::new(), Vec::new()];
+        for block in first..self.centroids.len() {
+            let derivative = jacobian(arena, self.centroids[block], self.symbols.theta[link]);
+            for (terms, component) in total.iter_mut().zip(derivative) {
+                terms.push(arena.mul(self.symbols.mass[block], component));
+            }
+        }
+        let total = total.map(|terms| arena.total(terms));
+        self.in_link(arena, total, link)
+    }
+
+    /// `(u, v)` of the derivative `(v cos θ - u sin θ, -u cos θ - v sin θ)` of a vector that turns with a link.
+    fn in_link(&self, arena: &mut Arena, [x, _]: Vector, link: usize) -> Vector {
+        let turned = arena.as_turned(x, self.symbols.theta[link]);
+        let [axial, opposite] = turned.expect("the first moment of rigid bodies turns with its link");
+        [arena.neg(opposite), axial]
+    }
+
     fn derive(&mut self, arena: &mut Arena, joints: &Joints) {
         let links = joints.linkage().link_of_block();
         let derivatives: Vec<[Expr; 3]> =

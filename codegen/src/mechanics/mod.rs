@@ -12,7 +12,7 @@ mod translation;
 
 pub(crate) use contact::normal_and_tangent;
 pub use contact::{InterfaceForces, interface_forces};
-pub use dalembert::{Coordinate, Kind, Rows, rows_of_motion};
+pub use dalembert::{Coordinate, Kind, Quantities, Rows, rows_of_motion};
 pub(crate) use kinematics::block_angles;
 pub use kinematics::{Bodies, Symbols, Vector, centroids};
 pub use lagrange::{Equations, equations_of_motion};
