@@ -4,8 +4,9 @@
 //! the contact has one point on the lower face, at `p` from its middle, and `p - u` on the upper one (docs/book/model.md, section 1). States without a
 //! translation run on the equations of displaced blocks.
 
+use super::chain::Rates;
 use super::joint::{Configuration, Face, Joint, Slip};
-use super::rows::{Coordinate, coordinates};
+use super::rows::{self, Coordinate, coordinates};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::generated::{MovingEquations, MovingLists, moving};
@@ -86,6 +87,18 @@ impl Generated {
             }
             Equations::Moving(moving) => moving.accelerations(values, rates, ground, accelerations),
         }
+    }
+}
+
+impl Generated {
+    /// Second derivatives of all coordinates of a configuration in these states; `None` where the rows do not determine them.
+    pub fn rates(&mut self, configuration: &Configuration, ground: Ground) -> Option<Rates> {
+        let both: Vec<[f64; 2]> = self.coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
+        let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
+        let mut accelerations = vec![0.0; both.len()];
+        self.accelerations(&values, &rates, ground, &mut accelerations);
+        let is_determined = accelerations.iter().all(|value| value.is_finite());
+        is_determined.then(|| rows::rates(&self.coordinates, &accelerations, configuration.joints.len()))
     }
 }
 

@@ -73,14 +73,6 @@ fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Confi
     (column, configuration)
 }
 
-fn value(coordinate: &Coordinate, configuration: &Configuration) -> [f64; 2] {
-    match coordinate {
-        Coordinate::Angle(blocks) => [configuration.theta[blocks.start], configuration.omega[blocks.start]],
-        Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
-        Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
-    }
-}
-
 /// Largest difference of the two, relative to the largest acceleration; free angles and translations. `None` without a program.
 fn difference(random: &mut Random, joints: &[Joint]) -> Option<(f64, (usize, usize))> {
     let (column, configuration) = random_configuration(random, joints);
@@ -93,7 +85,7 @@ fn compare(random: &mut Random, column: &Column, configuration: &Configuration) 
     let ground = Ground { x: random.within(-8.0, 8.0), gravity: random.within(4.0, 15.0) };
     let coordinates = coordinates(joints);
     let mut generated = Generated::new(column, configuration, &kinetic)?;
-    let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| value(coordinate, configuration)).collect();
+    let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
     let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
     let mut ours = vec![0.0; coordinates.len()];
     generated.accelerations(&values, &rates, ground, &mut ours);
@@ -197,7 +189,7 @@ fn speed_of_the_programs_against_the_rows() {
         let ground = Ground { x: 3.0, gravity: 9.81 };
         let coordinates = coordinates(&joints);
         let mut generated = Generated::new(&column, &configuration, &kinetic).expect("as before");
-        let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| value(coordinate, &configuration)).collect();
+        let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| coordinate.of(&configuration)).collect();
         let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
         let mut accelerations = vec![0.0; coordinates.len()];
         let seconds = |call: &mut dyn FnMut()| {

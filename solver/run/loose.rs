@@ -19,7 +19,7 @@ use crate::friction::chain::{Chain, Rates};
 use crate::friction::generated::Generated;
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::{Configuration, Joint, Slip};
-use crate::friction::rows::{Answer, Coordinate, Rows, coordinates};
+use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};
 use crate::friction::search::{Coefficients, centre};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
@@ -85,12 +85,7 @@ struct Smooth<'p> {
 impl Smooth<'_> {
     /// Values and rates of the free coordinates of a configuration, length 2·dof.
     fn state(&self, configuration: &Configuration) -> Vec<f64> {
-        let value = |coordinate: &Coordinate| match coordinate {
-            Coordinate::Angle(range) => [configuration.theta[range.start], configuration.omega[range.start]],
-            Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
-            Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
-        };
-        let both: Vec<[f64; 2]> = self.coordinates.iter().map(value).collect();
+        let both: Vec<[f64; 2]> = self.coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
         both.iter().map(|x| x[0]).chain(both.iter().map(|x| x[1])).collect()
     }
 
@@ -117,8 +112,12 @@ impl Smooth<'_> {
         let chain = Chain::new(self.column, configuration);
         let centres: Vec<f64> =
             (0..self.column.len()).map(|i| centre(self.column, i, configuration.slide[i])).collect();
-        let rows = Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres);
-        rows.accelerations(&Rates::of(configuration), Ground::at(self.segment, t, self.gravity))
+        let (rates, ground) = (Rates::of(configuration), Ground::at(self.segment, t, self.gravity));
+        if let Some(generated) = &mut self.generated {
+            let second = generated.rates(configuration, ground)?;
+            return Some(answer_to(&chain, &configuration.joints, &centres, second, &rates, ground));
+        }
+        Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres).accelerations(&rates, ground)
     }
 }
 
