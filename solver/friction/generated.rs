@@ -1,6 +1,6 @@
 //! Accelerations by generated programs, where this build has one for the free angles and translations of the states.
 //!
-//! A program reads what its links and translations carry at the slides of the moment: sums over the blocks, from the top down. Between two links,
+//! A program reads what its links and translations carry at the slides of the moment: sums over the blocks of each link, and the mass above. Between two links,
 //! the contact has one point on the lower face, at `p` from its middle, and `p - u` on the upper one (docs/book/model.md, section 1). States without a
 //! translation run on the equations of displaced blocks.
 
