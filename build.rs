@@ -19,11 +19,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Ok(text) => text.trim().parse().map_err(|_| format!("ROCKING_MAX_BLOCKS = `{text}` is not a whole number"))?,
         Err(_) => (6..=8).rev().find(has_feature).unwrap_or(DEFAULT_MAX_BLOCKS),
     };
-    let text = rocking_codegen::generate(max_blocks)?;
-    std::fs::write(PathBuf::from(std::env::var("OUT_DIR")?).join("equations.rs"), &text)?;
-    if let Some(folder) = std::env::var_os("ROCKING_DUMP_DIR").map(PathBuf::from) {
-        std::fs::create_dir_all(&folder)?;
-        std::fs::write(folder.join(format!("equations_{max_blocks}.rs")), &text)?;
+    let out = PathBuf::from(std::env::var("OUT_DIR")?);
+    let dump = std::env::var_os("ROCKING_DUMP_DIR").map(PathBuf::from);
+    dump.iter().try_for_each(std::fs::create_dir_all)?;
+    for (name, text) in rocking_codegen::modules(max_blocks)? {
+        let dumped = dump.iter().map(|folder| folder.join(format!("{name}_{max_blocks}.rs")));
+        dumped.chain([out.join(format!("{name}.rs"))]).try_for_each(|file| std::fs::write(file, &text))?;
     }
     Ok(())
 }

@@ -332,6 +332,11 @@ impl Column {
         self.blocks.iter().fold(0.0, |size, block| size.max(block.half_height + block.half_width()))
     }
 
+    /// Mass of all blocks `[kg]`.
+    pub(crate) fn mass(&self) -> f64 {
+        self.blocks.iter().map(|block| block.mass).sum()
+    }
+
     /// `[m/s²]`
     pub fn gravity(&self) -> f64 {
         self.gravity

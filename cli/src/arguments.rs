@@ -82,14 +82,20 @@ pub enum Command {
         /// Print JSON instead of text.
         #[arg(long, conflicts_with = "svg")]
         json: bool,
+        /// List the programs of states that slide and fly instead, by free angles and translations; with --svg, draw the ten states of an
+        /// interface.
+        #[arg(long)]
+        friction: bool,
     },
-    /// Print the derivation or the generated code of a mode.
+    /// Print the derivation or the generated code of a mode, or of states that slide and fly.
     Derive {
         /// Number of blocks.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
-        /// Mode K.J: lowest open interface, number among the states of those above.
-        #[arg(long, value_name = "K.J")]
+        /// Mode K.J: lowest open interface, number among the states of those above. Or the states of all interfaces, base first, like
+        /// "(+>,0,f)": closed (0), on the right or left corner (+, -), sliding to the right or left (> or < after it), free (f). `u` after a
+        /// corner that slides: the upper face slides on the corner below.
+        #[arg(long, value_name = "K.J|STATES")]
         mode: String,
         /// Print operation counts before and after each pass instead.
         #[arg(long, conflicts_with = "format")]

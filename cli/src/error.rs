@@ -4,6 +4,7 @@ use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::run_folder::FolderError;
 use rocking::{RecordError, SceneFileError, SolveError};
+use rocking_codegen::joints::JointsError;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -80,6 +81,17 @@ pub enum Failure {
     /// There is no such mode in a column of so many blocks.
     #[error("--mode {0}: a column of {1} block(s) has no such mode; `rocking modes --blocks {1}` lists them")]
     Mode(String, usize),
+    /// States of interfaces that cannot be read.
+    #[error("--mode {0}: {1}")]
+    States(String, JointsError),
+    /// States of another number of interfaces.
+    #[error("--mode {given}: {states} state(s) for {blocks} block(s); give one per interface, base first")]
+    StateCount { given: String, states: usize, blocks: usize },
+    /// States in which nothing moves.
+    #[error(
+        "--mode {0}: nothing moves in these states, so that there is nothing to derive; open an interface or let it slide"
+    )]
+    AtRest(String),
     /// The run of a scene could not be finished.
     #[error("{}: {error} ({} is left as it was)", scene.display(), out.display())]
     Solve { scene: PathBuf, out: PathBuf, error: SolveError },

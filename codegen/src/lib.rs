@@ -16,7 +16,9 @@ mod derivation;
 pub mod emit;
 mod error;
 mod ground;
+pub mod joints;
 pub mod mechanics;
+pub mod moving;
 pub mod optimise;
 pub mod pattern;
 #[cfg(feature = "report")]
@@ -35,6 +37,26 @@ pub use ground::GroundMotion;
 #[cfg(feature = "emit")]
 pub fn generate(max_blocks: usize) -> Result<String, GenerateError> {
     Ok(emit::module(&catalogue(max_blocks)?))
+}
+
+/// The module of the programs with translations, of interfaces that slide and fly, for columns of up to `max_blocks` blocks, as formatted
+/// Rust; the same text on every run.
+///
+/// # Errors
+/// As [`moving::moving_catalogue`].
+#[cfg(feature = "emit")]
+pub fn generate_moving(max_blocks: usize) -> Result<String, GenerateError> {
+    Ok(emit::moving_module(max_blocks, &moving::moving_catalogue(max_blocks)?))
+}
+
+/// The modules that a build for columns of up to `max_blocks` blocks includes, with the names of their files: that of [`generate`] and that
+/// of [`generate_moving`].
+///
+/// # Errors
+/// As [`catalogue()`].
+#[cfg(feature = "emit")]
+pub fn modules(max_blocks: usize) -> Result<[(&'static str, String); 2], GenerateError> {
+    Ok([("equations", generate(max_blocks)?), ("moving", generate_moving(max_blocks)?)])
 }
 
 /// The module of one column of given sizes, its scene constants literals, as formatted Rust.

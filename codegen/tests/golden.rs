@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 #[test]
 fn emitted_code_for_small_columns_is_as_reviewed() {
-    for blocks in [1, 2] {
-        let emitted = rocking_codegen::generate(blocks).expect("a valid size");
-        let name = format!("tests/golden/equations_{blocks}.txt");
+    let equations = [1, 2].map(|blocks| (format!("equations_{blocks}"), rocking_codegen::generate(blocks)));
+    let moving = ("moving_1".to_string(), rocking_codegen::generate_moving(1));
+    for (name, emitted) in equations.into_iter().chain([moving]) {
+        let emitted = emitted.expect("a valid size");
+        let name = format!("tests/golden/{name}.txt");
         let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name);
         if std::env::var_os("BLESS").is_some() {
             std::fs::write(&path, &emitted).expect("the golden can be written");
@@ -22,7 +24,8 @@ fn emitted_code_for_small_columns_is_as_reviewed() {
 fn emitted_code_is_written_for_a_reader() {
     let baked = BakedColumn { gravity: 9.81, blocks: vec![BakedBlock::rectangle(0.4, 0.6, 2000.0); 3] };
     let baked = rocking_codegen::generate_baked(&baked).expect("valid sizes");
-    for text in [rocking_codegen::generate(5).expect("a valid size"), baked] {
+    let modules = rocking_codegen::modules(5).expect("a valid size").map(|(_, text)| text);
+    for text in modules.into_iter().chain([baked]) {
         for unnamed in ["constant_1", "shared_", "coefficient_of", "other_"] {
             assert!(!text.contains(unnamed), "a quantity is called {unnamed}…");
         }
@@ -79,7 +82,9 @@ fn output_does_not_depend_on_the_folder() {
 #[test]
 fn sizes_out_of_range_are_refused_with_the_remedy() {
     for blocks in [0, rocking_codegen::LARGEST + 1] {
-        let error = rocking_codegen::generate(blocks).expect_err("out of range").to_string();
-        assert!(error.contains("ROCKING_MAX_BLOCKS") && error.contains("from 1 to 12"), "{error}");
+        for result in [rocking_codegen::generate(blocks), rocking_codegen::generate_moving(blocks)] {
+            let error = result.expect_err("out of range").to_string();
+            assert!(error.contains("ROCKING_MAX_BLOCKS") && error.contains("from 1 to 12"), "{error}");
+        }
     }
 }

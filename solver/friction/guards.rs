@@ -35,10 +35,6 @@ pub enum Guard {
     Overturn(usize),
 }
 
-/// Share of the column's weight by which the force at a contact must violate a condition: contacts that are exactly critical, as flat interfaces
-/// of equal friction above each other, do not start to slide by rounding. Less than the share by which a search takes a condition for violated.
-const FORCE_SLACK: f64 = 3e-11;
-
 impl Guard {
     /// Whether its value may start from zero: a gap that has just opened, a slide that has just begun.
     pub fn may_start_from_zero(self) -> bool {
@@ -85,25 +81,28 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
     guards
 }
 
+/// What guards compare with.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits<'a> {
+    pub friction: &'a Coefficients,
+    /// `[rad]`
+    pub overturn_angle: f64,
+    /// Violation of a condition on forces that is rounding `[N]`.
+    pub slack: f64,
+}
+
 /// The value of a guard, above zero while nothing happens; `answer` is needed where forces are.
-pub fn value(
-    guard: Guard,
-    column: &Column,
-    now: &Configuration,
-    answer: Option<&Answer>,
-    friction: &Coefficients,
-    overturn_angle: f64,
-) -> f64 {
+pub fn value(guard: Guard, column: &Column, now: &Configuration, answer: Option<&Answer>, limits: Limits) -> f64 {
     let contact = |interface: usize| answer.map(|answer| answer.contacts[interface]).unwrap_or_default();
-    let slack = || FORCE_SLACK * column.gravity() * column.blocks().iter().map(|block| block.mass).sum::<f64>();
+    let Limits { friction, overturn_angle, slack } = limits;
     match guard {
         Guard::Cone(i, side) => {
             let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), contact(i), friction.fixed[i]);
-            slack() + if side < 0 { to_left } else { to_right }
+            slack + if side < 0 { to_left } else { to_right }
         }
-        Guard::Press(i) => contact(i).normal + slack(),
+        Guard::Press(i) => contact(i).normal + slack,
         Guard::Tip(i, side) => {
-            half_length(column, i, now.slide[i]) * (contact(i).normal + slack()) + f64::from(side) * contact(i).moment
+            half_length(column, i, now.slide[i]) * (contact(i).normal + slack) + f64::from(side) * contact(i).moment
         }
         Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
         Guard::Close(i) => {

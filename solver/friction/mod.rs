@@ -3,7 +3,8 @@
 //! A contact of the model without sliding transmits whatever force holds its blocks together. Here the tangential force obeys Coulomb's
 //! law and the normal force is a pressure, so that an interface has ten states instead of three ([`joint`]). Motions are described by
 //! coordinates that keep the contacts by themselves: an angle for each link, a slide for each interface that slides, two translations for each
-//! that is free ([`chain`]). The equations of motion are rows of d'Alembert's principle ([`rows`]); which state follows an event is searched for among
+//! that is free ([`chain`]). The equations of motion are rows of d'Alembert's principle ([`rows`]), generated ones where the
+//! build has them ([`generated`]); which state follows an event is searched for among
 //! the admissible ones ([`search`]); what ends a state are zeros of guards ([`guards`]).
 //!
 //! Time does not pass here: `run/` integrates.
@@ -11,11 +12,14 @@
 pub mod chain;
 mod complementarity;
 pub mod gaps;
+pub mod generated;
 pub mod guards;
 pub mod joint;
 pub mod rows;
 pub mod search;
 
+#[cfg(test)]
+mod generated_test;
 #[cfg(test)]
 mod oracle_test;
 

@@ -11,7 +11,7 @@
 //! they are the jumps of velocity, and forces are impulses.
 
 use super::chain::{Chain, Motion, Rates};
-use super::joint::{Joint, Slip};
+use super::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
 
@@ -24,6 +24,17 @@ pub enum Coordinate {
     Slide(usize),
     /// A translation of a free interface: horizontal (0) or vertical (1).
     Apart(usize, usize),
+}
+
+impl Coordinate {
+    /// Its value and rate in a configuration.
+    pub fn of(&self, configuration: &Configuration) -> [f64; 2] {
+        match self {
+            Coordinate::Angle(blocks) => [configuration.theta[blocks.start], configuration.omega[blocks.start]],
+            Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
+            Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
+        }
+    }
 }
 
 /// The free coordinates of these states, base first.
@@ -115,12 +126,7 @@ impl<'c, 'a> Rows<'c, 'a> {
             _ => column.clone(),
         };
         let tests = columns.iter().zip(&coordinates).map(test).collect();
-        let point = |(interface, joint): (usize, &Joint)| match joint {
-            Joint::Corner(..) => chain.pivot(interface),
-            _ => chain.on_lower_face(interface, centres[interface]),
-        };
-        let points = joints.iter().enumerate().map(point).collect();
-        Rows { chain, coordinates, columns, tests, points }
+        Rows { chain, coordinates, columns, tests, points: points(chain, joints, centres) }
     }
 
     /// `Σ m_j a_j · δr_j + I_j α_j δθ_j`
@@ -148,13 +154,10 @@ impl<'c, 'a> Rows<'c, 'a> {
 
     /// The accelerations at these rates on a moving ground.
     pub fn accelerations(&self, rates_now: &Rates, ground: Ground) -> Option<Answer> {
-        let mut imposed = self.chain.imposed(rates_now);
-        imposed.iter_mut().for_each(|a| *a = [a[0] + ground.x, a[1] + ground.gravity]);
+        let imposed = imposed(self.chain, rates_now, ground);
         let loads = (0..self.coordinates.len()).map(|row| -self.work(row, &imposed, None)).collect();
         let rates = rates(&self.coordinates, &self.solve(loads)?, self.chain.len());
-        let own = self.chain.motion(&rates);
-        let linear = own.linear.iter().zip(&imposed).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect();
-        Some(self.answer(rates, Motion { linear, angular: own.angular }))
+        Some(accelerated(self.chain, &self.points, rates, &imposed))
     }
 
     /// The velocities after an impact of blocks that move like this before.
@@ -163,32 +166,66 @@ impl<'c, 'a> Rows<'c, 'a> {
             (0..self.coordinates.len()).map(|row| self.work(row, &before.linear, Some(&before.angular))).collect();
         let rates = rates(&self.coordinates, &self.solve(loads)?, self.chain.len());
         let change = self.chain.motion(&rates).less(before);
-        Some(self.answer(rates, change))
+        Some(answer(self.chain, &self.points, rates, change))
     }
 
     /// What contacts transmit in an impact that leaves these rates.
     pub fn given(&self, rates: Rates, before: &Motion) -> Answer {
         let change = self.chain.motion(&rates).less(before);
-        self.answer(rates, change)
+        answer(self.chain, &self.points, rates, change)
     }
+}
 
-    fn answer(&self, rates: Rates, change: Motion) -> Answer {
-        let blocks = self.chain.column().blocks();
-        let contact = |interface: usize| {
-            let ([along, across], point) = (self.chain.axes(interface), self.points[interface]);
-            let (mut force, mut moment) = ([0.0, 0.0], 0.0);
-            for (j, block) in blocks.iter().enumerate().skip(interface) {
-                let load = change.linear[j].map(|a| block.mass * a);
-                let r = [self.chain.centroid[j][0] - point[0], self.chain.centroid[j][1] - point[1]];
-                force = [force[0] + load[0], force[1] + load[1]];
-                moment += block.inertia * change.angular[j] + r[1] * load[0] - r[0] * load[1];
-            }
-            let dot = |axis: Vec2| axis[0] * force[0] + axis[1] * force[1];
-            ContactForce { normal: dot(across), tangential: dot(along), moment }
-        };
-        let contacts = (0..blocks.len()).map(contact).collect();
-        Answer { rates, change, contacts }
-    }
+/// What second derivatives of the coordinates give, whatever determined them; `centres` as of [`Rows::new`].
+pub fn answer_to(
+    chain: &Chain,
+    joints: &[Joint],
+    centres: &[f64],
+    rates: Rates,
+    rates_now: &Rates,
+    ground: Ground,
+) -> Answer {
+    accelerated(chain, &points(chain, joints, centres), rates, &imposed(chain, rates_now, ground))
+}
+
+/// Centre or point of each contact `[m]`.
+fn points(chain: &Chain, joints: &[Joint], centres: &[f64]) -> Vec<Vec2> {
+    let point = |(interface, joint): (usize, &Joint)| match joint {
+        Joint::Corner(..) => chain.pivot(interface),
+        _ => chain.on_lower_face(interface, centres[interface]),
+    };
+    joints.iter().enumerate().map(point).collect()
+}
+
+/// Accelerations of the centroids less gravity that rates and ground cause `[m/s²]`.
+fn imposed(chain: &Chain, rates_now: &Rates, ground: Ground) -> Vec<Vec2> {
+    let mut imposed = chain.imposed(rates_now);
+    imposed.iter_mut().for_each(|a| *a = [a[0] + ground.x, a[1] + ground.gravity]);
+    imposed
+}
+
+fn accelerated(chain: &Chain, points: &[Vec2], rates: Rates, imposed: &[Vec2]) -> Answer {
+    let own = chain.motion(&rates);
+    let linear = own.linear.iter().zip(imposed).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect();
+    answer(chain, points, rates, Motion { linear, angular: own.angular })
+}
+
+fn answer(chain: &Chain, points: &[Vec2], rates: Rates, change: Motion) -> Answer {
+    let blocks = chain.column().blocks();
+    let contact = |interface: usize| {
+        let ([along, across], point) = (chain.axes(interface), points[interface]);
+        let (mut force, mut moment) = ([0.0, 0.0], 0.0);
+        for (j, block) in blocks.iter().enumerate().skip(interface) {
+            let load = change.linear[j].map(|a| block.mass * a);
+            let r = [chain.centroid[j][0] - point[0], chain.centroid[j][1] - point[1]];
+            force = [force[0] + load[0], force[1] + load[1]];
+            moment += block.inertia * change.angular[j] + r[1] * load[0] - r[0] * load[1];
+        }
+        let dot = |axis: Vec2| axis[0] * force[0] + axis[1] * force[1];
+        ContactForce { normal: dot(across), tangential: dot(along), moment }
+    };
+    let contacts = (0..blocks.len()).map(contact).collect();
+    Answer { rates, change, contacts }
 }
 
 /// `x` of `A x = b` by elimination with partial pivoting, `A` row by row; `None` if a pivot vanishes.

@@ -59,8 +59,11 @@ pub struct Solution {
     pub is_ambiguous: bool,
 }
 
-/// Share of the forces, or velocities, at work below which a condition is violated by rounding only.
-const ROUNDING_SHARE: f64 = 1e-10;
+/// Share of the velocities and impulses at work in an impact below which a condition is violated by rounding only.
+const IMPACT_SHARE: f64 = 1e-10;
+
+/// The same of accelerations and forces. A guard asks for twice as much ([`force_slack`]), so that what ends a state is no rounding here.
+const ACCELERATION_SHARE: f64 = 1e-11;
 
 /// Share of the speed at work by which an impact must change some velocity to be one.
 const JUMP_SHARE: f64 = 1e-9;
@@ -82,15 +85,29 @@ pub struct Search<'a> {
     friction: &'a Coefficients,
     question: Question,
     now_rates: Rates,
-    /// The size of forces, or impulses, of accelerations, or velocities, and of angular ones.
-    scale: Scale,
+    /// The size of accelerations, or velocities.
+    linear: f64,
+    slack: Slack,
 }
 
+/// By how much conditions may be violated by rounding: on forces or impulses, on accelerations or velocities, and on angular ones.
 #[derive(Clone, Copy, Debug)]
-struct Scale {
+struct Slack {
     force: f64,
     linear: f64,
     angular: f64,
+}
+
+/// The size of the accelerations at work `[m/s²]`.
+fn acceleration_scale(column: &Column, now: &Configuration, ground: Ground) -> f64 {
+    let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
+    ground.x.abs() + ground.gravity.abs() + 1e-3 * column.gravity() + fastest * fastest * column.size()
+}
+
+/// By how much a force must violate a condition to end a state `[N]`: contacts that are exactly critical, as flat interfaces of equal friction above each
+/// other, do not start to slide by rounding, and what the search for the next states takes for rounding ends none.
+pub fn force_slack(column: &Column, now: &Configuration, ground: Ground) -> f64 {
+    2.0 * ACCELERATION_SHARE * column.mass() * acceleration_scale(column, now, ground)
 }
 
 impl<'a> Search<'a> {
@@ -103,20 +120,18 @@ impl<'a> Search<'a> {
         question: Question,
     ) -> Search<'a> {
         let size = column.size();
-        let mass: f64 = column.blocks().iter().map(|block| block.mass).sum();
-        let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
-        let linear = match &question {
-            Question::Accelerations(ground) => {
-                ground.x.abs() + ground.gravity.abs() + 1e-3 * column.gravity() + fastest * fastest * size
-            }
+        let (linear, share) = match &question {
+            Question::Accelerations(ground) => (acceleration_scale(column, now, *ground), ACCELERATION_SHARE),
             Question::Impact(before) => {
                 let sizes = before.linear.iter().zip(&before.angular);
-                sizes.fold(0.0f64, |most, (v, w)| most.max(v[0].abs() + v[1].abs() + w.abs() * size))
+                let speed = sizes.fold(0.0f64, |most, (v, w)| most.max(v[0].abs() + v[1].abs() + w.abs() * size));
+                (speed, IMPACT_SHARE)
             }
         };
-        let scale = Scale { force: mass * linear, linear, angular: linear / size };
+        let slack = share * linear;
+        let slack = Slack { force: column.mass() * slack, linear: slack, angular: slack / size };
         let now_rates = Rates::of(now);
-        Search { column, now, touch, friction, question, now_rates, scale }
+        Search { column, now, touch, friction, question, now_rates, linear, slack }
     }
 
     /// The states that follow; `None` if none is admissible.
@@ -165,7 +180,7 @@ impl<'a> Search<'a> {
             Question::Accelerations(_) => joints != excluded,
             Question::Impact(_) => {
                 let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
-                fastest > JUMP_SHARE * self.scale.linear
+                fastest > JUMP_SHARE * self.linear
             }
         };
         self.tried(&self.first(), is_other)
@@ -184,8 +199,7 @@ impl<'a> Search<'a> {
             let holds = self.answer(&joints).is_some_and(|answer| {
                 let along = f64::from(direction) * answer.rates.slide[interface];
                 let is_given = self.given_slip(interface).is_some();
-                answer.contacts[interface].normal >= -ROUNDING_SHARE * self.scale.force
-                    && (is_given || along >= -ROUNDING_SHARE * self.scale.linear)
+                answer.contacts[interface].normal >= -self.slack.force && (is_given || along >= -self.slack.linear)
             });
             if !holds {
                 joints[interface] = Joint::Free;
@@ -325,7 +339,7 @@ impl<'a> Search<'a> {
         let (_, _, joints, answer) = admissible.first()?.clone();
         let is_other = |other: &Answer| {
             let pairs = other.change.linear.iter().zip(&answer.change.linear);
-            pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > 1e-6 * self.scale.linear)
+            pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > 1e-6 * self.linear)
         };
         let is_ambiguous = admissible.iter().any(|(_, _, _, other)| is_other(other));
         Some(Solution { joints, answer, is_ambiguous })
@@ -334,7 +348,7 @@ impl<'a> Search<'a> {
     /// The state that a violated condition of an interface names; `None` if all conditions hold.
     fn required(&self, joints: &[Joint], answer: &Answer, interface: usize) -> Option<Joint> {
         let (joint, contact) = (joints[interface], answer.contacts[interface]);
-        let slack = ROUNDING_SHARE * self.scale.force;
+        let slack = self.slack.force;
         match joint {
             Joint::Free => self.sinks(answer, interface),
             Joint::Closed(slip) => {
@@ -354,7 +368,7 @@ impl<'a> Search<'a> {
                     return Some(Joint::Free);
                 }
                 let opening = f64::from(side) * difference(&answer.rates.omega, interface);
-                if self.touch[interface] == Touch::Faces && opening < -ROUNDING_SHARE * self.scale.angular {
+                if self.touch[interface] == Touch::Faces && opening < -self.slack.angular {
                     return Some(Joint::Closed(slip));
                 }
                 self.wrong_slip(interface, joint, answer).map(|slip| self.corner(interface, side, slip))
@@ -364,7 +378,7 @@ impl<'a> Search<'a> {
 
     /// The slip that a violated condition names.
     fn wrong_slip(&self, interface: usize, joint: Joint, answer: &Answer) -> Option<Slip> {
-        let slack = ROUNDING_SHARE * self.scale.force;
+        let slack = self.slack.force;
         match joint.slip()? {
             Slip::Sticks => {
                 if let Some(slip) = self.given_slip(interface) {
@@ -387,7 +401,7 @@ impl<'a> Search<'a> {
                 match self.given_slip(interface) {
                     // A slide that goes on against its rate would lose that rate at once.
                     Some(given) => (Some(given) != joint.slip()).then_some(given),
-                    None => (along < -ROUNDING_SHARE * self.scale.linear).then_some(Slip::Sticks),
+                    None => (along < -self.slack.linear).then_some(Slip::Sticks),
                 }
             }
         }
@@ -395,7 +409,7 @@ impl<'a> Search<'a> {
 
     /// The contact of a free interface that would sink in.
     fn sinks(&self, answer: &Answer, interface: usize) -> Option<Joint> {
-        let slack = -ROUNDING_SHARE * self.scale.linear;
+        let slack = -self.slack.linear;
         match self.touch[interface] {
             Touch::Nothing => None,
             Touch::Corner(side) => {

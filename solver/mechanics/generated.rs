@@ -43,6 +43,13 @@ pub mod equations {
     include!(concat!(env!("OUT_DIR"), "/equations.rs"));
 }
 
+/// Code written by `rocking_codegen` for this build, of interfaces that slide and fly.
+#[allow(clippy::all, clippy::pedantic, unused_variables, reason = "generated code is laid out for reading")]
+pub mod moving {
+    include!(concat!(env!("OUT_DIR"), "/moving.rs"));
+}
+
+pub use super::moving::{MovingEquations, MovingLists, moving_equations};
 pub use equations::{EQUATIONS, MAX_BLOCKS};
 
 /// Equations that the solver can run on: what a generated module offers as `EQUATIONS`.

@@ -12,5 +12,6 @@ pub(crate) mod harmonics;
 pub(crate) mod integrator;
 pub(crate) mod links;
 pub(crate) mod margins;
+pub(crate) mod moving;
 pub(crate) mod pendulum;
 pub(crate) mod rocker;

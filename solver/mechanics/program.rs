@@ -154,6 +154,57 @@ pub trait EnergyProgram<S: Scalar> {
     ) -> [S; 2];
 }
 
+/// What the links and translations of a column carry, at the slides of the moment, in SI units. Vectors are [lateral, axial] components in
+/// the axes of a link: across its axis to the left, and along it upwards.
+#[derive(Clone, Copy, Debug)]
+pub struct Carried<S, const ANGLES: usize, const TRANSLATIONS: usize> {
+    /// Moments of inertia about the pivots of the links, of the link and of all masses above, those in the next pivot `[kg m²]`.
+    pub inertia: [S; ANGLES],
+    /// First moments of the same masses about the same pivots `[kg m]`.
+    pub moment: [[S; 2]; ANGLES],
+    /// From the pivot of each link to the next one `[m]`; that of the last link is not read.
+    pub lever: [[S; 2]; ANGLES],
+    /// Masses that the translations move `[kg]`.
+    pub mass: [S; TRANSLATIONS],
+    /// Per translation and link: first moment of the mass that the translation moves about the pivot of the link, as far as the link turns
+    /// it, masses above in the next pivot `[kg m]`.
+    pub carried: [[[S; 2]; ANGLES]; TRANSLATIONS],
+    /// Coefficients of friction with the sign of the slide, dimensionless; zero in flight.
+    pub lift: [S; TRANSLATIONS],
+}
+
+/// Angles and rates of links and translations, and the motion of the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingState<S, const ANGLES: usize, const TRANSLATIONS: usize> {
+    /// Cosines of the angles.
+    pub cos: [S; ANGLES],
+    /// Sines of the angles.
+    pub sin: [S; ANGLES],
+    /// Rates of the angles `[rad/s]`.
+    pub omega: [S; ANGLES],
+    /// The translations move along `(cos, -sin)`: horizontal components.
+    pub face_cos: [S; TRANSLATIONS],
+    /// Minus the vertical components.
+    pub face_sin: [S; TRANSLATIONS],
+    /// Rates at which these directions turn `[rad/s]`.
+    pub face_omega: [S; TRANSLATIONS],
+    /// Rates of the translations `[m/s]`.
+    pub rate: [S; TRANSLATIONS],
+    /// Horizontal ground acceleration `[m/s²]`.
+    pub ground_x: S,
+    /// Effective gravity `g + ÿ_g [m/s²]`.
+    pub gravity: S,
+}
+
+/// The rows of the accelerations of all states with so many free angles and translations. Implemented by generated code.
+pub trait MovingProgram<S: Scalar, const ANGLES: usize, const TRANSLATIONS: usize, const SIZE: usize> {
+    /// Matrix and loads of the second derivatives of the angles, then of the translations: `matrix · x = loads`. The matrix is not symmetric.
+    fn rows(
+        carried: &Carried<S, ANGLES, TRANSLATIONS>,
+        state: &MovingState<S, ANGLES, TRANSLATIONS>,
+    ) -> ([[S; SIZE]; SIZE], [S; SIZE]);
+}
+
 /// From a column to the scene constants of one program, in the program's order.
 pub type SceneConstants<S> = fn(&Geometry<S>) -> Vec<S>;
 

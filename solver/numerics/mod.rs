@@ -2,6 +2,7 @@
 //!
 //! Nothing here imports from another room of the library.
 
+pub mod elimination;
 pub mod guards;
 pub mod lanes;
 pub mod lemke;

@@ -41,6 +41,9 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
                 _ => record::record(&asked, window),
             }
         }
+        Command::Modes { blocks, json: true, friction: true, .. } => json(&modes::moving_rows(usize::from(blocks))),
+        Command::Modes { svg: Some(file), friction: true, .. } => modes::draw_states(&file),
+        Command::Modes { blocks, friction: true, .. } => print(&modes::list_moving(usize::from(blocks))),
         Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),

@@ -4,12 +4,15 @@ use crate::arguments::Format;
 use crate::commands::plot::write;
 use crate::error::Failure;
 use crate::plot::modes::{LARGEST, draw};
+use crate::plot::states;
 use crate::posture;
 use crate::terminal::print;
 use crate::text::shown;
 use rocking::GroundMotion;
 use rocking::pattern::{ModeLabel, Pattern, modes};
-use rocking_codegen::Plan;
+use rocking_codegen::joints::{Joints, combinations};
+use rocking_codegen::moving::moving_name;
+use rocking_codegen::{Plan, report};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -85,6 +88,12 @@ pub fn draw_modes(blocks: usize, file: &Path) -> Result<(), Failure> {
     print(&format!("wrote {modes} mode(s) of {blocks} block(s) to {}\n", shown(file)))
 }
 
+/// Draws the ten states of an interface into a file.
+pub fn draw_states(file: &Path) -> Result<(), Failure> {
+    write(&states::draw(), file)?;
+    print(&format!("wrote the ten states of an interface to {}\n", shown(file)))
+}
+
 /// The output of `rocking derive`.
 pub enum Asked {
     /// The equations, in a format.
@@ -93,14 +102,88 @@ pub enum Asked {
     Counts,
 }
 
-/// The derivation or the operation counts of a mode, as text.
+/// The derivation or the operation counts of a mode or of states, as text.
 pub fn derive(blocks: usize, mode: &str, asked: Asked) -> Result<String, Failure> {
-    let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
-    let pattern = pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?;
-    Ok(match asked {
-        Asked::Counts => rocking_codegen::report::counts(&pattern),
-        Asked::Derivation(Format::Text) => rocking_codegen::report::text(&pattern),
-        Asked::Derivation(Format::Rust) => rocking_codegen::report::rust(&pattern),
-        Asked::Derivation(Format::Latex) => rocking_codegen::report::latex(&pattern),
-    })
+    if !mode.trim_start().starts_with('(') {
+        let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
+        return Ok(of_pattern(&pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?, asked));
+    }
+    let joints = Joints::parse(mode).map_err(|error| Failure::States(mode.into(), error))?;
+    if joints.0.len() != blocks {
+        return Err(Failure::StateCount { given: mode.into(), states: joints.0.len(), blocks });
+    }
+    match joints.pattern() {
+        Some(pattern) if pattern.dof() == 0 => Err(Failure::AtRest(mode.into())),
+        Some(pattern) => Ok(of_pattern(&pattern, asked)),
+        None => Ok(of_joints(&joints, asked)),
+    }
+}
+
+fn of_pattern(pattern: &Pattern, asked: Asked) -> String {
+    match asked {
+        Asked::Counts => report::counts(pattern),
+        Asked::Derivation(Format::Text) => report::text(pattern),
+        Asked::Derivation(Format::Rust) => report::rust(pattern),
+        Asked::Derivation(Format::Latex) => report::latex(pattern),
+    }
+}
+
+fn of_joints(joints: &Joints, asked: Asked) -> String {
+    match asked {
+        Asked::Counts => report::moving_counts(joints),
+        Asked::Derivation(Format::Text) => report::moving_text(joints),
+        Asked::Derivation(Format::Rust) => report::moving_rust(joints),
+        Asked::Derivation(Format::Latex) => report::moving_latex(joints),
+    }
+}
+
+/// States with the same numbers of free coordinates, as they are listed.
+#[derive(Debug, Serialize)]
+pub struct MovingRow {
+    /// Free angles.
+    angles: usize,
+    /// Slides, and two for each interface in flight.
+    translations: usize,
+    /// Combinations of states, of the ten of each interface.
+    states: u64,
+    /// The program that serves them all.
+    program: String,
+    /// Whether this build has it; the hand-written equations serve the rest.
+    built: bool,
+}
+
+/// Free angles and translations of the states of a column with friction, angles first; without those in which nothing slides or flies.
+pub fn moving_rows(blocks: usize) -> Vec<MovingRow> {
+    let counts = combinations(blocks);
+    let all = counts.iter().enumerate().flat_map(|(angles, row)| {
+        row.iter().enumerate().skip(1).filter(|(_, states)| **states > 0).map(move |(translations, &states)| {
+            MovingRow {
+                angles,
+                translations,
+                states,
+                program: moving_name(angles, translations),
+                built: rocking::generated::moving::moving(angles, translations).is_some(),
+            }
+        })
+    });
+    all.collect()
+}
+
+/// One line per program.
+pub fn list_moving(blocks: usize) -> String {
+    let rows = moving_rows(blocks);
+    let mut text = format!("{:<6}  {:<12}  {:>14}  {:<22}  built\n", "angles", "translations", "states", "program");
+    for MovingRow { angles, translations, states, program, built } in &rows {
+        let built = if *built { "yes" } else { "no" };
+        let _ = writeln!(text, "{angles:<6}  {translations:<12}  {states:>14}  {program:<22}  {built}");
+    }
+    let sliding: u64 = rows.iter().map(|row| row.states).sum();
+    let _ = write!(
+        text,
+        "{sliding} of the 10^{blocks} combinations of states of {blocks} block(s) slide or fly, on {} program(s); the others stick, in the {} pattern(s) of `rocking modes`.\n\
+         translations: one for each interface that slides, two for each that flies; built: whether this build has the program, or the hand-written equations serve.\n",
+        rows.len(),
+        3u64.pow(blocks as u32),
+    );
+    text
 }

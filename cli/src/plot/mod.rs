@@ -21,6 +21,7 @@ mod record;
 mod sheet;
 mod slides;
 pub mod spectrum;
+pub mod states;
 mod style;
 pub mod terminal;
 mod time_history;

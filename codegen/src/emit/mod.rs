@@ -8,10 +8,12 @@ mod expression;
 mod layout;
 mod linkage;
 mod module;
+mod moving;
 mod number;
 mod quantity;
 mod step;
 
 pub use baked::baked_module;
 pub use module::{excerpt, module};
+pub use moving::{moving_excerpt, moving_module};
 pub use number::number;

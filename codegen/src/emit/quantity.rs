@@ -18,6 +18,19 @@ pub const PROGRAM_UNITS: &str = "
 Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too.
 ";
 
+/// Notation of programs with translations.
+pub const TRANSLATIONS: &str = "
+Links are the runs of blocks with one angle, counted from the lowest that turns; link 0 is the ground. Coordinates are the angles of the links, base first, then translations: the slides of interfaces, and two for each interface in flight, horizontal and vertical. Angles are absolute and clockwise positive.
+
+Translation c moves what lies above its interface along (x, y) = (cos_face_c, -sin_face_c), a direction that turns at the rate face_omega_c. `carried_mass_c` is the mass that it moves. `carried_c_axial_a`, `carried_c_lateral_a` are the first moment of that mass about the pivot of link a, as far as link a turns it, the masses of higher links concentrated in the next pivot.
+
+`link_inertia_a`, `link_moment_axial_a`, `link_moment_lateral_a` are the moment of inertia and first moment, about the pivot of link a, of the link and all masses above, those concentrated in the next pivot; `link_lever_axial_a`, `link_lever_lateral_a` lead from the pivot of link a to the next one. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link. All of these belong to the slides of the moment. All units are SI.
+
+The row of a slide is d'Alembert's principle tested along (1, lift_c) in the axes of its face, `lift_c` the coefficient of friction with the sign of the slide: T + lift_c N = 0. No normal force is solved for, and the matrix is not symmetric. In flight, `lift_c` is zero.
+
+Which blocks a translation moves, and with which link its face turns, is in the values alone: one program serves all columns with as many angles and translations.
+";
+
 /// Comment before the first statement of a group; `None` within a group.
 pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
     let of = |name: &str| {
@@ -26,6 +39,18 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
             "ground_over_gravity" => "Ground acceleration in units of gravity.",
             "lever" | "moment" => {
                 "Levers d' and first moments S' in the axes of the ground: derivatives by the angles of their links."
+            }
+            "test" => "Directions of the tests: along the face, lifted by the coefficient of friction.",
+            "coupling" => {
+                "Couplings of angles and translations: coupling_a_c is the work of translation c on first moments that angle a turns."
+            }
+            "tested_coupling" | "tested_mass" => {
+                "Rows of the translations: tested_coupling_c_a by angle a, tested_mass_c_d by translation d."
+            }
+            "coriolis" => "Accelerations by the turning of faces along which blocks slide.",
+            "tested_load" => "Loads of the translations: minus the forces, tested.",
+            stem if stem.starts_with("carried") => {
+                "First moments P' of what the translations carry, in the axes of the ground: carried_c_x_a is a derivative by angle a."
             }
             "mass" => "Mass matrix off the diagonal: M_ba = d_a' . S_b' for links a < b.",
             "bias" => {

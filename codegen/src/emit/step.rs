@@ -250,7 +250,7 @@ fn destructure(array: &str, names: &[String], words: &HashSet<&str>, is_slice: b
 }
 
 /// Names of parts that statements share: turned vectors and products.
-struct StateNames;
+pub struct StateNames;
 
 impl Style for StateNames {
     fn shared(&self, arena: &Arena, part: Expr) -> Option<String> {

@@ -60,7 +60,7 @@ fn moment(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, inertial: &[V
         }
     }
     let mut split = symbols.clone();
-    split.pivot[interface] = arena.zero();
+    (split.pivot[interface], split.pivot_above[interface]) = (arena.zero(), arena.zero());
     let displaced = centroids(arena, &split, &angles);
     let in_place = virtual_angle_in_place(arena, symbols, own);
 

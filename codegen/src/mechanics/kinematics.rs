@@ -29,6 +29,10 @@ pub struct Symbols {
     pub psi: Expr,
     /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
     pub pivot: Vec<Expr>,
+    /// The same on the upper faces, length N: less the slides of interfaces that slide.
+    pub pivot_above: Vec<Expr>,
+    /// From the lower to the upper pivot of interfaces in flight, in the axes of the ground `[m]`, length N.
+    pub apart: Vec<Option<Vector>>,
     /// Half-heights `h_i [m]` of rectangles, length N.
     pub half_height: Vec<Expr>,
     /// Centroids in the axes of the blocks `[m]`, from the centre of the contact below, length N: `(0, h_i)` for rectangles.
@@ -98,6 +102,8 @@ impl Symbols {
             gravity,
             steady_gravity,
             psi,
+            pivot_above: pivot.clone(),
+            apart: vec![None; blocks],
             pivot,
             half_height,
             centroid,
@@ -106,6 +112,12 @@ impl Symbols {
             inertia,
         }
     }
+
+    /// The angles with their first and second derivatives.
+    pub(super) fn coordinates(&self) -> Vec<[Expr; 3]> {
+        let rates = self.omega.iter().zip(&self.alpha);
+        self.theta.iter().zip(rates).map(|(&theta, (&omega, &alpha))| [theta, omega, alpha]).collect()
+    }
 }
 
 /// Positions of the centroids relative to the moving ground, base first, length N:
@@ -113,20 +125,21 @@ impl Symbols {
 /// their `top` and `centroid` instead of `(0, 2 h)` and `(0, h)`.
 ///
 /// Blocks of one link share an angle: their body vectors are added before they are turned, so the pivots of closed
-/// interfaces cancel. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
+/// interfaces cancel. Where an interface slides, its pivots on the two faces differ; where it flies, a translation lies between them. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
 pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<Expr>]) -> Vec<Vector> {
     let zero = arena.zero();
     // The chain so far: one body vector (u, v) per run of blocks with equal angle, base first.
     let mut chain: Vec<(Option<Expr>, Vector)> = vec![(None, [symbols.pivot[0], zero])];
     let mut positions = Vec::with_capacity(angle_of_block.len());
     for (block, &angle) in angle_of_block.iter().enumerate() {
+        chain.extend(symbols.apart[block].map(|apart| (None, apart)));
         if chain.last().is_some_and(|(last, _)| *last != angle) {
             chain.push((angle, [zero, zero]));
         }
         let own = chain.len() - 1;
         let ([centroid_u, centroid_v], [top_u, top_v]) = (symbols.centroid[block], symbols.top[block]);
         let [u, v] = chain[own].1;
-        let base = arena.sub(u, symbols.pivot[block]);
+        let base = arena.sub(u, symbols.pivot_above[block]);
         let to_centroid = [arena.add(base, centroid_u), arena.add(v, centroid_v)];
         let mut position = [zero, zero];
         for (link, (angle, vector)) in chain.iter().enumerate() {
@@ -143,7 +156,7 @@ pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<
 }
 
 /// `R(θ)(u, v) = (u cos θ + v sin θ, -u sin θ + v cos θ)`, clockwise positive.
-fn rotate(arena: &mut Arena, angle: Option<Expr>, [u, v]: Vector) -> Vector {
+pub(super) fn rotate(arena: &mut Arena, angle: Option<Expr>, [u, v]: Vector) -> Vector {
     let Some(angle) = angle else { return [u, v] };
     let (sine, cosine) = (arena.sin(angle), arena.cos(angle));
     let (uc, vs, us, vc) = (arena.mul(u, cosine), arena.mul(v, sine), arena.mul(u, sine), arena.mul(v, cosine));
@@ -168,13 +181,16 @@ pub fn dot(arena: &mut Arena, a: Vector, b: Vector) -> Expr {
 
 /// Velocity or, applied twice, acceleration: `Σ_a ∂/∂θ_a · ω_a + ∂/∂ω_a · θ̈_a`, the total time derivative.
 pub(super) fn time_derivative(arena: &mut Arena, symbols: &Symbols, expr: Expr) -> Expr {
+    total_derivative(arena, &symbols.coordinates(), expr)
+}
+
+/// The total time derivative of an expression in coordinates that are given with their first and second derivatives.
+pub(super) fn total_derivative(arena: &mut Arena, coordinates: &[[Expr; 3]], expr: Expr) -> Expr {
     let mut terms = Vec::new();
-    for link in 0..symbols.theta.len() {
-        for (coordinate, rate) in
-            [(symbols.theta[link], symbols.omega[link]), (symbols.omega[link], symbols.alpha[link])]
-        {
+    for [value, rate, acceleration] in coordinates {
+        for (coordinate, derivative) in [(*value, *rate), (*rate, *acceleration)] {
             let slope = arena.differentiate(expr, coordinate);
-            terms.push(arena.mul(slope, rate));
+            terms.push(arena.mul(slope, derivative));
         }
     }
     arena.total(terms)

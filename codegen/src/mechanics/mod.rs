@@ -4,13 +4,17 @@
 //! Time stepping, scenes and code are unknown here.
 
 mod contact;
+mod dalembert;
 mod kinematics;
 mod lagrange;
 mod series;
+mod translation;
 
 pub(crate) use contact::normal_and_tangent;
 pub use contact::{InterfaceForces, interface_forces};
+pub use dalembert::{Coordinate, Kind, Quantities, Rows, rows_of_motion};
 pub(crate) use kinematics::block_angles;
 pub use kinematics::{Bodies, Symbols, Vector, centroids};
 pub use lagrange::{Equations, equations_of_motion};
 pub use series::{WeightForm, weight_form};
+pub use translation::{Moving, Translation, moving_links};

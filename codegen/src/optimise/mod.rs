@@ -6,12 +6,14 @@
 mod condense;
 mod count;
 mod forces;
+mod moving;
 mod program;
 mod series;
 mod step;
 
 pub use count::{Operations, count_expressions, count_hoisted};
 pub use forces::force_program;
+pub use moving::moving_program;
 pub use program::{Constant, Program, Routine, Statement};
 pub use series::series_program;
 pub use step::{Form, Parts, Rates, Units, Weight, acceleration_program, admitted, cheapest, energy_program};

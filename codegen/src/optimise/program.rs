@@ -186,6 +186,13 @@ impl<'a> ProgramBuilder<'a> {
         ProgramBuilder { source, program, known, statements: Vec::new(), factors: Vec::new(), constant_name }
     }
 
+    /// A further input that stands for an expression of the derivation.
+    pub fn input(&mut self, name: String, of: Expr) {
+        let unit = self.source.unit(of);
+        let symbol = self.program.arena.symbol(name, Level::State, unit);
+        self.known.insert(of, symbol);
+    }
+
     /// From now on, names constants that have no name by this rule; `None` gives `coefficient_of_` and the factors.
     pub fn name_constants_by(&mut self, rule: impl Fn(&[String], &Arena, Expr) -> Option<String> + 'static) {
         self.constant_name = Box::new(rule);

@@ -15,7 +15,7 @@ use crate::symbolic::{Arena, Expr};
 use std::fmt::Write;
 
 /// Room for a line of a display [pt]: A4 less margins of 25 mm leaves 455, the equation's number and its gap take 35.
-const DISPLAY: f64 = 420.0;
+pub(super) const DISPLAY: f64 = 420.0;
 
 /// Matrices with more columns are set closer: twelve of them would leave the page.
 const WIDE_MATRIX: usize = 8;
@@ -59,6 +59,16 @@ fn head(pattern: &Pattern) -> String {
             format!("Equations of motion of mode {label}{}", if mirrored { ", mirrored" } else { "" })
         }
     };
+    let author = format!(
+        "Column of {}, pattern ${pattern}$, {}",
+        counted(pattern.0.len(), "block"),
+        counted(pattern.dof(), "free angle"),
+    );
+    document(&title, &author, pattern.dof().max(10))
+}
+
+/// A document up to its title, for matrices of so many columns.
+pub(super) fn document(title: &str, author: &str, columns: usize) -> String {
     format!(
         "% Written by rocking-codegen {}. Needs amsmath and geometry.\n\
          \\documentclass[10pt]{{article}}\n\
@@ -66,16 +76,13 @@ fn head(pattern: &Pattern) -> String {
          \\usepackage{{amsmath}}\n\
          \\allowdisplaybreaks\n\
          \\emergencystretch=3em\n\
-         \\setcounter{{MaxMatrixCols}}{{{}}}\n\
+         \\setcounter{{MaxMatrixCols}}{{{columns}}}\n\
          \\title{{{title}}}\n\
-         \\author{{Column of {}, pattern ${pattern}$, {}}}\n\
+         \\author{{{author}}}\n\
          \\date{{}}\n\
          \\begin{{document}}\n\
          \\maketitle\n",
         env!("CARGO_PKG_VERSION"),
-        pattern.dof().max(10),
-        counted(pattern.0.len(), "block"),
-        counted(pattern.dof(), "free angle"),
     )
 }
 
@@ -419,7 +426,7 @@ fn pair_index(a: usize, b: usize) -> String {
 }
 
 /// `1 block`, `2 blocks`.
-fn counted(count: usize, noun: &str) -> String {
+pub(super) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
@@ -430,7 +437,7 @@ fn listed(noun: &str, numbers: &[usize]) -> String {
 }
 
 /// `a, b and c`
-fn joined(texts: &[String]) -> String {
+pub(super) fn joined(texts: &[String]) -> String {
     match texts {
         [] => String::new(),
         [only] => only.clone(),

@@ -90,7 +90,7 @@ fn constants_text(title: &str, arena: &Arena, constants: &[Constant]) -> String 
     out
 }
 
-fn program_text(program: &Program) -> String {
+pub(super) fn program_text(program: &Program) -> String {
     let mut out = String::new();
     for routine in &program.routines {
         let operations = program.operations(routine.name).unwrap_or_default();

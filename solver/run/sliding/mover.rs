@@ -114,7 +114,7 @@ impl<'p> Mover<'p> {
     }
 
     fn smooth(&self, from: &State) -> Smooth<'p> {
-        Smooth::new(self.column(), self.friction, &from.configuration, &self.problem.ground[from.segment])
+        Smooth::new(self.problem, self.friction, from)
     }
 
     /// Steps until a guard falls to zero, the ground jumps, or the time is over.

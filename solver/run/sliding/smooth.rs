@@ -1,12 +1,16 @@
 //! Smooth motion: the right-hand side of the equations of one set of states.
 
+use super::state::State;
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
+use crate::friction::generated::Generated;
 use crate::friction::joint::Configuration;
-use crate::friction::rows::{Answer, Coordinate, Rows, coordinates};
+use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};
 use crate::friction::search::{Coefficients, centre};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::explicit::System;
+use crate::run::problem::Problem;
+use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
 
 /// Right-hand side of a set of states.
@@ -15,6 +19,8 @@ pub struct Smooth<'p> {
     pub friction: &'p Coefficients,
     base: Configuration,
     coordinates: Vec<Coordinate>,
+    /// Accelerations where the build has a program for the states; the rows serve the rest.
+    generated: Option<Generated>,
     pub gravity: f64,
     pub segment: &'p Segment,
     /// Evaluations so far.
@@ -23,14 +29,20 @@ pub struct Smooth<'p> {
 
 impl<'p> Smooth<'p> {
     /// The motion of the states of a configuration on a segment of the ground motion.
-    pub fn new(
-        column: &'p Column,
-        friction: &'p Coefficients,
-        base: &Configuration,
-        segment: &'p Segment,
-    ) -> Smooth<'p> {
-        let coordinates = coordinates(&base.joints);
-        Smooth { column, friction, base: base.clone(), coordinates, gravity: column.gravity(), segment, calls: 0 }
+    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, from: &State) -> Smooth<'p> {
+        let (column, base) = (&problem.scene.column, from.configuration.clone());
+        let is_generic = problem.scene.options.dynamics == DynamicsSource::Generic;
+        let generated = if is_generic { None } else { Generated::new(column, &base, &friction.kinetic) };
+        Smooth {
+            column,
+            friction,
+            coordinates: coordinates(&base.joints),
+            generated,
+            base,
+            gravity: column.gravity(),
+            segment: &problem.ground[from.segment],
+            calls: 0,
+        }
     }
 
     /// Number of free coordinates.
@@ -40,12 +52,7 @@ impl<'p> Smooth<'p> {
 
     /// Values and rates of the free coordinates of a configuration, length 2·dof.
     pub fn state(&self, configuration: &Configuration) -> Vec<f64> {
-        let value = |coordinate: &Coordinate| match coordinate {
-            Coordinate::Angle(range) => [configuration.theta[range.start], configuration.omega[range.start]],
-            Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
-            Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
-        };
-        let both: Vec<[f64; 2]> = self.coordinates.iter().map(value).collect();
+        let both: Vec<[f64; 2]> = self.coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
         both.iter().map(|x| x[0]).chain(both.iter().map(|x| x[1])).collect()
     }
 
@@ -73,8 +80,12 @@ impl<'p> Smooth<'p> {
         let chain = Chain::new(self.column, configuration);
         let centres: Vec<f64> =
             (0..self.column.len()).map(|i| centre(self.column, i, configuration.slide[i])).collect();
-        let rows = Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres);
-        rows.accelerations(&Rates::of(configuration), Ground::at(self.segment, t, self.gravity))
+        let (rates, ground) = (Rates::of(configuration), Ground::at(self.segment, t, self.gravity));
+        if let Some(generated) = &mut self.generated {
+            let second = generated.rates(configuration, ground)?;
+            return Some(answer_to(&chain, &configuration.joints, &centres, second, &rates, ground));
+        }
+        Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres).accelerations(&rates, ground)
     }
 
     /// Configuration, accelerations and forces inside a step; no accelerations where the rows have no solution.
@@ -95,6 +106,12 @@ impl System for Smooth<'_> {
     fn slope(&mut self, t: f64, x: &Vec<f64>, slope: &mut Vec<f64>) {
         let dof = self.coordinates.len();
         slope[..dof].copy_from_slice(&x[dof..]);
+        if let Some(generated) = &mut self.generated {
+            self.calls += 1;
+            let (values, rates) = x.split_at(dof);
+            let ground = Ground::at(self.segment, t, self.gravity);
+            return generated.accelerations(values, rates, ground, &mut slope[dof..]);
+        }
         let configuration = self.configuration(x);
         match self.answer(t, &configuration) {
             Some(answer) => {

@@ -3,9 +3,11 @@
 use super::smooth::Smooth;
 use crate::friction::chain::Chain;
 use crate::friction::gaps::{self, Corner};
-use crate::friction::guards::{self, Guard};
+use crate::friction::guards::{self, Guard, Limits};
 use crate::friction::joint::Configuration;
 use crate::friction::rows::Answer;
+use crate::friction::search::force_slack;
+use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::scene::SolveOptions;
@@ -76,9 +78,16 @@ impl<'s, 'p> Step<'s, 'p> {
     }
 
     fn value(&mut self, guard: Guard, s: f64) -> f64 {
-        let (column, friction, overturn_angle) = (self.smooth.column, self.smooth.friction, self.overturn_angle);
+        let Smooth { column, friction, gravity, segment, .. } = *self.smooth;
+        let (t, overturn_angle) = (self.t + s * self.h, self.overturn_angle);
         let (configuration, answer) = self.at(s, guard.needs_forces());
-        guards::value(guard, column, configuration, answer.as_ref(), friction, overturn_angle)
+        let slack = if guard.needs_forces() {
+            force_slack(column, configuration, Ground::at(segment, t, gravity))
+        } else {
+            0.0
+        };
+        let limits = Limits { friction, overturn_angle, slack };
+        guards::value(guard, column, configuration, answer.as_ref(), limits)
     }
 
     /// The first guard that falls to zero, and where.

@@ -1,0 +1,76 @@
+//! The programs with translations, by their numbers of free angles and translations.
+
+use crate::catalogue::map_in_order;
+use crate::error::{GenerateError, LARGEST};
+use crate::mechanics::moving_links;
+use crate::optimise::{Program, moving_program};
+use crate::symbolic::Arena;
+
+/// Columns of so many blocks have a program for all of their states.
+const ALL_STATES: usize = 3;
+
+/// Larger columns have programs of so many translations: two interfaces that slide, or one in flight.
+const FEW_TRANSLATIONS: usize = 2;
+
+/// The program of so many angles and translations.
+#[derive(Debug)]
+pub struct MovingRecord {
+    /// Free angles.
+    pub angles: usize,
+    /// Slides, and two for each interface in flight.
+    pub translations: usize,
+    /// Rows of the accelerations, and their loads.
+    pub program: Program,
+}
+
+impl MovingRecord {
+    /// Derives the program.
+    ///
+    /// # Panics
+    /// Without a translation.
+    pub fn new(angles: usize, translations: usize) -> MovingRecord {
+        let mut arena = Arena::new();
+        let moving = moving_links(&mut arena, angles, translations);
+        let program = moving_program(&mut arena, &moving);
+        MovingRecord { angles, translations, program }
+    }
+
+    /// Its name in the emitted code.
+    pub fn name(&self) -> String {
+        moving_name(self.angles, self.translations)
+    }
+}
+
+/// Name of the program of so many angles and translations.
+pub fn moving_name(angles: usize, translations: usize) -> String {
+    format!("Angles{angles}Translations{translations}")
+}
+
+/// Whether the interfaces of some column of `blocks` blocks leave so many angles and translations free. Each interface that turns has one
+/// angle, and up to two translations if it flies; each of the others has up to one, its slide.
+pub fn is_entered(blocks: usize, angles: usize, translations: usize) -> bool {
+    angles <= blocks && translations <= blocks + angles
+}
+
+/// Angles and translations of the programs that a build for columns of up to `max_blocks` blocks has, angles first: all that columns of three
+/// blocks enter, and for larger ones those of one or two translations.
+///
+/// ```
+/// assert_eq!(rocking_codegen::moving::covered(1), [(0, 1), (1, 1), (1, 2)]);
+/// ```
+pub fn covered(max_blocks: usize) -> Vec<(usize, usize)> {
+    let pairs = (0..=max_blocks).flat_map(|angles| (1..=max_blocks + angles).map(move |count| (angles, count)));
+    let small = max_blocks.min(ALL_STATES);
+    pairs.filter(|&(angles, count)| is_entered(small, angles, count) || count <= FEW_TRANSLATIONS).collect()
+}
+
+/// The programs of [`covered`].
+///
+/// # Errors
+/// [`GenerateError::Size`] if `max_blocks` is out of range.
+pub fn moving_catalogue(max_blocks: usize) -> Result<Vec<MovingRecord>, GenerateError> {
+    if !(1..=LARGEST).contains(&max_blocks) {
+        return Err(GenerateError::Size { max_blocks });
+    }
+    Ok(map_in_order(&covered(max_blocks), |&(angles, translations)| MovingRecord::new(angles, translations)))
+}

@@ -1,0 +1,247 @@
+//! Accelerations by generated programs, where this build has one for the free angles and translations of the states.
+//!
+//! A program reads what its links and translations carry at the slides of the moment: sums over the blocks, from the top down. Between two links,
+//! the contact has one point on the lower face, at `p` from its middle, and `p - u` on the upper one (docs/book/model.md, section 1). States without a
+//! translation run on the equations of displaced blocks.
+
+use super::chain::Rates;
+use super::joint::{Configuration, Face, Joint, Slip};
+use super::rows::{self, Coordinate, coordinates};
+use crate::column::Column;
+use crate::mechanics::dynamics::Ground;
+use crate::mechanics::generated::{MovingEquations, MovingLists, moving};
+use crate::mechanics::mode::Mode;
+
+/// The accelerations of a set of states on generated equations.
+pub struct Generated {
+    coordinates: Vec<Coordinate>,
+    equations: Equations,
+}
+
+/// Which programs serve.
+enum Equations {
+    /// Nothing slides or flies: those of the mode.
+    Sticking(Mode),
+    Moving(Moving),
+}
+
+/// A direction in which what lies above an interface moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Direction {
+    /// Along a face that turns with this link (from 1; 0 is the ground).
+    Face(usize),
+    /// Horizontal (0) or vertical (1).
+    Axis(usize),
+}
+
+/// A translation as a coordinate.
+#[derive(Clone, Copy, Debug)]
+struct Translation {
+    /// Place among the coordinates.
+    coordinate: usize,
+    interface: usize,
+    direction: Direction,
+}
+
+/// States with translations.
+#[derive(Clone, Debug)]
+struct Moving {
+    equations: MovingEquations,
+    column: Column,
+    joints: Vec<Joint>,
+    /// Slides `[m]`, kept up for interfaces that slide.
+    slide: Vec<f64>,
+    /// Mass of each block and all above `[kg]`, length N + 1: none above the last.
+    mass_from: Vec<f64>,
+    /// First block of each link, base first, and N.
+    starts: Vec<usize>,
+    /// Place among the coordinates of the angle of each link.
+    angles: Vec<usize>,
+    translations: Vec<Translation>,
+    lists: MovingLists,
+    /// Second derivatives of the angles, then of the translations.
+    solution: Vec<f64>,
+}
+
+impl Generated {
+    /// Equations for the states of a configuration with these coefficients of kinetic friction; slides of contacts that stick are those of the
+    /// configuration. `None` where the build has none.
+    pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Option<Generated> {
+        let coordinates = coordinates(&configuration.joints);
+        let equations = if coordinates.iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
+            let displaced = column.clone().displaced(configuration.slide.clone()).ok()?;
+            Equations::Sticking(Mode::generated(&displaced, &configuration.pattern())?)
+        } else {
+            Equations::Moving(Moving::new(column, configuration, &coordinates, kinetic)?)
+        };
+        Some(Generated { coordinates, equations })
+    }
+
+    /// Second derivatives of the coordinates ([`coordinates`]) from their values and rates, into `accelerations`; all lists have the length
+    /// of the coordinates. Not numbers where the rows do not determine them.
+    pub fn accelerations(&mut self, values: &[f64], rates: &[f64], ground: Ground, accelerations: &mut [f64]) {
+        match &mut self.equations {
+            Equations::Sticking(mode) => {
+                let derivative = mode.derivative(&[values, rates].concat(), ground);
+                accelerations.copy_from_slice(&derivative[self.coordinates.len()..]);
+            }
+            Equations::Moving(moving) => moving.accelerations(values, rates, ground, accelerations),
+        }
+    }
+}
+
+impl Generated {
+    /// Second derivatives of all coordinates of a configuration in these states; `None` where the rows do not determine them.
+    pub fn rates(&mut self, configuration: &Configuration, ground: Ground) -> Option<Rates> {
+        let both: Vec<[f64; 2]> = self.coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
+        let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
+        let mut accelerations = vec![0.0; both.len()];
+        self.accelerations(&values, &rates, ground, &mut accelerations);
+        let is_determined = accelerations.iter().all(|value| value.is_finite());
+        is_determined.then(|| rows::rates(&self.coordinates, &accelerations, configuration.joints.len()))
+    }
+}
+
+impl Moving {
+    fn new(
+        column: &Column,
+        configuration: &Configuration,
+        coordinates: &[Coordinate],
+        kinetic: &[f64],
+    ) -> Option<Moving> {
+        let Configuration { joints, slide, .. } = configuration;
+        let (mut starts, mut angles, mut translations) = (Vec::new(), Vec::new(), Vec::new());
+        for (place, coordinate) in coordinates.iter().enumerate() {
+            if let Coordinate::Angle(blocks) = coordinate {
+                starts.push(blocks.start);
+                angles.push(place);
+            }
+        }
+        // Link of a block, 0 for those that do not turn.
+        let link = |block: usize| starts.partition_point(|start| *start <= block);
+        for (place, coordinate) in coordinates.iter().enumerate() {
+            let (interface, direction) = match coordinate {
+                Coordinate::Angle(_) => continue,
+                Coordinate::Apart(interface, axis) => (*interface, Direction::Axis(*axis)),
+                Coordinate::Slide(interface) => match joints[*interface] {
+                    Joint::Corner(_, Face::Upper, _) => (*interface, Direction::Face(link(*interface))),
+                    _ => (*interface, Direction::Face(interface.checked_sub(1).map_or(0, link))),
+                },
+            };
+            translations.push(Translation { coordinate: place, interface, direction });
+        }
+        let mut lists = MovingLists::zero(angles.len(), translations.len());
+        let mut mass_from = vec![0.0; column.len() + 1];
+        for (i, block) in column.blocks().iter().enumerate().rev() {
+            mass_from[i] = mass_from[i + 1] + block.mass;
+        }
+        for (each, translation) in translations.iter().enumerate() {
+            let Translation { interface, direction, .. } = *translation;
+            lists.mass[each] = mass_from[interface];
+            match direction {
+                Direction::Face(_) => {
+                    lists.lift[each] = joints[interface].slip().map_or(0.0, Slip::sign) * kinetic[interface]
+                }
+                Direction::Axis(axis) => [lists.face_cos[each], lists.face_sin[each]] = [[1.0, 0.0], [0.0, -1.0]][axis],
+            }
+        }
+        starts.push(column.len());
+        Some(Moving {
+            equations: moving::moving(angles.len(), translations.len())?,
+            column: column.clone(),
+            joints: joints.clone(),
+            slide: slide.clone(),
+            mass_from,
+            starts,
+            angles,
+            solution: vec![0.0; coordinates.len()],
+            translations,
+            lists,
+        })
+    }
+
+    fn accelerations(&mut self, values: &[f64], rates: &[f64], ground: Ground, accelerations: &mut [f64]) {
+        for translation in self.translations.iter().filter(|each| matches!(each.direction, Direction::Face(_))) {
+            self.slide[translation.interface] = values[translation.coordinate];
+        }
+        for (link, &place) in self.angles.iter().enumerate() {
+            (self.lists.sin[link], self.lists.cos[link]) = libm::sincos(values[place]);
+            self.lists.omega[link] = rates[place];
+        }
+        for (each, translation) in self.translations.iter().enumerate() {
+            let lists = &mut self.lists;
+            lists.rate[each] = rates[translation.coordinate];
+            if let Direction::Face(link) = translation.direction {
+                let turn = |values: &[f64], of_ground: f64| link.checked_sub(1).map_or(of_ground, |link| values[link]);
+                lists.face_cos[each] = turn(&lists.cos, 1.0);
+                lists.face_sin[each] = turn(&lists.sin, 0.0);
+                lists.face_omega[each] = turn(&lists.omega, 0.0);
+            }
+        }
+        self.lists.ground = [ground.x, ground.gravity];
+        for link in 0..self.angles.len() {
+            self.carry(link);
+        }
+        if !(self.equations)(&self.lists, &mut self.solution) {
+            return accelerations.fill(f64::NAN);
+        }
+        let places = self.angles.iter().copied().chain(self.translations.iter().map(|each| each.coordinate));
+        for (place, value) in places.zip(&self.solution) {
+            accelerations[place] = *value;
+        }
+    }
+
+    /// The point of contact of an interface on its lower and on its upper face, from their middles to the right `[m]`; of a free interface
+    /// the middles.
+    fn contact(&self, interface: usize) -> [f64; 2] {
+        let (blocks, slide) = (self.column.blocks(), self.slide[interface]);
+        let on_lower = match self.joints[interface] {
+            Joint::Free => return [0.0; 2],
+            Joint::Closed(_) => slide,
+            Joint::Corner(side, Face::Upper, _) => f64::from(side) * blocks[interface - 1].top_half_width,
+            Joint::Corner(side, ..) => slide + f64::from(side) * blocks[interface].bottom_half_width,
+        };
+        [on_lower, on_lower - slide]
+    }
+
+    /// Moments and lever of a link (from zero) with all masses above in the next pivot, and what of them each translation moves.
+    fn carry(&mut self, link: usize) {
+        let (start, end) = (self.starts[link], self.starts[link + 1]);
+        let above = self.mass_from[end];
+        // From the pivot, to the right and upwards in the axes of the link.
+        let mut base = [-self.contact(start)[1], 0.0];
+        let (mut inertia, mut moment) = (0.0, [0.0, 0.0]);
+        for (i, block) in self.column.blocks().iter().enumerate().take(end).skip(start) {
+            if i > start {
+                let [on_lower, on_upper] = self.contact(i);
+                base[0] += on_lower - on_upper;
+            }
+            for (each, _) in self.translations.iter().enumerate().filter(|(_, each)| each.interface == i) {
+                // All so far stays below; the rest is known when the link is.
+                self.lists.carried[each * self.angles.len() + link] = moment;
+            }
+            let [x, y] = [base[0], base[1] + block.centroid_height];
+            inertia += block.inertia + block.mass * (x * x + y * y);
+            moment = [moment[0] + block.mass * x, moment[1] + block.mass * y];
+            base[1] += 2.0 * block.half_height;
+        }
+        let lever = [if end < self.joints.len() { base[0] + self.contact(end)[0] } else { base[0] }, base[1]];
+        let moment = [0, 1].map(|axis| moment[axis] + above * lever[axis]);
+        // The axis of the programs points to the left.
+        let lateral = |[x, y]: [f64; 2]| [-x, y];
+        for (each, translation) in self.translations.iter().enumerate() {
+            let carried = &mut self.lists.carried[each * self.angles.len() + link];
+            let of_mass = if translation.interface <= start {
+                moment
+            } else if translation.interface >= end {
+                lever.map(|component| self.lists.mass[each] * component)
+            } else {
+                [moment[0] - carried[0], moment[1] - carried[1]]
+            };
+            *carried = lateral(of_mass);
+        }
+        self.lists.inertia[link] = inertia + above * (lever[0] * lever[0] + lever[1] * lever[1]);
+        self.lists.moment[link] = lateral(moment);
+        self.lists.lever[link] = lateral(lever);
+    }
+}

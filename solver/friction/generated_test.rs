@@ -1,0 +1,221 @@
+//! Generated programs against the hand-written rows, in all combinations of states of one to three blocks.
+
+use super::chain::{Chain, Rates};
+use super::generated::Generated;
+use super::joint::{Configuration, Face, Joint, Slip};
+use super::rows::{Coordinate, Rows, coordinates};
+use crate::column::{Block, Column, Shape};
+use crate::mechanics::dynamics::Ground;
+use crate::mechanics::generated::{MAX_BLOCKS, moving};
+use rocking_codegen::pattern::Pattern;
+use std::collections::BTreeSet;
+
+/// xorshift64* (Vigna 2016), from -1 to 1.
+struct Random(u64);
+
+impl Random {
+    fn within(&mut self, a: f64, b: f64) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        a + (b - a) * (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// All states of an interface, sliding on either face.
+fn states(interface: usize) -> Vec<Joint> {
+    let mut states = vec![Joint::Free];
+    for slip in [Slip::Sticks, Slip::Slides(1), Slip::Slides(-1)] {
+        states.push(Joint::Closed(slip));
+        for side in [1, -1] {
+            states.push(Joint::Corner(side, Face::Lower, slip));
+            // The ground has no corner.
+            if interface > 0 {
+                states.push(Joint::Corner(side, Face::Upper, slip));
+            }
+        }
+    }
+    states
+}
+
+/// A tapered and displaced column in these states, all else random.
+fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Configuration) {
+    let block = |random: &mut Random| {
+        let (bottom, half_height) = (random.within(0.4, 0.6), random.within(0.3, 1.2));
+        let half_widths = [bottom, bottom * random.within(0.8, 1.1)];
+        let mut block = Block::of_shape(Shape::Prism, half_widths, half_height, random.within(200.0, 3000.0));
+        block.centroid_height *= random.within(0.9, 1.1);
+        block
+    };
+    let column = Column::new(joints.iter().map(|_| block(random)).collect(), 9.81).expect("valid");
+    let (mut theta, mut omega) = (Vec::new(), Vec::new());
+    for joint in joints {
+        let (below, rate) = (theta.last().copied().unwrap_or(0.0), omega.last().copied().unwrap_or(0.0));
+        let is_closed = matches!(joint, Joint::Closed(_));
+        theta.push(if is_closed { below } else { random.within(-0.6, 0.6) });
+        omega.push(if is_closed { rate } else { random.within(-2.0, 2.0) });
+    }
+    let mut vector = |size: f64| [random.within(-size, size), random.within(-size, size)];
+    let mut configuration = Configuration {
+        joints: joints.to_vec(),
+        theta,
+        omega,
+        slide: joints.iter().map(|_| vector(0.3)[0]).collect(),
+        slide_rate: joints.iter().map(|joint| joint.slip().map_or(0.0, Slip::sign) * vector(1.0)[0].abs()).collect(),
+        apart: joints.iter().map(|_| vector(0.5)).collect(),
+        apart_rate: joints.iter().map(|_| vector(1.5)).collect(),
+    };
+    for (joint, rate) in joints.iter().zip(&mut configuration.apart_rate) {
+        if *joint != Joint::Free {
+            *rate = [0.0; 2];
+        }
+    }
+    (column, configuration)
+}
+
+/// Largest difference of the two, relative to the largest acceleration; free angles and translations. `None` without a program.
+fn difference(random: &mut Random, joints: &[Joint]) -> Option<(f64, (usize, usize))> {
+    let (column, configuration) = random_configuration(random, joints);
+    compare(random, &column, &configuration)
+}
+
+fn compare(random: &mut Random, column: &Column, configuration: &Configuration) -> Option<(f64, (usize, usize))> {
+    let joints = configuration.joints.as_slice();
+    let kinetic: Vec<f64> = joints.iter().map(|_| random.within(0.0, 0.5)).collect();
+    let ground = Ground { x: random.within(-8.0, 8.0), gravity: random.within(4.0, 15.0) };
+    let coordinates = coordinates(joints);
+    let mut generated = Generated::new(column, configuration, &kinetic)?;
+    let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
+    let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
+    let mut ours = vec![0.0; coordinates.len()];
+    generated.accelerations(&values, &rates, ground, &mut ours);
+    let chain = Chain::new(column, configuration);
+    let rows = Rows::new(&chain, joints, &kinetic, &vec![0.0; joints.len()]);
+    let answer = rows.accelerations(&Rates::of(configuration), ground).expect("moderate friction");
+    let theirs = coordinates.iter().map(|coordinate| match coordinate {
+        Coordinate::Angle(blocks) => answer.rates.omega[blocks.start],
+        Coordinate::Slide(i) => answer.rates.slide[*i],
+        Coordinate::Apart(i, axis) => answer.rates.apart[*i][*axis],
+    });
+    let theirs: Vec<f64> = theirs.collect();
+    let scale = theirs.iter().fold(ground.gravity, |most, a| most.max(a.abs()));
+    let worst = ours.iter().zip(&theirs).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs() / scale));
+    assert!(worst.is_finite(), "{joints:?}: {ours:?} against {theirs:?}");
+    let angles = coordinates.iter().filter(|coordinate| matches!(coordinate, Coordinate::Angle(_))).count();
+    Some((worst, (angles, coordinates.len() - angles)))
+}
+
+#[test]
+fn generated_programs_give_the_accelerations_of_the_rows_in_all_states() {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let (mut worst, mut seen) = (0.0f64, BTreeSet::new());
+    for blocks in 1..=MAX_BLOCKS.min(3) {
+        let mut combinations = vec![Vec::new()];
+        for interface in 0..blocks {
+            let longer = |joints: &Vec<Joint>| {
+                states(interface).into_iter().map(|state| [joints.as_slice(), &[state]].concat()).collect::<Vec<_>>()
+            };
+            combinations = combinations.iter().flat_map(longer).collect();
+        }
+        for joints in &combinations {
+            if coordinates(joints).iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
+                continue;
+            }
+            let (difference, program) =
+                difference(&mut random, joints).expect("columns of up to three blocks have all programs");
+            worst = worst.max(difference);
+            // Two eliminations of matrices of condition up to some thousand (measured: 1.2e-13).
+            assert!(difference < 1e-11, "{joints:?}: {difference:e}");
+            seen.insert(program);
+        }
+    }
+    eprintln!("largest difference {worst:e}");
+    let small =
+        moving::COVERED.into_iter().filter(|(angles, translations)| *angles <= 3 && *translations <= 3 + angles);
+    assert!(small.clone().all(|program| seen.contains(&program)), "not all programs were compared: {seen:?}");
+}
+
+/// States that stick run on the equations of displaced blocks: the pivots are those of the corners that the slides leave innermost.
+#[test]
+fn sticking_states_have_the_accelerations_of_the_rows() {
+    let mut random = Random(0x2545_F491_4F6C_DD1D);
+    for trial in 0..2000 {
+        let signs: Vec<i8> =
+            (0..1 + trial % MAX_BLOCKS.min(3)).map(|_| random.within(-1.5, 1.5).round() as i8).collect();
+        let pattern = Pattern::from_signs(&signs);
+        let all_stick = vec![Joint::Closed(Slip::Sticks); signs.len()];
+        let (column, _) = random_configuration(&mut random, &all_stick);
+        let slides = signs.iter().map(|_| random.within(-0.1, 0.1)).collect();
+        let Ok(column) = column.displaced(slides) else { continue };
+        let (mut theta, mut omega) = (Vec::new(), Vec::new());
+        for &sign in &signs {
+            let (below, rate) = (theta.last().copied().unwrap_or(0.0), omega.last().copied().unwrap_or(0.0));
+            theta.push(below + f64::from(sign) * random.within(0.0, 0.3));
+            omega.push(if sign == 0 { rate } else { random.within(-2.0, 2.0) });
+        }
+        let configuration = Configuration::sticking(&column, &pattern, &theta, &omega);
+        if pattern.dof() == 0 {
+            continue;
+        }
+        let worst = compare(&mut random, &column, &configuration).expect("the build has the equations of the mode").0;
+        assert!(worst < 1e-10, "{pattern}: {worst:e}");
+    }
+}
+
+/// Times the accelerations of the programs against those of the rows, on the states of one of each.
+#[test]
+#[ignore = "a measurement: run with --ignored --nocapture, built to run fast"]
+fn speed_of_the_programs_against_the_rows() {
+    const CALLS: u32 = 20_000;
+    let closed = |slip| Joint::Closed(slip);
+    let corner = |slip| Joint::Corner(1, Face::Lower, slip);
+    let (sticks, slides) = (Slip::Sticks, Slip::Slides(1));
+    let states = [
+        vec![closed(slides)],
+        vec![corner(slides)],
+        vec![Joint::Free],
+        vec![corner(sticks), closed(slides), corner(sticks)],
+        vec![corner(sticks), corner(slides), corner(slides)],
+        vec![corner(sticks), corner(sticks), Joint::Free],
+        vec![corner(slides), corner(slides), corner(slides)],
+        vec![Joint::Free, Joint::Free, Joint::Free],
+    ];
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    for joints in states.into_iter().filter(|joints| joints.len() <= MAX_BLOCKS) {
+        let (checked, (angles, translations)) = difference(&mut random, &joints).expect("all programs of three blocks");
+        assert!(checked < 1e-11);
+        let (column, configuration) = random_configuration(&mut random, &joints);
+        let kinetic = vec![0.3; joints.len()];
+        let ground = Ground { x: 3.0, gravity: 9.81 };
+        let coordinates = coordinates(&joints);
+        let mut generated = Generated::new(&column, &configuration, &kinetic).expect("as before");
+        let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| coordinate.of(&configuration)).collect();
+        let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
+        let mut accelerations = vec![0.0; coordinates.len()];
+        let seconds = |call: &mut dyn FnMut()| {
+            let best = (0..7).map(|_| {
+                let start = std::time::Instant::now();
+                (0..CALLS).for_each(|_| call());
+                start.elapsed().as_secs_f64() / f64::from(CALLS)
+            });
+            best.fold(f64::INFINITY, f64::min)
+        };
+        let program = seconds(&mut || {
+            generated.accelerations(std::hint::black_box(&values), &rates, ground, &mut accelerations);
+            std::hint::black_box(&accelerations);
+        });
+        let rows = seconds(&mut || {
+            let chain = Chain::new(&column, std::hint::black_box(&configuration));
+            let rows = Rows::new(&chain, &joints, &kinetic, &kinetic);
+            std::hint::black_box(rows.accelerations(&Rates::of(&configuration), ground));
+        });
+        let names: Vec<String> = joints.iter().map(|joint| format!("{joint:?}")).collect();
+        eprintln!(
+            "{angles} angle(s), {translations} translation(s): {:.0} ns, rows {:.0} ns, {:.1} times; {}",
+            1e9 * program,
+            1e9 * rows,
+            rows / program,
+            names.join(", ")
+        );
+    }
+}

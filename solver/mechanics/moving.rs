@@ -1,0 +1,100 @@
+//! Programs with translations by their numbers of angles and translations: lists in, accelerations out.
+//!
+//! Which program serves is known when a stretch begins. So the lists have no fixed length here, and a program copies them into its arrays.
+
+use super::program::{Carried, MovingProgram, MovingState};
+use crate::numerics::elimination::eliminate;
+use std::array::from_fn;
+
+/// What a program with translations reads: [`Carried`] and [`MovingState`] with lists in place of arrays.
+#[derive(Clone, Debug, Default)]
+pub struct MovingLists {
+    /// Per link.
+    pub inertia: Vec<f64>,
+    /// Per link.
+    pub moment: Vec<[f64; 2]>,
+    /// Per link.
+    pub lever: Vec<[f64; 2]>,
+    /// Per translation.
+    pub mass: Vec<f64>,
+    /// Per translation, and link in it.
+    pub carried: Vec<[f64; 2]>,
+    /// Per translation.
+    pub lift: Vec<f64>,
+    /// Per link.
+    pub cos: Vec<f64>,
+    /// Per link.
+    pub sin: Vec<f64>,
+    /// Per link.
+    pub omega: Vec<f64>,
+    /// Per translation.
+    pub face_cos: Vec<f64>,
+    /// Per translation.
+    pub face_sin: Vec<f64>,
+    /// Per translation.
+    pub face_omega: Vec<f64>,
+    /// Per translation.
+    pub rate: Vec<f64>,
+    /// Horizontal ground acceleration and effective gravity `[m/s²]`.
+    pub ground: [f64; 2],
+}
+
+impl MovingLists {
+    /// Lists of zeros for so many angles and translations.
+    pub fn zero(angles: usize, translations: usize) -> MovingLists {
+        let (per_link, per_translation) = (vec![0.0; angles], vec![0.0; translations]);
+        MovingLists {
+            inertia: per_link.clone(),
+            moment: vec![[0.0; 2]; angles],
+            lever: vec![[0.0; 2]; angles],
+            mass: per_translation.clone(),
+            carried: vec![[0.0; 2]; angles * translations],
+            lift: per_translation.clone(),
+            cos: per_link.clone(),
+            sin: per_link.clone(),
+            omega: per_link,
+            face_cos: per_translation.clone(),
+            face_sin: per_translation.clone(),
+            face_omega: per_translation.clone(),
+            rate: per_translation,
+            ground: [0.0; 2],
+        }
+    }
+}
+
+/// Second derivatives of the angles, then of the translations, written into a list; whether the rows determine them.
+pub type MovingEquations = fn(&MovingLists, &mut [f64]) -> bool;
+
+/// The equations of a program. Called by generated modules.
+pub fn moving_equations<P, const ANGLES: usize, const TRANSLATIONS: usize, const SIZE: usize>() -> MovingEquations
+where
+    P: MovingProgram<f64, ANGLES, TRANSLATIONS, SIZE>,
+{
+    |lists, accelerations| {
+        let carried = Carried::<f64, ANGLES, TRANSLATIONS> {
+            inertia: from_fn(|link| lists.inertia[link]),
+            moment: from_fn(|link| lists.moment[link]),
+            lever: from_fn(|link| lists.lever[link]),
+            mass: from_fn(|each| lists.mass[each]),
+            carried: from_fn(|each| from_fn(|link| lists.carried[each * ANGLES + link])),
+            lift: from_fn(|each| lists.lift[each]),
+        };
+        let state = MovingState {
+            cos: from_fn(|link| lists.cos[link]),
+            sin: from_fn(|link| lists.sin[link]),
+            omega: from_fn(|link| lists.omega[link]),
+            face_cos: from_fn(|each| lists.face_cos[each]),
+            face_sin: from_fn(|each| lists.face_sin[each]),
+            face_omega: from_fn(|each| lists.face_omega[each]),
+            rate: from_fn(|each| lists.rate[each]),
+            ground_x: lists.ground[0],
+            gravity: lists.ground[1],
+        };
+        let (matrix, loads) = P::rows(&carried, &state);
+        let solution = eliminate(matrix, loads);
+        if let Some(solution) = solution {
+            accelerations.copy_from_slice(&solution);
+        }
+        solution.is_some()
+    }
+}
