@@ -1,7 +1,8 @@
 //! Derives the equations of motion of every rocking mode of a multi-block column and writes them as Rust.
 //!
 //! The pipeline is [`derive()`] and [`generate`]: linkage of a pattern -> positions of the centroids -> energies ->
-//! Euler-Lagrange -> step-time programs with scene constants hoisted -> Rust text. [`report`] prints the same derivation as text
+//! Euler-Lagrange -> step-time programs with scene constants hoisted -> Rust text. Interfaces that slide and fly ([`joints`]) have programs by
+//! their numbers of free angles and translations ([`moving`]), derived by d'Alembert's principle. [`report`] prints the same derivations as text
 //! or LaTeX. The crate contains no time stepping and no scenes.
 //!
 //! ```

@@ -14,14 +14,15 @@
 use super::joint::{Configuration, Face, Joint};
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
+use crate::numerics::per_block::PerBlock;
 
 /// Velocities, or accelerations, of the blocks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Of the centroids `[m/s]`.
-    pub linear: Vec<Vec2>,
+    pub linear: PerBlock<Vec2>,
     /// Angular `[rad/s]`.
-    pub angular: Vec<f64>,
+    pub angular: PerBlock<f64>,
 }
 
 impl Motion {
@@ -42,17 +43,18 @@ impl Motion {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
     /// Of the angles of the blocks `[rad/s]`.
-    pub omega: Vec<f64>,
+    pub omega: PerBlock<f64>,
     /// Of the slides `[m/s]`.
-    pub slide: Vec<f64>,
+    pub slide: PerBlock<f64>,
     /// Of free interfaces `[m/s]`.
-    pub apart: Vec<Vec2>,
+    pub apart: PerBlock<Vec2>,
 }
 
 impl Rates {
     /// Nothing moves.
     pub fn zero(blocks: usize) -> Rates {
-        Rates { omega: vec![0.0; blocks], slide: vec![0.0; blocks], apart: vec![[0.0; 2]; blocks] }
+        let zero = PerBlock::filled(0.0, blocks);
+        Rates { omega: zero.clone(), slide: zero, apart: PerBlock::filled([0.0; 2], blocks) }
     }
 
     /// Those of a configuration.
@@ -118,17 +120,17 @@ struct Link {
 #[derive(Clone, Debug)]
 pub struct Chain<'a> {
     column: &'a Column,
-    links: Vec<Link>,
+    links: PerBlock<Link>,
     /// From the middle of a block's base to its centroid and to the middle of its top.
-    pub to_centroid: Vec<Vec2>,
-    to_top: Vec<Vec2>,
+    pub to_centroid: PerBlock<Vec2>,
+    to_top: PerBlock<Vec2>,
     /// Middles of the bases `[m]`.
-    pub foot: Vec<Vec2>,
+    pub foot: PerBlock<Vec2>,
     /// Middles of the top faces `[m]`.
-    pub top: Vec<Vec2>,
+    pub top: PerBlock<Vec2>,
     /// Centroids `[m]`.
-    pub centroid: Vec<Vec2>,
-    turns: Vec<Turn>,
+    pub centroid: PerBlock<Vec2>,
+    turns: PerBlock<Turn>,
 }
 
 impl<'a> Chain<'a> {
@@ -139,16 +141,16 @@ impl<'a> Chain<'a> {
             let (sin, cos) = libm::sincos(angle);
             Turn { sin, cos }
         };
-        let turns: Vec<Turn> = configuration.theta.iter().map(|angle| turn(*angle)).collect();
+        let turns: PerBlock<Turn> = configuration.theta.iter().map(|angle| turn(*angle)).collect();
         let ground = Turn { sin: 0.0, cos: 1.0 };
         let mut chain = Chain {
             column,
-            links: Vec::with_capacity(blocks.len()),
-            to_centroid: Vec::with_capacity(blocks.len()),
-            to_top: Vec::with_capacity(blocks.len()),
-            foot: Vec::with_capacity(blocks.len()),
-            top: Vec::with_capacity(blocks.len()),
-            centroid: Vec::with_capacity(blocks.len()),
+            links: PerBlock::new(),
+            to_centroid: PerBlock::new(),
+            to_top: PerBlock::new(),
+            foot: PerBlock::new(),
+            top: PerBlock::new(),
+            centroid: PerBlock::new(),
             turns,
         };
         let mut below = [0.0, 0.0];
@@ -209,7 +211,7 @@ impl<'a> Chain<'a> {
 
     /// Velocities of the blocks for rates of the coordinates, or the part of accelerations that is linear in their second derivatives.
     pub fn motion(&self, rates: &Rates) -> Motion {
-        let mut linear = Vec::with_capacity(self.len());
+        let mut linear = PerBlock::new();
         let mut below = [0.0, 0.0];
         for i in 0..self.len() {
             let foot = plus(below, self.apart_rate(i, rates));
@@ -220,8 +222,8 @@ impl<'a> Chain<'a> {
     }
 
     /// Accelerations of the centroids `[m/s²]` that the rates cause: centripetal ones and those of slides along turning faces.
-    pub fn imposed(&self, rates: &Rates) -> Vec<Vec2> {
-        let mut accelerations = Vec::with_capacity(self.len());
+    pub fn imposed(&self, rates: &Rates) -> PerBlock<Vec2> {
+        let mut accelerations = PerBlock::new();
         let mut below = [0.0, 0.0];
         for i in 0..self.len() {
             let link = &self.links[i];

@@ -17,6 +17,7 @@ use super::search::{Question, Touch};
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::lemke::lemke;
+use crate::numerics::per_block::PerBlock;
 
 /// Share of the largest change at work below which a gap or a slide does not change.
 const UNCHANGED: f64 = 1e-9;
@@ -42,7 +43,7 @@ pub fn states(
     coefficients: &[f64],
     slips: &[Option<Sign>],
     question: &Question,
-) -> Option<Vec<Joint>> {
+) -> Option<PerBlock<Joint>> {
     let chain = Chain::new(column, now);
     let corners = |(interface, touch): (usize, &Touch)| -> Vec<Corner> {
         let on = |side: Sign| face(column, interface, side, now.slide[interface]);
@@ -194,7 +195,8 @@ enum Row {
 
 /// Virtual motion of the blocks whose work a force of a contact along an axis does: the upper block with it, the lower one against it.
 fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> Motion {
-    let mut motion = Motion { linear: vec![[0.0; 2]; chain.len()], angular: vec![0.0; chain.len()] };
+    let mut motion =
+        Motion { linear: PerBlock::filled([0.0; 2], chain.len()), angular: PerBlock::filled(0.0, chain.len()) };
     let interface = contact.corner.interface;
     for (block, sign) in [(Some(interface), 1.0), (interface.checked_sub(1), -1.0)] {
         let Some(block) = block else { continue };

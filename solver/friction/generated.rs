@@ -1,6 +1,6 @@
 //! Accelerations by generated programs, where this build has one for the free angles and translations of the states.
 //!
-//! A program reads what its links and translations carry at the slides of the moment: sums over the blocks, from the top down. Between two links,
+//! A program reads what its links and translations carry at the slides of the moment: sums over the blocks of each link, and the mass above. Between two links,
 //! the contact has one point on the lower face, at `p` from its middle, and `p - u` on the upper one (docs/book/model.md, section 1). States without a
 //! translation run on the equations of displaced blocks.
 
@@ -69,7 +69,7 @@ impl Generated {
     pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Option<Generated> {
         let coordinates = coordinates(&configuration.joints);
         let equations = if coordinates.iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
-            let displaced = column.clone().displaced(configuration.slide.clone()).ok()?;
+            let displaced = column.clone().displaced(configuration.slide.to_vec()).ok()?;
             Equations::Sticking(Mode::generated(&displaced, &configuration.pattern())?)
         } else {
             Equations::Moving(Moving::new(column, configuration, &coordinates, kinetic)?)
@@ -149,8 +149,8 @@ impl Moving {
         Some(Moving {
             equations: moving::moving(angles.len(), translations.len())?,
             column: column.clone(),
-            joints: joints.clone(),
-            slide: slide.clone(),
+            joints: joints.to_vec(),
+            slide: slide.to_vec(),
             mass_from,
             starts,
             angles,

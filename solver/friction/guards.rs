@@ -92,7 +92,8 @@ pub struct Limits<'a> {
 }
 
 /// The value of a guard, above zero while nothing happens; `answer` is needed where forces are.
-pub fn value(guard: Guard, column: &Column, now: &Configuration, answer: Option<&Answer>, limits: Limits) -> f64 {
+pub fn value(guard: Guard, chain: &Chain, now: &Configuration, answer: Option<&Answer>, limits: Limits) -> f64 {
+    let column = chain.column();
     let contact = |interface: usize| answer.map(|answer| answer.contacts[interface]).unwrap_or_default();
     let Limits { friction, overturn_angle, slack } = limits;
     match guard {
@@ -115,10 +116,10 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, answer: Option<
             }
             _ => f64::INFINITY,
         },
-        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(&Chain::new(column, now), i),
+        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(chain, i),
         Guard::Collapse(i) => half_length(column, i, now.slide[i]),
         Guard::Land(corner) => {
-            let [beside, above] = gaps::gap(&Chain::new(column, now), corner);
+            let [beside, above] = gaps::gap(chain, corner);
             beside.max(above)
         }
         Guard::Overturn(block) => overturn_angle - now.theta[block].abs(),

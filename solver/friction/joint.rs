@@ -12,6 +12,7 @@
 
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
+use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Right (+1) or left (-1): the side of a corner, or the direction of a slide.
@@ -77,19 +78,19 @@ impl Joint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
     /// States of the interfaces.
-    pub joints: Vec<Joint>,
+    pub joints: PerBlock<Joint>,
     /// Angles `[rad]`.
-    pub theta: Vec<f64>,
+    pub theta: PerBlock<f64>,
     /// Rates `[rad/s]`.
-    pub omega: Vec<f64>,
+    pub omega: PerBlock<f64>,
     /// Slides `[m]`; of a free interface the last one, not kept up.
-    pub slide: Vec<f64>,
+    pub slide: PerBlock<f64>,
     /// Rates of the slides `[m/s]`.
-    pub slide_rate: Vec<f64>,
+    pub slide_rate: PerBlock<f64>,
     /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`; of free interfaces only.
-    pub apart: Vec<Vec2>,
+    pub apart: PerBlock<Vec2>,
     /// Rate of `apart` `[m/s]`.
-    pub apart_rate: Vec<Vec2>,
+    pub apart_rate: PerBlock<Vec2>,
 }
 
 impl Configuration {
@@ -97,13 +98,13 @@ impl Configuration {
     pub fn sticking(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> Configuration {
         let blocks = column.len();
         let mut configuration = Configuration {
-            joints: vec![Joint::Closed(Slip::Sticks); blocks],
-            theta: theta.to_vec(),
-            omega: omega.to_vec(),
-            slide: column.slides().to_vec(),
-            slide_rate: vec![0.0; blocks],
-            apart: vec![[0.0; 2]; blocks],
-            apart_rate: vec![[0.0; 2]; blocks],
+            joints: PerBlock::filled(Joint::Closed(Slip::Sticks), blocks),
+            theta: PerBlock::from_slice(theta),
+            omega: PerBlock::from_slice(omega),
+            slide: PerBlock::from_slice(column.slides()),
+            slide_rate: PerBlock::filled(0.0, blocks),
+            apart: PerBlock::filled([0.0; 2], blocks),
+            apart_rate: PerBlock::filled([0.0; 2], blocks),
         };
         for (interface, state) in pattern.0.iter().enumerate().filter(|(_, state)| state.is_open()) {
             let side = state.sign();

@@ -14,6 +14,7 @@ use super::chain::{Chain, Motion, Rates};
 use super::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
+use crate::numerics::per_block::PerBlock;
 
 /// A coordinate of a configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +78,7 @@ pub struct Answer {
     pub change: Motion,
     /// What the contacts transmit to the stacks above: in the axes of the face that carries the contact, the moment about the centre of a
     /// closed one and about the point of a corner.
-    pub contacts: Vec<ContactForce>,
+    pub contacts: PerBlock<ContactForce>,
 }
 
 impl Answer {
@@ -86,7 +87,7 @@ impl Answer {
         Answer {
             rates: Rates::zero(blocks),
             change: Motion::default(),
-            contacts: vec![ContactForce::default(); blocks],
+            contacts: PerBlock::filled(ContactForce::default(), blocks),
         }
     }
 }
@@ -101,7 +102,7 @@ pub struct Rows<'c, 'a> {
     /// Virtual motion along which each row is tested.
     tests: Vec<Motion>,
     /// Centre or point of each contact `[m]`.
-    points: Vec<Vec2>,
+    points: PerBlock<Vec2>,
 }
 
 impl<'c, 'a> Rows<'c, 'a> {
@@ -121,7 +122,7 @@ impl<'c, 'a> Rows<'c, 'a> {
                 let [along, across] = chain.axes(*interface);
                 let direction = [along[0] + lift * across[0], along[1] + lift * across[1]];
                 let above = |block: usize| if block >= *interface { direction } else { [0.0, 0.0] };
-                Motion { linear: (0..joints.len()).map(above).collect(), angular: vec![0.0; joints.len()] }
+                Motion { linear: (0..joints.len()).map(above).collect(), angular: PerBlock::filled(0.0, joints.len()) }
             }
             _ => column.clone(),
         };
@@ -189,7 +190,7 @@ pub fn answer_to(
 }
 
 /// Centre or point of each contact `[m]`.
-fn points(chain: &Chain, joints: &[Joint], centres: &[f64]) -> Vec<Vec2> {
+fn points(chain: &Chain, joints: &[Joint], centres: &[f64]) -> PerBlock<Vec2> {
     let point = |(interface, joint): (usize, &Joint)| match joint {
         Joint::Corner(..) => chain.pivot(interface),
         _ => chain.on_lower_face(interface, centres[interface]),
@@ -198,7 +199,7 @@ fn points(chain: &Chain, joints: &[Joint], centres: &[f64]) -> Vec<Vec2> {
 }
 
 /// Accelerations of the centroids less gravity that rates and ground cause `[m/s²]`.
-fn imposed(chain: &Chain, rates_now: &Rates, ground: Ground) -> Vec<Vec2> {
+fn imposed(chain: &Chain, rates_now: &Rates, ground: Ground) -> PerBlock<Vec2> {
     let mut imposed = chain.imposed(rates_now);
     imposed.iter_mut().for_each(|a| *a = [a[0] + ground.x, a[1] + ground.gravity]);
     imposed

@@ -18,6 +18,7 @@ use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
+use crate::numerics::per_block::PerBlock;
 
 /// What touches at an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +53,7 @@ pub enum Question {
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// The states.
-    pub joints: Vec<Joint>,
+    pub joints: PerBlock<Joint>,
     /// Accelerations and forces, or velocities and impulses.
     pub answer: Answer,
     /// Whether other states were admissible, with another answer.
@@ -140,7 +141,7 @@ impl<'a> Search<'a> {
     }
 
     /// The same, beginning with these states.
-    pub fn solve_from(&self, first: Vec<Joint>) -> Option<Solution> {
+    pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let guided = self.guided(first.clone());
         let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
@@ -155,7 +156,7 @@ impl<'a> Search<'a> {
     }
 
     /// The states that solve the problem as one of complementarity.
-    fn complementary(&self) -> Option<Vec<Joint>> {
+    fn complementary(&self) -> Option<PerBlock<Joint>> {
         let coefficients = match self.question {
             Question::Accelerations(_) => &self.friction.fixed,
             Question::Impact(_) => &self.friction.kinetic,
@@ -167,11 +168,11 @@ impl<'a> Search<'a> {
         let slips: Vec<Option<Sign>> = (0..self.touch.len()).map(slip).collect();
         let joints = complementarity::states(self.column, self.now, self.touch, coefficients, &slips, &self.question)?;
         // Coinciding corners slide along the face that carries them.
-        let carried = |(interface, joint): (usize, Joint)| match joint {
+        let carried = |(interface, joint): (usize, &Joint)| match *joint {
             Joint::Corner(side, _, slip) => self.corner(interface, side, slip),
             joint => joint,
         };
-        Some(joints.into_iter().enumerate().map(carried).collect())
+        Some(joints.iter().enumerate().map(carried).collect())
     }
 
     /// The states that follow if these do not, and of an impact those that change the motion; `None` if there are no others.
@@ -187,7 +188,7 @@ impl<'a> Search<'a> {
     }
 
     /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them.
-    pub fn carried(&self, solution: &Solution) -> Vec<Joint> {
+    pub fn carried(&self, solution: &Solution) -> PerBlock<Joint> {
         let mut joints = solution.joints.clone();
         for interface in 0..joints.len() {
             let Joint::Corner(side, _, Slip::Slides(direction)) = joints[interface] else { continue };
@@ -209,7 +210,7 @@ impl<'a> Search<'a> {
     }
 
     /// The states with which the search begins: what touches sticks, what slides goes on.
-    pub fn first(&self) -> Vec<Joint> {
+    pub fn first(&self) -> PerBlock<Joint> {
         let joint = |(interface, touch): (usize, &Touch)| {
             let now = self.now.joints[interface];
             match (touch, now, &self.question) {
@@ -244,14 +245,14 @@ impl<'a> Search<'a> {
     }
 
     /// The states that an interface may take.
-    fn choices(&self, interface: usize) -> Vec<Joint> {
+    fn choices(&self, interface: usize) -> PerBlock<Joint> {
         let slips = match self.given_slip(interface) {
             Some(slip) => vec![slip],
             None => vec![Slip::Sticks, Slip::Slides(1), Slip::Slides(-1)],
         };
         let corners = |side: Sign| slips.iter().map(move |slip| self.corner(interface, side, *slip));
-        let mut choices: Vec<Joint> = match self.touch[interface] {
-            Touch::Nothing => Vec::new(),
+        let mut choices: PerBlock<Joint> = match self.touch[interface] {
+            Touch::Nothing => PerBlock::new(),
             Touch::Corner(side) => corners(side).collect(),
             Touch::Faces => {
                 slips.iter().map(|slip| Joint::Closed(*slip)).chain(corners(1)).chain(corners(-1)).collect()
@@ -264,7 +265,7 @@ impl<'a> Search<'a> {
     /// What states give; `None` where they do not determine it.
     fn answer(&self, joints: &[Joint]) -> Option<Answer> {
         let mut configuration = self.now.clone();
-        configuration.joints = joints.to_vec();
+        configuration.joints = PerBlock::from_slice(joints);
         let held = Chain::new(self.column, self.now);
         for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free {
@@ -282,8 +283,8 @@ impl<'a> Search<'a> {
     }
 
     /// From violated condition to the state that it names, until none is violated.
-    fn guided(&self, first: Vec<Joint>) -> Option<Solution> {
-        let mut visited: Vec<Vec<Joint>> = Vec::new();
+    fn guided(&self, first: PerBlock<Joint>) -> Option<Solution> {
+        let mut visited: Vec<PerBlock<Joint>> = Vec::new();
         let mut joints = first;
         for _ in 0..8 * joints.len() + 8 {
             let answer = self.answer(&joints)?;
@@ -311,13 +312,13 @@ impl<'a> Search<'a> {
 
     /// The best of all admissible combinations that are wanted: few changes first.
     fn tried(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
-        let choices: Vec<Vec<Joint>> = (0..first.len()).map(|i| self.choices(i)).collect();
+        let choices: Vec<PerBlock<Joint>> = (0..first.len()).map(|i| self.choices(i)).collect();
         let count = choices.iter().fold(1usize, |count, list| count.saturating_mul(list.len()));
         if count > MOST_TRIED {
             return None;
         }
-        let combination = |mut code: usize| -> Vec<Joint> {
-            let pick = |list: &Vec<Joint>| {
+        let combination = |mut code: usize| -> PerBlock<Joint> {
+            let pick = |list: &PerBlock<Joint>| {
                 let joint = list[code % list.len()];
                 code /= list.len();
                 joint
@@ -325,7 +326,7 @@ impl<'a> Search<'a> {
             choices.iter().map(pick).collect()
         };
         let changes = |joints: &[Joint]| joints.iter().zip(first).filter(|(a, b)| a != b).count();
-        let mut admissible: Vec<(usize, f64, Vec<Joint>, Answer)> = Vec::new();
+        let mut admissible: Vec<(usize, f64, PerBlock<Joint>, Answer)> = Vec::new();
         for code in 0..count {
             let joints = combination(code);
             let Some(answer) = self.answer(&joints) else { continue };

@@ -91,7 +91,7 @@ impl Instant<'_> {
 
     /// A slide whose rate is against its direction has none but rounding: whether it begins is decided by accelerations.
     fn stop_slides_without_direction(&mut self) {
-        for (joint, rate) in self.now.joints.iter().zip(&mut self.now.slide_rate) {
+        for (joint, rate) in self.now.joints.iter().zip(self.now.slide_rate.iter_mut()) {
             if joint.slip().is_some_and(|slip| slip.sign() * *rate < 0.0) {
                 *rate = 0.0;
             }

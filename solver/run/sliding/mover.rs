@@ -1,7 +1,7 @@
 //! Time passes: at rest until the ground starts the column, in motion by steps of an explicit method until a guard falls to zero.
 
-use super::recorder::Recorder;
-use super::smooth::Smooth;
+use super::recorder::{Inside, Recorder};
+use super::smooth::{Moment, Smooth};
 use super::state::{Ended, State};
 use super::step::Step;
 use crate::column::Column;
@@ -37,6 +37,22 @@ pub struct Mover<'p> {
     started: f64,
     vain: f64,
     pub work: Work,
+}
+
+/// A column at rest.
+struct Resting<'p> {
+    smooth: Smooth<'p>,
+    moment: Option<Moment<'p>>,
+}
+
+impl<'p> Inside<'p> for Resting<'p> {
+    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
+        let moment = self.moment.insert(self.smooth.moment(self.smooth.base.clone()));
+        if needs_forces {
+            self.smooth.answer(t, moment);
+        }
+        moment
+    }
 }
 
 /// A phase to be integrated by the tableau of a method.
@@ -81,11 +97,11 @@ impl<'p> Mover<'p> {
 
     /// Waits at rest for the ground to start the column.
     fn wait(&mut self, from: &State, recorder: &mut Recorder<'p>) -> (State, Ended) {
-        let column = self.column().clone().displaced(from.configuration.slide.clone());
+        let column = self.column().clone().displaced(from.configuration.slide.to_vec());
         let column = column.unwrap_or_else(|_| self.column().clone());
         let ground = self.problem.ground;
         let starts = |segment: usize, t: f64| rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
-        let mut smooth = self.smooth(from);
+        let mut rest = Resting { smooth: self.smooth(from), moment: None };
         let (mut t, mut segment) = (from.t, from.segment);
         // A ground that comes to what starts the column and goes no further has started nothing.
         let is_vain = from.t - self.started <= self.vain;
@@ -94,8 +110,8 @@ impl<'p> Mover<'p> {
             self.work.rest_stretches += 1;
             let start = starts(segment, (from.t + self.vain).max(t));
             let until = start.map_or(ground[segment].end, |(start, _)| start);
-            smooth.segment = &ground[segment];
-            recorder.read(segment, [t, until], &mut |time| smooth.at_rest(time));
+            rest.smooth.segment = &ground[segment];
+            recorder.read(segment, [t, until], &mut rest);
             t = until;
             if let Some((start, guard)) = start {
                 self.started = start;
@@ -170,7 +186,7 @@ impl<'p> Mover<'p> {
             let first = step.first_of(&list);
             let s = first.map_or(1.0, |(s, _)| s);
             let until = if s == 1.0 { t + h } else { t + s * h };
-            recorder.read(segment, [t, until], &mut |time| step.known_at(((time - t) / h).clamp(0.0, s)));
+            recorder.read(segment, [t, until], &mut step);
             let last = step.configuration(s);
             if let Some((_, guard)) = first {
                 x = smooth.state(&last);

@@ -1,14 +1,13 @@
 //! The recorder of a run with friction: the only writer of rows, events, peaks, forces, work and times.
 
 use super::contacts::{lowest_gap, slide};
+use super::smooth::{Moment, Smooth};
 use super::state::State;
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::joint::{Configuration, Joint, Slip};
-use crate::friction::rows::{Answer, Rows};
-use crate::friction::search::{Coefficients, centre};
-use crate::mechanics::dynamics::Ground;
+use crate::friction::search::Coefficients;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{
@@ -32,8 +31,11 @@ const GAUSS: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_5),
 ];
 
-/// The inside of a step: configuration, accelerations and forces at a time.
-pub type Inside<'s> = dyn FnMut(f64) -> (Configuration, Answer) + 's;
+/// The inside of a stretch.
+pub trait Inside<'p> {
+    /// The column at a time `[s]`, with accelerations and forces where they are needed.
+    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p>;
+}
 
 /// The record of a run under way.
 pub struct Recorder<'p> {
@@ -167,40 +169,41 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Records rows, peaks, forces and work of a step that ends the earlier part of a stretch.
-    pub fn read(&mut self, segment: usize, [from, until]: [f64; 2], inside: &mut Inside) {
+    /// Records rows, peaks, forces and work of a step, or of the part of it that a guard leaves.
+    pub fn read(&mut self, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
         if !self.problem.is_recorded() {
             return;
         }
         while let Some(t) = self.next_row().filter(|t| *t < until) {
-            let (configuration, _) = inside(t.max(from));
-            self.row(t, &configuration);
+            self.row(t, inside.moment(t.max(from), true));
         }
-        let (start, _) = inside(from);
-        let mut before = (from, start.omega);
+        let mut before = (from, inside.moment(from, false).configuration.omega.clone());
         for (node, weight) in GAUSS {
             let t = from + node * (until - from);
-            let (configuration, answer) = inside(t);
-            self.crests([before.0, t], [&before.1, &configuration.omega], inside);
-            self.forces_and_work(segment, t, weight * (until - from), &configuration, &answer);
-            before = (t, configuration.omega);
+            let moment = inside.moment(t, true);
+            self.forces_and_work(segment, t, weight * (until - from), moment);
+            let omega = moment.configuration.omega.clone();
+            self.crests([before.0, t], [&before.1, &omega], inside);
+            before = (t, omega);
         }
-        let (end, _) = inside(until);
+        let end = inside.moment(until, false).configuration.clone();
         self.crests([before.0, until], [&before.1, &end.omega], inside);
         self.angles(&end);
     }
 
     /// Records the crests of angles between two times at which the blocks turn like this.
-    fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], inside: &mut Inside) {
+    fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], inside: &mut dyn Inside<'p>) {
         for block in 0..rates[0].len() {
             let [start, end] = rates.map(|rates| rates[block]);
-            if start * end >= 0.0 {
+            let angle = inside.moment(until, false).configuration.theta[block];
+            let may_be_higher = angle.abs() + start.abs().max(end.abs()) * (until - from) > self.peak_theta[block];
+            if start * end >= 0.0 || !may_be_higher {
                 continue;
             }
-            let mut rate = |s: f64| start.signum() * inside(from + s * (until - from)).0.omega[block];
+            let mut rate =
+                |s: f64| start.signum() * inside.moment(from + s * (until - from), false).configuration.omega[block];
             if let Some(s) = first_crossing(&mut rate, start.abs(), 1.0) {
-                let (crest, _) = inside(from + s * (until - from));
-                self.angles(&crest);
+                self.angles(&inside.moment(from + s * (until - from), false).configuration);
             }
         }
     }
@@ -211,19 +214,19 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Records the forces at a time inside a step, and their work over a part of the step `[s]`.
-    fn forces_and_work(&mut self, segment: usize, t: f64, part: f64, now: &Configuration, answer: &Answer) {
-        let chain = Chain::new(self.column(), now);
+    /// Records the forces at a moment, and their work over a part of the step `[s]`.
+    fn forces_and_work(&mut self, segment: usize, t: f64, part: f64, moment: &Moment) {
+        let Moment { configuration: now, chain, answer } = moment;
         let motion = chain.motion(&Rates::of(now));
         let [ax, ay] = self.problem.ground[segment].accelerations(t);
         for (block, v) in self.column().blocks().iter().zip(&motion.linear) {
             self.report.ground_work -= part * block.mass * (ax * v[0] + ay * v[1]);
         }
-        for (interface, contact) in answer.contacts.iter().enumerate() {
+        for (interface, contact) in answer.iter().flat_map(|answer| answer.contacts.iter().enumerate()) {
             if now.joints[interface] == Joint::Free {
-                self.report.highest_flight = self.report.highest_flight.max(lowest_gap(&chain, interface));
+                self.report.highest_flight = self.report.highest_flight.max(lowest_gap(chain, interface));
                 let peak = &mut self.report.peak_slide[interface];
-                *peak = peak.max(slide(&chain, now, interface).abs());
+                *peak = peak.max(slide(chain, now, interface).abs());
                 continue;
             }
             self.report.friction_work += part * contact.tangential * now.slide_rate[interface];
@@ -243,36 +246,37 @@ impl<'p> Recorder<'p> {
         (t <= self.problem.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
     }
 
-    fn row(&mut self, t: f64, now: &Configuration) {
+    /// The segment of the ground motion at a row that follows those before.
+    fn segment_of_row(&mut self, t: f64) -> &'p Segment {
         let ground = self.problem.ground;
         while self.sample_segment + 1 < ground.len() && ground[self.sample_segment].end <= t {
             self.sample_segment += 1;
         }
-        let segment = &ground[self.sample_segment];
+        &ground[self.sample_segment]
+    }
+
+    fn row(&mut self, t: f64, moment: &Moment) {
+        let Moment { configuration: now, chain, answer } = moment;
+        let segment = self.segment_of_row(t);
         let Segment { horizontal, vertical, .. } = segment;
-        let chain = Chain::new(self.column(), now);
         let gap = |interface: usize| match now.joints[interface] {
-            Joint::Free => lowest_gap(&chain, interface),
+            Joint::Free => lowest_gap(chain, interface),
             _ => 0.0,
         };
         let blocks = now.theta.len();
-        let rates = Rates::of(now);
-        let motion = chain.motion(&rates);
-        let centres: Vec<f64> = (0..blocks).map(|i| centre(self.column(), i, now.slide[i])).collect();
-        let rows = Rows::new(&chain, &now.joints, &self.friction.kinetic, &centres);
-        let forces = rows.accelerations(&rates, Ground::at(segment, t, self.column().gravity()));
+        let motion = chain.motion(&Rates::of(now));
         let state = |block: usize| BlockState {
             place: chain.centroid[block],
             velocity: motion.linear[block],
-            force: forces.as_ref().map_or_else(Default::default, |answer| answer.contacts[block]),
+            force: answer.as_ref().map_or_else(Default::default, |answer| answer.contacts[block]),
         };
         self.samples.push(Sample {
             t,
-            theta: now.theta.clone(),
-            omega: now.omega.clone(),
+            theta: now.theta.to_vec(),
+            omega: now.omega.to_vec(),
             ground: [horizontal.value(t), vertical.value(t)],
             pattern: now.pattern(),
-            slide: (0..blocks).map(|interface| slide(&chain, now, interface)).collect(),
+            slide: (0..blocks).map(|interface| slide(chain, now, interface)).collect(),
             gap: (0..blocks).map(gap).collect(),
             blocks: (0..blocks).map(state).collect(),
         });
@@ -280,18 +284,22 @@ impl<'p> Recorder<'p> {
 
     /// The response of a run that ends in a state, with the block or interface (from zero) that ended it.
     pub fn finish(mut self, end: State, status: StopReason, place: Option<usize>, work: Work) -> Response {
-        let now = &end.configuration;
+        let mut smooth = Smooth::new(self.problem, self.friction, &end);
+        let mut moment = smooth.moment(end.configuration);
         // A run that ends as it begins has one row all the same.
         if self.samples.is_empty() && self.next_row().is_some() {
-            self.row(end.t, now);
+            smooth.answer(end.t, &mut moment);
+            self.row(end.t, &moment);
         }
         if !matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined) {
             while let Some(t) = self.next_row() {
-                self.row(t, now);
+                (moment.answer, smooth.segment) = (None, self.segment_of_row(t));
+                smooth.answer(t, &mut moment);
+                self.row(t, &moment);
             }
         }
-        let chain = Chain::new(self.column(), now);
-        self.report.residual_slide = (0..now.theta.len()).map(|interface| slide(&chain, now, interface)).collect();
+        let Moment { configuration: now, chain, .. } = &moment;
+        self.report.residual_slide = (0..now.theta.len()).map(|interface| slide(chain, now, interface)).collect();
         self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
         let recorded = |list: Vec<f64>| if self.problem.is_recorded() { list } else { Vec::new() };
         Response {

@@ -9,6 +9,7 @@ use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};
 use crate::friction::search::{Coefficients, centre};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::explicit::System;
+use crate::numerics::per_block::PerBlock;
 use crate::run::problem::Problem;
 use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
@@ -17,7 +18,7 @@ use rocking_ground::Segment;
 pub struct Smooth<'p> {
     pub column: &'p Column,
     pub friction: &'p Coefficients,
-    base: Configuration,
+    pub base: Configuration,
     coordinates: Vec<Coordinate>,
     /// Accelerations where the build has a program for the states; the rows serve the rest.
     generated: Option<Generated>,
@@ -74,30 +75,38 @@ impl<'p> Smooth<'p> {
         configuration
     }
 
-    /// Accelerations and forces at a time; `None` where the rows do not determine them.
-    pub fn answer(&mut self, t: f64, configuration: &Configuration) -> Option<Answer> {
+    /// A moment of the motion, with its geometry.
+    pub fn moment(&self, configuration: Configuration) -> Moment<'p> {
+        let chain = Chain::new(self.column, &configuration);
+        Moment { configuration, chain, answer: None }
+    }
+
+    /// Evaluates accelerations and forces of a moment at a time; none where the rows do not determine them.
+    pub fn answer<'m>(&mut self, t: f64, moment: &'m mut Moment<'p>) -> &'m Answer {
+        let blocks = self.column.len();
+        moment.answer.get_or_insert_with(|| {
+            self.solved(t, &moment.configuration, &moment.chain).unwrap_or_else(|| Answer::none(blocks))
+        })
+    }
+
+    fn solved(&mut self, t: f64, now: &Configuration, chain: &Chain) -> Option<Answer> {
         self.calls += 1;
-        let chain = Chain::new(self.column, configuration);
-        let centres: Vec<f64> =
-            (0..self.column.len()).map(|i| centre(self.column, i, configuration.slide[i])).collect();
-        let (rates, ground) = (Rates::of(configuration), Ground::at(self.segment, t, self.gravity));
+        let centres: PerBlock<f64> = (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect();
+        let (rates, ground) = (Rates::of(now), Ground::at(self.segment, t, self.gravity));
         if let Some(generated) = &mut self.generated {
-            let second = generated.rates(configuration, ground)?;
-            return Some(answer_to(&chain, &configuration.joints, &centres, second, &rates, ground));
+            let second = generated.rates(now, ground)?;
+            return Some(answer_to(chain, &now.joints, &centres, second, &rates, ground));
         }
-        Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres).accelerations(&rates, ground)
+        Rows::new(chain, &now.joints, &self.friction.kinetic, &centres).accelerations(&rates, ground)
     }
+}
 
-    /// Configuration, accelerations and forces inside a step; no accelerations where the rows have no solution.
-    pub fn known(&mut self, t: f64, configuration: &Configuration) -> (Configuration, Answer) {
-        let answer = self.answer(t, configuration).unwrap_or_else(|| Answer::none(self.column.len()));
-        (configuration.clone(), answer)
-    }
-
-    /// The same where nothing moves.
-    pub fn at_rest(&mut self, t: f64) -> (Configuration, Answer) {
-        self.known(t, &self.base.clone())
-    }
+/// The column at one time inside a stretch.
+pub struct Moment<'p> {
+    pub configuration: Configuration,
+    pub chain: Chain<'p>,
+    /// Accelerations and forces, once they have been evaluated.
+    pub answer: Option<Answer>,
 }
 
 impl System for Smooth<'_> {
@@ -112,8 +121,8 @@ impl System for Smooth<'_> {
             let ground = Ground::at(self.segment, t, self.gravity);
             return generated.accelerations(values, rates, ground, &mut slope[dof..]);
         }
-        let configuration = self.configuration(x);
-        match self.answer(t, &configuration) {
+        let now = self.configuration(x);
+        match self.solved(t, &now, &Chain::new(self.column, &now)) {
             Some(answer) => {
                 for (coordinate, value) in self.coordinates.iter().zip(&mut slope[dof..]) {
                     *value = match coordinate {

@@ -1,11 +1,10 @@
 //! The inside of a step: the first guard that falls to zero.
 
-use super::smooth::Smooth;
-use crate::friction::chain::Chain;
+use super::recorder::Inside;
+use super::smooth::{Moment, Smooth};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::{self, Guard, Limits};
 use crate::friction::joint::Configuration;
-use crate::friction::rows::Answer;
 use crate::friction::search::force_slack;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
@@ -21,16 +20,16 @@ const LOW_SHARE: f64 = 1e-3;
 /// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
 const NEAR_START: f64 = 1e-4;
 
-/// What the inside of a step was evaluated to.
-type Known = (Configuration, Option<Answer>);
-
 /// An accepted step with what has been evaluated inside it.
 pub struct Step<'s, 'p> {
     smooth: &'s mut Smooth<'p>,
     interpolant: &'s Interpolant<Vec<f64>>,
     t: f64,
     h: f64,
-    known: Vec<(f64, Known)>,
+    /// Places and what they were evaluated to.
+    known: Vec<(f64, Moment<'p>)>,
+    /// Storage of a state.
+    state: Vec<f64>,
     overturn_angle: f64,
     stick_angle: f64,
 }
@@ -44,50 +43,42 @@ impl<'s, 'p> Step<'s, 'p> {
         options: &SolveOptions,
     ) -> Step<'s, 'p> {
         let &SolveOptions { overturn_angle, stick_angle, .. } = options;
-        Step { smooth, interpolant, t, h, known: Vec::new(), overturn_angle, stick_angle }
+        let state = vec![0.0; 2 * smooth.dof()];
+        Step { smooth, interpolant, t, h, known: Vec::new(), state, overturn_angle, stick_angle }
     }
 
     /// The configuration at a place of the step, 0 to 1.
     pub fn configuration(&mut self, s: f64) -> Configuration {
-        self.at(s, false).0.clone()
+        self.at(s, false).configuration.clone()
     }
 
-    /// The same with accelerations and forces.
-    pub fn known_at(&mut self, s: f64) -> (Configuration, Answer) {
-        let (configuration, answer) = self.at(s, true).clone();
-        let blocks = configuration.theta.len();
-        (configuration, answer.unwrap_or_else(|| Answer::none(blocks)))
-    }
-
-    /// The configuration at a place of the step, 0 to 1, and accelerations and forces where they are needed.
-    fn at(&mut self, s: f64, needs_forces: bool) -> &Known {
+    /// The moment at a place of the step, 0 to 1, with accelerations and forces where they are needed.
+    fn at(&mut self, s: f64, needs_forces: bool) -> &Moment<'p> {
         let index = match self.known.iter().position(|(place, _)| *place == s) {
             Some(index) => index,
             None => {
-                let mut x = vec![0.0; 2 * self.smooth.dof()];
-                self.interpolant.evaluate(s, &mut x);
-                self.known.push((s, (self.smooth.configuration(&x), None)));
+                self.interpolant.evaluate(s, &mut self.state);
+                self.known.push((s, self.smooth.moment(self.smooth.configuration(&self.state))));
                 self.known.len() - 1
             }
         };
-        let (_, (configuration, answer)) = &mut self.known[index];
-        if needs_forces && answer.is_none() {
-            *answer = self.smooth.answer(self.t + s * self.h, configuration);
+        let moment = &mut self.known[index].1;
+        if needs_forces {
+            self.smooth.answer(self.t + s * self.h, moment);
         }
-        &self.known[index].1
+        moment
     }
 
     fn value(&mut self, guard: Guard, s: f64) -> f64 {
         let Smooth { column, friction, gravity, segment, .. } = *self.smooth;
         let (t, overturn_angle) = (self.t + s * self.h, self.overturn_angle);
-        let (configuration, answer) = self.at(s, guard.needs_forces());
-        let slack = if guard.needs_forces() {
-            force_slack(column, configuration, Ground::at(segment, t, gravity))
-        } else {
-            0.0
+        let moment = self.at(s, guard.needs_forces());
+        let slack = match guard.needs_forces() {
+            true => force_slack(column, &moment.configuration, Ground::at(segment, t, gravity)),
+            false => 0.0,
         };
         let limits = Limits { friction, overturn_angle, slack };
-        guards::value(guard, column, configuration, answer.as_ref(), limits)
+        guards::value(guard, &moment.chain, &moment.configuration, moment.answer.as_ref(), limits)
     }
 
     /// The first guard that falls to zero, and where.
@@ -110,10 +101,7 @@ impl<'s, 'p> Step<'s, 'p> {
     /// comes from above is followed by its height alone.
     fn landing(&mut self, corner: Corner, limit: f64) -> Option<f64> {
         let guard = Guard::Land(corner);
-        let gap = |step: &mut Self, s: f64| {
-            let column = step.smooth.column;
-            gaps::gap(&Chain::new(column, &step.at(s, false).0), corner)
-        };
+        let gap = |step: &mut Self, s: f64| gaps::gap(&step.at(s, false).chain, corner);
         if gap(self, 0.0)[1] >= -self.noise(guard) {
             let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
@@ -161,7 +149,7 @@ impl<'s, 'p> Step<'s, 'p> {
         match guard {
             Guard::Close(_) => {
                 let largest = |c: &Configuration| c.theta.iter().fold(0.0f64, |most, angle| most.max(angle.abs()));
-                let angle = self.known.first().map_or(1.0, |(_, (configuration, _))| largest(configuration));
+                let angle = self.known.first().map_or(1.0, |(_, moment)| largest(&moment.configuration));
                 (START_ROUNDING * angle).max(least)
             }
             Guard::Stop(_) => {
@@ -170,5 +158,11 @@ impl<'s, 'p> Step<'s, 'p> {
             }
             _ => size * START_ROUNDING.max(least),
         }
+    }
+}
+
+impl<'p> Inside<'p> for Step<'_, 'p> {
+    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
+        self.at(((t - self.t) / self.h).clamp(0.0, 1.0), needs_forces)
     }
 }

@@ -8,6 +8,7 @@ use crate::friction::guards::Guard;
 use crate::friction::joint::{Configuration, Joint, Sign, Slip, difference, face};
 use crate::friction::rows::Rows;
 use crate::friction::search::{Coefficients, Question, Search, Solution, Touch, half_length};
+use crate::numerics::per_block::PerBlock;
 use crate::response::{EventKind, Impulse, StopReason};
 use crate::run::problem::Problem;
 
@@ -154,7 +155,11 @@ impl<'p> Instant<'p> {
     }
 
     /// The states with which the column moves on from here.
-    fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<Vec<Joint>, StopReason> {
+    fn accelerated(
+        &mut self,
+        before: &Configuration,
+        hint: Option<(usize, Joint)>,
+    ) -> Result<PerBlock<Joint>, StopReason> {
         let touch = self.joined();
         // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding; a slide that has
         // come to rest may begin anew.
@@ -292,7 +297,7 @@ impl<'p> Instant<'p> {
     }
 
     /// The states without the hops and slides that would come back before they exceed the resolution; `None` if there are none.
-    fn too_low(&self, solution: &Solution) -> Option<Vec<Joint>> {
+    fn too_low(&self, solution: &Solution) -> Option<PerBlock<Joint>> {
         let least = self.problem.scene.options.stick_angle;
         let returns = |rate: f64, change: f64, least: f64| {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
@@ -312,7 +317,7 @@ impl<'p> Instant<'p> {
             Joint::Closed(Slip::Slides(_)) if stops(interface) => Joint::Closed(Slip::Sticks),
             joint => joint,
         };
-        let joints: Vec<Joint> = solution.joints.iter().enumerate().map(held).collect();
+        let joints: PerBlock<Joint> = solution.joints.iter().enumerate().map(held).collect();
         (joints != solution.joints).then_some(joints)
     }
 
@@ -326,7 +331,7 @@ impl<'p> Instant<'p> {
                 held.apart[interface] = chain.apart(interface);
             }
         }
-        held.joints = joints.to_vec();
+        held.joints = PerBlock::from_slice(joints);
         let chain = Chain::new(self.column(), &held);
         let none = vec![0.0; joints.len()];
         let Some(answer) = Rows::new(&chain, joints, &none, &none).impact(&before) else { return };
