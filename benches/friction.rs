@@ -19,10 +19,10 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Rounds, of which the median counts.
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 25;
 
 /// Runs of a scene in a round.
-const RUNS: usize = 40;
+const RUNS: usize = 10;
 
 /// Points of the spectrum.
 const CELLS: usize = 10_000;

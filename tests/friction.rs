@@ -24,20 +24,23 @@ fn slide(response: &Response, interface: usize) -> f64 {
     response.sliding.as_ref().expect("a run with friction").residual_slide[interface]
 }
 
-/// Newmark's block under a rectangular pulse `A g` for `t_1`: slides by `½ A g t_1² (A/μ - 1)`, stops at `A t_1/μ`.
+/// Newmark's block under a rectangular pulse `A g` for `t_1`, at once or after a rest: slides by `½ A g t_1² (A/μ - 1)`, stops `A t_1/μ` after its start.
 #[test]
 fn a_block_slides_under_a_rectangular_pulse_as_newmarks() {
     let (a, mu, duration) = (0.8, 0.2, 0.3);
-    let mut scene = scene(vec![Block::rectangle(0.5, 0.5, 1.0)], vec![mu]);
-    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: a * GRAVITY, start: 0.0, duration });
-    scene.options.t_end = 3.0;
-    let response = run(&scene);
-    // Constant accelerations: steps are exact but for rounding.
-    let expected = -0.5 * a * GRAVITY * duration * duration * (a / mu - 1.0);
-    assert_relative_eq!(slide(&response, 0), expected, max_relative = 1e-10);
-    let stop = response.events.iter().find(|event| event.kind == EventKind::Stick).expect("it stops");
-    assert_relative_eq!(stop.t, a * duration / mu, max_relative = 1e-10);
-    assert_eq!(response.status, StopReason::AtRest);
+    for begin in [0.0, 0.2] {
+        let mut scene = scene(vec![Block::rectangle(0.5, 0.5, 1.0)], vec![mu]);
+        let pulse = Motion::Rectangular { amplitude: a * GRAVITY, start: begin, duration };
+        scene.excitation.horizontal = Some(pulse);
+        scene.options.t_end = 3.0;
+        let response = run(&scene);
+        // Constant accelerations: steps are exact but for rounding.
+        let expected = -0.5 * a * GRAVITY * duration * duration * (a / mu - 1.0);
+        assert_relative_eq!(slide(&response, 0), expected, max_relative = 1e-10);
+        let stop = response.events.iter().find(|event| event.kind == EventKind::Stick).expect("it stops");
+        assert_relative_eq!(stop.t, begin + a * duration / mu, max_relative = 1e-10);
+        assert_eq!(response.status, StopReason::AtRest);
+    }
 }
 
 /// The same under a half-sine: from 0.083333 to 0.677308 s, 0.338955 m.
@@ -353,7 +356,7 @@ fn mirror_images_slide_as_mirror_images() {
 /// Ground's work and friction's work less what impacts lose is the change of energy.
 #[test]
 fn the_energy_balance_closes() {
-    let (mut closed, mut within) = (0, 0);
+    let mut closed = 0;
     for mut scene in random_scenes(200) {
         // At the default of 1e-9 the steps' own errors are 1e-8 of the ground's work.
         (scene.options.rtol, scene.options.atol) = (1e-12, 1e-15);
@@ -369,10 +372,9 @@ fn the_energy_balance_closes() {
         let sum = sliding.ground_work + sliding.friction_work - sliding.impact_losses - sliding.energy_change;
         // The ground's work is a sum in which parts may cancel; what impacts have lost has been put in.
         let size = sliding.ground_work.abs().max(sliding.impact_losses);
-        // Measured: 3e-10 at most in 129 of 135 scenes, 2e-5 at most in the others, where the rate of a slide is lost at the end of a chatter.
-        assert!(sum.abs() < 3e-5 * size, "{sum:e} of {size:e}: {sliding:?}");
+        // Measured: 3e-10 at most.
+        assert!(sum.abs() < 1e-9 * size, "{sum:e} of {size:e}: {sliding:?}");
         closed += 1;
-        within += usize::from(sum.abs() < 1e-9 * size);
     }
-    assert!(closed > 80 && 20 * within > 19 * closed, "{within} of {closed}");
+    assert!(closed > 80, "{closed}");
 }

@@ -236,6 +236,9 @@ fn violation(scene: &Scene, response: &Response) -> Option<String> {
             return Some(format!("an impact loses the share {:?} of the energy at t = {}", event.energy_lost, event.t));
         }
     }
+    if response.status == StopReason::AtRest && response.events.last().is_some_and(|last| last.after.dof() > 0) {
+        return Some("at rest with an open interface".into());
+    }
     let sliding = response.sliding.as_ref().expect("a run with friction");
     for (interface, (peak, residual)) in sliding.peak_slide.iter().zip(&sliding.residual_slide).enumerate() {
         // Of a free interface the slide is that of the middles of the faces, which no contact has had.
