@@ -24,6 +24,10 @@ const FIRST_STEP: f64 = 1e-3;
 const SAFETY: f64 = 0.9;
 const LEAST_ERROR: f64 = 1e-12;
 
+/// Factor by which a step is shortened to resolve what starts from zero, and the share of the longest step down to which it is.
+const RESOLVING: f64 = 0.125;
+const SHORTEST_SHARE: f64 = 1e-4;
+
 /// Time for which the column waits after a start in vain `[s]`; it doubles as long as starts are in vain.
 const LEAST_WAIT: f64 = 1e-9;
 
@@ -144,6 +148,7 @@ impl<'p> Mover<'p> {
         let mut slope = x.clone();
         let list = guards::guards(&from.configuration.joints);
         let mut wanted = self.pace.unwrap_or(FIRST_STEP);
+        let mut pace = 0.0f64;
         self.work.phases += 1;
         let ended = loop {
             let left = smooth.segment.end - t;
@@ -164,6 +169,7 @@ impl<'p> Mover<'p> {
                 wanted = problem.scene.options.step;
             }
             let mut h = wanted.min(left);
+            pace = pace.max(h);
             loop {
                 let error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
                 let factor = SAFETY * error.max(LEAST_ERROR).powf(-1.0 / M::ERROR_ORDER as f64);
@@ -184,6 +190,12 @@ impl<'p> Mover<'p> {
             self.work.steps += 1;
             let mut step = Step::new(&mut smooth, &interpolant, [t, h], &problem.scene.options);
             let first = step.first_of(&list);
+            let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && guard.may_start_from_zero());
+            if is_unresolved && h > SHORTEST_SHARE * pace {
+                // A gap that has just opened, or a slide that has just begun, is less than the error of so long a step.
+                wanted = RESOLVING * h;
+                continue;
+            }
             let s = first.map_or(1.0, |(s, _)| s);
             let until = if s == 1.0 { t + h } else { t + s * h };
             recorder.read(segment, [t, until], &mut step);
