@@ -68,21 +68,26 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
             builder.alias(each.test[axis], symbol);
         }
     }
-    let (angles, size) = (symbols.theta.len(), accelerations.len());
-    let zero = builder.arena().zero();
-    let mut matrix = vec![vec![zero; size]; size];
-    for (row, column) in (0..angles).flat_map(|row| (0..=row).map(move |column| (row, column))) {
-        let entry = builder.translate(parts.mass[row][column]);
-        let symbol = builder.define(format!("mass_{}_{}", row + 1, column + 1), entry);
-        (matrix[row][column], matrix[column][row]) = (symbol, symbol);
-        if column < row {
-            builder.define_translated(format!("bias_{}_{}", row + 1, column + 1), parts.bias[row][column]);
+    let angles = symbols.theta.len();
+    // Lower triangle of the angles' part, which is symmetric.
+    let mut mass: Vec<Vec<Expr>> = Vec::new();
+    for (row, entries) in parts.mass.iter().enumerate() {
+        let mut own = Vec::new();
+        for (column, entry) in entries.iter().enumerate() {
+            let entry = builder.translate(*entry);
+            own.push(builder.define(format!("mass_{}_{}", row + 1, column + 1), entry));
+            if column < row {
+                builder.define_translated(format!("bias_{}_{}", row + 1, column + 1), parts.bias[row][column]);
+            }
         }
+        mass.push(own);
     }
+    let mut outputs: Vec<Expr> = Vec::new();
     for row in 0..angles {
+        outputs.extend((0..angles).map(|column| mass[row.max(column)][row.min(column)]));
         for (index, vectors) in carried.iter().enumerate() {
             let entry = scalar_product(&mut builder, vectors[row], moving.along[index]);
-            matrix[row][angles + index] = builder.define(format!("coupling_{}_{}", row + 1, index + 1), entry);
+            outputs.push(builder.define(format!("coupling_{}_{}", row + 1, index + 1), entry));
         }
     }
     for (index, (_, slopes)) in forces.iter().enumerate() {
@@ -92,11 +97,11 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
                 None => format!("tested_coupling_{}_{}", index + 1, column + 1),
                 Some(other) => format!("tested_mass_{}_{}", index + 1, other + 1),
             };
-            matrix[angles + index][column] = builder.define(name, entry);
+            outputs.push(builder.define(name, entry));
         }
     }
     let loads = loads(&mut builder, moving, &parts, &carried, &squares, &forces);
-    let outputs = matrix.into_iter().flatten().chain(loads).collect();
+    outputs.extend(loads);
     builder.finish_routine("rows", outputs);
     builder.finish()
 }

@@ -36,9 +36,9 @@ pub fn moving_text(joints: &Joints) -> String {
     let entries = (0..size).flat_map(|a| (0..size).map(move |b| (a, b)));
     let entries = entries.map(|(a, b)| (format!("M_{}_{}", a + 1, b + 1), rows.matrix[a][b]));
     section(&mut out, &arena, "Matrix of the second derivatives, not symmetric where an interface slides", entries);
-    let numbered = |name: &'static str, values: &[Expr]| {
-        let values = values.iter().enumerate();
-        values.map(|(index, value)| (format!("{name}_{}", index + 1), *value)).collect::<Vec<_>>()
+    let numbered = |name: &'static str, values: &[Expr]| -> Vec<(String, Expr)> {
+        let values = values.iter().copied().enumerate();
+        values.map(|(index, value)| (format!("{name}_{}", index + 1), value)).collect()
     };
     section(&mut out, &arena, "Rate terms", numbered("B", &rows.bias));
     let forcing = numbered("Q", &rows.forcing);
