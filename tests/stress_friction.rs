@@ -348,7 +348,7 @@ fn outcome(response: &Response) -> String {
     let end = response.t_final;
     let at_once = response.events.iter().filter(|event| end - event.t <= 1e-12 * end.max(1.0));
     let is_jammed = response.sliding.as_ref().is_some_and(|sliding| sliding.jammed.last() == Some(&end));
-    match (response.status, at_once.clone().last()) {
+    match (response.status, at_once.clone().next_back()) {
         (StopReason::Undetermined, _) if is_jammed => "Undetermined: no acceleration, and impulses do not help".into(),
         (StopReason::Undetermined, _) if at_once.clone().count() >= 8 => "Undetermined: events without end".into(),
         (StopReason::Undetermined, Some(last)) => format!("Undetermined after {:?}", last.kind),
