@@ -22,7 +22,7 @@ pub struct Generated {
 enum Equations {
     /// Nothing slides or flies: those of the mode.
     Sticking(Mode),
-    Moving(Moving),
+    Moving(Box<Moving>),
 }
 
 /// A direction in which what lies above an interface moves.
@@ -72,7 +72,7 @@ impl Generated {
             let displaced = column.clone().displaced(configuration.slide.to_vec()).ok()?;
             Equations::Sticking(Mode::generated(&displaced, &configuration.pattern())?)
         } else {
-            Equations::Moving(Moving::new(column, configuration, &coordinates, kinetic)?)
+            Equations::Moving(Box::new(Moving::new(column, configuration, &coordinates, kinetic)?))
         };
         Some(Generated { coordinates, equations })
     }

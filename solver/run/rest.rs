@@ -237,6 +237,20 @@ pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, fro
     None
 }
 
+/// Whether a jump of the ground to a segment may start a column whose friction is limited: some guard of [`first_start`] is not above rounding.
+pub(crate) fn may_start_at_once(column: &Column, fixed: &[f64], segment: &Segment, t: f64) -> bool {
+    let ground = Ground::at(segment, t, column.gravity());
+    let is_critical = |[half_width, height]: [f64; 2], side: Interface| {
+        let (holding, tipping) = (half_width * ground.gravity, height * ground.x);
+        holding + f64::from(side.sign()) * tipping <= GUARD_ROUNDING * (holding.abs() + tipping.abs())
+    };
+    fixed.iter().enumerate().any(|(interface, coefficient)| {
+        [Interface::Right, Interface::Left]
+            .into_iter()
+            .any(|side| is_critical([*coefficient, 1.0], side) || is_critical(arm(column, interface, side), side))
+    })
+}
+
 /// Whether some interface cannot stay closed under the acceleration at `t`, seen from a segment.
 fn is_thrown_open(problem: &Problem, segment: usize, t: f64) -> bool {
     least_margin(problem, segment, t) < 0.0

@@ -71,14 +71,12 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
     let (angles, size) = (symbols.theta.len(), accelerations.len());
     let zero = builder.arena().zero();
     let mut matrix = vec![vec![zero; size]; size];
-    for row in 0..angles {
-        for column in 0..=row {
-            let entry = builder.translate(parts.mass[row][column]);
-            matrix[row][column] = builder.define(format!("mass_{}_{}", row + 1, column + 1), entry);
-            matrix[column][row] = matrix[row][column];
-            if column < row {
-                builder.define_translated(format!("bias_{}_{}", row + 1, column + 1), parts.bias[row][column]);
-            }
+    for (row, column) in (0..angles).flat_map(|row| (0..=row).map(move |column| (row, column))) {
+        let entry = builder.translate(parts.mass[row][column]);
+        let symbol = builder.define(format!("mass_{}_{}", row + 1, column + 1), entry);
+        (matrix[row][column], matrix[column][row]) = (symbol, symbol);
+        if column < row {
+            builder.define_translated(format!("bias_{}_{}", row + 1, column + 1), parts.bias[row][column]);
         }
     }
     for row in 0..angles {

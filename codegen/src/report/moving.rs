@@ -37,8 +37,8 @@ pub fn moving_text(joints: &Joints) -> String {
     let entries = entries.map(|(a, b)| (format!("M_{}_{}", a + 1, b + 1), rows.matrix[a][b]));
     section(&mut out, &arena, "Matrix of the second derivatives, not symmetric where an interface slides", entries);
     let numbered = |name: &'static str, values: &[Expr]| {
-        let values = values.to_vec().into_iter().enumerate();
-        values.map(move |(index, value)| (format!("{name}_{}", index + 1), value))
+        let values = values.iter().enumerate();
+        values.map(|(index, value)| (format!("{name}_{}", index + 1), *value)).collect::<Vec<_>>()
     };
     section(&mut out, &arena, "Rate terms", numbered("B", &rows.bias));
     let forcing = numbered("Q", &rows.forcing);
@@ -231,7 +231,7 @@ pub fn moving_latex(joints: &Joints) -> String {
         vectors.iter().enumerate().map(move |(link, vector)| (format!("P_{{{},{}}}", index + 1, link + 1), vector))
     });
     let numbered = |letter: &'static str, vectors: &'_ [Vector]| {
-        let vectors = vectors.to_vec().into_iter().enumerate();
+        let vectors = vectors.iter().copied().enumerate();
         vectors.map(move |(link, vector)| (format!("{letter}_{{{}}}", link + 1), vector)).collect::<Vec<_>>()
     };
     let vectors = [numbered("S", &quantities.moment), numbered("d", &quantities.lever)].concat();

@@ -121,8 +121,8 @@ impl<'p> Mover<'p> {
                 break Ended::Rest;
             }
             segment += 1;
-            let is_thrown = || starts(segment, t).is_some_and(|(start, _)| start <= t);
-            if ground[segment].jumps && is_thrown() {
+            let may_start = || rest::may_start_at_once(&column, &self.friction.fixed, &ground[segment], t);
+            if ground[segment].jumps && may_start() {
                 break Ended::Jump;
             }
         };

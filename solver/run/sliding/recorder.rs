@@ -154,7 +154,6 @@ impl<'p> Recorder<'p> {
         let span = until.t - from.t;
         let (now, end) = (&from.configuration, &until.configuration);
         *self.time_in_mode.entry(ModeName::of(&now.pattern()).to_string()).or_insert(0.0) += span;
-        let chain = Chain::new(self.column(), end);
         let SlidingReport { times, way_slid, peak_slide, .. } = &mut self.report;
         for (interface, times) in times.iter_mut().enumerate() {
             match now.joints[interface].slip() {
@@ -165,7 +164,7 @@ impl<'p> Recorder<'p> {
                 }
                 None => times.free += span,
             }
-            peak_slide[interface] = peak_slide[interface].max(slide(&chain, end, interface).abs());
+            peak_slide[interface] = peak_slide[interface].max(end.slide[interface].abs());
         }
     }
 
@@ -225,8 +224,6 @@ impl<'p> Recorder<'p> {
         for (interface, contact) in answer.iter().flat_map(|answer| answer.contacts.iter().enumerate()) {
             if now.joints[interface] == Joint::Free {
                 self.report.highest_flight = self.report.highest_flight.max(lowest_gap(chain, interface));
-                let peak = &mut self.report.peak_slide[interface];
-                *peak = peak.max(slide(chain, now, interface).abs());
                 continue;
             }
             self.report.friction_work += part * contact.tangential * now.slide_rate[interface];
