@@ -99,17 +99,17 @@ fn two_blocks_slide_by_millimetres() {
 #[test]
 fn three_blocks_slide_by_millimetres_to_centimetres() {
     let expected = [
-        [5.81, 8.46, 3.14],
-        [5.83, 8.45, 3.23],
-        [23.81, 0.03, 5.15],
-        [23.94, 0.03, 5.10],
-        [39.77, 0.0, 1.79],
-        [40.06, 0.0, 1.76],
+        [5.81e-3, 8.46e-3, 3.14e-3],
+        [5.83e-3, 8.45e-3, 3.23e-3],
+        [23.81e-3, 0.03e-3, 5.15e-3],
+        [23.94e-3, 0.03e-3, 5.10e-3],
+        [39.77e-3, 0.0, 1.79e-3],
+        [40.06e-3, 0.0, 1.76e-3],
     ];
     for (amplitude, expected) in AMPLITUDES.into_iter().zip(expected) {
         let [_, with] = runs("3-blocks", amplitude);
         for (found, expected) in ways(&with).iter().zip(expected) {
-            assert!((1e3 * found - expected).abs() < 0.02, "{amplitude}: {found} m, {expected} mm");
+            assert!((found - expected).abs() < 2e-5, "{amplitude}: {found} m, {expected} m");
         }
     }
 }

@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 const GRAVITY: f64 = 9.81;
 
-/// Phases of a run beyond which it counts as hung: the busiest of 100,000 scenes has some thousands.
+/// Phases of a run beyond which it counts as hung: the busiest of 4,000 scenes had 3,449.
 const MOST_PHASES: usize = 200_000;
 
 /// Steps of a run beyond which it counts as hung.
@@ -348,7 +348,7 @@ fn outcome(response: &Response) -> String {
     let end = response.t_final;
     let at_once = response.events.iter().filter(|event| end - event.t <= 1e-12 * end.max(1.0));
     let is_jammed = response.sliding.as_ref().is_some_and(|sliding| sliding.jammed.last() == Some(&end));
-    match (response.status, at_once.clone().last()) {
+    match (response.status, at_once.clone().next_back()) {
         (StopReason::Undetermined, _) if is_jammed => "Undetermined: no acceleration, and impulses do not help".into(),
         (StopReason::Undetermined, _) if at_once.clone().count() >= 8 => "Undetermined: events without end".into(),
         (StopReason::Undetermined, Some(last)) => format!("Undetermined after {:?}", last.kind),
@@ -520,8 +520,8 @@ fn check(kind: Kind, seeds: std::ops::Range<u64>, most: &Shares) {
     assert!(tally.held > 0, "no run without friction to compare with");
 }
 
-const EVERYDAY: Shares = Shares { undetermined: 15, ambiguous: 1, jammed: 1, given_up: 0, parted: 5 };
-const HOSTILE: Shares = Shares { undetermined: 80, ambiguous: 40, jammed: 40, given_up: 2, parted: 5 };
+const EVERYDAY: Shares = Shares { undetermined: 6, ambiguous: 1, jammed: 1, given_up: 0, parted: 5 };
+const HOSTILE: Shares = Shares { undetermined: 50, ambiguous: 40, jammed: 40, given_up: 2, parted: 5 };
 
 #[test]
 fn everyday_scenes_run_to_their_end() {
