@@ -171,7 +171,7 @@ fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &T
 }
 
 /// `{ from, to, steps, scale }`; without steps, whole numbers.
-fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
+pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     let mut end = |key: &'static str| match table.number(key)? {
         Some((value, _)) => Ok(value),
         None => Err(table.missing(key, "give both ends of the axis")),

@@ -1,6 +1,8 @@
 //! The commands, a file each.
 
 mod check;
+mod fragility;
+mod ida;
 mod init;
 mod inputs;
 mod merge;
@@ -51,6 +53,8 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&inputs::scene(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&inputs::scene(&scene)?)),
         Command::Sweep(asked) => sweep::sweep(&asked),
+        Command::Ida(asked) => ida::ida(&asked),
+        Command::Fragility(asked) => fragility::fragility(&asked),
         Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),

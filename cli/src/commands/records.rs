@@ -4,13 +4,14 @@
 //! record, and their directions.
 
 use crate::arguments;
+use crate::commands::inputs;
 use crate::commands::record::{DIGITS, Description, Problem, options, read};
 use crate::error::{Failure, at};
 use crate::number::significant;
 use crate::terminal::{json, print};
 use crate::text::shown;
-use rocking::RecordError;
 use rocking::ground::{Direction, TextOptions, by_number, record_and_component};
+use rocking::{Record, RecordError};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -53,6 +54,7 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
         ("trim", !arguments.trim.is_empty()),
         ("scale", arguments.scale.is_some()),
         ("pga", arguments.pga.is_some()),
+        ("scale-to", arguments.scale_to.is_some()),
     ];
     if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
         return Err(Failure::FolderOption(path.into(), option));
@@ -67,10 +69,14 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
         }
     }
     names.sort();
+    let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
+    let by = |description: &mut Description, record: &Record| {
+        description.measure_by(record, &arguments.sa, arguments.damping, column.as_ref());
+    };
     let mut groups: BTreeMap<String, Vec<Listed>> = BTreeMap::new();
     let mut unread = Vec::new();
     for name in &names {
-        match listed(path, name, &options(arguments)) {
+        match listed(path, name, &options(arguments), &by) {
             Ok(description) => {
                 let file = name.to_string_lossy();
                 let (record, ending) = record_and_component(&file);
@@ -95,7 +101,12 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
 }
 
 /// A file of a folder: what the user says goes for the files that are silent.
-fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Description, String> {
+fn listed(
+    folder: &Path,
+    name: &Path,
+    options: &TextOptions,
+    measure_by: &dyn Fn(&mut Description, &Record),
+) -> Result<Description, String> {
     let path = folder.join(name);
     let file = match read(&path, options) {
         Err(Problem::Content(RecordError::Contradiction { .. } | RecordError::NoChannel { .. })) => {
@@ -111,6 +122,7 @@ fn listed(folder: &Path, name: &Path, options: &TextOptions) -> Result<Descripti
     let mut description = Description::of(name, &file);
     let record = file.into_record().map_err(|error| in_words(Problem::Content(error).at(&path)))?;
     description.measure(&record);
+    measure_by(&mut description, &record);
     Ok(description)
 }
 
@@ -128,9 +140,10 @@ impl Folder<'_> {
                 let direction = if *direction == Direction::Vertical { "vertical" } else { "horizontal" };
                 let _ = writeln!(
                     text,
-                    "  {direction:<12}{:<width$}  PGA {:.4} g  dt {} s  n {}  {} s{}",
+                    "  {direction:<12}{:<width$}  PGA {:.4} g  {}dt {} s  n {}  {} s{}",
                     shown(&description.file),
                     description.pga_g,
+                    description.sizes(),
                     significant(description.dt, DIGITS),
                     description.samples,
                     significant(description.duration, DIGITS),

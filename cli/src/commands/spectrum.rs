@@ -51,7 +51,12 @@ pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
 
 /// The files of both figures, of which `picture` is the first.
 pub fn files(picture: &Path) -> [PathBuf; 2] {
-    let [stem, extension] = [picture.file_stem(), picture.extension()]
+    [picture.into(), beside(picture, "minimum")]
+}
+
+/// The file beside another one that is named like it, with a word behind: `a.svg`, `a-word.svg`.
+pub fn beside(file: &Path, word: &str) -> PathBuf {
+    let [stem, extension] = [file.file_stem(), file.extension()]
         .map(|part| part.map_or_else(String::new, |part| part.to_string_lossy().into_owned()));
-    [picture.into(), picture.with_file_name(format!("{stem}-minimum.{extension}"))]
+    file.with_file_name(format!("{stem}-{word}.{extension}"))
 }
