@@ -294,19 +294,18 @@ impl Fragility {
             ));
         }
         if !self.falls.is_empty() || !self.resurrections.is_empty() {
-            let falls = self.falls.iter().map(|[from, to]| format!("{} to {}", brief(*from), brief(*to)));
-            let falls = falls.collect::<Vec<_>>().join(", ");
-            let falls = if falls.is_empty() { falls } else { format!(": the share of runs falls from level {falls}") };
-            let records = match self.resurrections.len() {
-                0 => String::new(),
-                count => format!(
-                    "; {count} of {} record(s) reach the state and do not at a higher level ({})",
-                    self.records,
-                    self.resurrections.join(", ")
-                ),
-            };
+            let mut reasons = Vec::new();
+            if !self.falls.is_empty() {
+                let falls = self.falls.iter().map(|[from, to]| format!("{} to {}", brief(*from), brief(*to)));
+                reasons.push(format!("the share of runs falls from level {}", falls.collect::<Vec<_>>().join(", ")));
+            }
+            if !self.resurrections.is_empty() {
+                let (count, names) = (self.resurrections.len(), self.resurrections.join(", "));
+                let reason = "record(s) reach the state and do not at a higher level";
+                reasons.push(format!("{count} of {} {reason} ({names})", self.records));
+            }
             let curve = if self.probability(1.0).is_some() { ", which no lognormal curve shows" } else { "" };
-            told.push(format!("not monotonic{falls}{records}; see the raw shares{curve}"));
+            told.push(format!("not monotonic: {}; see the raw shares{curve}", reasons.join("; ")));
         }
         if self.undecided() > 0 {
             told.push(format!("{} undecided run(s) are left out", self.undecided()));

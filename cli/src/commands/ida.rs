@@ -181,7 +181,7 @@ struct Summary<'a> {
     fragility: &'a [rocking::studies::Fragility],
 }
 
-/// A stripe as JSON; `null` of a fractile for a lost column.
+/// A stripe as JSON; a fractile of lost columns is `infinite`.
 #[derive(Serialize)]
 struct Line {
     level: f64,

@@ -12,6 +12,9 @@ const TOP: f64 = 14.0;
 /// Half of a mark.
 const MARK: f64 = 4.0;
 
+/// Opacity of bands: several lie over each other.
+const VEIL: f64 = 0.1;
+
 /// Points of a curve.
 const POINTS: usize = 200;
 
@@ -27,17 +30,25 @@ pub fn fragility(label: &str, states: &[Fragility]) -> Figure {
     let panel = Panel::wide(TOP, HEIGHT, x, Some(Axis::over("Probability", [-0.02, 1.02], 6)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
-    let mut entries = Vec::new();
     for (place, state) in states.iter().enumerate() {
         let stroke = style::line(place);
         let edge = Stroke::solid(stroke.color, 0.7);
         if let Some(bands) = &state.bands {
+            let side = |side: usize| {
+                bands.levels.iter().zip(&bands.probability).map(move |(level, band)| (*level, band[side]))
+            };
+            let around: Vec<Point> = side(0).chain(side(1).rev()).map(|(level, p)| panel.place([level, p])).collect();
+            sheet.veil(around, stroke.color, VEIL);
             for side in 0..2 {
                 let points = bands.levels.iter().zip(&bands.probability);
                 let run: Vec<Point> = points.map(|(level, band)| panel.place([*level, band[side]])).collect();
                 sheet.lines(&panel, &[run], &edge);
             }
         }
+    }
+    let mut entries = Vec::new();
+    for (place, state) in states.iter().enumerate() {
+        let stroke = style::line(place);
         let levels = (1..=POINTS).map(|point| top * point as f64 / POINTS as f64);
         let run: Vec<Point> =
             levels.filter_map(|level| Some(panel.place([level, state.probability(level)?]))).collect();
@@ -63,7 +74,7 @@ pub fn fragility(label: &str, states: &[Fragility]) -> Figure {
         .map(|state| format!("{}: {}", state.state, state.statements().first().cloned().unwrap_or_default()))
         .collect();
     let bands = states.iter().filter_map(|state| state.bands.as_ref()).find(|bands| !bands.levels.is_empty());
-    let bands = bands.map_or(String::new(), |bands| format!(" Thin lines are {} % bands.", 100.0 * bands.confidence));
+    let bands = bands.map_or(String::new(), |bands| format!(" Shaded are {} % bands.", 100.0 * bands.confidence));
     let caption = format!("Fragility over {label}. {}. Marks are raw shares.{bands}", curves.join(". "));
     Figure::new("fragility", caption, sheet)
 }

@@ -25,7 +25,7 @@ const FRACTILE_LINES: [Stroke; 3] = [
 /// Room right of the largest response, as a share of it.
 const ROOM: f64 = 0.06;
 
-/// A figure of all runs: `label` is the measure with its unit. A curve ends where a column is lost, and goes on where it stands again.
+/// A figure of all runs: `label` is the measure with its unit.
 pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe]) -> Figure {
     let demands = runs.iter().filter_map(Observation::demand).filter(|demand| demand.is_finite());
     let largest = demands.fold(0.0, f64::max);
@@ -58,8 +58,8 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe]) -> Figure {
     sheet.height = sheet.legend(below + 4.0, &entries) + 8.0;
     let lost = runs.iter().filter(|run| run.is_lost()).count();
     let caption = format!(
-        "{} records at {} levels of {label}: the largest |θ|/α of each run with its 16, 50 and 84 % fractiles per level. A curve ends where a \
-         column is lost and goes on where it stands again; {lost} of {} runs are lost, counted per level on the right.",
+        "{} records at {} levels of {label}: the largest |θ|/α of each run with its 16, 50 and 84 % fractiles per level. A curve \
+         reaches the right edge where the column is lost, and comes back where it stands again; {lost} of {} runs are lost, counted per level on the right.",
         by_record.len(),
         stripes.len(),
         runs.len()
@@ -67,25 +67,27 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe]) -> Figure {
     Figure::new("ida", caption, sheet)
 }
 
-/// A curve through the finite responses, from the lowest level up; broken where there is none, a dot where one stands alone.
+/// A curve through the responses, from the lowest level up; where a column is lost it goes to the right edge, and comes back from there. It is broken
+/// where a run has no answer.
 fn draw(sheet: &mut Sheet, panel: &Panel, points: &[(Option<f64>, f64)], stroke: &Stroke) {
-    let is_drawn = |point: &(Option<f64>, f64)| point.0.is_some_and(f64::is_finite);
-    let is_first_drawn = points.first().is_some_and(is_drawn);
-    for (number, run) in points.chunk_by(|a, b| is_drawn(a) == is_drawn(b)).enumerate() {
-        if !is_drawn(&run[0]) {
-            continue;
+    let edge = panel.x.range[1];
+    let mut runs: Vec<Vec<Point>> = Vec::new();
+    // Without ground motion there is no response.
+    let mut last = Some((0.0, 0.0));
+    for (demand, level) in points {
+        let here = demand.map(|demand| (demand, *level));
+        if let (Some(from), Some(to)) = (last, here)
+            && (from.0.is_finite() || to.0.is_finite())
+        {
+            let [from, to] = [from, to].map(|(demand, level)| panel.place([demand.min(edge), level]));
+            match runs.last_mut() {
+                Some(run) if run.last() == Some(&from) => run.push(to),
+                _ => runs.push(vec![from, to]),
+            }
         }
-        let mut placed: Vec<Point> = Vec::new();
-        // Without ground motion there is no response.
-        if number == 0 && is_first_drawn {
-            placed.push(panel.place([0.0, 0.0]));
-        }
-        placed.extend(run.iter().filter_map(|(demand, level)| Some(panel.place([(*demand)?, *level]))));
-        if let [[x, y]] = placed[..] {
-            sheet.areas(vec![vec![[x - 2.5, y], [x, y - 2.5], [x + 2.5, y], [x, y + 2.5]]], stroke.color);
-        }
-        sheet.lines(panel, &[placed], stroke);
+        last = here;
     }
+    sheet.lines(panel, &runs, stroke);
 }
 
 /// How many columns are lost at each level, right of the panel; of crowded levels some.
