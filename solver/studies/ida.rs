@@ -257,7 +257,9 @@ impl Ida {
         scene.options.wanted = Wanted::Everything;
         scene.options.record_forces = false;
         let p = scene.column.stack(scene.column.len() - 1).frequency_parameter();
-        let interval = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / p);
+        // A whole number of intervals between samples: the acceleration has its kinks at their ends.
+        let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / p);
+        let interval = horizontal.dt() / (horizontal.dt() / longest).ceil();
         scene.output_dt = Some(interval.max(scene.options.t_end / MOST_ROWS));
         Ok(scene)
     }

@@ -73,7 +73,7 @@ fn draw(sheet: &mut Sheet, panel: &Panel, points: &[(Option<f64>, f64)], stroke:
     let edge = panel.x.range[1];
     let mut runs: Vec<Vec<Point>> = Vec::new();
     // Without ground motion there is no response.
-    let mut last = Some((0.0, 0.0));
+    let mut last: Option<(f64, f64)> = Some((0.0, 0.0));
     for (demand, level) in points {
         let here = demand.map(|demand| (demand, *level));
         if let (Some(from), Some(to)) = (last, here)
