@@ -39,9 +39,9 @@ pub enum Command {
         #[arg(long)]
         force: bool,
     },
-    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points.
+    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points; or a study: its records and levels.
     Check {
-        /// Scene or sweep file (TOML).
+        /// Scene, sweep or study file (TOML).
         scene: PathBuf,
         /// Print JSON instead of text.
         #[arg(long)]

@@ -204,6 +204,10 @@ fn tables_and_figures_do_not_depend_on_threads_and_fragility_reads_them_again() 
         roxmltree::Document::parse(&text).expect("a document");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
     }
+    let file = root().join("scenes/studies/statue-ida.toml").display().to_string();
+    let told = succeeds(folder.path(), &["check", &file]);
+    assert!(told.contains("a valid study of 90 run(s)") && told.contains("15 level(s), from 0.1 to 1.5"), "{told}");
+    assert!(told.contains("  seed 6\n") && told.contains("limit states: uplift, peak > 0.15"), "{told}");
     // The seed of the study is 1.
     let again = succeeds(folder.path(), &["fragility", "ida.csv", "--seed", "1", "--out", "b-fragility.csv"]);
     assert!(again.contains("wrote b-fragility.csv\nwrote b-shares.csv\n"), "{again}");
@@ -253,7 +257,7 @@ fn components_of_a_folder_are_records() {
     assert_eq!(names(), files(&["A_H2", "B_H2"]));
     let row = &rows(&folder.path().join("ida.csv"))[0];
     let component = |name: &str| {
-        let record = Record::open(&folder.path().join("records").join(name), &rocking::ground::TextOptions::default());
+        let record = Record::open(folder.path().join("records").join(name), &rocking::ground::TextOptions::default());
         Some(Motion::Record(record.expect("a record").scaled(number(row, "scale")).expect("in range")))
     };
     let mut scene = Scene::new(Column::equal_blocks(1, 0.2, 0.8, 1.0, 9.81).expect("valid"));

@@ -297,10 +297,10 @@ impl Fragility {
             let mut reasons = Vec::new();
             if !self.falls.is_empty() {
                 let falls = self.falls.iter().map(|[from, to]| format!("{} to {}", brief(*from), brief(*to)));
-                reasons.push(format!("the share of runs falls from level {}", falls.collect::<Vec<_>>().join(", ")));
+                reasons.push(format!("the share of runs falls from level {}", some_of(falls.collect())));
             }
             if !self.resurrections.is_empty() {
-                let (count, names) = (self.resurrections.len(), self.resurrections.join(", "));
+                let (count, names) = (self.resurrections.len(), some_of(self.resurrections.clone()));
                 let reason = "record(s) reach the state and do not at a higher level";
                 reasons.push(format!("{count} of {} {reason} ({names})", self.records));
             }
@@ -340,6 +340,16 @@ impl Fragility {
     pub fn undecided(&self) -> usize {
         self.counts.iter().map(|count| count.undecided).sum()
     }
+}
+
+/// Names told in a sentence.
+const MOST_NAMES: usize = 5;
+
+/// The first of a list in words, and how many more there are.
+fn some_of(mut names: Vec<String>) -> String {
+    let more = names.len().saturating_sub(MOST_NAMES);
+    names.truncate(MOST_NAMES);
+    names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
 
 /// A number in a sentence: four digits, or three behind the point of a small one.
@@ -419,7 +429,7 @@ impl Table {
             }
         }
         let replicate = |number: usize| {
-            let mut generator = Pcg64Mcg::new(u128::from(options.seed) << 64 | number as u128 + 1);
+            let mut generator = Pcg64Mcg::new((u128::from(options.seed) << 64) | (number as u128 + 1));
             // Neighbouring seeds begin alike.
             (0..8).for_each(|_| {
                 generator.next_u64();

@@ -240,6 +240,11 @@ impl Ida {
         (record, level, self.factors[record] * grown)
     }
 
+    /// Factor of the record of a run, dimensionless.
+    pub fn scale(&self, index: usize) -> f64 {
+        self.point(index).2
+    }
+
     /// The scene of a run.
     ///
     /// # Errors

@@ -92,8 +92,8 @@ pub fn fit(trials: &[Trial]) -> Maximum {
     let extreme = |found: fn(&Trial) -> bool, pick: fn(f64, f64) -> f64| {
         trials.iter().filter(|trial| found(trial)).map(|trial| trial.level).reduce(pick)
     };
-    let (with, without): (fn(&Trial) -> bool, fn(&Trial) -> bool) =
-        (|trial| trial.reached > 0.0, |trial| trial.runs > trial.reached);
+    let with: fn(&Trial) -> bool = |trial| trial.reached > 0.0;
+    let without: fn(&Trial) -> bool = |trial| trial.runs > trial.reached;
     let [lowest, highest] = [f64::min as fn(f64, f64) -> f64, f64::max];
     let (Some(always_from), Some(last_with)) = (extreme(with, lowest), extreme(with, highest)) else {
         return Maximum::Never;
