@@ -53,9 +53,9 @@ pub enum Command {
     /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
     /// number". Regular files are read up to a size: scenes and sweeps up to 64 MiB, records up to 256 MiB, files of a run up to 1 GiB.
     Run(Run),
-    /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum.
+    /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a study its curves.
     Plot {
-        /// Folder of a finished run, or the table of a sweep (CSV or Parquet), whose figures have its name.
+        /// Folder of a finished run, or the table of a sweep or a study (CSV or Parquet), whose figures have its name.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// How the figures are written.

@@ -208,6 +208,9 @@ fn tables_and_figures_do_not_depend_on_threads_and_fragility_reads_them_again() 
     let told = succeeds(folder.path(), &["check", &file]);
     assert!(told.contains("a valid study of 90 run(s)") && told.contains("15 level(s), from 0.1 to 1.5"), "{told}");
     assert!(told.contains("  seed 6\n") && told.contains("limit states: uplift, peak > 0.15"), "{told}");
+    // The curves of the table alone are those of the study.
+    succeeds(folder.path(), &["plot", "ida.csv"]);
+    assert!(read("ida.svg") == first[4], "the figure of the table");
     // The seed of the study is 1.
     let again = succeeds(folder.path(), &["fragility", "ida.csv", "--seed", "1", "--out", "b-fragility.csv"]);
     assert!(again.contains("wrote b-fragility.csv\nwrote b-shares.csv\n"), "{again}");

@@ -22,9 +22,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
     let Runs { measure, runs, has_peaks, has_slides, .. } = read(&asked.table, asked.measure.as_deref())?;
     let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
     let states = match &asked.state[..] {
-        [] => {
-            ["uplift", "peak > 0.15", "peak > 0.35", "overturned"].iter().filter_map(|text| text.parse().ok()).collect()
-        }
+        [] => usual_states(),
         given => given.to_vec(),
     };
     for state in &states {
@@ -56,6 +54,12 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
         let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
     }
     if asked.json { json(&conclusions) } else { print(&told) }
+}
+
+/// Limit states where none is named.
+pub fn usual_states() -> Vec<LimitState> {
+    let peak = |above: f64| LimitState::Peak { block: None, above };
+    vec![LimitState::Uplift, peak(0.15), peak(0.35), LimitState::Overturned]
 }
 
 /// Runs of a table.

@@ -10,18 +10,19 @@ use crate::commands::spectrum::beside;
 use crate::commands::sweep::{Fnv, OUTCOME, TIME, threads};
 use crate::error::{Failure, at};
 use crate::progress::Progress;
-use crate::table::Format;
-use crate::table::column::{Column, Kind};
+use crate::table::column::{Column, Kind, Rows};
 use crate::table::growing::Growing;
+use crate::table::{Format, open};
 use crate::terminal::{json, print};
 use crate::text::{printable, shown};
 use crate::{files, output, plot};
 use csv::StringRecord;
-use rocking::studies::{FRACTILES, Ida, IdaFile, IdaRun, Stripe, stripes};
+use rocking::intensity::Intensity;
+use rocking::studies::{FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
 use rocking::sweep::Fate;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Runs a study, or what is left of it.
 pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
@@ -80,6 +81,29 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
         return Err(Failure::NoResult(out.clone(), failed, first));
     }
     Ok(())
+}
+
+/// Draws the curves of a finished table, and beside them the fragility of the usual limit states. Returns what was written; `None` for a table that is
+/// not of a study.
+pub fn draw(table: &Path, picture: &Path) -> Result<Option<String>, Failure> {
+    // What cannot be read is told by the spectrum.
+    let Ok(Rows { header, .. }) = open(table) else { return Ok(None) };
+    if !["record", "scale", "first_uplift", "peak_1"].iter().all(|name| header.iter().any(|own| own == *name)) {
+        return Ok(None);
+    }
+    let read = fragility::read(table, None)?;
+    let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
+    let conclusions =
+        Conclusions::of(&read.runs, &read.measure, &fragility::usual_states(), &FragilityOptions::default());
+    let mut told = String::new();
+    for (figure, path) in [
+        (plot::ida(&label, &read.runs, &stripes(&read.runs)), picture.to_path_buf()),
+        (plot::fragility(&label, &conclusions.fragilities), beside(picture, "fragility")),
+    ] {
+        write(&figure, &path)?;
+        let _ = writeln!(told, "wrote {}: {}", shown(&path), figure.caption);
+    }
+    Ok(Some(told))
 }
 
 /// The digest of all that decides the rows.

@@ -33,7 +33,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
         Command::Plot { folder: table, format, out } if is_table(&table) => {
-            spectrum::plot(&table, format, out.as_deref())
+            spectrum::plot(&table, format, out.as_deref(), ida::draw)
         }
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
         Command::Record(mut asked) => {

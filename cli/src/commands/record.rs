@@ -252,18 +252,18 @@ impl Description {
         });
     }
 
-    /// Sizes for the line of a list, each with two blanks behind.
+    /// Sizes for the line of a list, each with two blanks before.
     pub fn sizes(&self) -> String {
         let mut text = String::new();
         if let Some(measures) = &self.measures {
-            let _ = write!(text, "PGV {} m/s  ", significant(measures.pgv, 4));
+            let _ = write!(text, "  PGV {} m/s", significant(measures.pgv, 4));
         }
         for Spectral { period, sa, .. } in &self.spectral {
-            let _ = write!(text, "Sa({} s) {} g  ", significant(*period, 4), significant(sa / self.gravity, 4));
+            let _ = write!(text, "  Sa({} s) {} g", significant(*period, 4), significant(sa / self.gravity, 4));
         }
         if let Some(OfColumn { pga_uplift, pgv_uplift }) = self.of_column {
             let sizes = [pga_uplift, pgv_uplift].map(|size| significant(size, 4));
-            let _ = write!(text, "PGA/(g tan α) {}  p PGV/(g tan α) {}  ", sizes[0], sizes[1]);
+            let _ = write!(text, "  PGA/(g tan α) {}  p PGV/(g tan α) {}", sizes[0], sizes[1]);
         }
         text
     }

@@ -140,13 +140,13 @@ impl Folder<'_> {
                 let direction = if *direction == Direction::Vertical { "vertical" } else { "horizontal" };
                 let _ = writeln!(
                     text,
-                    "  {direction:<12}{:<width$}  PGA {:.4} g  {}dt {} s  n {}  {} s{}",
+                    "  {direction:<12}{:<width$}  PGA {:.4} g  dt {} s  n {}  {} s{}{}",
                     shown(&description.file),
                     description.pga_g,
-                    description.sizes(),
                     significant(description.dt, DIGITS),
                     description.samples,
                     significant(description.duration, DIGITS),
+                    description.sizes(),
                     if description.warnings.is_empty() {
                         String::new()
                     } else {
