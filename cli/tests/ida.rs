@@ -272,6 +272,34 @@ fn components_of_a_folder_are_records() {
     assert!((number(row, "peak_1") / peak - 1.0).abs() < 1e-9, "{row:?} {peak}");
 }
 
+/// Killed again and again, it comes to the same bytes.
+#[test]
+fn an_interrupted_study_goes_on() {
+    let folder = folder();
+    let study = "scene = \"block.toml\"\nmeasure = \"pga_uplift\"\nlevels = { from = 0.5, to = 6, steps = 300 }\n[records]\nfolder = \"records\"\n";
+    let study = format!("{study}[records.synthetic]\nseeds = {{ from = 1, to = 12 }}\n[fragility]\nreplicates = 0\n");
+    let (is_good, told) = run(folder.path(), &study);
+    assert!(is_good, "{told}");
+    let table = || std::fs::read(folder.path().join("ida.csv")).expect("written");
+    let whole = table();
+    std::fs::remove_file(folder.path().join("ida.csv")).expect("removed");
+    let mut kills = 0;
+    for wait in (20..).step_by(40) {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
+            .args(["ida", "study.toml", "--quiet"])
+            .current_dir(folder.path())
+            .spawn()
+            .expect("started");
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        child.kill().expect("SIGKILL");
+        if child.wait().expect("it ends").success() {
+            break;
+        }
+        kills += 1;
+    }
+    assert!(kills > 0 && table() == whole, "after {kills} kills");
+}
+
 /// Every remedy is told with its place, and nothing is left half written.
 #[test]
 fn bad_studies_are_refused_with_place_and_remedy() {

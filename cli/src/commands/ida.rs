@@ -24,6 +24,9 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+/// Runs made together at first, and at least: runs with friction take tens of milliseconds, and finished ones are to be kept.
+const FIRST_BATCH: usize = 16;
+
 /// Runs a study, or what is left of it.
 pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     let out = &asked.out;
@@ -42,7 +45,9 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     let mut table = Growing::open(&target, &columns, digest(inputs)?.number(), 0..ida.len())?;
     let resumed = table.next;
     let bar = Progress::of_points(ida.len(), resumed, asked.quiet || asked.json);
-    table.fill(ida.len(), &threads, &bar, |batch| ida.lines(batch, |run| cells(ida, &run, columns.len())))?;
+    table.fill(ida.len(), FIRST_BATCH, &threads, &bar, |batch| {
+        ida.lines(batch, |run| cells(ida, &run, columns.len()))
+    })?;
     table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.

@@ -20,6 +20,9 @@ use rocking::sweep::{Ask, Axis, Fate, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
+/// Points run together at first, and at least.
+const FIRST_BATCH: usize = 256;
+
 /// Runs a sweep, or what is left of it.
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let out = asked.table();
@@ -43,7 +46,9 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
-    table.fill(range.end, &threads, &bar, |batch| sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len())))?;
+    table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
+        sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()))
+    })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;

@@ -35,9 +35,8 @@ pub struct Growing {
     pub next: usize,
 }
 
-/// Points run together: at first, and at most. Batches grow and shrink to take [`BATCH_TIME`]: long enough to keep all threads busy,
+/// Points run together at most. Batches grow and shrink to take [`BATCH_TIME`]: long enough to keep all threads busy,
 /// short enough that little is lost when a table is cut off. Rows do not depend on them.
-const FIRST_BATCH: usize = 256;
 const LARGEST_BATCH: usize = 1 << 16;
 const BATCH_TIME: Duration = Duration::from_millis(250);
 
@@ -78,15 +77,16 @@ impl Growing {
         self.file.flush()
     }
 
-    /// Makes and writes the rows that are missing up to `end`, in batches; a batch is written while the one after it runs.
+    /// Makes and writes the rows that are missing up to `end`, in batches of `least` points or more; a batch is written while the one after it runs.
     pub fn fill(
         &mut self,
         end: usize,
+        least: usize,
         threads: &ThreadPool,
         bar: &Progress,
         lines: impl Fn(Range<usize>) -> Vec<StringRecord> + Send + Sync,
     ) -> Result<(), Failure> {
-        let (mut size, mut next, mut last) = (FIRST_BATCH, self.next, Vec::new());
+        let (mut size, mut next, mut last) = (least, self.next, Vec::new());
         let first = self.first;
         while self.next < end {
             let begun = Instant::now();
@@ -97,8 +97,7 @@ impl Growing {
             written.map_err(at(Failure::File, &self.out))?;
             last = rows;
             bar.reached(self.next - first);
-            size =
-                if begun.elapsed() < BATCH_TIME { (2 * size).min(LARGEST_BATCH) } else { (size / 2).max(FIRST_BATCH) };
+            size = if begun.elapsed() < BATCH_TIME { (2 * size).min(LARGEST_BATCH) } else { (size / 2).max(least) };
         }
         bar.finish();
         Ok(())
