@@ -168,6 +168,10 @@ fn as_text<S: serde::Serializer>(state: &LimitState, serializer: S) -> Result<S:
     serializer.collect_str(state)
 }
 
+/// Records below which bands are told to be too narrow: with twenty, bands of 90 % hold the true median in 87 % and the dispersion in 78 % of cases, with
+/// ten in 84 % and 65 %, with six in 73 % and 52 % (`tests/fragility.rs`).
+const FEW_RECORDS: usize = 20;
+
 /// Share of replicates that must have a curve for bands.
 const LEAST_FITTED: f64 = 0.9;
 
@@ -283,6 +287,9 @@ impl Fragility {
                     self.records
                 ),
             });
+        }
+        if self.records < FEW_RECORDS && self.bands.as_ref().is_some_and(|bands| bands.median.is_some()) {
+            told.push(format!("{} records are few: bands of fewer than {FEW_RECORDS} are too narrow", self.records));
         }
         if let Some(Goodness { chi_squared, degrees_of_freedom, p_value, pseudo_r2 }) = &self.goodness {
             let parts = if self.layout == Layout::Stripes { "stripes" } else { "groups" };
