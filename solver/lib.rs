@@ -52,6 +52,7 @@ struct Readme;
 pub mod column;
 pub mod contact;
 mod friction;
+pub mod intensity;
 pub mod json;
 mod mechanics;
 mod numerics;
@@ -60,6 +61,7 @@ mod run;
 pub mod run_folder;
 pub mod scene;
 pub mod scene_file;
+pub mod studies;
 pub mod sweep;
 
 pub use column::{Block, Column, ColumnError, Stack};

@@ -252,11 +252,13 @@ fn every_command_that_a_document_shows_exists() {
 fn the_reference_of_scene_files_has_all_keys() {
     let sources: String = files("solver", "rs")
         .iter()
-        .filter(|path| ["scene_file", "solver/sweep"].iter().any(|part| path.to_string_lossy().contains(part)))
+        .filter(|path| {
+            ["scene_file", "solver/sweep", "solver/studies"].iter().any(|part| path.to_string_lossy().contains(part))
+        })
         .map(|path| read(path).split("#[cfg(test)]").next().unwrap_or_default().to_string())
         .collect();
     let mut documented = BTreeSet::new();
-    for chapter in ["scene-file.md", "sweeps.md"] {
+    for chapter in ["scene-file.md", "sweeps.md", "fragility.md"] {
         let text = read(&root().join("docs/book").join(chapter));
         let (mut is_keys, mut lines) = (false, text.lines().peekable());
         while let Some(line) = lines.next() {

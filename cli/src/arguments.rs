@@ -3,6 +3,8 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
+use rocking::intensity::{Intensity, NAMES};
+use rocking::studies::LimitState;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -37,9 +39,9 @@ pub enum Command {
         #[arg(long)]
         force: bool,
     },
-    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points.
+    /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points; or a study: its records and levels.
     Check {
-        /// Scene or sweep file (TOML).
+        /// Scene, sweep or study file (TOML).
         scene: PathBuf,
         /// Print JSON instead of text.
         #[arg(long)]
@@ -51,9 +53,9 @@ pub enum Command {
     /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
     /// number". Regular files are read up to a size: scenes and sweeps up to 64 MiB, records up to 256 MiB, files of a run up to 1 GiB.
     Run(Run),
-    /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum.
+    /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a study its curves.
     Plot {
-        /// Folder of a finished run, or the table of a sweep (CSV or Parquet), whose figures have its name.
+        /// Folder of a finished run, or the table of a sweep or a study (CSV or Parquet), whose figures have its name.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// How the figures are written.
@@ -122,6 +124,15 @@ pub enum Command {
     /// A sweep that was interrupted continues when it is started again. A run ends when its outcome is certain unless the sweep
     /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
     Sweep(Sweep),
+    /// Incremental dynamic analysis: each record at each level of an intensity measure; tables, figures and fragility.
+    ///
+    /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
+    /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
+    Ida(Ida),
+    /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
+    ///
+    /// Writes TABLE-fragility.csv and TABLE-shares.csv beside the table.
+    Fragility(Fragility),
     /// Join the tables of all shards of a sweep.
     ///
     /// `rocking sweep --shard` writes a digest of its sweep, base scene and records beside each table (TABLE.digest); tables whose digests
@@ -199,11 +210,23 @@ pub struct Record {
     #[arg(long)]
     pub lenient: bool,
     /// Multiply the accelerations.
-    #[arg(long, value_name = "F", conflicts_with = "pga", allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "F", conflicts_with_all = ["pga", "scale_to"], allow_negative_numbers = true, value_parser = finite)]
     pub scale: Option<f64>,
     /// Scale to this peak, in g.
     #[arg(long, value_name = "G", value_parser = positive)]
     pub pga: Option<f64>,
+    /// Scale to a size of any measure: pga, pga_g, pgv, pgd, arias, cav, `sa(PERIOD)`, `sa_g(PERIOD DAMPING)`; pga_uplift and pgv_uplift with --scene.
+    #[arg(long, value_name = "MEASURE=SIZE", conflicts_with = "pga", value_parser = target)]
+    pub scale_to: Option<(Intensity, f64)>,
+    /// Print the spectral acceleration at this period in s; may be given several times.
+    #[arg(long, value_name = "PERIOD", value_parser = positive)]
+    pub sa: Vec<f64>,
+    /// Damping ratio of the spectral accelerations.
+    #[arg(long, value_name = "RATIO", default_value_t = 0.05, value_parser = damping)]
+    pub damping: f64,
+    /// Scene whose column measures the record: PGA/(g tan α) and p PGV/(g tan α).
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
     /// Keep what lies between two times, in s from the first sample: `2..8`, `2..`, `..8` or `2 8`.
     #[arg(long, value_names = ["FROM..TO", "TO"], num_args = 1..=2)]
     pub trim: Vec<String>,
@@ -221,6 +244,24 @@ pub struct Record {
 fn finite(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "give a number".to_string())?;
     if value.is_finite() { Ok(value) } else { Err("give a finite number".into()) }
+}
+
+fn damping(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|value| {
+        if (0.0..1.0).contains(&value) {
+            Ok(value)
+        } else {
+            Err("give a share of critical damping from 0 to below 1".into())
+        }
+    })
+}
+
+fn target(text: &str) -> Result<(Intensity, f64), String> {
+    let (name, size) = text.split_once('=').ok_or("write MEASURE=SIZE, e.g. pgv=0.5")?;
+    let intensity = name.trim().parse();
+    let intensity =
+        intensity.map_err(|()| format!("there is no measure `{}`; choose one of {}", name.trim(), NAMES.join(", ")))?;
+    Ok((intensity, positive(size.trim())?))
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -270,6 +311,82 @@ impl Sweep {
         let own = || self.shard.map_or_else(|| "sweep.csv".into(), |shard| format!("sweep-{shard}.csv"));
         self.out.clone().unwrap_or_else(|| own().into())
     }
+}
+
+/// `rocking ida`.
+#[derive(Debug, Args)]
+pub struct Ida {
+    /// Study file (TOML).
+    pub file: PathBuf,
+    /// Table of all runs: CSV, or Parquet if its name ends in .parquet.
+    #[arg(long, value_name = "FILE", default_value = "ida.csv")]
+    pub out: PathBuf,
+    /// Draw the curves of all records with their fractiles, and beside it FILE-fragility: the fragility curves (SVG or PNG by the name).
+    #[arg(long, value_name = "FILE", value_parser = figure)]
+    pub plot: Option<PathBuf>,
+    /// Threads; as many as the machine has unless given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    pub threads: Option<u16>,
+    /// Print nothing but errors.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Print stripes and fragility as JSON instead of text.
+    #[arg(long, conflicts_with = "quiet")]
+    pub json: bool,
+}
+
+/// `rocking fragility`.
+#[derive(Debug, Args)]
+pub struct Fragility {
+    /// Table of runs: CSV or Parquet.
+    pub table: PathBuf,
+    /// Limit state: `uplift`, `overturned`, `peak > 0.35` (|θ|/α), `peak_2 > 0.35` of the second block, `slide > 0.05` (m); may be given several times
+    /// [default: uplift, peak > 0.15, peak > 0.35, overturned].
+    #[arg(long = "state", value_name = "STATE", value_parser = state)]
+    pub state: Vec<LimitState>,
+    /// Column of the intensity measure; the only one with the name of a measure unless given.
+    #[arg(long, value_name = "COLUMN")]
+    pub measure: Option<String>,
+    /// Whether several runs share each level (stripes) or none (cloud); as the table has it unless given.
+    #[arg(long, value_enum)]
+    pub layout: Option<Layout>,
+    /// Sets of resampled records for the bands; 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub replicates: u32,
+    /// Share of the resampled sets within the bands.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.9, value_parser = share)]
+    pub confidence: f64,
+    /// Seed of the resampling.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Table of the curves, beside which the shares are written [default: TABLE-fragility.csv].
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Draw the curves (SVG or PNG by the name).
+    #[arg(long, value_name = "FILE", value_parser = figure)]
+    pub plot: Option<PathBuf>,
+    /// Print JSON instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How levels are shared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Layout {
+    /// Several runs at each level.
+    Stripes,
+    /// Each run at a level of its own.
+    Cloud,
+}
+
+fn state(text: &str) -> Result<LimitState, String> {
+    text.parse().map_err(|error: rocking::studies::NoLimitState| error.to_string())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|value| {
+        if value > 0.0 && value < 1.0 { Ok(value) } else { Err("give a share between 0 and 1".into()) }
+    })
 }
 
 /// A part of a sweep, for one of several machines.

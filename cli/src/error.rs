@@ -67,6 +67,12 @@ pub enum Failure {
     /// A table, or the sweep of one, makes no overturning spectrum.
     #[error("{}: {}", .0.display(), .1)]
     Spectrum(PathBuf, String),
+    /// A table is not one of a study.
+    #[error("{}: {}", .0.display(), .1)]
+    Study(PathBuf, String),
+    /// A record cannot be measured by a column that is not given.
+    #[error("--scale-to {0}: that measure is of a column; name its scene with --scene")]
+    NoColumn(String),
     /// A part of a sweep is to be drawn.
     #[error(
         "--plot: a shard is a part of a sweep; `rocking merge` the tables of all shards, then `rocking plot` the merged one"

@@ -1,16 +1,20 @@
 #![doc = include_str!("../README.md")]
 
 mod bounds;
+mod component;
 mod error;
 mod excitation;
 mod file;
 mod formats;
 mod impulse;
 mod linear;
+mod mean_period;
+mod measure;
 mod measures;
 mod motion;
 mod open;
 mod options;
+mod oscillator;
 mod piece;
 mod record;
 mod segment;
@@ -20,10 +24,12 @@ mod timeline;
 mod travel;
 mod unit;
 
+pub use component::{Direction, by_number, record_and_component};
 pub use error::RecordError;
 pub use excitation::Excitation;
 pub use file::{LARGEST_FILE, read_file};
 pub use formats::{Format, RecordFile};
+pub use measure::Measure;
 pub use measures::Measures;
 pub use motion::{Description, Motion};
 pub use open::OpenError;

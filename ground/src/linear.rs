@@ -42,6 +42,14 @@ impl LinearInterval {
         tau * (self.a * self.a + self.a * end + end * end) / 3.0
     }
 
+    /// `∫ |a| dt` over the interval `[m/s]`.
+    pub fn absolute(&self) -> f64 {
+        let (a, b) = (self.a.abs(), self.b.abs());
+        // Two triangles where the sign changes.
+        let mean = if self.a * self.b < 0.0 { (a / (a + b)) * a + (b / (a + b)) * b } else { a + b };
+        0.5 * self.h * mean
+    }
+
     /// Largest sizes of velocity `[m/s]` and displacement `[m]`, at the end and wherever a derivative vanishes; not at the start.
     pub fn peaks(&self) -> [f64; 2] {
         let largest = |size: fn(&Self, f64) -> f64, places: &[f64]| {

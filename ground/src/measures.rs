@@ -23,6 +23,12 @@ pub struct Measures {
     pub end_displacement: f64,
     /// Arias intensity `π/(2g) ∫ a² dt` `[m/s]`. Arias (1970), "A measure of earthquake intensity".
     pub arias: f64,
+    /// Cumulative absolute velocity `∫ |a| dt` `[m/s]`. EPRI (1988), report NP-5930.
+    pub cav: f64,
+    /// Mean period of the Fourier amplitudes from 0.25 Hz to 20 Hz `[s]`; zero for a record without such frequencies. Rathje et al. (1998).
+    pub mean_period: f64,
+    /// Time in which the Arias intensity grows from 5 % to 75 % `[s]`. Somerville et al. (1997).
+    pub significant_duration_75: f64,
     /// Time in which the Arias intensity grows from 5 % to 95 % `[s]`. Trifunac and Brady (1975), BSSA 65, 581-626.
     pub significant_duration: f64,
     /// Time at which 5 % are reached `[s]`.
@@ -68,16 +74,23 @@ impl Record {
 
     /// Intensity measures, all finite; `gravity [m/s²]`, above zero, enters the Arias intensity.
     pub fn measures(&self, gravity: f64) -> Measures {
+        Measures { mean_period: self.mean_period(), ..self.sizes(gravity) }
+    }
+
+    /// The same without the mean period, which takes longest.
+    pub(crate) fn sizes(&self, gravity: f64) -> Measures {
         let pga = self.peak();
         let first = self.accel().iter().position(|a| a.abs() == pga).unwrap_or(0);
-        let ([mut pgv, mut pgd, mut energy, mut end_displacement], h) = ([0.0_f64; 4], self.dt());
+        let ([mut pgv, mut pgd, mut energy, mut cav, mut end_displacement], h) = ([0.0_f64; 5], self.dt());
         for interval in self.intervals() {
             let peaks = interval.peaks();
             (pgv, pgd) = (pgv.max(peaks[0]), pgd.max(peaks[1]));
             energy += interval.energy(h);
+            cav += interval.absolute();
             end_displacement = interval.displacement(h);
         }
-        let [significant_start, significant_end] = [0.05, 0.95].map(|share| self.time_of_energy(share * energy));
+        let [significant_start, third_quarter, significant_end] =
+            [0.05, 0.75, 0.95].map(|share| self.time_of_energy(share * energy));
         Measures {
             pga,
             pga_time: self.start() + first as f64 * h,
@@ -85,6 +98,9 @@ impl Record {
             pgd,
             end_displacement,
             arias: 0.5 * PI / gravity * energy,
+            cav,
+            mean_period: 0.0,
+            significant_duration_75: third_quarter - significant_start,
             significant_duration: significant_end - significant_start,
             significant_start,
             significant_end,
@@ -132,6 +148,8 @@ mod tests {
         let x = 0.1_f64.cbrt();
         assert!((measures.significant_start - (1.0 + x * h)).abs() < 1e-14);
         assert!((measures.significant_duration - 2.0 * h * (1.0 - x)).abs() < 1e-14);
+        assert!((measures.significant_duration_75 - h * (2.0 - 0.5_f64.cbrt() - x)).abs() < 1e-14);
+        assert!((measures.cav - p * h).abs() < 1e-15);
     }
 
     /// One period of a sine from rest: v ≥ 0 peaks at 2A/ω in the middle, d ends at 2πA/ω²; sampled finely, linear pieces are
@@ -149,14 +167,24 @@ mod tests {
         // The square of a chord is below that of the arc by twice as much.
         let arias = PI / (2.0 * 9.81) * amplitude * amplitude * PI / omega;
         assert!((measures.arias / arias - 1.0).abs() < 2.0 * tolerance, "{measures:?}");
+        assert!(close(measures.cav, 4.0 * amplitude / omega), "{measures:?}");
     }
 
     #[test]
     fn a_silent_record_measures_nothing() {
         let measures = Record::new(vec![0.0; 3], 0.1, 2.0).expect("valid").measures(9.81);
         assert_eq!((measures.pga, measures.pgv, measures.pgd, measures.arias), (0.0, 0.0, 0.0, 0.0));
-        assert_eq!(measures.significant_duration, 0.0);
+        assert_eq!((measures.significant_duration, measures.significant_duration_75), (0.0, 0.0));
+        assert_eq!((measures.cav, measures.mean_period), (0.0, 0.0));
         assert!(!measures.drifts());
+    }
+
+    /// From 1 to -2 over 3 s: zero after 1 s, areas 1/2 and 2.
+    #[test]
+    fn cumulative_absolute_velocity_counts_both_sides_of_zero() {
+        let measures = Record::new(vec![1.0, -2.0], 3.0, 0.0).expect("valid").measures(9.81);
+        assert!((measures.cav - 2.5).abs() < 1e-15);
+        assert!((measures.pgv - 1.5).abs() < 1e-15);
     }
 
     #[test]

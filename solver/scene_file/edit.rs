@@ -92,11 +92,10 @@ impl Table {
 }
 
 /// Keys of which a table takes one: where one is set, the others go.
-const ALTERNATIVES: [&[&str]; 6] = [
+const ALTERNATIVES: [&[&str]; 5] = [
     &["amplitude", "amplitude_g", "amplitude_uplift", "velocity"],
     &["omega", "frequency", "period", "omega_p"],
-    &["scale", "pga_g"],
-    &["pga", "pga_g"],
+    &["scale", "pga", "pga_g", "pga_uplift", "pgv", "pgv_uplift", "pgd", "arias", "cav", "sa", "sa_g"],
     &["density", "mass"],
     &["eta", "factors", "law"],
 ];

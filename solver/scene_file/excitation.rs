@@ -4,8 +4,9 @@ use super::error::SceneFileError;
 use super::reader::Reader;
 use super::table::{Table, Wrong};
 use crate::column::Column;
+use crate::intensity::{DEFAULT_DAMPING, Intensity, NAMES};
 use crate::scene::LARGEST;
-use rocking_ground::{AccelerationUnit, Excitation, Motion, Record, RecordError, Synthetic, TextOptions};
+use rocking_ground::{AccelerationUnit, Excitation, Measure, Motion, Record, RecordError, Synthetic, TextOptions};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -74,12 +75,11 @@ pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, 
 impl Reader<'_> {
     /// The ground motion of a scene.
     pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
-        let scales = Scales::of(column);
         let own = |wrong| self.error(wrong);
         let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
         let mut component = |name: &'static str| -> Result<Option<Motion>, SceneFileError> {
             let Some(mut table) = table.table(name).map_err(own)? else { return Ok(None) };
-            let motion = self.motion(&mut table, scales)?;
+            let motion = self.motion(&mut table, column)?;
             table.close().map_err(own)?;
             Ok(Some(motion))
         };
@@ -88,24 +88,24 @@ impl Reader<'_> {
         Ok(excitation)
     }
 
-    fn motion(&self, table: &mut Table, scales: Scales) -> Result<Motion, SceneFileError> {
+    fn motion(&self, table: &mut Table, column: &Column) -> Result<Motion, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let Some((kind, _)) = table.text("kind").map_err(own)? else {
             return Err(own(table.missing("kind", &format!("choose one of {}", KINDS.join(", ")))));
         };
         match kind.as_str() {
-            "sum" => self.sum(table, scales),
+            "sum" => self.sum(table, column),
             "record" => {
                 let start = start(table).map_err(own)?;
-                self.record(table, start, scales).map(Motion::Record)
+                self.record(table, start, column).map(Motion::Record)
             }
-            "synthetic" => synthetic(table, scales).map(Motion::Record).map_err(own),
-            _ => pulse(table, &kind, scales).map_err(own),
+            "synthetic" => synthetic(table, column).map(Motion::Record).map_err(own),
+            _ => pulse(table, &kind, Scales::of(column)).map_err(own),
         }
     }
 
     /// `[[excitation.horizontal.term]]`, each as a component.
-    fn sum(&self, table: &mut Table, scales: Scales) -> Result<Motion, SceneFileError> {
+    fn sum(&self, table: &mut Table, column: &Column) -> Result<Motion, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let mut tables = table.tables("term").map_err(own)?.unwrap_or_default();
         if tables.is_empty() {
@@ -113,32 +113,18 @@ impl Reader<'_> {
             return Err(own(table.missing("term", &remedy)));
         }
         let mut term = |table: &mut Table| {
-            let motion = self.motion(table, scales)?;
+            let motion = self.motion(table, column)?;
             table.close().map_err(own)?;
             Ok(motion)
         };
         Ok(Motion::Sum { terms: tables.iter_mut().map(&mut term).collect::<Result<_, _>>()? })
     }
 
-    fn record(&self, table: &mut Table, start: f64, scales: Scales) -> Result<Record, SceneFileError> {
+    fn record(&self, table: &mut Table, start: f64, column: &Column) -> Result<Record, SceneFileError> {
         let own = |wrong| self.error(wrong);
-        let gravity = scales.gravity;
-        let units = match table.text("units").map_err(own)? {
-            None => None,
-            Some((name, _)) => Some(AccelerationUnit::parse(&name).ok_or_else(|| {
-                own(table.no_such("units", "unit", &name, &["g", "m/s2", "cm/s2", "gal", "mg", "in/s2"]))
-            })?),
-        };
-        let dt = table.positive("dt").map_err(own)?;
-        let options = TextOptions {
-            gravity,
-            dt,
-            units,
-            lenient: table.flag("lenient").map_err(own)?.unwrap_or(false),
-            channel: table.whole("channel", 1).map_err(own)?.map(|channel| channel as usize),
-            skip_rows: table.whole("skip_rows", 0).map_err(own)?.unwrap_or(0) as usize,
-            column: table.name("column").map_err(own)?,
-        };
+        let gravity = column.gravity();
+        let options = text_options(table, gravity).map_err(own)?;
+        let (units, dt) = (options.units, options.dt);
         let accel = table.numbers("accel").map_err(own)?;
         let of_files = ["lenient", "channel", "skip_rows", "column"].into_iter().find(|key| table.has(key));
         if let Some(key) = of_files.filter(|_| accel.is_some()) {
@@ -149,7 +135,7 @@ impl Reader<'_> {
             )));
         }
         let (record, key) = match (table.text("file").map_err(own)?, accel) {
-            (Some((name, _)), None) => (self.record_file(table, &name, &options)?, "file"),
+            (Some((name, _)), None) => (self.record_file(table, "file", &name, &options)?, "file"),
             (None, Some(accel)) => {
                 let Some(dt) = dt else { return Err(own(table.missing("dt", "give the sampling interval in s"))) };
                 let scale = units.map_or(1.0, |unit| unit.in_si(gravity));
@@ -163,37 +149,39 @@ impl Reader<'_> {
             }
             (None, None) => return Err(own(table.missing("file", "name a record file, or give `accel` and `dt`"))),
         };
-        let scale = table.number("scale").map_err(own)?;
-        let peak = table.number("pga_g").map_err(own)?;
-        let record = match (scale, peak) {
-            (Some(_), Some(_)) => {
-                return Err(own(table.clash("pga_g", "scale")));
+        let target = target(table, column).map_err(own)?;
+        let record = match (table.number("scale").map_err(own)?, target) {
+            (Some(_), Some(target)) => {
+                return Err(own(table.clash(target.key, "scale")));
             }
             (Some((factor, _)), None) => record
                 .scaled(factor)
                 .map_err(|error| own(table.wrong("scale", error.to_string(), "give a smaller factor")))?,
-            (None, Some((peak, _))) if peak <= 0.0 => {
-                return Err(own(table.wrong("pga_g", format!("{peak} is out of range"), "give a number above zero")));
-            }
-            (None, Some((peak, _))) => record
-                .scaled_to_peak(peak * gravity)
-                .map_err(|error| own(table.wrong(key, error.to_string(), "use another record or another peak")))?,
+            (None, Some(target)) => target
+                .scale(record, column.gravity())
+                .map_err(|error| own(table.wrong(key, error.to_string(), "use another record or another size")))?,
             (None, None) => record,
         };
         Ok(record.starting_at(start))
     }
 
-    fn record_file(&self, table: &Table, name: &str, options: &TextOptions) -> Result<Record, SceneFileError> {
+    pub(crate) fn record_file(
+        &self,
+        table: &Table,
+        key: &str,
+        name: &str,
+        options: &TextOptions,
+    ) -> Result<Record, SceneFileError> {
         let path = self.file.parent().unwrap_or(Path::new("")).join(name);
         let kept = || (path.clone(), format!("{options:?}"));
         if let Some(record) = self.records.and_then(|records| records.get(&kept())) {
             return Ok(record.named(name));
         }
-        let place = table.find("file");
+        let place = table.find(key);
         let refuse = |problem: String| SceneFileError::Record {
             file: self.file.into(),
             line: self.line(&place),
-            key: table.dotted("file"),
+            key: table.dotted(key),
             record: path.clone(),
             problem,
         };
@@ -205,6 +193,87 @@ impl Reader<'_> {
         }
         Ok(record.named(name))
     }
+}
+
+/// What a user adds to record files.
+pub(crate) fn text_options(table: &mut Table, gravity: f64) -> Result<TextOptions, Wrong> {
+    let units = match table.text("units")? {
+        None => None,
+        Some((name, _)) => Some(
+            AccelerationUnit::parse(&name)
+                .ok_or_else(|| table.no_such("units", "unit", &name, &["g", "m/s2", "cm/s2", "gal", "mg", "in/s2"]))?,
+        ),
+    };
+    Ok(TextOptions {
+        gravity,
+        dt: table.positive("dt")?,
+        units,
+        lenient: table.flag("lenient")?.unwrap_or(false),
+        channel: table.whole("channel", 1)?.map(|channel| channel as usize),
+        skip_rows: table.whole("skip_rows", 0)?.unwrap_or(0) as usize,
+        column: table.name("column")?,
+    })
+}
+
+/// The size that a record is scaled to.
+struct Target {
+    key: &'static str,
+    measure: Measure,
+    /// In the unit of the measure.
+    size: f64,
+}
+
+impl Target {
+    fn scale(&self, record: Record, gravity: f64) -> Result<Record, RecordError> {
+        match self.measure {
+            Measure::Pga => record.scaled_to_peak(self.size),
+            measure => record.scaled_to(measure, self.size, gravity),
+        }
+    }
+}
+
+/// One of the sizes of [`NAMES`](crate::intensity::NAMES), or none.
+fn target(table: &mut Table, column: &Column) -> Result<Option<Target>, Wrong> {
+    let sa = spectrum(table)?;
+    let mut found: Option<Target> = None;
+    for key in NAMES {
+        let Some((value, _)) = table.number(key)? else { continue };
+        if let Some(first) = &found {
+            return Err(table.clash(key, first.key));
+        }
+        if value <= 0.0 {
+            return Err(table.wrong(key, format!("{value} is out of range"), "give a number above zero"));
+        }
+        let intensity = Intensity::named(key, sa)
+            .ok_or_else(|| table.missing("sa_period", &format!("give the period of `{key}` in s")))?;
+        found = Some(Target { key, measure: intensity.measure, size: value * intensity.unit_size(column) });
+    }
+    let is_of_spectrum = found.as_ref().is_some_and(|target| matches!(target.measure, Measure::Sa { .. }));
+    if let Some(key) = ["sa_period", "sa_damping"].into_iter().find(|key| table.has(key) && !is_of_spectrum) {
+        return Err(table.wrong(key, "nothing is scaled to `sa` or `sa_g`".into(), "remove it, or give one of them"));
+    }
+    Ok(found)
+}
+
+/// Period `[s]` and damping ratio of `sa`; none without a period.
+pub(crate) fn spectrum(table: &mut Table) -> Result<Option<[f64; 2]>, Wrong> {
+    let period = table.positive("sa_period")?;
+    let damping = match table.number("sa_damping")? {
+        None => DEFAULT_DAMPING,
+        Some((damping, _)) if (0.0..1.0).contains(&damping) => damping,
+        Some((damping, _)) => {
+            let problem = format!("{damping} is out of range");
+            return Err(table.wrong(
+                "sa_damping",
+                problem,
+                "give a share of critical damping from 0 to below 1, e.g. 0.05",
+            ));
+        }
+    };
+    if period.is_none() && table.has("sa_damping") {
+        return Err(table.missing("sa_period", "give the period in s"));
+    }
+    Ok(period.map(|period| [period, damping]))
 }
 
 fn start(table: &mut Table) -> Result<f64, Wrong> {
@@ -314,10 +383,8 @@ fn pulse(table: &mut Table, kind: &str, scales: Scales) -> Result<Motion, Wrong>
 }
 
 /// Filtered noise from a seed.
-fn synthetic(table: &mut Table, scales: Scales) -> Result<Record, Wrong> {
-    let start = start(table)?;
-    let pga = table.one_of(&[("pga", &|a| a), ("pga_g", &|a| a * scales.gravity)])?;
-    let mut synthetic = Synthetic { pga, seed: table.whole("seed", 0)?.unwrap_or(0), ..Synthetic::default() };
+pub(crate) fn noise(table: &mut Table) -> Result<Synthetic, Wrong> {
+    let mut synthetic = Synthetic { seed: table.whole("seed", 0)?.unwrap_or(0), ..Synthetic::default() };
     for (key, number) in [
         ("duration", &mut synthetic.duration),
         ("dt", &mut synthetic.dt),
@@ -326,13 +393,33 @@ fn synthetic(table: &mut Table, scales: Scales) -> Result<Record, Wrong> {
     ] {
         *number = table.positive(key)?.unwrap_or(*number);
     }
+    Ok(synthetic)
+}
+
+/// A record of filtered noise, scaled to a size that the scene must give.
+fn synthetic(table: &mut Table, column: &Column) -> Result<Record, Wrong> {
+    let (start, mut synthetic) = (start(table)?, noise(table)?);
+    let Some(target) = target(table, column)? else {
+        let remedy = format!("give one of {}", NAMES.map(|name| format!("`{name}`")).join(", "));
+        return Err(table.missing("pga", &remedy));
+    };
+    if target.measure == Measure::Pga {
+        synthetic.pga = target.size;
+    }
     let record = synthetic.record().map_err(|error| {
         let key = match error {
-            RecordError::OutOfRange { name: "pga", .. } if table.has("pga_g") => "pga_g",
+            RecordError::OutOfRange { name: "pga", .. } => target.key,
             RecordError::OutOfRange { name, .. } => name,
             _ => "kind",
         };
         table.wrong(key, error.to_string(), "correct the number")
     })?;
+    let record = match target.measure {
+        Measure::Pga => record,
+        _ => {
+            let scaled = target.scale(record, column.gravity());
+            scaled.map_err(|error| table.wrong(target.key, error.to_string(), "correct the number"))?
+        }
+    };
     Ok(record.starting_at(start))
 }

@@ -2,9 +2,9 @@
 
 pub(crate) mod edit;
 mod error;
-mod excitation;
+pub(crate) mod excitation;
 pub(crate) mod reader;
-mod records;
+pub(crate) mod records;
 mod setting;
 pub(crate) mod table;
 mod template;

@@ -171,7 +171,7 @@ fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &T
 }
 
 /// `{ from, to, steps, scale }`; without steps, whole numbers.
-fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
+pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     let mut end = |key: &'static str| match table.number(key)? {
         Some((value, _)) => Ok(value),
         None => Err(table.missing(key, "give both ends of the axis")),
@@ -214,7 +214,7 @@ fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
 }
 
 /// The number of twelve digits that a number is but for a relative error: powers of ten between powers of ten, whole numbers.
-fn rounded(value: f64, error: f64) -> f64 {
+pub(crate) fn rounded(value: f64, error: f64) -> f64 {
     let short = format!("{value:.11e}").parse().unwrap_or(value);
     if (value - short).abs() <= error * value.abs() { short } else { value }
 }

@@ -1,6 +1,6 @@
 //! Sweeps: many scenes from one, a row of results for each point.
 
-mod file;
+pub(crate) mod file;
 mod points;
 
 pub use points::{Ask, Axis, Combine, Fate, Outcome, PointError, Row, Sweep};

@@ -113,6 +113,19 @@ impl Fate {
     pub const ALL: [Fate; 6] =
         [Fate::NoUplift, Fate::Slides, Fate::Rocks, Fate::Overturns, Fate::Collapses, Fate::Undetermined];
 
+    /// What became of the column of a run.
+    pub fn of(response: &Response) -> Fate {
+        let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
+        match (response.status, response.work.phases > 0) {
+            (status, _) if status.overturns() => Fate::Overturns,
+            (StopReason::Collapsed, _) => Fate::Collapses,
+            (StopReason::Undetermined, _) => Fate::Undetermined,
+            _ if response.motion_at_contacts().is_some() && !rocked() => Fate::Slides,
+            (_, true) => Fate::Rocks,
+            (_, false) => Fate::NoUplift,
+        }
+    }
+
     /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`.
     pub fn name(self) -> &'static str {
         match self {
@@ -314,20 +327,11 @@ impl Sweep {
     }
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
-        let has_overturned = response.status.overturns();
         let with_peaks = self.ask.is_of_peaks();
-        let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
         let share = |(block, peak): (usize, &f64)| peak / scene.column.stack(block).slenderness();
         let last_mode = || response.events.last().map_or(ModeName::REST, |event| event.mode).to_string();
         Outcome {
-            fate: match (response.status, response.work.phases > 0) {
-                _ if has_overturned => Fate::Overturns,
-                (StopReason::Collapsed, _) => Fate::Collapses,
-                (StopReason::Undetermined, _) => Fate::Undetermined,
-                _ if response.motion_at_contacts().is_some() && !rocked() => Fate::Slides,
-                (_, true) => Fate::Rocks,
-                (_, false) => Fate::NoUplift,
-            },
+            fate: Fate::of(response),
             impacts: response.impacts,
             block: response.overturned_block.or_else(|| response.collapsed_block()),
             overturned_at: response.overturned_at().filter(|_| self.ask != Ask::Overturns),

@@ -1,4 +1,4 @@
-//! `rocking check`: the content of a scene or a sweep, and its consequences before anything is run.
+//! `rocking check`: the content of a scene, a sweep or a study, and its consequences before anything is run.
 
 use crate::commands::{inputs, sweep, thresholds};
 use crate::error::Failure;
@@ -7,17 +7,21 @@ use crate::number::{coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use rocking::scene_file::{Derived, SceneFile};
+use rocking::studies::{IdaFile, StudyRecord};
 use rocking::sweep::{Axis, Combine};
 use rocking::{Block, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Reads a scene or a sweep and explains it.
+/// Reads a scene, a sweep or a study and explains it.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let text = inputs::text(path)?;
     if is_sweep(&text) {
         return check_sweep(path, as_json);
+    }
+    if is_study(&text) {
+        return check_study(path, as_json);
     }
     let SceneFile { scene, derived } = SceneFile::from_toml(&text, path).map_err(Failure::scene)?;
     let findings = Findings::of(&scene, derived);
@@ -29,6 +33,62 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
 fn is_sweep(text: &str) -> bool {
     let begins = |line: &str| ["[axes", "axes.", "axes ", "axes="].iter().any(|start| line.starts_with(start));
     text.lines().map(str::trim_start).any(begins)
+}
+
+/// Whether the text of a file is a study: it has records, which no scene has.
+fn is_study(text: &str) -> bool {
+    text.lines().map(str::trim_start).any(|line| line.starts_with("[records") || line.starts_with("records"))
+}
+
+/// Description of a study.
+#[derive(Debug, Serialize)]
+struct StudyFindings {
+    measure: String,
+    levels: Vec<f64>,
+    records: Vec<StudiedRecord>,
+    runs: usize,
+    states: Vec<String>,
+}
+
+/// A record of a study.
+#[derive(Debug, Serialize)]
+struct StudiedRecord {
+    name: String,
+    has_vertical: bool,
+    /// Factors at the lowest and the highest level, dimensionless.
+    scales: [f64; 2],
+}
+
+fn check_study(path: &Path, as_json: bool) -> Result<(), Failure> {
+    let IdaFile { ida, states, .. } = IdaFile::from_file(path).map_err(Failure::scene)?;
+    let record = |(number, record): (usize, &StudyRecord)| {
+        let scales = (0..ida.levels().len()).map(|level| ida.scale(number * ida.levels().len() + level));
+        let around = scales.fold([f64::INFINITY, 0.0_f64], |[low, high], scale| [low.min(scale), high.max(scale)]);
+        StudiedRecord { name: record.name.clone(), has_vertical: record.vertical.is_some(), scales: around }
+    };
+    let findings = StudyFindings {
+        measure: ida.intensity().to_string(),
+        levels: ida.levels().to_vec(),
+        records: ida.records().iter().enumerate().map(record).collect(),
+        runs: ida.len(),
+        states: states.iter().map(ToString::to_string).collect(),
+    };
+    if as_json {
+        return json(&findings);
+    }
+    let mut text = format!("{}: a valid study of {} run(s)\n", shown(path), findings.runs);
+    let [first, last] = [0, findings.levels.len() - 1].map(|level| significant(findings.levels[level], 5));
+    let label = ida.intensity().label();
+    let _ = writeln!(text, "  {label}: {} level(s), from {first} to {last}", findings.levels.len());
+    let _ = writeln!(text, "  {} record(s), scaled by", findings.records.len());
+    for record in &findings.records {
+        let [low, high] = record.scales.map(|scale| significant(scale, 4));
+        let vertical = if record.has_vertical { ", with its vertical component" } else { "" };
+        let _ = writeln!(text, "    {low} to {high}  {}{vertical}", printable(&record.name));
+    }
+    let _ = writeln!(text, "  limit states: {}", findings.states.join(", "));
+    let _ = writeln!(text, "run it with `rocking ida {}`", shown(path));
+    print(&text)
 }
 
 /// Description of a sweep.

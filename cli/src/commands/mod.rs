@@ -1,6 +1,8 @@
 //! The commands, a file each.
 
 mod check;
+mod fragility;
+mod ida;
 mod init;
 mod inputs;
 mod merge;
@@ -31,7 +33,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
         Command::Plot { folder: table, format, out } if is_table(&table) => {
-            spectrum::plot(&table, format, out.as_deref())
+            spectrum::plot(&table, format, out.as_deref(), ida::draw)
         }
         Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
         Command::Record(mut asked) => {
@@ -54,6 +56,8 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&inputs::scene(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&inputs::scene(&scene)?)),
         Command::Sweep(asked) => sweep::sweep(&asked),
+        Command::Ida(asked) => ida::ida(&asked),
+        Command::Fragility(asked) => fragility::fragility(&asked),
         Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),

@@ -1,6 +1,7 @@
 //! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
 
 use crate::arguments;
+use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
 use crate::files::{self, LARGEST_RECORD};
@@ -9,7 +10,8 @@ use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use crate::{output, plot};
 use rocking::ground::{Measures, RecordFile, TextOptions};
-use rocking::{DEFAULT_GRAVITY, Record, RecordError};
+use rocking::intensity::{Intensity, IntensityUnit};
+use rocking::{Column, DEFAULT_GRAVITY, Record, RecordError};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -37,7 +39,18 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     if let Some(peak) = arguments.pga {
         record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
     }
+    let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
+    if let Some((intensity, size)) = arguments.scale_to {
+        let unit = match (&column, intensity.unit) {
+            (Some(column), _) => intensity.unit_size(column),
+            (None, IntensityUnit::Si) => 1.0,
+            (None, IntensityUnit::Gravity) => DEFAULT_GRAVITY,
+            (None, _) => return Err(Failure::NoColumn(intensity.to_string())),
+        };
+        record = record.scaled_to(intensity.measure, size * unit, DEFAULT_GRAVITY).map_err(refused)?;
+    }
     description.measure(&record);
+    description.measure_by(&record, &arguments.sa, arguments.damping, column.as_ref());
     let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
     output::check(&outputs, std::slice::from_ref(&path))?;
     if let Some(out) = &arguments.out {
@@ -158,9 +171,34 @@ pub struct Description {
     pub pga_g: f64,
     #[serde(flatten)]
     pub measures: Option<Measures>,
+    /// Spectral accelerations that were asked for.
+    pub spectral: Vec<Spectral>,
+    /// Size for the column of a scene.
+    #[serde(flatten)]
+    pub of_column: Option<OfColumn>,
     /// Whether the displacement is largest at the end.
     pub drifts: bool,
     pub warnings: Vec<String>,
+}
+
+/// A spectral acceleration.
+#[derive(Debug, Serialize)]
+pub struct Spectral {
+    /// `[s]`
+    pub period: f64,
+    /// Ratio of the critical damping.
+    pub damping: f64,
+    /// Pseudo-spectral acceleration `[m/s²]`.
+    pub sa: f64,
+}
+
+/// The size of a record for a column.
+#[derive(Debug, Serialize)]
+pub struct OfColumn {
+    /// `PGA / (g tan α)`, dimensionless.
+    pub pga_uplift: f64,
+    /// `p PGV / (g tan α)`, dimensionless.
+    pub pgv_uplift: f64,
 }
 
 impl Description {
@@ -182,6 +220,8 @@ impl Description {
             gravity: DEFAULT_GRAVITY,
             pga_g: 0.0,
             measures: None,
+            spectral: Vec::new(),
+            of_column: None,
             drifts: false,
             warnings: file.warnings.iter().map(|warning| with_dashes(warning)).collect(),
         }
@@ -196,6 +236,36 @@ impl Description {
         self.pga_g = measures.pga / DEFAULT_GRAVITY;
         self.drifts = measures.drifts();
         self.measures = Some(measures);
+    }
+
+    /// Takes spectral accelerations at `periods [s]`, and the sizes for a column.
+    pub fn measure_by(&mut self, record: &Record, periods: &[f64], damping: f64, column: Option<&Column>) {
+        let spectral =
+            |period: &f64| Spectral { period: *period, damping, sa: record.spectral_acceleration(*period, damping) };
+        self.spectral = periods.iter().map(spectral).collect();
+        let size = |name: &str, column: &Column| {
+            let intensity = Intensity::named(name, None)?;
+            Some(record.measure(intensity.measure, column.gravity()) / intensity.unit_size(column))
+        };
+        self.of_column = column.and_then(|column| {
+            Some(OfColumn { pga_uplift: size("pga_uplift", column)?, pgv_uplift: size("pgv_uplift", column)? })
+        });
+    }
+
+    /// Sizes for the line of a list, each with two blanks before.
+    pub fn sizes(&self) -> String {
+        let mut text = String::new();
+        if let Some(measures) = &self.measures {
+            let _ = write!(text, "  PGV {} m/s", significant(measures.pgv, 4));
+        }
+        for Spectral { period, sa, .. } in &self.spectral {
+            let _ = write!(text, "  Sa({} s) {} g", significant(*period, 4), significant(sa / self.gravity, 4));
+        }
+        if let Some(OfColumn { pga_uplift, pgv_uplift }) = self.of_column {
+            let sizes = [pga_uplift, pgv_uplift].map(|size| significant(size, 4));
+            let _ = write!(text, "  PGA/(g tan α) {}  p PGV/(g tan α) {}", sizes[0], sizes[1]);
+        }
+        text
     }
 
     fn text(&self) -> String {
@@ -238,6 +308,18 @@ impl Description {
             [measures.significant_duration, measures.significant_start, measures.significant_end]
                 .map(|time| significant(time, DIGITS));
         line("significant duration", format!("{duration} s (5-95 %), from {from} s to {to} s"));
+        line("", format!("{} s (5-75 %)", significant(measures.significant_duration_75, DIGITS)));
+        line("CAV", format!("{} m/s", significant(measures.cav, DIGITS)));
+        line("mean period", format!("{} s", significant(measures.mean_period, DIGITS)));
+        for Spectral { period, damping, sa } in &self.spectral {
+            let [in_g, sa] = [sa / self.gravity, *sa].map(|value| significant(value, DIGITS));
+            let name = format!("Sa({} s, {} %)", significant(*period, DIGITS), significant(100.0 * damping, DIGITS));
+            line(&name, format!("{in_g} g = {sa} m/s2"));
+        }
+        if let Some(OfColumn { pga_uplift, pgv_uplift }) = self.of_column {
+            line("PGA/(g tan α)", significant(pga_uplift, DIGITS));
+            line("p PGV/(g tan α)", significant(pgv_uplift, DIGITS));
+        }
         text
     }
 }

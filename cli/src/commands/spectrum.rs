@@ -22,8 +22,13 @@ pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
     check_axes(&axes, sweep.len()).map_err(at(Failure::Spectrum, &asked.file))
 }
 
-/// Draws a table into files beside or below the table; they have its name.
-pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Failure> {
+/// Draws a table into files beside or below the table; they have its name. `study` draws the table of a study, and says `None` of another one.
+pub fn plot(
+    table: &Path,
+    format: Picture,
+    out: Option<&Path>,
+    study: impl Fn(&Path, &Path) -> Result<Option<String>, Failure>,
+) -> Result<(), Failure> {
     Format::of(table)?;
     let name = table.with_extension(format.extension());
     let picture = match (out, name.file_name()) {
@@ -34,6 +39,11 @@ pub fn plot(table: &Path, format: Picture, out: Option<&Path>) -> Result<(), Fai
         _ => name,
     };
     output::check(&files(&picture), &[table.into()])?;
+    if table.exists()
+        && let Some(told) = study(table, &picture)?
+    {
+        return print(&told);
+    }
     print(&draw(table, &picture)?)
 }
 
@@ -51,7 +61,12 @@ pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
 
 /// The files of both figures, of which `picture` is the first.
 pub fn files(picture: &Path) -> [PathBuf; 2] {
-    let [stem, extension] = [picture.file_stem(), picture.extension()]
+    [picture.into(), beside(picture, "minimum")]
+}
+
+/// The file beside another one that is named like it, with a word behind: `a.svg`, `a-word.svg`.
+pub fn beside(file: &Path, word: &str) -> PathBuf {
+    let [stem, extension] = [file.file_stem(), file.extension()]
         .map(|part| part.map_or_else(String::new, |part| part.to_string_lossy().into_owned()));
-    [picture.into(), picture.with_file_name(format!("{stem}-minimum.{extension}"))]
+    file.with_file_name(format!("{stem}-{word}.{extension}"))
 }

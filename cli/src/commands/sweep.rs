@@ -19,13 +19,9 @@ use rocking::scene_file::{Cause, MOST_BLOCKS, Setting};
 use rocking::sweep::{Ask, Axis, Fate, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
-/// Points run together: at first, and at most. Batches grow and shrink to take [`BATCH_TIME`]: long enough to keep all threads busy,
-/// short enough that little is lost when a sweep is cut off. Rows do not depend on them.
+/// Points run together at first, and at least.
 const FIRST_BATCH: usize = 256;
-const LARGEST_BATCH: usize = 1 << 16;
-const BATCH_TIME: Duration = Duration::from_millis(250);
 
 /// Runs a sweep, or what is left of it.
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
@@ -41,30 +37,18 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let columns = columns(&sweep)?;
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(asked.threads.map_or(0, usize::from)).build();
-    let threads = threads.map_err(|error| Failure::Print(error.to_string()))?;
+    let threads = threads(asked.threads)?;
     let mut digest = Fnv::of(&sweep, &asked.file)?;
     if asked.shard.is_some() {
         output::file(&digest_file(&out), digest.to_string())?;
     }
     digest.add(format!("{range:?}").as_bytes());
-    let mut table = Growing::open(&target, &columns, digest.0, range.clone())?;
+    let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
-    let (mut size, mut next, mut last) = (FIRST_BATCH, table.next, Vec::new());
-    while table.next < range.end {
-        let begun = Instant::now();
-        let batch = next..range.end.min(next + size);
-        next = batch.end;
-        // A batch is written while the one after it runs.
-        let run = || sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()));
-        let (rows, written) = threads.install(|| rayon::join(run, || table.append(&last)));
-        written.map_err(at(Failure::File, &out))?;
-        last = rows;
-        bar.reached(table.next - range.start);
-        size = if begun.elapsed() < BATCH_TIME { (2 * size).min(LARGEST_BATCH) } else { (size / 2).max(FIRST_BATCH) };
-    }
-    bar.finish();
+    table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
+        sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()))
+    })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
@@ -78,6 +62,12 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
         _ => Ok(()),
     }
+}
+
+/// A pool of so many threads; as many as the machine has unless given.
+pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.map_or(0, usize::from)).build();
+    pool.map_err(|error| Failure::Print(error.to_string()))
 }
 
 /// Reads a sweep, and refuses keys that no scene knows.
@@ -212,10 +202,21 @@ pub fn digest_file(table: &Path) -> PathBuf {
 pub struct Fnv(u64);
 
 impl Fnv {
-    /// The digest of all that decides the rows of a sweep: version, scene, axes, records.
-    pub fn of(sweep: &Sweep, file: &Path) -> Result<Fnv, Failure> {
+    /// The digest of this version of the program.
+    pub fn new() -> Fnv {
         let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
         digest.add(env!("CARGO_PKG_VERSION").as_bytes());
+        digest
+    }
+
+    /// Its number.
+    pub fn number(self) -> u64 {
+        self.0
+    }
+
+    /// The digest of all that decides the rows of a sweep: version, scene, axes, records.
+    pub fn of(sweep: &Sweep, file: &Path) -> Result<Fnv, Failure> {
+        let mut digest = Fnv::new();
         digest.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
         digest.add(sweep.template.text().as_bytes());
         for axis in &sweep.axes {
@@ -229,7 +230,8 @@ impl Fnv {
         Ok(digest)
     }
 
-    fn add(&mut self, bytes: &[u8]) {
+    /// Adds bytes.
+    pub fn add(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(b"\0") {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
         }

@@ -4,7 +4,8 @@
 //! results ──> drawn_run.rs ──> time_history.rs, phase_portrait.rs, slides.rs, ──> sheet.rs ──> SVG, PNG
 //!             rows, events     energy.rs, forces.rs: what is drawn where             kuva
 //!                                   record.rs ──────────────────────────────────────┤
-//! table of a sweep ───────────────> spectrum.rs ────────────────────────────────────┘
+//! table of a sweep ───────────────> spectrum.rs ────────────────────────────────────┤
+//! runs of a study ────────────────> ida.rs, fragility.rs ───────────────────────────┘
 //! ```
 //!
 //! No mechanics: energies and forces come from the library. A figure is made of a run's files alone, and is the same, byte for
@@ -15,6 +16,8 @@ mod curve;
 mod drawn_run;
 mod energy;
 mod forces;
+mod fragility;
+mod ida;
 pub mod modes;
 mod phase_portrait;
 mod record;
@@ -30,6 +33,8 @@ use drawn_run::DrawnRun;
 use rocking::run_folder::Results;
 
 pub use drawn_run::FALL;
+pub use fragility::fragility;
+pub use ida::ida;
 pub use record::record;
 pub use sheet::Figure;
 

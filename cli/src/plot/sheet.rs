@@ -198,6 +198,15 @@ impl Sheet {
         self.drawn.push(path(&areas, Some(fill), None));
     }
 
+    /// A filled polygon through which what lies below is seen; `opacity` from 0 to 1.
+    pub fn veil(&mut self, corners: Vec<Point>, fill: &'static str, opacity: f64) {
+        let mut veil = path(&[corners], Some(fill), None);
+        if let Primitive::Path(path) = &mut veil {
+            path.opacity = Some(opacity);
+        }
+        self.drawn.push(veil);
+    }
+
     /// A filled polygon with an edge.
     pub fn shape(&mut self, corners: Vec<Point>, fill: &'static str, edge: &Stroke) {
         self.drawn.push(path(&[corners], Some(fill), Some(edge)));

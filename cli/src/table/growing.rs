@@ -9,7 +9,9 @@ use super::column::Column;
 #[cfg(feature = "parquet")]
 use super::parquet;
 use crate::error::{Failure, at};
+use crate::progress::Progress;
 use csv::StringRecord;
+use rayon::ThreadPool;
 use std::fs::{File, TryLockError};
 #[cfg(feature = "parquet")]
 use std::io::BufWriter;
@@ -18,6 +20,7 @@ use std::io::ErrorKind;
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// A table under way.
 #[derive(Debug)]
@@ -26,9 +29,16 @@ pub struct Growing {
     /// The hidden file.
     pub part: PathBuf,
     out: PathBuf,
+    /// The first point of the table.
+    first: usize,
     /// The point whose row is due.
     pub next: usize,
 }
+
+/// Points run together at most. Batches grow and shrink to take [`BATCH_TIME`]: long enough to keep all threads busy,
+/// short enough that little is lost when a table is cut off. Rows do not depend on them.
+const LARGEST_BATCH: usize = 1 << 16;
+const BATCH_TIME: Duration = Duration::from_millis(250);
 
 impl Growing {
     /// Goes on with what is there, or begins; the rows are those of these points. [`Failure::Running`] where another process is at it.
@@ -53,17 +63,44 @@ impl Growing {
             file: csv::Writer::from_writer(file),
             part,
             out: out.into(),
+            first: points.start,
             next: points.start + lines.saturating_sub(1),
         })
     }
 
     /// Adds rows.
-    pub fn append(&mut self, rows: &[StringRecord]) -> std::io::Result<()> {
+    fn append(&mut self, rows: &[StringRecord]) -> std::io::Result<()> {
         for row in rows {
             self.file.write_record(row)?;
             self.next += 1;
         }
         self.file.flush()
+    }
+
+    /// Makes and writes the rows that are missing up to `end`, in batches of `least` points or more; a batch is written while the one after it runs.
+    pub fn fill(
+        &mut self,
+        end: usize,
+        least: usize,
+        threads: &ThreadPool,
+        bar: &Progress,
+        lines: impl Fn(Range<usize>) -> Vec<StringRecord> + Send + Sync,
+    ) -> Result<(), Failure> {
+        let (mut size, mut next, mut last) = (least, self.next, Vec::new());
+        let first = self.first;
+        while self.next < end {
+            let begun = Instant::now();
+            let batch = next..end.min(next + size);
+            next = batch.end;
+            let run = || lines(batch);
+            let (rows, written) = threads.install(|| rayon::join(run, || self.append(&last)));
+            written.map_err(at(Failure::File, &self.out))?;
+            last = rows;
+            bar.reached(self.next - first);
+            size = if begun.elapsed() < BATCH_TIME { (2 * size).min(LARGEST_BATCH) } else { (size / 2).max(least) };
+        }
+        bar.finish();
+        Ok(())
     }
 
     /// Gives the table its name. Killed before, after or within, a sweep has all it needs to come here again.

@@ -1,0 +1,330 @@
+//! `rocking fragility`: curves of limit states from the table of a study.
+
+use crate::arguments::{self, Layout};
+use crate::commands::plot::write;
+use crate::commands::spectrum::beside;
+use crate::commands::sweep::OUTCOME;
+use crate::error::{Failure, at};
+use crate::table::{Format, open};
+use crate::terminal::{json, print};
+use crate::text::shown;
+use crate::{output, plot};
+use csv::StringRecord;
+use rocking::intensity::Intensity;
+use rocking::studies::{self, Fit, Fragility, FragilityOptions, LimitState, Observation};
+use rocking::sweep::Fate;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Fits, prints, writes and draws.
+pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
+    let Runs { measure, runs, has_peaks, has_slides, .. } = read(&asked.table, asked.measure.as_deref())?;
+    let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
+    let states = match &asked.state[..] {
+        [] => usual_states(),
+        given => given.to_vec(),
+    };
+    for state in &states {
+        let lacks = match state {
+            LimitState::Peak { .. } if !has_peaks => Some("peak_1, ...: run the sweep with ask = \"peaks\""),
+            LimitState::Slide { .. } if !has_slides => Some("residual_slide_1, ...: give the scene friction"),
+            _ => None,
+        };
+        if let Some(lacks) = lacks {
+            return Err(refused(format!("the state `{state}` needs the columns {lacks}")));
+        }
+    }
+    let mut options = FragilityOptions::default();
+    (options.replicates, options.confidence, options.seed) = (asked.replicates as usize, asked.confidence, asked.seed);
+    options.layout = asked.layout.map(|layout| match layout {
+        Layout::Stripes => studies::Layout::Stripes,
+        Layout::Cloud => studies::Layout::Cloud,
+    });
+    let out = asked.out.clone().unwrap_or_else(|| tables(&asked.table)[0].clone());
+    let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(asked.plot.clone());
+    output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&asked.table))?;
+    let conclusions = Conclusions::of(&runs, &measure, &states, &options);
+    let mut told = conclusions.text();
+    told.push_str(&conclusions.write_to(&out)?);
+    if let Some(picture) = &asked.plot {
+        let label = measure.parse().map_or(measure.clone(), |intensity: Intensity| intensity.label());
+        let figure = plot::fragility(&label, &conclusions.fragilities);
+        write(&figure, picture)?;
+        let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
+    }
+    if asked.json { json(&conclusions) } else { print(&told) }
+}
+
+/// Limit states where none is named.
+pub fn usual_states() -> Vec<LimitState> {
+    let peak = |above: f64| LimitState::Peak { block: None, above };
+    vec![LimitState::Uplift, peak(0.15), peak(0.35), LimitState::Overturned]
+}
+
+/// Runs of a table.
+pub struct Runs {
+    /// Heading of the measure.
+    pub measure: String,
+    pub runs: Vec<Observation>,
+    /// The first error in the table.
+    pub first_error: Option<String>,
+    has_peaks: bool,
+    has_slides: bool,
+}
+
+/// Reads the table of a study, or of a sweep over records and a measure.
+pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
+    let refused = |problem: String| Failure::Study(table.into(), problem);
+    Format::of(table)?;
+    let found = open(table).map_err(at(Failure::Study, table))?;
+    let names: Vec<String> = found.header.iter().map(String::from).collect();
+    // The key of an axis is that of a scene.
+    let last = |name: &str| name.rsplit('.').next().unwrap_or(name).to_string();
+    let measures: Vec<usize> = match measure {
+        Some(measure) => (0..names.len()).filter(|place| names[*place] == measure).collect(),
+        // A period has a point.
+        None => {
+            (0..names.len()).filter(|place| is_measure(&names[*place]) || is_measure(&last(&names[*place]))).collect()
+        }
+    };
+    let known = || names.join(", ");
+    let level = match (&measures[..], measure) {
+        ([level], _) => *level,
+        (_, Some(measure)) => return Err(refused(format!("there is no column `{measure}`; it has {}", known()))),
+        ([], None) => {
+            return Err(refused(format!(
+                "no column has the name of a measure; choose one of {} with --measure",
+                known()
+            )));
+        }
+        (several, None) => {
+            let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
+            return Err(refused(format!(
+                "several columns are measures; choose one of {} with --measure",
+                several.join(", ")
+            )));
+        }
+    };
+    let column = |name: &str| names.iter().position(|own| own == name);
+    let Some(outcome) = column(OUTCOME) else {
+        return Err(refused(format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`")));
+    };
+    let records: Vec<usize> = match column("record") {
+        Some(record) => vec![record],
+        None => (0..names.len()).filter(|place| ["file", "seed"].contains(&last(&names[*place]).as_str())).collect(),
+    };
+    let (uplift, error) = (column("first_uplift"), column("error"));
+    let numbered = |prefix: &str| -> Vec<usize> {
+        let is_of = |name: &String| name.strip_prefix(prefix).is_some_and(|block| block.parse::<usize>().is_ok());
+        (0..names.len()).filter(|place| is_of(&names[*place])).collect()
+    };
+    let (peaks, slides) = (numbered("peak_"), numbered("residual_slide_"));
+    let mut runs = Vec::new();
+    let mut first_error = None;
+    for (number, row) in found.rows.enumerate() {
+        let row = row.map_err(at(Failure::Study, table))?;
+        let wrong = |place: usize, wanted: &str| {
+            refused(format!("row {}, column `{}`: `{}` is not {wanted}", number + 1, names[place], &row[place]))
+        };
+        let size: Option<f64> = row[level].parse().ok();
+        let size =
+            size.filter(|size| size.is_finite() && *size > 0.0).ok_or_else(|| wrong(level, "a number above zero"))?;
+        let fate = Fate::ALL.into_iter().find(|fate| fate.name() == &row[outcome]);
+        if fate.is_none() && &row[outcome] != "error" {
+            return Err(wrong(outcome, "an outcome"));
+        }
+        if let (None, Some(error)) = (fate, error) {
+            first_error.get_or_insert_with(|| row[error].to_string());
+        }
+        let numbers = |places: &[usize]| -> Result<Vec<f64>, Failure> {
+            let filled = places.iter().filter(|place| !row[**place].is_empty());
+            filled.map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
+        };
+        runs.push(Observation {
+            record: record_of(&row, &records, number),
+            level: size,
+            fate,
+            has_uplift: match uplift {
+                Some(uplift) => !row[uplift].is_empty(),
+                None => matches!(fate, Some(Fate::Rocks | Fate::Overturns)),
+            },
+            peaks: numbers(&peaks)?,
+            residual_slides: numbers(&slides)?,
+        });
+    }
+    if runs.is_empty() {
+        return Err(refused("it has no row; give the table of a finished study".into()));
+    }
+    let measure =
+        if is_measure(&names[level]) || measure.is_some() { names[level].clone() } else { last(&names[level]) };
+    Ok(Runs { measure, runs, first_error, has_peaks: !peaks.is_empty(), has_slides: !slides.is_empty() })
+}
+
+fn is_measure(name: &str) -> bool {
+    name.parse::<Intensity>().is_ok()
+}
+
+/// The name of the record of a row; without a column of records each run is one of its own.
+fn record_of(row: &StringRecord, columns: &[usize], number: usize) -> String {
+    match columns {
+        [] => format!("run {}", number + 1),
+        columns => columns.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// Tables of curves and of shares beside the table of a study.
+pub fn tables(table: &Path) -> [PathBuf; 2] {
+    let curves = beside(&table.with_extension("csv"), "fragility");
+    let shares = beside(&table.with_extension("csv"), "shares");
+    [curves, shares]
+}
+
+/// The table of shares beside one of curves.
+fn shares_beside(curves: &Path) -> PathBuf {
+    let name = curves.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    match name.contains("fragility") {
+        true => curves.with_file_name(name.replace("fragility", "shares")),
+        false => beside(curves, "shares"),
+    }
+}
+
+/// Fragilities of several limit states.
+#[derive(Serialize)]
+pub struct Conclusions {
+    measure: String,
+    pub fragilities: Vec<Fragility>,
+}
+
+impl Conclusions {
+    pub fn of(runs: &[Observation], measure: &str, states: &[LimitState], options: &FragilityOptions) -> Conclusions {
+        let fragilities = states.iter().map(|state| Fragility::of(runs, *state, options)).collect();
+        Conclusions { measure: measure.into(), fragilities }
+    }
+
+    /// In words: a paragraph per state.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for fragility in &self.fragilities {
+            let statements = fragility.statements();
+            for (place, statement) in statements.iter().enumerate() {
+                let _ = match place {
+                    0 => writeln!(text, "{}: {statement}", fragility.state),
+                    _ => writeln!(text, "  {statement}"),
+                };
+            }
+        }
+        text
+    }
+
+    /// Writes both tables beside that of a study; returns what was written.
+    pub fn write(&self, table: &Path) -> Result<String, Failure> {
+        self.write_to(&tables(table)[0])
+    }
+
+    fn write_to(&self, curves: &Path) -> Result<String, Failure> {
+        let shares = shares_beside(curves);
+        output::file(curves, self.curves().map_err(at(Failure::File, curves))?)?;
+        output::file(&shares, self.shares().map_err(at(Failure::File, &shares))?)?;
+        Ok(format!("wrote {}\nwrote {}\n", shown(curves), shown(&shares)))
+    }
+
+    /// A row per state.
+    fn curves(&self) -> Result<Vec<u8>, csv::Error> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        table.write_record([
+            "state",
+            "measure",
+            "fit",
+            "median",
+            "median_low",
+            "median_high",
+            "dispersion",
+            "dispersion_low",
+            "dispersion_high",
+            "confidence",
+            "replicates",
+            "replicates_fitted",
+            "chi_squared",
+            "degrees_of_freedom",
+            "p_value",
+            "pseudo_r2",
+            "log_likelihood",
+            "records",
+            "runs",
+            "undecided",
+            "falls",
+            "resurrections",
+            "statement",
+        ])?;
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+        let whole = |value: Option<usize>| value.map_or(String::new(), |value| value.to_string());
+        for fragility in &self.fragilities {
+            let (fit, curve) = match fragility.fit {
+                Fit::Lognormal { median, dispersion, log_likelihood } => {
+                    ("lognormal", Some([median, dispersion, log_likelihood]))
+                }
+                Fit::NoRuns => ("no-runs", None),
+                Fit::OneRecord => ("one-record", None),
+                Fit::Never { .. } => ("never", None),
+                Fit::Always { .. } => ("always", None),
+                Fit::Step { .. } => ("step", None),
+                _ => ("falling", None),
+            };
+            let bands = fragility.bands.as_ref();
+            let [median, dispersion] = [bands.and_then(|bands| bands.median), bands.and_then(|bands| bands.dispersion)];
+            let goodness = fragility.goodness;
+            table.write_record([
+                fragility.state.to_string(),
+                self.measure.clone(),
+                fit.into(),
+                number(curve.map(|curve| curve[0])),
+                number(median.map(|band| band[0])),
+                number(median.map(|band| band[1])),
+                number(curve.map(|curve| curve[1])),
+                number(dispersion.map(|band| band[0])),
+                number(dispersion.map(|band| band[1])),
+                number(bands.map(|bands| bands.confidence)),
+                whole(bands.map(|bands| bands.replicates)),
+                whole(bands.map(|bands| bands.fitted)),
+                number(goodness.map(|goodness| goodness.chi_squared)),
+                whole(goodness.map(|goodness| goodness.degrees_of_freedom)),
+                number(goodness.and_then(|goodness| goodness.p_value)),
+                number(goodness.map(|goodness| goodness.pseudo_r2)),
+                number(curve.map(|curve| curve[2])),
+                fragility.records.to_string(),
+                fragility.counts.iter().map(|count| count.runs).sum::<usize>().to_string(),
+                fragility.undecided().to_string(),
+                fragility.falls.len().to_string(),
+                fragility.resurrections.len().to_string(),
+                fragility.statements().join("; "),
+            ])?;
+        }
+        table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    }
+
+    /// A row per state and level.
+    fn shares(&self) -> Result<Vec<u8>, csv::Error> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let measure = self.measure.as_str();
+        table.write_record(["state", measure, "runs", "reached", "undecided", "share", "curve", "low", "high"])?;
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+        for fragility in &self.fragilities {
+            for (place, count) in fragility.counts.iter().enumerate() {
+                let band = fragility.bands.as_ref().and_then(|bands| bands.at_counts.get(place));
+                table.write_record([
+                    fragility.state.to_string(),
+                    format!("{:?}", count.level),
+                    count.runs.to_string(),
+                    count.reached.to_string(),
+                    count.undecided.to_string(),
+                    number(count.share()),
+                    number(fragility.probability(count.level)),
+                    number(band.map(|band| band[0])),
+                    number(band.map(|band| band[1])),
+                ])?;
+            }
+        }
+        table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    }
+}

@@ -1,0 +1,235 @@
+//! `rocking ida`: each record at each level of a measure; a table with a row per run, and what follows from it.
+//!
+//! The table grows as that of a sweep does (`table/growing.rs`): a study that was interrupted continues with the first missing row.
+
+use crate::arguments;
+use crate::commands::fragility::{self, Conclusions};
+use crate::commands::inputs;
+use crate::commands::plot::write;
+use crate::commands::spectrum::beside;
+use crate::commands::sweep::{Fnv, OUTCOME, TIME, threads};
+use crate::error::{Failure, at};
+use crate::progress::Progress;
+use crate::table::column::{Column, Kind, Rows};
+use crate::table::growing::Growing;
+use crate::table::{Format, open};
+use crate::terminal::{json, print};
+use crate::text::{printable, shown};
+use crate::{files, output, plot};
+use csv::StringRecord;
+use rocking::intensity::Intensity;
+use rocking::studies::{FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
+use rocking::sweep::Fate;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Runs made together at first, and at least: runs with friction take tens of milliseconds, and finished ones are to be kept.
+const FIRST_BATCH: usize = 16;
+
+/// Runs a study, or what is left of it.
+pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
+    let out = &asked.out;
+    let format = Format::of(out)?;
+    inputs::check(&asked.file)?;
+    let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&asked.file).map_err(Failure::scene)?;
+    let stripes_file = beside(&out.with_extension("csv"), "stripes");
+    let [curves_file, shares_file] = fragility::tables(out);
+    let mut outputs = vec![out.clone(), stripes_file.clone(), curves_file, shares_file];
+    let pictures = asked.plot.as_ref().map(|picture| [picture.clone(), beside(picture, "fragility")]);
+    outputs.extend(pictures.iter().flatten().cloned());
+    output::check(&outputs, inputs)?;
+    let target = output::target(out)?;
+    let threads = threads(asked.threads)?;
+    let columns = columns(ida);
+    let mut table = Growing::open(&target, &columns, digest(inputs)?.number(), 0..ida.len())?;
+    let resumed = table.next;
+    let bar = Progress::of_points(ida.len(), resumed, asked.quiet || asked.json);
+    table.fill(ida.len(), FIRST_BATCH, &threads, &bar, |batch| {
+        ida.lines(batch, |run| cells(ida, &run, columns.len()))
+    })?;
+    table.close(format, &columns)?;
+
+    // What follows is made of the table, so that it is the same whether or not the study was interrupted.
+    let runs = fragility::read(out, None)?.runs;
+    let stripes = stripes(&runs);
+    output::file(&stripes_file, stripe_table(ida, &stripes))?;
+    let measure = ida.intensity().to_string();
+    let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
+    let mut told = tally(ida, &stripes);
+    told.push_str(&conclusions.text());
+    let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
+    let _ = writeln!(told, "wrote {} row(s){resumed} to {}", ida.len(), shown(out));
+    let _ = writeln!(told, "wrote {}", shown(&stripes_file));
+    told.push_str(&conclusions.write(out)?);
+    if let Some([picture, curves]) = &pictures {
+        let label = ida.intensity().label();
+        for (figure, path) in
+            [(plot::ida(&label, &runs, &stripes), picture), (plot::fragility(&label, &conclusions.fragilities), curves)]
+        {
+            write(&figure, path)?;
+            let _ = writeln!(told, "wrote {}: {}", shown(path), figure.caption);
+        }
+    }
+    if asked.json {
+        json(&Summary {
+            measure,
+            stripes: stripes.iter().map(Line::of).collect(),
+            fragility: &conclusions.fragilities,
+        })?;
+    } else if !asked.quiet {
+        print(&told)?;
+    }
+    let failed: usize = stripes.iter().map(|stripe| stripe.errors).sum();
+    if failed == ida.len() {
+        let first = fragility::read(out, None)?.first_error.unwrap_or_default();
+        return Err(Failure::NoResult(out.clone(), failed, first));
+    }
+    Ok(())
+}
+
+/// Draws the curves of a finished table, and beside them the fragility of the usual limit states. Returns what was written; `None` for a table that is
+/// not of a study.
+pub fn draw(table: &Path, picture: &Path) -> Result<Option<String>, Failure> {
+    // What cannot be read is told by the spectrum.
+    let Ok(Rows { header, .. }) = open(table) else { return Ok(None) };
+    if !["record", "scale", "first_uplift", "peak_1"].iter().all(|name| header.iter().any(|own| own == *name)) {
+        return Ok(None);
+    }
+    let read = fragility::read(table, None)?;
+    let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
+    let conclusions =
+        Conclusions::of(&read.runs, &read.measure, &fragility::usual_states(), &FragilityOptions::default());
+    let mut told = String::new();
+    for (figure, path) in [
+        (plot::ida(&label, &read.runs, &stripes(&read.runs)), picture.to_path_buf()),
+        (plot::fragility(&label, &conclusions.fragilities), beside(picture, "fragility")),
+    ] {
+        write(&figure, &path)?;
+        let _ = writeln!(told, "wrote {}: {}", shown(&path), figure.caption);
+    }
+    Ok(Some(told))
+}
+
+/// The digest of all that decides the rows.
+fn digest(inputs: &[PathBuf]) -> Result<Fnv, Failure> {
+    let mut digest = Fnv::new();
+    for input in inputs {
+        digest.add(&files::read(input, files::LARGEST_RECORD).map_err(at(Failure::Input, input))?);
+    }
+    Ok(digest)
+}
+
+/// The columns of the table of a study.
+fn columns(ida: &Ida) -> Vec<Column> {
+    let mut columns = vec![
+        Column::full("index", Kind::Whole),
+        Column::full("record", Kind::Text),
+        Column::full("scale", Kind::Number),
+        Column::full(ida.intensity().to_string(), Kind::Number),
+        Column::full(OUTCOME, Kind::Text),
+        Column::sparse("impacts", Kind::Whole),
+        Column::sparse("block", Kind::Whole),
+        Column::sparse(TIME, Kind::Number),
+        Column::sparse("first_uplift", Kind::Number),
+        Column::sparse("largest_gap", Kind::Number),
+    ];
+    let blocks = 1..=ida.scene().column.len();
+    columns.extend(blocks.clone().map(|block| Column::sparse(format!("peak_{block}"), Kind::Number)));
+    if ida.scene().friction.is_some() {
+        columns.extend(blocks.map(|block| Column::sparse(format!("residual_slide_{block}"), Kind::Number)));
+    }
+    columns.push(Column::sparse("error", Kind::Text));
+    columns
+}
+
+/// A run as so many cells.
+fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
+    let number = |value: f64| format!("{value:?}");
+    let mut cells = vec![
+        run.index.to_string(),
+        printable(&ida.records()[run.record].name).into_owned(),
+        number(run.scale),
+        number(run.level),
+    ];
+    match &run.result {
+        Ok(found) => {
+            cells.push(found.fate.name().into());
+            cells.push(found.impacts.to_string());
+            cells.push(found.block.map_or(String::new(), |block| block.to_string()));
+            cells.push(found.overturned_at.map_or(String::new(), number));
+            cells.push(found.first_uplift.map_or(String::new(), number));
+            cells.push(number(found.largest_gap));
+            cells.extend(found.peaks.iter().chain(&found.residual_slides).copied().map(number));
+            cells.resize(columns, String::new());
+        }
+        Err(error) => {
+            cells.push("error".into());
+            cells.resize(columns - 1, String::new());
+            cells.push(printable(&error.to_string()).into_owned());
+        }
+    }
+    cells.into()
+}
+
+/// The table of stripes: counts of outcomes, and fractiles of the largest |θ|/α, `inf` where the column is lost.
+fn stripe_table(ida: &Ida, stripes: &[Stripe]) -> String {
+    let fates = Fate::ALL.map(|fate| fate.name().replace('-', "_"));
+    let fractiles = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));
+    let mut text = format!("{},runs,{},errors,{}\n", ida.intensity(), fates.join(","), fractiles.join(","));
+    for stripe in stripes {
+        let counts = stripe.fates.map(|count| count.to_string()).join(",");
+        let fractiles = match stripe.fractiles {
+            Some(values) => values.map(|value| format!("{value:?}")).join(","),
+            None => ",".repeat(FRACTILES.len() - 1),
+        };
+        let _ = writeln!(text, "{:?},{},{counts},{},{fractiles}", stripe.level, stripe.runs, stripe.errors);
+    }
+    text
+}
+
+/// How many runs, and what became of them.
+fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
+    let (records, levels) = (ida.records().len(), ida.levels().len());
+    let mut text = format!("{records} record(s) at {levels} level(s) of {}: ", ida.intensity().label());
+    let total = |place: usize| stripes.iter().map(|stripe| stripe.fates[place]).sum::<usize>();
+    let always = [Fate::NoUplift, Fate::Rocks, Fate::Overturns];
+    let fates = Fate::ALL.iter().enumerate().map(|(place, fate)| (fate, total(place)));
+    let told = fates.filter(|(fate, count)| *count > 0 || always.contains(*fate));
+    let told: Vec<String> = told.map(|(fate, count)| format!("{} {count}", fate.name().replace('-', " "))).collect();
+    let errors: usize = stripes.iter().map(|stripe| stripe.errors).sum();
+    let _ = writeln!(text, "{}, errors {errors}", told.join(", "));
+    text
+}
+
+/// A study as JSON.
+#[derive(Serialize)]
+struct Summary<'a> {
+    measure: String,
+    stripes: Vec<Line>,
+    fragility: &'a [rocking::studies::Fragility],
+}
+
+/// A stripe as JSON; a fractile of lost columns is `infinite`.
+#[derive(Serialize)]
+struct Line {
+    level: f64,
+    runs: usize,
+    outcomes: std::collections::BTreeMap<&'static str, usize>,
+    errors: usize,
+    undecided: usize,
+    peak_fractiles: Option<[f64; 3]>,
+}
+
+impl Line {
+    fn of(stripe: &Stripe) -> Line {
+        Line {
+            level: stripe.level,
+            runs: stripe.runs,
+            outcomes: Fate::ALL.iter().map(|fate| fate.name()).zip(stripe.fates).collect(),
+            errors: stripe.errors,
+            undecided: stripe.undecided(),
+            peak_fractiles: stripe.fractiles,
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Curves of an incremental dynamic analysis: the level of the ground motion over the response, a curve per record, and their fractiles.
+
+use super::axis::Axis;
+use super::curve::Point;
+use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
+use super::style::{self, Stroke};
+use rocking::studies::{FRACTILES, Observation, Stripe};
+use std::collections::BTreeMap;
+
+/// Lengths `[px]`.
+const HEIGHT: f64 = 420.0;
+const TOP: f64 = 34.0;
+/// Width of the column of counts right of the panel.
+const COUNTS: f64 = 62.0;
+/// Least distance of the counts of two levels.
+const LINE: f64 = 15.0;
+
+const RECORD: Stroke = Stroke::solid("#a9a9a9", 1.0);
+const FRACTILE_LINES: [Stroke; 3] = [
+    Stroke::dashed("#0072b2", 2.0, &[8.0, 4.0]),
+    Stroke::solid("#000000", 2.4),
+    Stroke::dashed("#d55e00", 2.0, &[3.0, 4.0]),
+];
+
+/// Room right of the largest response, as a share of it.
+const ROOM: f64 = 0.06;
+
+/// A figure of all runs: `label` is the measure with its unit.
+pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe]) -> Figure {
+    let demands = runs.iter().filter_map(Observation::demand).filter(|demand| demand.is_finite());
+    let largest = demands.fold(0.0, f64::max);
+    let top = stripes.iter().map(|stripe| stripe.level).fold(0.0, f64::max);
+    let mut sheet = Sheet::new(&format!("Incremental dynamic analysis: {label} over the largest rotation"));
+    let x = Axis::over("Largest |θ|/α of all blocks", [0.0, largest * (1.0 + ROOM)], 5);
+    let y = Axis::over(label, [0.0, top * (1.0 + ROOM)], 5);
+    let mut panel = Panel::wide(TOP, HEIGHT, x, Some(y));
+    panel.frame.width = WIDTH - LEFT - RIGHT - COUNTS;
+    sheet.axes(&panel);
+    sheet.label_upwards(&panel);
+
+    let mut by_record: BTreeMap<&str, Vec<&Observation>> = BTreeMap::new();
+    runs.iter().for_each(|run| by_record.entry(&run.record).or_default().push(run));
+    for runs in by_record.values_mut() {
+        runs.sort_by(|a, b| a.level.total_cmp(&b.level));
+        let points: Vec<_> = runs.iter().map(|run| (run.demand(), run.level)).collect();
+        draw(&mut sheet, &panel, &points, &RECORD);
+    }
+    for (place, stroke) in FRACTILE_LINES.iter().enumerate() {
+        let points = stripes.iter().map(|stripe| (stripe.fractiles.map(|values| values[place]), stripe.level));
+        draw(&mut sheet, &panel, &points.collect::<Vec<_>>(), stroke);
+    }
+    counts(&mut sheet, &panel, runs, stripes);
+
+    let mut entries = vec![(Key::Line(RECORD), format!("{} record(s)", by_record.len()))];
+    let names = FRACTILES.map(|share| format!("{:.0} %", 100.0 * share));
+    entries.extend(FRACTILE_LINES.iter().zip(names).map(|(stroke, name)| (Key::Line(stroke.clone()), name)));
+    let below = sheet.label_below(&panel);
+    sheet.height = sheet.legend(below + 4.0, &entries) + 8.0;
+    let lost = runs.iter().filter(|run| run.is_lost()).count();
+    let caption = format!(
+        "{} records at {} levels of {label}: the largest |θ|/α of each run with its 16, 50 and 84 % fractiles per level. A curve \
+         reaches the right edge where the column is lost, and comes back where it stands again; {lost} of {} runs are lost, counted per level on the right.",
+        by_record.len(),
+        stripes.len(),
+        runs.len()
+    );
+    Figure::new("ida", caption, sheet)
+}
+
+/// A curve through the responses, from the lowest level up; where a column is lost it goes to the right edge, and comes back from there. It is broken
+/// where a run has no answer.
+fn draw(sheet: &mut Sheet, panel: &Panel, points: &[(Option<f64>, f64)], stroke: &Stroke) {
+    let edge = panel.x.range[1];
+    let mut runs: Vec<Vec<Point>> = Vec::new();
+    // Without ground motion there is no response.
+    let mut last: Option<(f64, f64)> = Some((0.0, 0.0));
+    for (demand, level) in points {
+        let here = demand.map(|demand| (demand, *level));
+        if let (Some(from), Some(to)) = (last, here)
+            && (from.0.is_finite() || to.0.is_finite())
+        {
+            let [from, to] = [from, to].map(|(demand, level)| panel.place([demand.min(edge), level]));
+            match runs.last_mut() {
+                Some(run) if run.last() == Some(&from) => run.push(to),
+                _ => runs.push(vec![from, to]),
+            }
+        }
+        last = here;
+    }
+    sheet.lines(panel, &runs, stroke);
+}
+
+/// How many columns are lost at each level, right of the panel; of crowded levels some.
+fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Stripe]) {
+    let x = panel.frame.right() + 0.5 * COUNTS;
+    sheet.words([x, TOP - 10.0], "lost", style::NOTE, Anchor::Middle);
+    let mut last = f64::INFINITY;
+    for stripe in stripes {
+        let lost = runs.iter().filter(|run| run.level == stripe.level && run.is_lost()).count();
+        let y = panel.place([0.0, stripe.level])[1] + 4.5;
+        if last - y >= LINE {
+            sheet.words([x, y], &format!("{lost}/{}", stripe.runs - stripe.undecided()), style::NOTE, Anchor::Middle);
+            last = y;
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Components of a record by the names of its files, as the databases give them.
+
+use serde::Serialize;
+use std::borrow::Cow;
+
+/// Whether a component shakes along the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// Along the ground.
+    Horizontal,
+    /// Upwards.
+    Vertical,
+}
+
+impl Direction {
+    /// The direction, by the component in the file's name ([`record_and_component`]) and in the file.
+    pub fn of(ending: &str, component: &str) -> Direction {
+        let is_vertical = |name: &str| {
+            let name = name.trim().to_ascii_uppercase();
+            let first = name.split([' ', '(']).next().unwrap_or("");
+            let code = is_channel_code(first) && first.ends_with(['Z', '3']);
+            code || VERTICAL.contains(&first.trim_end_matches(['1', '2']))
+                || first == "U-D"
+                || first.starts_with("VERT")
+        };
+        if is_vertical(ending) || is_vertical(component) { Direction::Vertical } else { Direction::Horizontal }
+    }
+}
+
+/// Ends of file names that name a vertical component, and those that name a horizontal one.
+const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
+const HORIZONTAL: [&str; 8] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T"];
+
+/// The order of names by the number in them: RSN77 before RSN125.
+pub fn by_number(name: &str) -> (String, u64, String) {
+    let start = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
+    let (text, rest) = name.split_at(start);
+    let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    (text.into(), rest[..end].parse().unwrap_or(u64::MAX), rest.into())
+}
+
+/// The common part of the names of a record's components, and the part that names the component.
+///
+/// `RSN125_FRIULI.A_A-TMZ-UP.AT2`: RSN125, UP; `XXX0010103040506.EW`: EW; `XX.MIB..HNE.D.ASC`: HNE; `ELC180.AT2`: ELC, 180.
+pub fn record_and_component(file: &str) -> (Cow<'_, str>, &str) {
+    let (stem, extension) = file.rsplit_once('.').unwrap_or((file, ""));
+    // K-NET, and KiK-net with its two depths.
+    let upper = extension.to_ascii_uppercase();
+    if ["EW", "NS", "UD"].contains(&upper.trim_end_matches(['1', '2'])) && upper.len() <= 3 {
+        let depth = &extension[2..];
+        return (if depth.is_empty() { stem.into() } else { format!("{stem} {depth}").into() }, extension);
+    }
+    let (common, component) = component_of_stem(stem);
+    let digits = stem.get(3..).map_or(0, |rest| rest.bytes().take_while(u8::is_ascii_digit).count());
+    if digits > 0 && stem[..3].eq_ignore_ascii_case("RSN") {
+        return (stem[..3 + digits].to_ascii_uppercase().into(), component);
+    }
+    // Network, station and channel code parted by points.
+    let parts: Vec<&str> = stem.split('.').collect();
+    let code = parts.iter().position(|part| is_channel_code(part)).filter(|_| parts.len() > 2);
+    match code {
+        Some(place) => {
+            let rest: Vec<&str> =
+                parts.iter().enumerate().filter(|(index, _)| *index != place).map(|(_, part)| *part).collect();
+            (rest.join(".").into(), parts[place])
+        }
+        None => (common.into(), component),
+    }
+}
+
+/// `HNE`, `HGZ`: band, instrument (N, L, G for accelerometers), direction.
+fn is_channel_code(part: &str) -> bool {
+    matches!(
+        part.as_bytes(),
+        [b'H' | b'B' | b'E' | b'C' | b'S', b'N' | b'L' | b'G', b'E' | b'N' | b'Z' | b'1' | b'2' | b'3' | b'X' | b'Y']
+    )
+}
+
+/// The stem without what names the component, and that.
+fn component_of_stem(stem: &str) -> (&str, &str) {
+    let upper = stem.to_ascii_uppercase();
+    let parted = |start: usize| stem[..start].ends_with(['-', '_', ' ', '.']);
+    let common = |start: usize| stem[..start].trim_end_matches(['-', '_', ' ', '.']);
+    let last =
+        upper.rsplit(['-', '_', ' ', '.']).next().filter(|last| last.len() < stem.len() && is_channel_code(last));
+    if let Some(code) = last {
+        let start = stem.len() - code.len();
+        return (common(start), &stem[start..]);
+    }
+    let named = VERTICAL.into_iter().chain(HORIZONTAL).find_map(|ending| {
+        let start = upper.strip_suffix(ending)?.len();
+        // One letter, or two, may be part of a name where nothing parts them from it.
+        let sure = parted(start) || (ending.len() > 2 || ending == "UP");
+        (sure && start > 0 && stem.is_char_boundary(start)).then(|| (common(start), &stem[start..]))
+    });
+    named.unwrap_or_else(|| {
+        let digits = stem.bytes().rev().take_while(u8::is_ascii_digit).count();
+        let start = stem.len() - digits.min(3);
+        if digits > 0 && start > 0 && (digits == 3 || parted(start)) {
+            (common(start), &stem[start..])
+        } else {
+            (stem, "")
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_record_and_component() {
+        for (file, record, component, vertical) in [
+            ("RSN125_FRIULI.A_A-TMZ000.AT2", "RSN125", "000", false),
+            ("RSN125_FRIULI.A_A-TMZ-UP.AT2", "RSN125", "UP", true),
+            ("RSN77_SFERN_PULDWN.AT2", "RSN77", "DWN", true),
+            ("RSN9_X-VER.AT2", "RSN9", "VER", true),
+            ("RSN8500_VIRGINIA_HNZ.AT2", "RSN8500", "HNZ", true),
+            ("rsn8500_virginia_hne.at2", "RSN8500", "hne", false),
+            ("ELC180.AT2", "ELC", "180", false),
+            ("ELC-UP.AT2", "ELC", "UP", true),
+            ("I-ELC-V.AT2", "I-ELC", "V", true),
+            ("mill_270.txt", "mill", "270", false),
+            ("XXX0010103040506.EW", "XXX0010103040506", "EW", false),
+            ("XXX0010103040506.UD", "XXX0010103040506", "UD", true),
+            ("XXXH020103040506.UD2", "XXXH020103040506 2", "UD2", true),
+            ("XX.MIB..HNZ.D.64.ASC", "XX.MIB..D.64", "HNZ", true),
+            ("XX.MIB..HNE.D.64.ASC", "XX.MIB..D.64", "HNE", false),
+            ("motion.csv", "motion", "", false),
+        ] {
+            let (found, ending) = record_and_component(file);
+            assert_eq!((&*found, ending), (record, component), "{file}");
+            assert_eq!(Direction::of(ending, "") == Direction::Vertical, vertical, "{file}");
+        }
+        let mut names = ["RSN1004", "X", "RSN77", "RSN125"];
+        names.sort_by_key(|name| by_number(name));
+        assert_eq!(names, ["RSN77", "RSN125", "RSN1004", "X"]);
+        assert_eq!(Direction::of("", "Up"), Direction::Vertical);
+        assert_eq!(Direction::of("", "U-D surface (6)"), Direction::Vertical);
+        assert_eq!(Direction::of("", "90 Deg"), Direction::Horizontal);
+    }
+}

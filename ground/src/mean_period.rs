@@ -1,0 +1,110 @@
+//! Mean period of a record from its Fourier amplitudes.
+//!
+//! `T_m = Σ C_i² / f_i / Σ C_i²` over 0.25 Hz ≤ f_i ≤ 20 Hz, the samples padded with zeros so that frequencies are at most 0.05 Hz apart. Rathje,
+//! Abrahamson and Bray (1998), "Simplified frequency content estimates of earthquake ground motions", J. Geotech. 124, 150-159; Rathje et al.
+//! (2004), Earthquake Spectra 20, 119-144.
+
+use crate::record::Record;
+use std::f64::consts::TAU;
+
+/// Frequencies that count `[Hz]`.
+const BAND: [f64; 2] = [0.25, 20.0];
+
+/// Largest distance of frequencies `[Hz]`.
+const LARGEST_STEP: f64 = 0.05;
+
+/// Zeros for a sample at most: with shorter intervals the record has no frequency of the band anyway.
+const MOST_PADDING: usize = 1 << 16;
+
+impl Record {
+    /// Mean period `[s]`; zero for a record without a frequency of the band, or of zeros.
+    pub(crate) fn mean_period(&self) -> f64 {
+        let (samples, dt) = (self.accel(), self.dt());
+        let wanted = (1.0 / (LARGEST_STEP * dt)).min((samples.len() * MOST_PADDING) as f64) as usize;
+        let size = samples.len().max(wanted).next_power_of_two();
+        let step = 1.0 / (size as f64 * dt);
+        // A band without a frequency needs no transform.
+        if step > BAND[1] || 0.5 / dt < BAND[0] {
+            return 0.0;
+        }
+        let scale = self.peak().max(f64::MIN_POSITIVE);
+        let mut values: Vec<[f64; 2]> = samples.iter().map(|a| [a / scale, 0.0]).collect();
+        values.resize(size, [0.0; 2]);
+        transform(&mut values);
+        let (mut sum, mut weighted) = (0.0, 0.0);
+        for (index, [re, im]) in values.iter().enumerate().take(size / 2 + 1).skip(1) {
+            let frequency = index as f64 * step;
+            if (BAND[0]..=BAND[1]).contains(&frequency) {
+                let square = re * re + im * im;
+                (sum, weighted) = (sum + square, weighted + square / frequency);
+            }
+        }
+        if sum > 0.0 { weighted / sum } else { 0.0 }
+    }
+}
+
+/// Discrete Fourier transform in place, `X_k = Σ x_j e^(-2πi jk/n)`, of a power of two of complex numbers. Cooley and Tukey (1965).
+fn transform(values: &mut [[f64; 2]]) {
+    let size = values.len();
+    let bits = size.trailing_zeros();
+    for index in 0..size {
+        let mirrored = if bits == 0 { index } else { index.reverse_bits() >> (usize::BITS - bits) };
+        if index < mirrored {
+            values.swap(index, mirrored);
+        }
+    }
+    let mut half = 1;
+    while half < size {
+        let turns: Vec<(f64, f64)> = (0..half).map(|k| libm::sincos(-TAU * k as f64 / (2 * half) as f64)).collect();
+        for block in values.chunks_exact_mut(2 * half) {
+            let (low, high) = block.split_at_mut(half);
+            for ((a, b), (sin, cos)) in low.iter_mut().zip(high).zip(&turns) {
+                let turned = [b[0] * cos - b[1] * sin, b[0] * sin + b[1] * cos];
+                *b = [a[0] - turned[0], a[1] - turned[1]];
+                *a = [a[0] + turned[0], a[1] + turned[1]];
+            }
+        }
+        half *= 2;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_transform_is_the_sum_that_defines_it() {
+        for size in [1, 2, 8, 64] {
+            let values: Vec<[f64; 2]> = (0..size).map(|j| [f64::from(j * j % 7) - 3.0, f64::from(j % 3)]).collect();
+            let mut found = values.clone();
+            transform(&mut found);
+            for (k, found) in found.iter().enumerate() {
+                let term = |(j, [re, im]): (usize, &[f64; 2])| {
+                    let (sin, cos) = (-TAU * (j * k) as f64 / f64::from(size)).sin_cos();
+                    [re * cos - im * sin, re * sin + im * cos]
+                };
+                let sum = values.iter().enumerate().map(term).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+                assert!((found[0] - sum[0]).hypot(found[1] - sum[1]) < 1e-11, "{size} {k}");
+            }
+        }
+    }
+
+    /// A sine of many whole periods has one frequency.
+    #[test]
+    fn a_sine_has_its_own_period() {
+        for period in [0.1, 0.32, 1.0, 3.2] {
+            let accel = (0..8192).map(|k| (TAU * f64::from(k) * 0.01 / period).sin()).collect();
+            let found = Record::new(accel, 0.01, 0.0).expect("valid").mean_period();
+            // Leakage: a sine of 80 s is 1/80 Hz wide.
+            assert!((found / period - 1.0).abs() < 0.02, "{period}: {found}");
+        }
+    }
+
+    #[test]
+    fn records_outside_the_band_have_no_mean_period() {
+        for dt in [1e-100, 1e-12, 10.0, 1e6] {
+            assert_eq!(Record::new(vec![1.0, -1.0, 2.0], dt, 0.0).expect("valid").mean_period(), 0.0, "{dt}");
+        }
+        assert_eq!(Record::new(vec![0.0; 9], 0.01, 0.0).expect("valid").mean_period(), 0.0);
+    }
+}

@@ -1,0 +1,182 @@
+//! Damped oscillator on an accelerating ground, exact for the linear interpolation between samples.
+//!
+//! ```text
+//! ü + 2 ζ ω u̇ + ω² u = -(a + s τ)          ω = 2π/T
+//! u(τ) = q + r τ + e^(-ζωτ) (A cos ω_d τ + B sin ω_d τ)          ω_d = ω √(1 - ζ²)
+//! r = -s/ω²          q = -a/ω² - 2 ζ r/ω          A = u₀ - q          B = (u̇₀ - r + ζ ω A)/ω_d
+//! ```
+//!
+//! Nigam and Jennings (1969), "Calculation of response spectra from strong-motion earthquake records", BSSA 59, 909-922. They take the
+//! largest sample of the response; here the extreme between two samples counts as well.
+
+use crate::record::Record;
+use std::f64::consts::TAU;
+
+/// Relative displacement `[m]` and velocity `[m/s]`.
+type State = [f64; 2];
+
+/// Response over an interval in which the ground acceleration is linear.
+struct Interval {
+    /// `ω_d` and `ζ ω` `[rad/s]`.
+    damped: f64,
+    decay: f64,
+    q: f64,
+    r: f64,
+    /// `A`, `B` `[m]`.
+    cos: f64,
+    sin: f64,
+}
+
+impl Interval {
+    fn state(&self, tau: f64) -> State {
+        let (sin, cos) = libm::sincos(self.damped * tau);
+        let fading = libm::exp(-self.decay * tau);
+        let swing = fading * (self.cos * cos + self.sin * sin);
+        let rate = fading * self.damped * (self.sin * cos - self.cos * sin) - self.decay * swing;
+        [self.q + self.r * tau + swing, self.r + rate]
+    }
+
+    /// Largest size of the displacement between two times, of which the ends' states are known `[m]`.
+    fn peak(&self, [mut low, mut high]: [f64; 2], [from, to]: [State; 2]) -> f64 {
+        let ends = from[0].abs().max(to[0].abs());
+        // Where the velocity keeps its sign, the displacement is largest at an end.
+        if from[1] * to[1] >= 0.0 {
+            return ends;
+        }
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (low + high);
+            if self.state(middle)[1] * from[1] > 0.0 { low = middle } else { high = middle }
+        }
+        ends.max(self.state(0.5 * (low + high))[0].abs())
+    }
+}
+
+/// Parts of a period between two looks at the velocity: it changes its sign at most once within.
+const PARTS: f64 = 8.0;
+
+/// Periods at either end of a long interval in which extremes are sought: in between, the response follows the ground.
+const SEARCHED_PERIODS: f64 = 4.0;
+
+impl Record {
+    /// Pseudo-spectral acceleration `ω² max|u|` of an oscillator of `period [s]` and damping ratio `damping` (0 to below 1) `[m/s²]`; the peak
+    /// acceleration for a period of zero. The ground is at rest before and after the record, and the free vibration after it counts.
+    ///
+    /// `NaN` for a period below zero or a damping ratio outside its range.
+    ///
+    /// ```
+    /// // A step of 1 m/s² that lasts: an undamped oscillator doubles it.
+    /// let record = rocking_ground::Record::new(vec![1.0; 2], 10.0, 0.0)?;
+    /// assert!((record.spectral_acceleration(1.0, 0.0) - 2.0).abs() < 1e-12);
+    /// # Ok::<(), rocking_ground::RecordError>(())
+    /// ```
+    pub fn spectral_acceleration(&self, period: f64, damping: f64) -> f64 {
+        if !(period >= 0.0 && period.is_finite() && (0.0..1.0).contains(&damping)) {
+            return f64::NAN;
+        }
+        let omega = TAU / period;
+        if !(omega * omega).is_finite() {
+            return self.peak();
+        }
+        let (damped, decay) = (omega * (1.0 - damping * damping).sqrt(), damping * omega);
+        let begin = |[u, rate]: State, a: f64, slope: f64| {
+            let r = -slope / (omega * omega);
+            let q = -a / (omega * omega) - 2.0 * damping * r / omega;
+            let cos = u - q;
+            Interval { damped, decay, q, r, cos, sin: (rate - r + decay * cos) / damped }
+        };
+        let (mut state, mut peak, h) = ([0.0; 2], 0.0_f64, self.dt());
+        // The ground after the record: one period of it has the largest swing.
+        let after = std::iter::once(([0.0, 0.0], period));
+        let intervals = self.accel().windows(2).map(|pair| ([pair[0], pair[1]], h)).chain(after);
+        for ([a, b], h) in intervals {
+            let interval = begin(state, a, (b - a) / h);
+            let mut from = (0.0, state);
+            for time in looks(h, period / PARTS) {
+                let to = (time, interval.state(time));
+                peak = peak.max(interval.peak([from.0, to.0], [from.1, to.1]));
+                from = to;
+            }
+            state = from.1;
+        }
+        omega * omega * peak
+    }
+}
+
+/// Times within an interval of length `h` at which the response is evaluated, the end among them, at most `step` apart near its ends.
+fn looks(h: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = (h / step).ceil().max(1.0);
+    let near = SEARCHED_PERIODS * PARTS;
+    let is_long = count > 2.0 * near;
+    let times = if is_long { 2.0 * near } else { count } as usize;
+    (1..=times).map(move |time| {
+        let time = time as f64;
+        match is_long {
+            false => h * (time / count),
+            true if time <= near => time * step,
+            true => h - (2.0 * near - time) * step,
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ramp from rest without damping: u = -s/ω² (τ - sin ωτ / ω).
+    #[test]
+    fn the_response_to_a_ramp_is_exact_at_the_end_and_in_between() {
+        let (slope, period, h) = (3.0, 0.8, 2.0);
+        let omega = TAU / period;
+        let record = Record::new(vec![0.0, slope * h], h, 0.0).expect("valid");
+        // On the ramp u grows with no turn, as 1 - cos ωτ is never below zero; after it the column swings freely.
+        let (u, v) = (
+            -slope / omega.powi(2) * (h - (omega * h).sin() / omega),
+            -slope / omega.powi(2) * (1.0 - (omega * h).cos()),
+        );
+        let free = u.hypot(v / omega);
+        let exact = omega.powi(2) * free.max(u.abs());
+        assert!((record.spectral_acceleration(period, 0.0) / exact - 1.0).abs() < 1e-13);
+    }
+
+    /// A step with damping: u_max = (1 + exp(-ζπ/√(1-ζ²))) a/ω², half a damped period after it, between samples.
+    #[test]
+    fn the_overshoot_of_a_step_has_its_closed_form() {
+        for damping in [0.0, 0.02, 0.05, 0.2, 0.7] {
+            let overshoot = 1.0 + (-damping * std::f64::consts::PI / (1.0 - damping * damping).sqrt()).exp();
+            for count in [2, 3, 8, 1001] {
+                let record = Record::new(vec![2.0; count], 20.0 / (count - 1) as f64, 0.0).expect("valid");
+                // The ground's stop at the end adds a second swing, which is as large without damping: of size 2a or less.
+                let value = record.spectral_acceleration(1.0, damping);
+                let tolerance = if damping == 0.0 { 1e-9 } else { 1e-12 };
+                assert!((value / (2.0 * overshoot) - 1.0).abs() < tolerance, "{damping} {count}: {value}");
+            }
+        }
+    }
+
+    /// Under a harmonic ground for ever the size is a / √((1-β²)² + (2ζβ)²), β = ω_g/ω.
+    #[test]
+    fn a_long_harmonic_motion_gives_the_steady_amplification() {
+        for ratio in [0.5, 1.0, 1.7] {
+            let (period, damping, dt) = (0.5, 0.1, 0.002);
+            let ground = ratio * TAU / period;
+            // Fades in and out over many periods, so that transients stay below the steady state.
+            let envelope = |t: f64| libm::sin(std::f64::consts::PI * t / 40.0).powi(2);
+            let accel = (0..=20_000).map(|k| f64::from(k) * dt).map(|t| envelope(t) * (ground * t).sin()).collect();
+            let record = Record::new(accel, dt, 0.0).expect("valid");
+            let steady = 1.0 / ((1.0 - ratio * ratio).powi(2) + (2.0 * damping * ratio).powi(2)).sqrt();
+            let value = record.spectral_acceleration(period, damping);
+            // The swing lags behind the envelope by 1/(ζ ω) = 0.8 s: (0.8 π/40)² = 0.4 % at resonance.
+            assert!((value / steady - 1.0).abs() < 5e-3, "{ratio}: {value} and {steady}");
+        }
+    }
+
+    #[test]
+    fn stiff_oscillators_have_the_peak_acceleration_and_odd_arguments_no_number() {
+        let record = crate::Synthetic { seed: 3, ..Default::default() }.record().expect("valid");
+        assert_eq!(record.spectral_acceleration(0.0, 0.05), record.peak());
+        assert!((record.spectral_acceleration(1e-4, 0.05) / record.peak() - 1.0).abs() < 1e-3);
+        for (period, damping) in [(-1.0, 0.05), (f64::NAN, 0.05), (1.0, 1.0), (1.0, -0.1)] {
+            assert!(record.spectral_acceleration(period, damping).is_nan());
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Intensity measures under the names that scenes, studies and tables have for them.
+//!
+//! A name is a measure of a record and a unit: SI, gravity, or what opens the base of the column. With `α` and `p` of the whole column as one body, as
+//! `amplitude_uplift` and `omega_p` of pulses:
+//!
+//! ```text
+//! pga_uplift = PGA / (g tan α)          pgv_uplift = p PGV / (g tan α)
+//! ```
+
+use crate::column::Column;
+use rocking_ground::Measure;
+
+/// A measure of a record's intensity in a unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intensity {
+    /// The measure.
+    pub measure: Measure,
+    /// Its unit.
+    pub unit: IntensityUnit,
+}
+
+/// Unit of an intensity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum IntensityUnit {
+    /// As of the measure: m/s², m/s, m.
+    Si,
+    /// Gravity; of accelerations.
+    Gravity,
+    /// What opens the base of the column: `g tan α` of accelerations, `g tan α / p` of velocities.
+    Uplift,
+}
+
+/// Names of all intensities; `sa` and `sa_g` are of a period and a damping ratio.
+pub const NAMES: [&str; 10] = ["pga", "pga_g", "pga_uplift", "pgv", "pgv_uplift", "pgd", "arias", "cav", "sa", "sa_g"];
+
+/// Damping ratio of spectra where none is given.
+pub const DEFAULT_DAMPING: f64 = 0.05;
+
+impl Intensity {
+    /// The intensity of this name; those of spectra have the period `[s]` and the damping ratio of `sa`.
+    ///
+    /// ```
+    /// use rocking::intensity::Intensity;
+    /// let pgv = Intensity::named("pgv_uplift", None).expect("a name");
+    /// let column = rocking::Column::equal_blocks(1, 0.3, 0.4, 1.0, 9.81)?;
+    /// // R = 0.5 m, p² = 3g/(4R), g tan α = 0.75 g.
+    /// assert!((pgv.unit_size(&column) - 0.75 * 9.81 / (1.5 * 9.81_f64).sqrt()).abs() < 1e-12);
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    pub fn named(name: &str, sa: Option<[f64; 2]>) -> Option<Intensity> {
+        use IntensityUnit::{Gravity, Si, Uplift};
+        let (measure, unit) = match (name.to_ascii_lowercase().as_str(), sa) {
+            ("pga", _) => (Measure::Pga, Si),
+            ("pga_g", _) => (Measure::Pga, Gravity),
+            ("pga_uplift", _) => (Measure::Pga, Uplift),
+            ("pgv", _) => (Measure::Pgv, Si),
+            ("pgv_uplift", _) => (Measure::Pgv, Uplift),
+            ("pgd", _) => (Measure::Pgd, Si),
+            ("arias", _) => (Measure::Arias, Si),
+            ("cav", _) => (Measure::Cav, Si),
+            ("sa", Some([period, damping])) => (Measure::Sa { period, damping }, Si),
+            ("sa_g", Some([period, damping])) => (Measure::Sa { period, damping }, Gravity),
+            _ => return None,
+        };
+        Some(Intensity { measure, unit })
+    }
+
+    /// The name, without period and damping ratio.
+    pub fn name(&self) -> &'static str {
+        match (self.measure, self.unit) {
+            (Measure::Pga, IntensityUnit::Si) => "pga",
+            (Measure::Pga, IntensityUnit::Gravity) => "pga_g",
+            (Measure::Pga, IntensityUnit::Uplift) => "pga_uplift",
+            (Measure::Pgv, IntensityUnit::Uplift) => "pgv_uplift",
+            (Measure::Pgv, _) => "pgv",
+            (Measure::Pgd, _) => "pgd",
+            (Measure::Arias, _) => "arias",
+            (Measure::Cav, _) => "cav",
+            (Measure::Sa { .. }, IntensityUnit::Gravity) => "sa_g",
+            _ => "sa",
+        }
+    }
+
+    /// Size of the unit in the measure of the record, for a column: m/s², m/s, m.
+    pub fn unit_size(&self, column: &Column) -> f64 {
+        let whole = column.stack(0);
+        match (self.unit, self.measure) {
+            (IntensityUnit::Si, _) => 1.0,
+            (IntensityUnit::Gravity, _) => column.gravity(),
+            (IntensityUnit::Uplift, Measure::Pgv) => whole.uplift_acceleration() / whole.frequency_parameter(),
+            (IntensityUnit::Uplift, _) => whole.uplift_acceleration(),
+        }
+    }
+
+    /// The label of an axis: quantity and unit.
+    pub fn label(&self) -> String {
+        match (self.measure, self.unit) {
+            (Measure::Pga, IntensityUnit::Si) => "PGA [m/s²]".into(),
+            (Measure::Pga, IntensityUnit::Gravity) => "PGA [g]".into(),
+            (Measure::Pga, IntensityUnit::Uplift) => "PGA / (g tan α)".into(),
+            (Measure::Pgv, IntensityUnit::Uplift) => "p PGV / (g tan α)".into(),
+            (Measure::Pgv, _) => "PGV [m/s]".into(),
+            (Measure::Pgd, _) => "PGD [m]".into(),
+            (Measure::Arias, _) => "Arias intensity [m/s]".into(),
+            (Measure::Cav, _) => "CAV [m/s]".into(),
+            (Measure::Sa { period, damping }, unit) => {
+                let unit = if unit == IntensityUnit::Gravity { "g" } else { "m/s²" };
+                format!("Sa({period} s, {} %) [{unit}]", (1e4 * damping).round() / 1e2)
+            }
+            // Measures of later versions of the crate of ground motion.
+            (measure, _) => measure.to_string(),
+        }
+    }
+}
+
+/// As the heading of a column of a table: `pgv`, `sa(0.5)`, `sa_g(0.5 0.02)` with period `[s]` and a damping ratio other than 0.05.
+impl std::fmt::Display for Intensity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.measure {
+            Measure::Sa { period, damping } if damping == DEFAULT_DAMPING => write!(f, "{}({period})", self.name()),
+            Measure::Sa { period, damping } => write!(f, "{}({period} {damping})", self.name()),
+            _ => f.write_str(self.name()),
+        }
+    }
+}
+
+impl std::str::FromStr for Intensity {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Intensity, ()> {
+        let Some((name, rest)) = text.split_once('(') else { return Intensity::named(text, None).ok_or(()) };
+        let mut numbers =
+            rest.strip_suffix(')').ok_or(())?.split_whitespace().map(|number| number.parse().map_err(drop));
+        let period = numbers.next().ok_or(())??;
+        let damping = numbers.next().unwrap_or(Ok(DEFAULT_DAMPING))?;
+        Intensity::named(name, Some([period, damping])).ok_or(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_read_back() {
+        for name in NAMES {
+            for sa in [[0.5, 0.05], [1.25, 0.02]] {
+                let intensity = Intensity::named(name, Some(sa)).expect("a name");
+                assert_eq!(intensity.name(), name);
+                assert_eq!(intensity.to_string().parse(), Ok(intensity), "{intensity}");
+                assert!(!intensity.label().is_empty());
+            }
+        }
+        for text in ["", "pg", "sa", "sa()", "sa(x)", "sa(1"] {
+            assert_eq!(text.parse::<Intensity>(), Err(()), "{text}");
+        }
+    }
+
+    #[test]
+    fn uplift_is_one_where_the_base_opens() {
+        let column = Column::equal_blocks(2, 0.3, 0.4, 1.0, 9.81).expect("valid");
+        let unit = |name| Intensity::named(name, None).expect("a name").unit_size(&column);
+        assert!((unit("pga_uplift") - 0.75 * 9.81).abs() < 1e-12);
+        assert!((unit("pga_uplift") / unit("pgv_uplift") - column.stack(0).frequency_parameter()).abs() < 1e-12);
+        assert_eq!([unit("pga_g"), unit("cav")], [9.81, 1.0]);
+    }
+}

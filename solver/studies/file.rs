@@ -1,0 +1,331 @@
+//! Study files: a scene, records, levels of a measure, and limit states.
+
+use super::fragility::{FragilityOptions, Layout};
+use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
+use super::observation::{LimitState, NoLimitState};
+use crate::column::Column;
+use crate::intensity::{Intensity, NAMES};
+use crate::scene::Scene;
+use crate::scene_file::excitation::{noise, spectrum, text_options};
+use crate::scene_file::reader::Reader;
+use crate::scene_file::records::Records;
+use crate::scene_file::table::{Table, Wrong};
+use crate::scene_file::{SceneFileError, Setting, text};
+use crate::sweep::file::{range, rounded};
+use rocking_ground::{Direction, Record, Synthetic, TextOptions, by_number, record_and_component};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A study of a file, and what is concluded from it.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct IdaFile {
+    /// The study.
+    pub ida: Ida,
+    /// Limit states of its fragility.
+    pub states: Vec<LimitState>,
+    /// Options of its fragility.
+    pub options: FragilityOptions,
+    /// The files that it is made of, its own first.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// Limit states where a study names none.
+const DEFAULT_STATES: [LimitState; 4] = [
+    LimitState::Uplift,
+    LimitState::Peak { block: None, above: 0.15 },
+    LimitState::Peak { block: None, above: 0.35 },
+    LimitState::Overturned,
+];
+
+/// Replicates beyond which a number is taken for a mistake.
+const MOST_REPLICATES: u64 = 1_000_000;
+
+/// Relative error of a value of a range: a few roundings.
+const ROUNDING_OF_STEPS: f64 = 8.0 * f64::EPSILON;
+
+impl IdaFile {
+    /// Reads a study from a TOML file; scene and records are found relative to it.
+    ///
+    /// # Errors
+    /// [`SceneFileError`], with file, line, key and remedy.
+    pub fn from_file(file: &Path) -> Result<IdaFile, SceneFileError> {
+        let text = text(file)?;
+        let kept = Records::default();
+        let reader = Reader { text: &text, file, records: Some(&kept) };
+        let own = |wrong| reader.error(wrong);
+        let mut root = Table::parse(&text).map_err(own)?;
+        let mut inputs = vec![file.to_path_buf()];
+        let scene = scene(&reader, &mut root, &mut inputs)?;
+        let intensity = intensity(&mut root).map_err(own)?;
+        let levels = values(&mut root, "levels", "give a list, or { from, to, steps }").map_err(own)?;
+        let free_swing = root.number("free_swing").map_err(own)?.map_or(DEFAULT_FREE_SWING, |(value, _)| value);
+        let records = records(&reader, &mut root, &scene.column)?;
+        let (states, options) = fragility(&mut root, &scene).map_err(own)?;
+        root.close().map_err(own)?;
+        inputs.extend(kept.files());
+        let ida = Ida::new(scene, records, intensity, levels).and_then(|ida| ida.with_free_swing(free_swing));
+        let ida = ida.map_err(|error| {
+            let (key, remedy) = match &error {
+                IdaError::Level { .. } | IdaError::NoLevels => ("levels", "correct the levels"),
+                IdaError::FreeSwing(_) => ("free_swing", "leave it out for 10 s"),
+                IdaError::Record { .. } => ("records", "leave the record out, or choose another measure"),
+                IdaError::NoRecords => ("records", "give `files`, a `folder`, or [records.synthetic]"),
+            };
+            own(root.wrong(key, error.to_string(), remedy))
+        })?;
+        Ok(IdaFile { ida, states, options, inputs })
+    }
+}
+
+/// `scene = "file"`, or `[scene]` with the keys of a scene.
+fn scene(reader: &Reader, root: &mut Table, inputs: &mut Vec<PathBuf>) -> Result<Scene, SceneFileError> {
+    let own = |wrong| reader.error(wrong);
+    let remedy = "name a scene: scene = \"statue.toml\", or give its keys below [scene]";
+    if root.has_table("scene") {
+        let table = root.table("scene").map_err(own)?.ok_or_else(|| own(root.missing("scene", remedy)))?;
+        return reader.read(table).map(|read| read.scene);
+    }
+    let Some((name, _)) = root.text("scene").map_err(own)? else { return Err(own(root.missing("scene", remedy))) };
+    let file = reader.file.parent().unwrap_or(Path::new("")).join(name);
+    inputs.push(file.clone());
+    Scene::from_file(&file)
+}
+
+/// `measure`, with `sa_period` and `sa_damping`.
+fn intensity(root: &mut Table) -> Result<Intensity, Wrong> {
+    let sa = spectrum(root)?;
+    let Some((name, _)) = root.text("measure")? else {
+        return Err(root.missing("measure", &format!("choose one of {}", NAMES.join(", "))));
+    };
+    if !NAMES.iter().any(|known| name.eq_ignore_ascii_case(known)) {
+        return Err(root.no_such("measure", "measure", &name, &NAMES));
+    }
+    let found = Intensity::named(&name, sa);
+    let found = found.ok_or_else(|| root.missing("sa_period", &format!("give the period of `{name}` in s")))?;
+    match (found.measure, sa) {
+        (rocking_ground::Measure::Sa { .. }, _) | (_, None) => Ok(found),
+        _ => Err(root.wrong("sa_period", format!("`{name}` has no period"), "remove it, or measure by `sa` or `sa_g`")),
+    }
+}
+
+/// Numbers: a list, or a range.
+fn values(table: &mut Table, key: &'static str, remedy: &str) -> Result<Vec<f64>, Wrong> {
+    if !table.has_table(key) {
+        return table.numbers(key)?.ok_or_else(|| table.missing(key, remedy));
+    }
+    let Some(mut inner) = table.table(key)? else { return Ok(Vec::new()) };
+    let settings = range(&mut inner)?;
+    inner.close()?;
+    // A range of decimal steps has decimal values: 0.4, not 0.3999999999999999.
+    let number = |setting: Setting| match setting {
+        Setting::Number(number) => Some(rounded(number, ROUNDING_OF_STEPS)),
+        Setting::Text(_) => None,
+    };
+    Ok(settings.into_iter().filter_map(number).collect())
+}
+
+/// `[records]`: files, a folder, seeds, in this order.
+fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<StudyRecord>, SceneFileError> {
+    let own = |wrong| reader.error(wrong);
+    let remedy = "add [records] with `files`, a `folder`, or [records.synthetic]";
+    let Some(mut table) = root.table("records").map_err(own)? else { return Err(own(root.missing("records", remedy))) };
+    let options = text_options(&mut table, column.gravity()).map_err(own)?;
+    let mut found = Vec::new();
+    if let Some(files) = table.settings("files").map_err(own)? {
+        for file in files {
+            let name = file.to_string();
+            let horizontal = reader.record_file(&table, "files", &name, &options)?;
+            found.push(StudyRecord { name, horizontal, vertical: None });
+        }
+    }
+    let component = table.text("component").map_err(own)?.map(|(name, _)| name);
+    let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
+    match table.text("folder").map_err(own)? {
+        Some((folder, _)) => {
+            let wanted = Wanted { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
+            found.extend(of_folder(reader, &table, &folder, &wanted, &options)?);
+        }
+        None => {
+            if let Some(key) = ["component", "vertical"].into_iter().find(|key| table.has(key)) {
+                return Err(own(table.wrong(key, "it is of a `folder`, and none is given".into(), "remove it")));
+            }
+        }
+    }
+    if let Some(mut inner) = table.table("synthetic").map_err(own)? {
+        found.extend(of_seeds(&mut inner).map_err(own)?);
+        inner.close().map_err(own)?;
+    }
+    table.close().map_err(own)?;
+    if let Some((place, twice)) = found
+        .iter()
+        .enumerate()
+        .find(|(place, record)| found[..*place].iter().any(|other: &StudyRecord| other.name == record.name))
+    {
+        let problem = format!("record {} ({}) is there twice", place + 1, twice.name);
+        return Err(own(root.wrong("records", problem, "name each record once")));
+    }
+    Ok(found)
+}
+
+/// Synthetic records, one for each of `seeds`.
+fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
+    let seeds = values(table, "seeds", "give the seeds of the records, e.g. { from = 1, to = 6 }")?;
+    if let Some(seed) = seeds.iter().find(|seed| seed.fract() != 0.0 || !(0.0..=9e15).contains(*seed)) {
+        return Err(table.wrong("seeds", format!("{seed} is no seed"), "give whole numbers from 0 on"));
+    }
+    if table.has("seed") {
+        return Err(table.wrong("seed", "`seeds` says which".into(), "remove it"));
+    }
+    let base = noise(table)?;
+    let record = |seed: f64| {
+        let horizontal = Synthetic { seed: seed as u64, ..base }.record();
+        let horizontal = horizontal.map_err(|error| table.wrong("seeds", error.to_string(), "correct the numbers"))?;
+        Ok(StudyRecord { name: format!("seed {seed}"), horizontal, vertical: None })
+    };
+    seeds.into_iter().map(record).collect()
+}
+
+/// Components of a folder that are asked for.
+struct Wanted<'t> {
+    /// `horizontal` for all of them, `vertical`, or a name: the end of a file's name, or that in the file.
+    component: &'t str,
+    with_vertical: bool,
+}
+
+impl Wanted<'_> {
+    fn takes(&self, component: &Component) -> bool {
+        match self.component {
+            "horizontal" => component.direction == Direction::Horizontal,
+            "vertical" => component.direction == Direction::Vertical,
+            name => [component.ending.as_str(), component.record.source().component.trim()]
+                .iter()
+                .any(|own| own.eq_ignore_ascii_case(name)),
+        }
+    }
+}
+
+/// A file of a folder.
+struct Component {
+    /// Relative to the study.
+    name: String,
+    ending: String,
+    direction: Direction,
+    record: Record,
+}
+
+fn of_folder(
+    reader: &Reader,
+    table: &Table,
+    folder: &str,
+    wanted: &Wanted,
+    options: &TextOptions,
+) -> Result<Vec<StudyRecord>, SceneFileError> {
+    let refuse = |key: &str, problem: String, remedy: &str| reader.error(table.wrong(key, problem, remedy));
+    let path = reader.file.parent().unwrap_or(Path::new("")).join(folder);
+    let failed = |error: std::io::Error| {
+        refuse("folder", format!("{}: {error}", path.display()), "give the folder relative to the study")
+    };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(&path).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let file = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_file() && !file.starts_with('.') {
+            files.push(file);
+        }
+    }
+    files.sort();
+    if files.is_empty() {
+        return Err(refuse("folder", format!("{} has no file", path.display()), "give a folder of record files"));
+    }
+    let mut groups: BTreeMap<(String, u64, String), (String, Vec<Component>)> = BTreeMap::new();
+    for file in files {
+        let (group, ending) = record_and_component(&file);
+        let (group, ending) = (group.into_owned(), ending.to_string());
+        let name = Path::new(folder).join(&file).to_string_lossy().into_owned();
+        let record = reader.record_file(table, "folder", &name, options)?;
+        let direction = Direction::of(&ending, &record.source().component);
+        let components = &mut groups.entry(by_number(&group)).or_insert_with(|| (group.clone(), Vec::new())).1;
+        components.push(Component { name, ending, direction, record });
+    }
+    let lacking = |what: &str, is_there: &dyn Fn(&Component) -> bool| -> Vec<String> {
+        let without = groups.values().filter(|(_, components)| !components.iter().any(is_there));
+        without
+            .map(|(group, components)| {
+                let known: Vec<&str> = components.iter().map(|component| component.name.as_str()).collect();
+                format!("{group} ({}) has no component `{what}`", known.join(", "))
+            })
+            .collect()
+    };
+    let missing = lacking(wanted.component, &|component| wanted.takes(component));
+    if !missing.is_empty() {
+        let key = if table.has("component") { "component" } else { "folder" };
+        return Err(refuse(key, missing.join("; "), "choose another component, or name the files with `files`"));
+    }
+    if wanted.with_vertical {
+        let missing = lacking("vertical", &|component| component.direction == Direction::Vertical);
+        if !missing.is_empty() {
+            return Err(refuse("vertical", missing.join("; "), "leave it out, or add the files"));
+        }
+    }
+    let mut found = Vec::new();
+    for (_, components) in groups.values() {
+        let up = components.iter().find(|component| component.direction == Direction::Vertical);
+        for component in components.iter().filter(|component| wanted.takes(component)) {
+            let vertical = up.filter(|_| wanted.with_vertical).map(|component| component.record.clone());
+            let (name, horizontal) = (component.name.clone(), component.record.clone());
+            found.push(StudyRecord { name, horizontal, vertical });
+        }
+    }
+    Ok(found)
+}
+
+/// `[fragility]`.
+fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, FragilityOptions), Wrong> {
+    let mut options = FragilityOptions::default();
+    let Some(mut table) = root.table("fragility")? else { return Ok((DEFAULT_STATES.to_vec(), options)) };
+    let states = match table.settings("states")? {
+        None => DEFAULT_STATES.to_vec(),
+        Some(texts) => texts.iter().map(|text| state(&table, &text.to_string(), scene)).collect::<Result<_, _>>()?,
+    };
+    if let Some(replicates) = table.whole("replicates", 0)? {
+        if replicates > MOST_REPLICATES {
+            return Err(table.wrong("replicates", format!("{replicates} are too many"), "give at most 1e6"));
+        }
+        options.replicates = replicates as usize;
+    }
+    if let Some((confidence, _)) = table.number("confidence")? {
+        if !(confidence > 0.0 && confidence < 1.0) {
+            let problem = format!("{confidence} is out of range");
+            return Err(table.wrong("confidence", problem, "give a share between 0 and 1, e.g. 0.9"));
+        }
+        options.confidence = confidence;
+    }
+    options.seed = table.whole("seed", 0)?.unwrap_or(options.seed);
+    options.layout = match table.text("layout")?.map(|(name, _)| name).as_deref() {
+        None => None,
+        Some("stripes") => Some(Layout::Stripes),
+        Some("cloud") => Some(Layout::Cloud),
+        Some(other) => return Err(table.no_such("layout", "layout", other, &["stripes", "cloud"])),
+    };
+    table.close()?;
+    Ok((states, options))
+}
+
+fn state(table: &Table, text: &str, scene: &Scene) -> Result<LimitState, Wrong> {
+    let found = text.parse().map_err(|error: NoLimitState| {
+        table.wrong("states", format!("there is no limit state `{text}`"), &error.to_string())
+    })?;
+    let blocks = scene.column.len();
+    match found {
+        LimitState::Slide { .. } if scene.friction.is_none() => {
+            let problem = format!("`{text}`: blocks do not slide without friction, and the scene has none");
+            Err(table.wrong("states", problem, "give the scene `friction`, or leave the state out"))
+        }
+        LimitState::Peak { block: Some(block), .. } if block > blocks => {
+            let problem = format!("`{text}`: the column has {blocks} block(s)");
+            Err(table.wrong("states", problem, "name a block of the column, from 1 at the base"))
+        }
+        found => Ok(found),
+    }
+}

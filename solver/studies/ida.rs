@@ -1,0 +1,331 @@
+//! Incremental dynamic analysis: records times levels of an intensity measure, a run each. Vamvatsikos and Cornell (2002), Earthq. Eng. Struct. Dyn.
+//! 31, 491-514.
+//!
+//! The study is data: the run of any index is found without the others, so that ranges of them can be run anywhere and always give the same rows.
+//! Record `k` has the runs `k L .. (k + 1) L`, `L` the number of levels. All components of a record are scaled by one factor, that which brings the
+//! horizontal one to the level.
+
+use super::gap::largest_gap;
+use super::observation::Observation;
+use crate::intensity::Intensity;
+use crate::response::{EventKind, Response};
+use crate::run::{Simulator, SolveError};
+use crate::scene::{Scene, SceneErrors, Wanted};
+use crate::sweep::Fate;
+use rayon::prelude::*;
+use rocking_codegen::pattern::Pattern;
+use rocking_ground::{Excitation, Motion, Record, RecordError};
+use std::ops::Range;
+
+/// Components of one record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyRecord {
+    /// Name, as in a table.
+    pub name: String,
+    /// Along the ground.
+    pub horizontal: Record,
+    /// Upwards; none for a study of horizontal motion.
+    pub vertical: Option<Record>,
+}
+
+/// A column, records and levels.
+#[derive(Clone, Debug)]
+pub struct Ida {
+    scene: Scene,
+    records: Vec<StudyRecord>,
+    intensity: Intensity,
+    levels: Vec<f64>,
+    free_swing: f64,
+    /// Factor of each record per unit of the level; its square for the Arias intensity.
+    factors: Vec<f64>,
+}
+
+/// Why there is no study.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IdaError {
+    /// There is no record.
+    #[error("the study has no record; name at least one")]
+    NoRecords,
+    /// There is no level.
+    #[error("the study has no level; give at least one")]
+    NoLevels,
+    /// A level is out of range, or there twice.
+    #[error("level {level}: {problem}")]
+    Level {
+        /// In the unit of the measure.
+        level: f64,
+        /// What is wrong, and the remedy.
+        problem: &'static str,
+    },
+    /// A record has no size in the measure.
+    #[error("record {name}: {error}")]
+    Record {
+        /// Of the record.
+        name: String,
+        /// Why it cannot be scaled.
+        error: RecordError,
+    },
+    /// The time after a record is out of range.
+    #[error("free_swing = {0}: the time after a record must be a finite number of seconds, zero or above")]
+    FreeSwing(f64),
+}
+
+/// Why a run has no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The record cannot be scaled so far.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The scene with the record is not valid.
+    #[error(transparent)]
+    Scene(#[from] SceneErrors),
+    /// The run could not be finished.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// The result of a run of a study. Lists are base first.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct IdaOutcome {
+    /// What became of the column.
+    pub fate: Fate,
+    /// Impacts up to overturning, or to the end.
+    pub impacts: usize,
+    /// The block that overturned first, or lost its support, from 1.
+    pub block: Option<usize>,
+    /// Time of overturning `[s]`.
+    pub overturned_at: Option<f64>,
+    /// Time at which an interface first opened `[s]`.
+    pub first_uplift: Option<f64>,
+    /// Largest gap at an interface `[m]`: `2 c_i sin |φ_i|`, or that of a flight.
+    pub largest_gap: f64,
+    /// Largest angle of each block over the slenderness of the stack that begins with it, dimensionless.
+    pub peaks: Vec<f64>,
+    /// Slide of each interface at the end `[m]`; empty without friction.
+    pub residual_slides: Vec<f64>,
+}
+
+/// A run of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IdaRun {
+    /// Number of the run, from zero.
+    pub index: usize,
+    /// Number of its record, from zero.
+    pub record: usize,
+    /// Size of the record in the measure of the study.
+    pub level: f64,
+    /// Factor of the record, dimensionless.
+    pub scale: f64,
+    /// What came of it.
+    pub result: Result<IdaOutcome, RunError>,
+}
+
+/// Runs that a thread takes at once.
+const LEAST_RUNS: usize = 4;
+
+/// Interval between the angles that gaps are found from: at most so long `[s]`, at most this share of `1/p`, and not more rows than these.
+const LONGEST_ROW_INTERVAL: f64 = 0.01;
+const ROW_INTERVAL_OF_P: f64 = 0.02;
+const MOST_ROWS: f64 = 20_000.0;
+
+/// Time after a record where a study does not say `[s]`.
+pub(super) const DEFAULT_FREE_SWING: f64 = 10.0;
+
+impl Ida {
+    /// A study of a scene, whose own ground motion and end are not used: a run lasts as long as its record and `free_swing` seconds more.
+    ///
+    /// ```
+    /// use rocking::studies::{Ida, StudyRecord};
+    /// use rocking::{Column, Scene, ground::Synthetic, intensity::Intensity};
+    ///
+    /// let records = (1..=3).map(|seed| {
+    ///     let horizontal = Synthetic { seed, ..Synthetic::default() }.record()?;
+    ///     Ok(StudyRecord { name: format!("seed {seed}"), horizontal, vertical: None })
+    /// });
+    /// let records = records.collect::<Result<Vec<_>, rocking::RecordError>>()?;
+    /// let scene = Scene::new(Column::equal_blocks(1, 0.3, 1.2, 1.0, 9.81)?);
+    /// let pgv = Intensity::named("pgv", None).expect("a measure");
+    /// let study = Ida::new(scene, records, pgv, vec![0.05, 0.5, 3.0])?;
+    /// let runs = study.runs(0..study.len());
+    /// // Three records, three levels: nothing moves at the lowest.
+    /// assert_eq!(runs.len(), 9);
+    /// assert!(runs.iter().filter(|run| run.level == 0.05).all(|run| run.result.as_ref().is_ok_and(|found| found.largest_gap == 0.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`IdaError`]
+    pub fn new(
+        scene: Scene,
+        records: Vec<StudyRecord>,
+        intensity: Intensity,
+        levels: Vec<f64>,
+    ) -> Result<Ida, IdaError> {
+        if records.is_empty() {
+            return Err(IdaError::NoRecords);
+        }
+        if levels.is_empty() {
+            return Err(IdaError::NoLevels);
+        }
+        for (place, level) in levels.iter().copied().enumerate() {
+            if !(level.is_finite() && level > 0.0) {
+                return Err(IdaError::Level { level, problem: "it must be a finite number above zero" });
+            }
+            if levels[..place].contains(&level) {
+                return Err(IdaError::Level { level, problem: "it is there twice; remove one of the two" });
+            }
+        }
+        let unit = intensity.unit_size(&scene.column);
+        let factor = |record: &StudyRecord| {
+            let factor = record.horizontal.factor_to(intensity.measure, unit, scene.column.gravity());
+            factor.map_err(|error| IdaError::Record { name: record.name.clone(), error })
+        };
+        let factors = records.iter().map(factor).collect::<Result<_, _>>()?;
+        Ok(Ida { scene, records, intensity, levels, free_swing: DEFAULT_FREE_SWING, factors })
+    }
+
+    /// The study with another time after each record `[s]`; default 10.
+    ///
+    /// # Errors
+    /// [`IdaError::FreeSwing`]
+    pub fn with_free_swing(self, free_swing: f64) -> Result<Ida, IdaError> {
+        if !(free_swing.is_finite() && free_swing >= 0.0) {
+            return Err(IdaError::FreeSwing(free_swing));
+        }
+        Ok(Ida { free_swing, ..self })
+    }
+
+    /// Its scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Its records.
+    pub fn records(&self) -> &[StudyRecord] {
+        &self.records
+    }
+
+    /// Its measure.
+    pub fn intensity(&self) -> Intensity {
+        self.intensity
+    }
+
+    /// Its levels, in the unit of the measure.
+    pub fn levels(&self) -> &[f64] {
+        &self.levels
+    }
+
+    /// Time after each record `[s]`.
+    pub fn free_swing(&self) -> f64 {
+        self.free_swing
+    }
+
+    /// Number of runs.
+    pub fn len(&self) -> usize {
+        self.records.len() * self.levels.len()
+    }
+
+    /// Whether there is no run: never of a study that [`Ida::new`] made.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of the record, the level and the factor of a run.
+    fn point(&self, index: usize) -> (usize, f64, f64) {
+        let (record, level) = (index / self.levels.len(), self.levels[index % self.levels.len()]);
+        let grown = if self.intensity.measure == rocking_ground::Measure::Arias { level.sqrt() } else { level };
+        (record, level, self.factors[record] * grown)
+    }
+
+    /// Factor of the record of a run, dimensionless.
+    pub fn scale(&self, index: usize) -> f64 {
+        self.point(index).2
+    }
+
+    /// The scene of a run.
+    ///
+    /// # Errors
+    /// [`RunError::Record`] for accelerations out of range.
+    pub fn scene_of(&self, index: usize) -> Result<Scene, RunError> {
+        let (record, _, factor) = self.point(index);
+        let StudyRecord { horizontal, vertical, .. } = &self.records[record];
+        let end = |record: &Record| record.start() + record.duration();
+        let last = vertical.iter().map(end).fold(end(horizontal), f64::max);
+        let scaled = |record: &Record| record.clone().scaled(factor).map(Motion::Record);
+        let excitation =
+            Excitation { horizontal: Some(scaled(horizontal)?), vertical: vertical.as_ref().map(scaled).transpose()? };
+        let mut scene = Scene { excitation, ..self.scene.clone() };
+        scene.options.t_end = last + self.free_swing;
+        scene.options.wanted = Wanted::Everything;
+        scene.options.record_forces = false;
+        let p = scene.column.stack(scene.column.len() - 1).frequency_parameter();
+        // A whole number of intervals between samples: the acceleration has its kinks at their ends.
+        let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / p);
+        let interval = horizontal.dt() / (horizontal.dt() / longest).ceil();
+        scene.output_dt = Some(interval.max(scene.options.t_end / MOST_ROWS));
+        Ok(scene)
+    }
+
+    /// Runs a range on all threads of the present rayon pool; in the order of their numbers.
+    pub fn runs(&self, range: Range<usize>) -> Vec<IdaRun> {
+        self.lines(range, |run| run)
+    }
+
+    /// As [`Ida::runs`], with what `made` makes of each run on the thread that has run it.
+    pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
+        let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
+        indices.map_init(Simulator::new, |simulator, index| made(self.run(simulator, index))).collect()
+    }
+
+    fn run(&self, simulator: &mut Simulator, index: usize) -> IdaRun {
+        let (record, level, scale) = self.point(index);
+        let run = |scene: Scene| {
+            scene.check()?;
+            let response = simulator.run(&scene)?;
+            Ok(outcome(&scene, &response))
+        };
+        IdaRun { index, record, level, scale, result: self.scene_of(index).and_then(run) }
+    }
+
+    /// A run as an observation of stripes and fragility.
+    pub fn observation(&self, run: &IdaRun) -> Observation {
+        let found = run.result.as_ref().ok();
+        Observation {
+            record: self.records[run.record].name.clone(),
+            level: run.level,
+            fate: found.map(|found| found.fate),
+            has_uplift: found.is_some_and(|found| found.first_uplift.is_some()),
+            peaks: found.map(|found| found.peaks.clone()).unwrap_or_default(),
+            residual_slides: found.map(|found| found.residual_slides.clone()).unwrap_or_default(),
+        }
+    }
+}
+
+fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
+    let column = &scene.column;
+    let share = |(block, peak): (usize, &f64)| peak / column.stack(block).slenderness();
+    let slides = response.sliding.as_ref().map(|report| report.residual_slide.clone());
+    IdaOutcome {
+        fate: Fate::of(response),
+        impacts: response.impacts,
+        block: response.overturned_block.or_else(|| response.collapsed_block()),
+        overturned_at: response.overturned_at(),
+        first_uplift: first_uplift(response),
+        largest_gap: largest_gap(column, response),
+        peaks: response.peak_theta.iter().enumerate().map(share).collect(),
+        residual_slides: slides.unwrap_or_default(),
+    }
+}
+
+/// Time at which an interface is first open `[s]`.
+fn first_uplift(response: &Response) -> Option<f64> {
+    let is_open = |pattern: &Pattern| pattern.0.iter().any(|interface| interface.sign() != 0);
+    let at_start = response.samples.first().filter(|row| is_open(&row.pattern)).map(|row| row.t);
+    at_start.or_else(|| {
+        let opens = |kind: EventKind, after: &Pattern| kind == EventKind::Flight || is_open(after);
+        response.events.iter().find(|event| opens(event.kind, &event.after)).map(|event| event.t)
+    })
+}

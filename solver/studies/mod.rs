@@ -1,0 +1,23 @@
+//! Studies: many runs, and what an engineer concludes from them.
+//!
+//! ```text
+//! scene, records, levels ──> ida.rs ──> runs ──> observation.rs ──> stripes.rs      fractiles of the response per level
+//!                                                               └─> fragility.rs    probability of a limit state
+//!                                                                   probit.rs       its lognormal by maximum likelihood
+//! ```
+//!
+//! Rocking is not monotonic: a column that overturns at a level may stand at a higher one. No level is therefore left out or bisected.
+
+mod file;
+mod fragility;
+mod gap;
+mod ida;
+mod observation;
+pub mod probit;
+mod stripes;
+
+pub use file::IdaFile;
+pub use fragility::{Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout};
+pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
+pub use observation::{LimitState, NoLimitState, Observation};
+pub use stripes::{FRACTILES, Stripe, fractile, stripes};

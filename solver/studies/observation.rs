@@ -1,0 +1,182 @@
+//! What a study observes of a run, and the limit states that an observation reaches or not.
+
+use crate::sweep::Fate;
+use std::fmt;
+use std::str::FromStr;
+
+/// A run at a level of intensity, as a table has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// Name of the record.
+    pub record: String,
+    /// Size of the ground motion in the measure of the study.
+    pub level: f64,
+    /// What became of the column; `None` for a run that failed.
+    pub fate: Option<Fate>,
+    /// Whether an interface opened.
+    pub has_uplift: bool,
+    /// Largest angle of each block over its slenderness, base first, dimensionless.
+    pub peaks: Vec<f64>,
+    /// Slide of each interface at the end, base first `[m]`; empty without friction.
+    pub residual_slides: Vec<f64>,
+}
+
+impl Observation {
+    /// Whether the column is lost: overturned, or collapsed.
+    pub fn is_lost(&self) -> bool {
+        matches!(self.fate, Some(Fate::Overturns | Fate::Collapses))
+    }
+
+    /// Whether the run has an answer: it did not fail, and a motion followed from the laws of contact to its end.
+    pub fn is_decided(&self) -> bool {
+        !matches!(self.fate, None | Some(Fate::Undetermined))
+    }
+
+    /// Largest `|θ|/α` of all blocks, infinite where the column is lost; `None` for an undecided run.
+    pub fn demand(&self) -> Option<f64> {
+        match self.is_decided() {
+            false => None,
+            true if self.is_lost() => Some(f64::INFINITY),
+            true => Some(self.peaks.iter().copied().fold(0.0, f64::max)),
+        }
+    }
+}
+
+/// A limit state of a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum LimitState {
+    /// An interface opens: `uplift`.
+    Uplift,
+    /// `|θ|/α` of a block (from 1), or of any, is above a share: `peak > 0.35`, `peak_2 > 0.35`. A column that is lost is above all.
+    Peak {
+        /// From 1; any where there is none.
+        block: Option<usize>,
+        /// Dimensionless.
+        above: f64,
+    },
+    /// The column overturns or collapses: `overturned`.
+    Overturned,
+    /// The size of a slide at the end is above a length: `slide > 0.05`. A column that is lost is above all.
+    Slide {
+        /// `[m]`
+        above: f64,
+    },
+}
+
+impl LimitState {
+    /// Whether a run reached the state; `None` for a run that cannot tell: a failed one, and an undetermined one that had not reached it before.
+    pub fn is_reached(&self, run: &Observation) -> Option<bool> {
+        let largest = |values: &[f64]| values.iter().map(|value| value.abs()).fold(0.0, f64::max);
+        let reached = match *self {
+            LimitState::Uplift => run.has_uplift,
+            LimitState::Overturned => run.is_lost(),
+            LimitState::Peak { block: None, .. } if run.peaks.is_empty() && !run.is_lost() => return None,
+            LimitState::Peak { block: None, above } => run.is_lost() || largest(&run.peaks) > above,
+            LimitState::Peak { block: Some(block), above } => {
+                run.is_lost() || *run.peaks.get(block.checked_sub(1)?)? > above
+            }
+            LimitState::Slide { above } => {
+                let is_known = run.is_lost() || !run.residual_slides.is_empty();
+                if !is_known {
+                    return None;
+                }
+                run.is_lost() || run.is_decided() && largest(&run.residual_slides) > above
+            }
+        };
+        // What was reached before a run became undetermined was reached.
+        (reached || run.is_decided()).then_some(reached).filter(|_| run.fate.is_some())
+    }
+}
+
+impl fmt::Display for LimitState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LimitState::Uplift => f.write_str("uplift"),
+            LimitState::Overturned => f.write_str("overturned"),
+            LimitState::Peak { block: None, above } => write!(f, "peak > {above}"),
+            LimitState::Peak { block: Some(block), above } => write!(f, "peak_{block} > {above}"),
+            LimitState::Slide { above } => write!(f, "slide > {above}"),
+        }
+    }
+}
+
+/// The text was none of the limit states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "write `uplift`, `overturned`, `peak > 0.35` (|θ|/α), `peak_2 > 0.35` of the second block, or `slide > 0.05` (m)"
+)]
+pub struct NoLimitState;
+
+impl FromStr for LimitState {
+    type Err = NoLimitState;
+
+    fn from_str(text: &str) -> Result<LimitState, NoLimitState> {
+        let text = text.trim();
+        match text {
+            "uplift" => return Ok(LimitState::Uplift),
+            "overturned" => return Ok(LimitState::Overturned),
+            _ => {}
+        }
+        let (name, number) = text.split_once('>').ok_or(NoLimitState)?;
+        let above: f64 = number.trim().parse().map_err(|_| NoLimitState)?;
+        if !(above.is_finite() && above >= 0.0) {
+            return Err(NoLimitState);
+        }
+        match name.trim() {
+            "peak" => Ok(LimitState::Peak { block: None, above }),
+            "slide" => Ok(LimitState::Slide { above }),
+            name => {
+                let block = name.strip_prefix("peak_").and_then(|block| block.parse().ok()).filter(|block| *block > 0);
+                block.map(|block| LimitState::Peak { block: Some(block), above }).ok_or(NoLimitState)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_read_back_and_nonsense_is_refused() {
+        for text in ["uplift", "overturned", "peak > 0.35", "peak_2 > 0.15", "slide > 0.05"] {
+            assert_eq!(text.parse::<LimitState>().map(|state| state.to_string()), Ok(text.to_string()));
+        }
+        assert_eq!("peak>1".parse(), Ok(LimitState::Peak { block: None, above: 1.0 }));
+        for text in ["", "peak", "peak > x", "peak > -1", "peak > inf", "peak_0 > 1", "gap > 1", "uplift > 1"] {
+            assert_eq!(text.parse::<LimitState>(), Err(NoLimitState), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_lost_column_is_beyond_all_and_an_undecided_run_is_none_but_for_what_it_had_reached() {
+        let run = |fate: Option<Fate>, peak: f64| Observation {
+            record: String::new(),
+            level: 1.0,
+            fate,
+            has_uplift: peak > 0.0,
+            peaks: vec![0.5 * peak, peak],
+            residual_slides: Vec::new(),
+        };
+        let reached = |state: &str, run: &Observation| state.parse::<LimitState>().expect("a state").is_reached(run);
+        let lost = run(Some(Fate::Collapses), 0.2);
+        for state in ["uplift", "overturned", "peak > 9", "peak_1 > 9", "slide > 9"] {
+            assert_eq!(reached(state, &lost), Some(true), "{state}");
+        }
+        let standing = run(Some(Fate::Rocks), 0.4);
+        assert_eq!(
+            ["peak > 0.3", "peak_1 > 0.3", "overturned"].map(|state| reached(state, &standing)),
+            [Some(true), Some(false), Some(false)]
+        );
+        // No friction, no slide; no third block.
+        assert_eq!(["slide > 0", "peak_3 > 0"].map(|state| reached(state, &standing)), [None, None]);
+        let undecided = run(Some(Fate::Undetermined), 0.4);
+        assert_eq!(
+            ["peak > 0.3", "peak > 0.5", "overturned"].map(|state| reached(state, &undecided)),
+            [Some(true), None, None]
+        );
+        assert_eq!(reached("uplift", &run(None, 0.0)), None);
+        assert_eq!([lost.demand(), standing.demand(), undecided.demand()], [Some(f64::INFINITY), Some(0.4), None]);
+    }
+}

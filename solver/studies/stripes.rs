@@ -1,0 +1,64 @@
+//! Stripes: all runs at one level of intensity, and fractiles of their response.
+
+use super::observation::Observation;
+use crate::sweep::Fate;
+
+/// Shares of records of the fractiles: mean less and plus a standard deviation of a normal variable, and the median between them.
+pub const FRACTILES: [f64; 3] = [0.16, 0.5, 0.84];
+
+/// All runs at a level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stripe {
+    /// In the unit of the measure.
+    pub level: f64,
+    /// Number of runs.
+    pub runs: usize,
+    /// Runs by what became of the column, in the order of [`Fate::ALL`].
+    pub fates: [usize; Fate::ALL.len()],
+    /// Runs that failed.
+    pub errors: usize,
+    /// [`FRACTILES`] of the largest `|θ|/α` of the decided runs, infinite where the column is lost; `None` without a decided run.
+    pub fractiles: Option<[f64; 3]>,
+}
+
+impl Stripe {
+    /// Runs without an answer: failed, or undetermined.
+    pub fn undecided(&self) -> usize {
+        let undetermined = Fate::ALL.iter().zip(self.fates).filter(|(fate, _)| **fate == Fate::Undetermined);
+        self.errors + undetermined.map(|(_, count)| count).sum::<usize>()
+    }
+}
+
+/// The stripes of runs, from the lowest level up.
+pub fn stripes(runs: &[Observation]) -> Vec<Stripe> {
+    let mut sorted: Vec<&Observation> = runs.iter().collect();
+    sorted.sort_by(|a, b| a.level.total_cmp(&b.level));
+    let stripe = |runs: &[&Observation]| {
+        let count = |fate: Fate| runs.iter().filter(|run| run.fate == Some(fate)).count();
+        let demands: Vec<f64> = runs.iter().filter_map(|run| run.demand()).collect();
+        Stripe {
+            level: runs[0].level,
+            runs: runs.len(),
+            fates: Fate::ALL.map(count),
+            errors: runs.iter().filter(|run| run.fate.is_none()).count(),
+            fractiles: (!demands.is_empty()).then(|| FRACTILES.map(|share| fractile(&demands, share))),
+        }
+    };
+    sorted.chunk_by(|a, b| a.level == b.level).map(stripe).collect()
+}
+
+/// The smallest of the values that a share of them does not exceed: the inverse of their empirical distribution, which needs no mean of finite and
+/// infinite values. `NaN` without values.
+///
+/// ```
+/// use rocking::studies::fractile;
+/// let demands = [0.3, 0.1, f64::INFINITY, 0.2];
+/// assert_eq!([0.16, 0.5, 0.84].map(|share| fractile(&demands, share)), [0.1, 0.2, f64::INFINITY]);
+/// ```
+pub fn fractile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    // Rounding of the product must not count one value more.
+    let rank = (share * sorted.len() as f64 * (1.0 - f64::EPSILON)).ceil() as usize;
+    sorted.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+}
