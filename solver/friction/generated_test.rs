@@ -7,6 +7,7 @@ use super::rows::{Coordinate, Rows, coordinates};
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::generated::{MAX_BLOCKS, moving};
+use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeSet;
 
@@ -48,7 +49,7 @@ fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Confi
         block
     };
     let column = Column::new(joints.iter().map(|_| block(random)).collect(), 9.81).expect("valid");
-    let (mut theta, mut omega) = (Vec::new(), Vec::new());
+    let (mut theta, mut omega): (PerBlock<f64>, PerBlock<f64>) = (PerBlock::new(), PerBlock::new());
     for joint in joints {
         let (below, rate) = (theta.last().copied().unwrap_or(0.0), omega.last().copied().unwrap_or(0.0));
         let is_closed = matches!(joint, Joint::Closed(_));
@@ -57,7 +58,7 @@ fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Confi
     }
     let mut vector = |size: f64| [random.within(-size, size), random.within(-size, size)];
     let mut configuration = Configuration {
-        joints: joints.to_vec(),
+        joints: PerBlock::from_slice(joints),
         theta,
         omega,
         slide: joints.iter().map(|_| vector(0.3)[0]).collect(),
@@ -65,7 +66,7 @@ fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Confi
         apart: joints.iter().map(|_| vector(0.5)).collect(),
         apart_rate: joints.iter().map(|_| vector(1.5)).collect(),
     };
-    for (joint, rate) in joints.iter().zip(&mut configuration.apart_rate) {
+    for (joint, rate) in joints.iter().zip(configuration.apart_rate.iter_mut()) {
         if *joint != Joint::Free {
             *rate = [0.0; 2];
         }
@@ -80,7 +81,7 @@ fn difference(random: &mut Random, joints: &[Joint]) -> Option<(f64, (usize, usi
 }
 
 fn compare(random: &mut Random, column: &Column, configuration: &Configuration) -> Option<(f64, (usize, usize))> {
-    let joints = configuration.joints.as_slice();
+    let joints: &[Joint] = &configuration.joints;
     let kinetic: Vec<f64> = joints.iter().map(|_| random.within(0.0, 0.5)).collect();
     let ground = Ground { x: random.within(-8.0, 8.0), gravity: random.within(4.0, 15.0) };
     let coordinates = coordinates(joints);

@@ -5,6 +5,7 @@ use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use super::search::{Coefficients, Question, Search, Touch};
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
+use crate::numerics::per_block::PerBlock;
 use friction_oracle::{Coinciding, Side, Stack, State, accelerations, impact};
 use uniform::Uniform;
 
@@ -58,13 +59,13 @@ fn case(random: &mut Uniform, strikes: bool) -> Case {
     let column = Column::new(blocks.clone(), 9.81).expect("valid");
     let struck = if strikes { random.within(0.0, count as f64) as usize } else { count };
     let mut now = Configuration {
-        joints: Vec::new(),
-        theta: Vec::new(),
-        omega: Vec::new(),
-        slide: Vec::new(),
-        slide_rate: Vec::new(),
-        apart: vec![[0.0; 2]; count],
-        apart_rate: vec![[0.0; 2]; count],
+        joints: PerBlock::new(),
+        theta: PerBlock::new(),
+        omega: PerBlock::new(),
+        slide: PerBlock::new(),
+        slide_rate: PerBlock::new(),
+        apart: PerBlock::filled([0.0; 2], count),
+        apart_rate: PerBlock::filled([0.0; 2], count),
     };
     let (mut touch, mut joints) = (Vec::new(), Vec::new());
     let (mut angle, mut rate) = (0.0, 0.0);

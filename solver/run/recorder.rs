@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 const USUAL_EVENTS: usize = 32;
 
 /// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
-const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
+pub(crate) const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
 
 /// The record of a run under way.
 pub(crate) struct Recorder {

@@ -137,7 +137,7 @@ impl Simulator {
         // Blocks that are dropped or thrown do not begin on each other.
         if scene.initial.x.is_empty() {
             match self.run_valid(&sticking, progress) {
-                Ok(response) if sticking::stands(&scene.column, &coefficients, &response) => {
+                Ok(response) if sticking::stands(scene, &coefficients, &response) => {
                     return Ok(sticking::reported(&scene.column, response));
                 }
                 Err(cancelled @ SolveError::Cancelled { .. }) => return Err(cancelled),

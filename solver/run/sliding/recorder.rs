@@ -15,12 +15,10 @@ use crate::response::{
     StopReason, Work,
 };
 use crate::run::problem::Problem;
+use crate::run::recorder::NEGLIGIBLE_IMPULSE;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
 use std::collections::BTreeMap;
-
-/// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
-const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
 
 /// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
 const GAUSS: [(f64, f64); 5] = [
