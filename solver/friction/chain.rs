@@ -103,7 +103,7 @@ pub(super) fn scaled(a: Vec2, factor: f64) -> Vec2 {
 }
 
 /// An interface, its vectors in the axes of the ground.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Link {
     /// `R(θ_{i-1}) (a, 0)`, zero where the interface is free.
     on_lower: Vec2,
@@ -143,14 +143,15 @@ impl<'a> Chain<'a> {
         };
         let turns: PerBlock<Turn> = configuration.theta.iter().map(|angle| turn(*angle)).collect();
         let ground = Turn { sin: 0.0, cos: 1.0 };
+        let (vectors, link) = (PerBlock::filled([0.0; 2], blocks.len()), Link::default());
         let mut chain = Chain {
             column,
-            links: PerBlock::new(),
-            to_centroid: PerBlock::new(),
-            to_top: PerBlock::new(),
-            foot: PerBlock::new(),
-            top: PerBlock::new(),
-            centroid: PerBlock::new(),
+            links: PerBlock::filled(link, blocks.len()),
+            to_centroid: vectors.clone(),
+            to_top: vectors.clone(),
+            foot: vectors.clone(),
+            top: vectors.clone(),
+            centroid: vectors,
             turns,
         };
         let mut below = [0.0, 0.0];
@@ -172,17 +173,17 @@ impl<'a> Chain<'a> {
             let is_free = configuration.joints[i] == Joint::Free;
             let (on_lower, on_upper) = (lower.rotate([a, 0.0]), upper.rotate([b, 0.0]));
             let along = face.map_or(ground, |face| chain.turns[face]).rotate([1.0, 0.0]);
-            chain.links.push(Link { on_lower, on_upper, along, face, is_free });
+            chain.links[i] = Link { on_lower, on_upper, along, face, is_free };
             let apart = if is_free { configuration.apart[i] } else { plus(on_lower, on_upper) };
             let foot = plus(below, apart);
             let to_centroid = upper.rotate([0.0, block.centroid_height]);
             let to_top = upper.rotate([0.0, 2.0 * block.half_height]);
-            chain.foot.push(foot);
-            chain.centroid.push(plus(foot, to_centroid));
+            chain.foot[i] = foot;
+            chain.centroid[i] = plus(foot, to_centroid);
             below = plus(foot, to_top);
-            chain.top.push(below);
-            chain.to_centroid.push(to_centroid);
-            chain.to_top.push(to_top);
+            chain.top[i] = below;
+            chain.to_centroid[i] = to_centroid;
+            chain.to_top[i] = to_top;
         }
         chain
     }

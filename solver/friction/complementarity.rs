@@ -11,9 +11,9 @@
 //! The answer is a guess: rounding decides what is critical, so that the search examines it like any other.
 
 use super::chain::{Chain, Motion, Rates, plus, scaled};
+use super::contact::{Question, Touch};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
-use super::search::{Question, Touch};
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::lemke::lemke;

@@ -6,10 +6,10 @@
 //! ```
 
 use super::chain::Chain;
+use super::contact::{Coefficients, cone_margins, half_length};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip};
 use super::rows::Answer;
-use super::search::{Coefficients, cone_margins, half_length};
 use crate::column::Column;
 
 /// A guard of an interface (from zero), or of a block.
@@ -39,6 +39,11 @@ impl Guard {
     /// Whether its value may start from zero: a gap that has just opened, a slide that has just begun.
     pub fn may_start_from_zero(self) -> bool {
         matches!(self, Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Land(..))
+    }
+
+    /// Whether its value depends on angles and slides alone.
+    pub fn is_plain(self) -> bool {
+        matches!(self, Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Overturn(_))
     }
 
     /// Whether its value depends on forces.
@@ -91,20 +96,9 @@ pub struct Limits<'a> {
     pub slack: f64,
 }
 
-/// The value of a guard, above zero while nothing happens; `answer` is needed where forces are.
-pub fn value(guard: Guard, chain: &Chain, now: &Configuration, answer: Option<&Answer>, limits: Limits) -> f64 {
-    let column = chain.column();
-    let contact = |interface: usize| answer.map(|answer| answer.contacts[interface]).unwrap_or_default();
-    let Limits { friction, overturn_angle, slack } = limits;
+/// The value of a guard of angles and slides alone ([`Guard::is_plain`]).
+pub fn plain_value(guard: Guard, column: &Column, now: &Configuration, overturn_angle: f64) -> f64 {
     match guard {
-        Guard::Cone(i, side) => {
-            let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), contact(i), friction.fixed[i]);
-            slack + if side < 0 { to_left } else { to_right }
-        }
-        Guard::Press(i) => contact(i).normal + slack,
-        Guard::Tip(i, side) => {
-            half_length(column, i, now.slide[i]) * (contact(i).normal + slack) + f64::from(side) * contact(i).moment
-        }
         Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
         Guard::Close(i) => {
             let side = if let Joint::Corner(side, ..) = now.joints[i] { f64::from(side) } else { 1.0 };
@@ -116,13 +110,34 @@ pub fn value(guard: Guard, chain: &Chain, now: &Configuration, answer: Option<&A
             }
             _ => f64::INFINITY,
         },
-        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(chain, i),
-        Guard::Collapse(i) => half_length(column, i, now.slide[i]),
+        Guard::Overturn(block) => overturn_angle - now.theta[block].abs(),
+        Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..) | Guard::Collapse(_) | Guard::Land(_) => f64::INFINITY,
+    }
+}
+
+/// The value of a guard, above zero while nothing happens; `answer` is needed where forces are.
+pub fn value(guard: Guard, chain: &Chain, now: &Configuration, answer: Option<&Answer>, limits: Limits) -> f64 {
+    let contact = |interface: usize| answer.map(|answer| answer.contacts[interface]).unwrap_or_default();
+    let Limits { friction, overturn_angle, slack } = limits;
+    match guard {
+        Guard::Cone(i, side) => {
+            let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), contact(i), friction.fixed[i]);
+            slack + if side < 0 { to_left } else { to_right }
+        }
+        Guard::Press(i) => contact(i).normal + slack,
+        Guard::Tip(i, side) => {
+            half_length(chain.column(), i, now.slide[i]) * (contact(i).normal + slack)
+                + f64::from(side) * contact(i).moment
+        }
         Guard::Land(corner) => {
             let [beside, above] = gaps::gap(chain, corner);
             beside.max(above)
         }
-        Guard::Overturn(block) => overturn_angle - now.theta[block].abs(),
+        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(chain, i),
+        Guard::Collapse(i) => half_length(chain.column(), i, now.slide[i]),
+        Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Overturn(_) => {
+            plain_value(guard, chain.column(), now, overturn_angle)
+        }
     }
 }
 

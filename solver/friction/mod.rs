@@ -11,6 +11,7 @@
 
 pub mod chain;
 mod complementarity;
+pub mod contact;
 pub mod gaps;
 pub mod generated;
 pub mod guards;
@@ -23,7 +24,7 @@ mod generated_test;
 #[cfg(test)]
 mod oracle_test;
 
-use search::Coefficients;
+use contact::Coefficients;
 use serde::{Deserialize, Serialize};
 
 /// Coefficients of Coulomb friction between the blocks, dimensionless: one for all interfaces, or one per interface, base first.

@@ -1,8 +1,9 @@
 //! The search for contact states against brute force over all of them, by code that shares no formula with it (`tests/common/friction_oracle.rs`).
 
 use super::chain::{Chain, Rates};
+use super::contact::{Coefficients, Question, Touch};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
-use super::search::{Coefficients, Question, Search, Touch};
+use super::search::Search;
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;

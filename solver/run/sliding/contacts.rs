@@ -2,9 +2,9 @@
 
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
+use crate::friction::contact::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
-use crate::friction::search::Touch;
 use crate::run::problem::Problem;
 
 /// Share of a size, and of an angle, below which a gap is rounding.

@@ -3,10 +3,11 @@
 use super::contacts::carried;
 use super::transition::Instant;
 use crate::friction::chain::{Chain, Motion, Rates};
+use crate::friction::contact::{Question, Touch, centre};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Slip, difference, face};
 use crate::friction::rows::{Answer, Rows};
-use crate::friction::search::{Question, Search, Solution, Touch, centre};
+use crate::friction::search::{Search, Solution};
 use crate::response::{EventKind, Impulse, StopReason};
 
 /// Share of a block's size by which a corner that lands may be below the face: what the search for the landing leaves is far less.

@@ -23,7 +23,7 @@ mod transition;
 
 use super::error::SolveError;
 use super::problem::Problem;
-use crate::friction::search::Coefficients;
+use crate::friction::contact::Coefficients;
 use crate::response::{Response, StopReason};
 use mover::Mover;
 use recorder::Recorder;

@@ -6,8 +6,8 @@ use super::state::State;
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
+use crate::friction::contact::Coefficients;
 use crate::friction::joint::{Configuration, Joint, Slip};
-use crate::friction::search::Coefficients;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{

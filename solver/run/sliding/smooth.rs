@@ -3,10 +3,10 @@
 use super::state::State;
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
+use crate::friction::contact::{Coefficients, centre};
 use crate::friction::generated::Generated;
 use crate::friction::joint::Configuration;
 use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};
-use crate::friction::search::{Coefficients, centre};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::explicit::System;
 use crate::numerics::per_block::PerBlock;
@@ -59,6 +59,12 @@ impl<'p> Smooth<'p> {
 
     pub fn configuration(&self, x: &[f64]) -> Configuration {
         let mut configuration = self.base.clone();
+        self.write(x, &mut configuration);
+        configuration
+    }
+
+    /// Writes what moves into a configuration of these states.
+    pub fn write(&self, x: &[f64], configuration: &mut Configuration) {
         let (values, rates) = x.split_at(self.coordinates.len());
         for ((coordinate, &value), &rate) in self.coordinates.iter().zip(values).zip(rates) {
             match coordinate {
@@ -72,7 +78,6 @@ impl<'p> Smooth<'p> {
                 }
             }
         }
-        configuration
     }
 
     /// A moment of the motion, with its geometry.

@@ -20,6 +20,9 @@ const LOW_SHARE: f64 = 1e-3;
 /// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
 const NEAR_START: f64 = 1e-4;
 
+/// Room made for the moments of a step.
+const USUAL_MOMENTS: usize = 24;
+
 /// An accepted step with what has been evaluated inside it.
 pub struct Step<'s, 'p> {
     smooth: &'s mut Smooth<'p>,
@@ -28,8 +31,9 @@ pub struct Step<'s, 'p> {
     h: f64,
     /// Places and what they were evaluated to.
     known: Vec<(f64, Moment<'p>)>,
-    /// Storage of a state.
+    /// Storage of a state, and of its configuration.
     state: Vec<f64>,
+    storage: Configuration,
     overturn_angle: f64,
     stick_angle: f64,
 }
@@ -43,8 +47,9 @@ impl<'s, 'p> Step<'s, 'p> {
         options: &SolveOptions,
     ) -> Step<'s, 'p> {
         let &SolveOptions { overturn_angle, stick_angle, .. } = options;
-        let state = vec![0.0; 2 * smooth.dof()];
-        Step { smooth, interpolant, t, h, known: Vec::new(), state, overturn_angle, stick_angle }
+        let (state, storage) = (vec![0.0; 2 * smooth.dof()], smooth.base.clone());
+        let known = Vec::with_capacity(USUAL_MOMENTS);
+        Step { smooth, interpolant, t, h, known, state, storage, overturn_angle, stick_angle }
     }
 
     /// The configuration at a place of the step, 0 to 1.
@@ -70,6 +75,11 @@ impl<'s, 'p> Step<'s, 'p> {
     }
 
     fn value(&mut self, guard: Guard, s: f64) -> f64 {
+        if guard.is_plain() {
+            self.interpolant.evaluate(s, &mut self.state);
+            self.smooth.write(&self.state, &mut self.storage);
+            return guards::plain_value(guard, self.smooth.column, &self.storage, self.overturn_angle);
+        }
         let Smooth { column, friction, gravity, segment, .. } = *self.smooth;
         let (t, overturn_angle) = (self.t + s * self.h, self.overturn_angle);
         let moment = self.at(s, guard.needs_forces());

@@ -1,7 +1,7 @@
 //! Whether a run without sliding is the run with friction: where no friction is used up and no contact pulls, it is, to the last bit.
 
 use crate::column::{Block, Column};
-use crate::friction::search::Coefficients;
+use crate::friction::contact::Coefficients;
 use crate::response::{ContactTimes, Response, SlidingReport};
 use crate::run::recorder::NEGLIGIBLE_IMPULSE;
 use crate::scene::Scene;
