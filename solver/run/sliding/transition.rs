@@ -322,7 +322,7 @@ impl<'p> Instant<'p> {
         (joints != solution.joints).then_some(joints)
     }
 
-    /// Brings the blocks to the motion that these states allow, momentum conserved.
+    /// Brings the blocks to the motion that these states allow, momentum conserved. A corner without a gap that would close by it is closed as well.
     pub fn hold(&mut self, joints: &[Joint]) {
         let chain = Chain::new(self.column(), &self.now);
         let before = chain.motion(&Rates::of(&self.now));
@@ -333,13 +333,28 @@ impl<'p> Instant<'p> {
             }
         }
         held.joints = PerBlock::from_slice(joints);
-        let chain = Chain::new(self.column(), &held);
         let none = vec![0.0; joints.len()];
-        let Some(answer) = Rows::new(&chain, joints, &none, &none).impact(&before) else { return };
-        answer.rates.give(&mut held);
+        let chain = loop {
+            let chain = Chain::new(self.column(), &held);
+            let Some(answer) = Rows::new(&chain, &held.joints, &none, &none).impact(&before) else { return };
+            let closes = |interface: usize| match held.joints[interface] {
+                Joint::Corner(side, _, slip) => {
+                    let has_no_gap = held.gap_angle(interface).abs() <= self.resolution.angle;
+                    let rate = f64::from(side) * difference(&answer.rates.omega, interface);
+                    (has_no_gap && rate < 0.0).then_some(slip)
+                }
+                Joint::Closed(_) | Joint::Free => None,
+            };
+            let Some((interface, slip)) = (0..joints.len()).find_map(|i| closes(i).map(|slip| (i, slip))) else {
+                answer.rates.give(&mut held);
+                break chain;
+            };
+            held.joints[interface] = Joint::Closed(slip);
+        };
         let after = chain.motion(&Rates::of(&held));
         self.energy_lost += before.energy(self.column()) - after.energy(self.column());
+        let joints = held.joints.clone();
         self.now = held;
-        self.adopt(joints);
+        self.adopt(&joints);
     }
 }
