@@ -244,7 +244,7 @@ fn violation(scene: &Scene, response: &Response) -> Option<String> {
         // Of a free interface the slide is that of the middles of the faces, which no contact has had.
         let is_free = sliding.times[interface].free > 0.0
             || !scene.initial.x.is_empty()
-            || response.status == StopReason::Undetermined;
+            || matches!(response.status, StopReason::Undetermined | StopReason::Collapsed);
         if !(peak.is_finite() && residual.is_finite()) || (!is_free && residual.abs() > peak + slack * size) {
             return Some(format!("interface {}: a slide of {residual} m beyond the peak {peak} m", interface + 1));
         }

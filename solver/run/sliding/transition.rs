@@ -167,8 +167,12 @@ impl<'p> Instant<'p> {
         let is_new = |joint: Joint, interface: usize| joint.sticks() && !before.joints[interface].sticks();
         let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
         let is_stale = |solution: &Solution| !may_repeat && solution.joints == before.joints;
-        let found = self.accelerations(&touch, hint).filter(|solution| !is_stale(solution));
-        let mut solution = match found.or_else(|| self.search(&touch).solve_otherwise(&before.joints)) {
+        let found = match self.accelerations(&touch, hint) {
+            Some(stale) if is_stale(&stale) => self.search(&touch).solve_otherwise(&before.joints).or(Some(stale)),
+            Some(found) => Some(found),
+            None => self.search(&touch).solve_otherwise(&before.joints),
+        };
+        let mut solution = match found {
             Some(solution) => solution,
             None => {
                 // No acceleration is admissible: velocities jump as in an impact (Painlevé).
