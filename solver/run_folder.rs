@@ -123,6 +123,40 @@ impl<'a> Run<'a> {
         let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, Vec::new());
         Run { scene, response, scene_text, wall_seconds, warnings, outdated }
     }
+
+    fn summary(&self) -> Summary<'_> {
+        let Run { scene, response, .. } = *self;
+        let components = [("horizontal", &scene.excitation.horizontal), ("vertical", &scene.excitation.vertical)];
+        let peak = |motion: &Option<Motion>| {
+            let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
+            peaks.map_or(0.0, |[acceleration, ..]| acceleration)
+        };
+        Summary {
+            title: &scene.title,
+            version: env!("CARGO_PKG_VERSION"),
+            scene: &self.scene_text,
+            response,
+            overturned_at: response.overturned_at(),
+            method: scene.options.method.stepper().name(),
+            wall_seconds: self.wall_seconds,
+            warnings: &self.warnings,
+            options: &scene.options,
+            column: &scene.column,
+            friction: scene.friction.as_ref(),
+            restitution: &scene.restitution,
+            excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
+            peak_ground_acceleration: components.map(|(_, motion)| peak(motion)),
+            initial: &scene.initial,
+        }
+    }
+
+    /// The text of `summary.json`.
+    ///
+    /// # Errors
+    /// That of the serializer, which a scene and its response do not cause.
+    pub fn summary_json(&self) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(&Explicit(&self.summary()))
+    }
 }
 
 /// `summary.json` as it is written.
@@ -176,28 +210,7 @@ impl Folder {
     /// [`FolderError::Write`]
     pub fn write(&self, run: &Run) -> Result<(), FolderError> {
         let Run { scene, response, .. } = *run;
-        let components = [("horizontal", &scene.excitation.horizontal), ("vertical", &scene.excitation.vertical)];
-        let peak = |motion: &Option<Motion>| {
-            let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
-            peaks.map_or(0.0, |[acceleration, ..]| acceleration)
-        };
-        let summary = Summary {
-            title: &scene.title,
-            version: env!("CARGO_PKG_VERSION"),
-            scene: &run.scene_text,
-            response,
-            overturned_at: response.overturned_at(),
-            method: scene.options.method.stepper().name(),
-            wall_seconds: run.wall_seconds,
-            warnings: &run.warnings,
-            options: &scene.options,
-            column: &scene.column,
-            friction: scene.friction.as_ref(),
-            restitution: &scene.restitution,
-            excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
-            peak_ground_acceleration: components.map(|(_, motion)| peak(motion)),
-            initial: &scene.initial,
-        };
+        let summary = run.summary();
         let drafts = [
             self.draft(|file| history(file, scene.column.len(), &response.samples))?,
             self.draft(|file| events(file, &response.events))?,

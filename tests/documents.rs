@@ -227,7 +227,8 @@ fn every_command_that_a_document_shows_exists() {
         let (prose, fenced) = split(&text);
         let (code, _) = inline_code(&prose);
         for line in code.into_iter().chain(fenced) {
-            let line = line.replace("cargo run --release -- ", "rocking ");
+            // The package of this name in Python.
+            let line = line.replace("cargo run --release -- ", "rocking ").replace("import rocking as", "");
             for call in line.split("rocking ").skip(1) {
                 let mut words = call.split('|').next().unwrap_or("").split_whitespace();
                 let Some(command) = words.next().filter(|word| word.chars().all(|c| c.is_ascii_lowercase())) else {

@@ -24,7 +24,14 @@ impl Template {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_file(file: &Path) -> Result<Template, SceneFileError> {
-        let text = text(file)?;
+        Template::from_toml(text(file)?, file)
+    }
+
+    /// Reads TOML text; `file` is named in errors, and records are found relative to it.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn from_toml(text: String, file: &Path) -> Result<Template, SceneFileError> {
         let root = Table::parse(&text).map_err(|wrong| Reader { text: &text, file, records: None }.error(wrong))?;
         let template = Template { text, file: file.into(), root, records: Records::default() };
         template.with(std::iter::empty())?;

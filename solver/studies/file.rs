@@ -50,11 +50,18 @@ impl IdaFile {
     /// # Errors
     /// [`SceneFileError`], with file, line, key and remedy.
     pub fn from_file(file: &Path) -> Result<IdaFile, SceneFileError> {
-        let text = text(file)?;
+        IdaFile::from_toml(&text(file)?, file)
+    }
+
+    /// Reads a study from TOML text; `file` is named in errors, and scene and records are found relative to it.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn from_toml(text: &str, file: &Path) -> Result<IdaFile, SceneFileError> {
         let kept = Records::default();
-        let reader = Reader { text: &text, file, records: Some(&kept) };
+        let reader = Reader { text, file, records: Some(&kept) };
         let own = |wrong| reader.error(wrong);
-        let mut root = Table::parse(&text).map_err(own)?;
+        let mut root = Table::parse(text).map_err(own)?;
         let mut inputs = vec![file.to_path_buf()];
         let scene = scene(&reader, &mut root, &mut inputs)?;
         let intensity = intensity(&mut root).map_err(own)?;

@@ -162,8 +162,8 @@ fn weighted(count: f64, z: f64) -> f64 {
     if count > 0.0 { count * log_normal(z) } else { 0.0 }
 }
 
-/// `Φ(z)`.
-pub(super) fn normal(z: f64) -> f64 {
+/// `Φ(z)`, the distribution of a standard normal variable.
+pub fn normal(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 

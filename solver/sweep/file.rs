@@ -19,13 +19,35 @@ impl Sweep {
     /// # Errors
     /// [`SceneFileError`], with file, line, key and remedy.
     pub fn from_file(file: &Path) -> Result<Sweep, SceneFileError> {
-        let text = text(file)?;
-        let reader = Reader { text: &text, file, records: None };
+        Sweep::from_toml(&text(file)?, file, None)
+    }
+
+    /// Reads a sweep from TOML text; `file` is named in errors. `base` is the base scene of a text that names none.
+    ///
+    /// ```
+    /// use rocking::{scene_file::Template, sweep::Sweep};
+    /// let base = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.1]\n";
+    /// let base = Template::from_toml(base.into(), "base.toml".as_ref())?;
+    /// let sweep = Sweep::from_toml("[axes]\n\"theta[1]\" = [0.1, 0.2]\n", "axes.toml".as_ref(), Some(base))?;
+    /// assert_eq!(sweep.rows(0..sweep.len()).len(), 2);
+    /// # Ok::<(), rocking::SceneFileError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    pub fn from_toml(text: &str, file: &Path, base: Option<Template>) -> Result<Sweep, SceneFileError> {
+        let reader = Reader { text, file, records: None };
         let own = |wrong| reader.error(wrong);
-        let mut root = Table::parse(&text).map_err(own)?;
-        let base = match root.text("scene").map_err(own)? {
-            Some((name, _)) => file.parent().unwrap_or(Path::new("")).join(name),
-            None => return Err(own(root.missing("scene", "name the base scene: scene = \"base.toml\""))),
+        let mut root = Table::parse(text).map_err(own)?;
+        let template = match (base, root.text("scene").map_err(own)?) {
+            (Some(template), None) => template,
+            (Some(_), Some(_)) => {
+                return Err(own(root.wrong("scene", "the base scene is given already".into(), "remove it")));
+            }
+            (None, Some((name, _))) => {
+                Template::from_file(&file.parent().unwrap_or(Path::new("")).join(name))?
+            }
+            (None, None) => return Err(own(root.missing("scene", "name the base scene: scene = \"base.toml\""))),
         };
         let combine = match root.text("combine").map_err(own)? {
             None => Combine::Cartesian,
@@ -38,7 +60,6 @@ impl Sweep {
                 own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides"]))
             })?,
         };
-        let template = Template::from_file(&base)?;
         let Some(mut table) = root.table("axes").map_err(own)? else {
             return Err(own(root.missing("axes", "add [axes] with a line for each key that varies")));
         };

@@ -1,0 +1,71 @@
+//! `rocking`: scenes in, responses out. Command line, files and messages; no mechanics.
+//!
+//! The program is [`main`]. Other programs may use the page and the figures of a run: [`page`] and [`figures`].
+
+mod arguments;
+mod commands;
+mod error;
+mod files;
+mod ground;
+mod number;
+mod output;
+mod plot;
+mod posture;
+mod progress;
+mod report;
+mod table;
+mod terminal;
+mod text;
+
+use clap::Parser;
+use rocking::run_folder::Results;
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+pub use report::page;
+
+/// Carries out the command of the arguments of this process; the status with which the process should exit.
+pub fn main() -> ExitCode {
+    execute(arguments::Arguments::parse()).into()
+}
+
+/// As [`main`] with these arguments, the name of the program first.
+pub fn main_with<T: Into<OsString> + Clone>(words: impl IntoIterator<Item = T>) -> u8 {
+    match arguments::Arguments::try_parse_from(words) {
+        Ok(arguments) => execute(arguments),
+        Err(refused) => {
+            // A terminal that is closed cannot be told.
+            let _ = refused.print();
+            u8::try_from(refused.exit_code()).unwrap_or(2)
+        }
+    }
+}
+
+fn execute(arguments: arguments::Arguments) -> u8 {
+    error::install_report();
+    match commands::execute(arguments) {
+        Ok(()) => 0,
+        Err(failure) => {
+            let code = failure.exit_code();
+            eprintln!("{:?}", miette::Report::new(error::Report(failure)));
+            code
+        }
+    }
+}
+
+/// A figure of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Name, e.g. `time-history`.
+    pub name: &'static str,
+    /// Content in a sentence.
+    pub caption: String,
+    /// The document.
+    pub svg: String,
+}
+
+/// The figures of a run, in the order in which they are read.
+pub fn figures(results: &Results) -> Vec<Picture> {
+    let pictures = plot::figures(results).into_iter();
+    pictures.map(|plot::Figure { name, caption, svg, .. }| Picture { name, caption, svg }).collect()
+}

@@ -1,0 +1,99 @@
+"""Ground motion by formulas: the keys of one component of a scene file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Union
+
+from ._record import Record
+
+#: What shakes in one direction: a pulse, a record, or the keys of a component as a mapping.
+MotionLike = Union["Motion", Record, Mapping[str, Any]]
+
+
+class Motion(Mapping[str, Any]):
+    """The keys of one component of the ground motion, as below ``[excitation.horizontal]``; not changed after it was made."""
+
+    def __init__(self, **keys: Any) -> None:
+        self._keys = {key: value for key, value in keys.items() if value is not None}
+
+    def __getitem__(self, key: str) -> Any:
+        return self._keys[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._keys)
+
+    def __len__(self) -> int:
+        return len(self._keys)
+
+    def __repr__(self) -> str:
+        return f"Motion({', '.join(f'{key}={value!r}' for key, value in self._keys.items())})"
+
+    def __add__(self, other: MotionLike) -> "Motion":
+        return total(self, other)
+
+    def replace(self, **keys: Any) -> "Motion":
+        """The motion with other keys; ``None`` removes one."""
+        return Motion(**{**self._keys, **keys})
+
+    def _scene_keys(self) -> dict[str, Any]:
+        return self._keys
+
+
+def pulse(
+    kind: str,
+    *,
+    amplitude: float | None = None,
+    amplitude_g: float | None = None,
+    amplitude_uplift: float | None = None,
+    velocity: float | None = None,
+    omega: float | None = None,
+    frequency: float | None = None,
+    period: float | None = None,
+    omega_p: float | None = None,
+    start: float | None = None,
+    phase: float | None = None,
+    gamma: float | None = None,
+    duration: float | None = None,
+    cycles: int | None = None,
+) -> Motion:
+    """A motion by a formula. Exactly one amplitude and one frequency are given.
+
+    Parameters
+    ----------
+    kind : str
+        ``sine-pulse``, ``cosine-pulse``, ``half-sine``, ``type-c``, ``ricker``, ``antisymmetric-ricker``, ``mavroeidis-papageorgiou``, ``gabor``,
+        ``rectangular``, ``double-rectangular`` or ``harmonic``.
+    amplitude, amplitude_g, amplitude_uplift : float
+        In m/s², in g, or over ``g tan α``, which opens the base of the column.
+    velocity : float
+        Amplitude of the velocity [m/s], of ``mavroeidis-papageorgiou`` and ``gabor``.
+    omega, frequency, period, omega_p : float
+        In rad/s, Hz or s, or over the frequency parameter p of the column as one body.
+    start, phase, gamma, duration, cycles
+        As in a scene file: s, rad, dimensionless, s, a whole number.
+
+    >>> pulse("ricker", amplitude_g=0.4, frequency=1.2)
+    Motion(kind='ricker', amplitude_g=0.4, frequency=1.2)
+    """
+    return Motion(
+        kind=kind,
+        amplitude=amplitude,
+        amplitude_g=amplitude_g,
+        amplitude_uplift=amplitude_uplift,
+        velocity=velocity,
+        omega=omega,
+        frequency=frequency,
+        period=period,
+        omega_p=omega_p,
+        start=start,
+        phase=phase,
+        gamma=gamma,
+        duration=duration,
+        cycles=cycles,
+    )
+
+
+def total(*terms: MotionLike) -> Motion:
+    """The sum of several motions."""
+    return Motion(kind="sum", term=[dict(term) if isinstance(term, Mapping) else term for term in terms])

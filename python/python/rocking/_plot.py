@@ -1,0 +1,91 @@
+"""Figures, drawn by matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._record import Record
+    from ._run import Run
+    from ._study import Fragility, Study
+
+#: |θ|/α beyond which angles are not drawn: a falling block would hide the rocking.
+DRAWN = 1.2
+
+
+def record(drawn: "Record", ax: "Axes | None" = None) -> "Axes":
+    ax = plt.subplots(figsize=(8, 2.5), layout="constrained")[1] if ax is None else ax
+    ax.plot(drawn.t, drawn.accel, lw=0.8)
+    ax.set(xlabel="t [s]", ylabel="a [m/s²]", title=drawn.name or None)
+    return ax
+
+
+def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
+    if len(drawn.t) == 0:
+        raise ValueError("the run has no rows; run it with rows=True")
+    if axes is None:
+        axes = plt.subplots(2, 1, sharex=True, figsize=(8, 5), height_ratios=[1, 2.5], layout="constrained")[1]
+    above, below = axes
+    for column, name in enumerate(("horizontal", "vertical")):
+        if np.any(drawn.ground[:, column]):
+            above.plot(drawn.t, drawn.ground[:, column], lw=0.8, label=name)
+    above.set(ylabel="ground [m/s²]")
+    if len(above.lines) > 1:
+        above.legend(frameon=False)
+    shares = drawn.theta / drawn.alpha
+    for block in range(shares.shape[1]):
+        below.plot(drawn.t, shares[:, block], lw=1, label=f"block {block + 1}")
+    times = drawn.events["t"][drawn.events["kind"].isin(["impact", "landing"])]
+    below.plot(times, np.full(len(times), 0.02), "|", color="0.5", ms=6, transform=below.get_xaxis_transform(), label="impacts")
+    low, high = max(shares.min(), -DRAWN), min(shares.max(), DRAWN)
+    room = 0.08 * (high - low or 1.0)
+    below.set(xlabel="t [s]", ylabel="θ / α", ylim=(low - 2 * room, high + room), xlim=(drawn.t[0], drawn.t[-1] or 1.0))
+    below.legend(frameon=False, ncols=min(shares.shape[1] + 1, 6), loc="upper right", fontsize="small")
+    above.set_title(drawn.scene.title or f"{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")
+    return np.array([above, below])
+
+
+def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
+    ax = plt.subplots(figsize=(6, 5), layout="constrained")[1] if ax is None else ax
+    labels, levels, outcomes, _, peaks, _ = drawn._columns()
+    demand = np.fmax.reduce(peaks, axis=1) if peaks.shape[1] else np.full(len(levels), np.nan)
+    lost = np.isin(np.array(outcomes, dtype=object), ["overturns", "collapses"])
+    right = max(1.0, float(np.nanmax(np.where(lost, np.nan, demand), initial=0.0))) * 1.1
+    demand = np.where(lost, right, demand)
+    sizes = np.array(levels)
+    for label in dict.fromkeys(labels):
+        own = np.flatnonzero(np.array(labels) == label)
+        own = own[np.argsort(sizes[own])]
+        ax.plot(demand[own], sizes[own], lw=0.8, color="0.7", marker=".", ms=3)
+    for share, style in ((16, ":"), (50, "-"), (84, "--")):
+        fractile = np.minimum(drawn.stripes[f"peak_{share}"].to_numpy(), right)
+        ax.plot(fractile, drawn.stripes[drawn.measure], style, color="C0", lw=1.6, label=f"{share} %")
+    ax.axvline(right, color="0.4", lw=0.8)
+    ax.annotate("lost", (right, 1.01), xycoords=("data", "axes fraction"), ha="right", fontsize="small")
+    ax.set(xlabel="largest |θ| / α", ylabel=drawn.label, xlim=(0, right * 1.02), ylim=(0, None))
+    ax.legend(frameon=False, title="fractile")
+    return ax
+
+
+def fragility(drawn: "Fragility", ax: "Axes | None" = None, **style: Any) -> "Axes":
+    ax = plt.subplots(figsize=(6, 4), layout="constrained")[1] if ax is None else ax
+    counts = drawn.counts
+    known = counts[counts.runs > 0]
+    color = style.pop("color", None) or ax._get_lines.get_next_color()  # type: ignore[attr-defined]
+    label = style.pop("label", drawn.state)
+    ax.plot(known.level, known.share, "o", ms=4, mfc="none", color=color, label=label if drawn.median is None else None)
+    if drawn.median is not None and len(known):
+        levels = np.geomspace(known.level.min(), known.level.max(), 200)
+        ax.plot(levels, drawn.probability(levels), color=color, label=f"{label}: median {drawn.median:.3g}, dispersion {drawn.dispersion:.2g}", **style)
+        if drawn.bands and drawn.bands["levels"]:
+            low, high = np.array(drawn.bands["probability"]).T
+            ax.fill_between(drawn.bands["levels"], low, high, color=color, alpha=0.15, lw=0)
+    ax.set(xlabel=drawn.label, ylabel="probability", ylim=(-0.02, 1.02))
+    ax.legend(frameon=False, fontsize="small")
+    return ax

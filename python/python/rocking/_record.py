@@ -1,0 +1,330 @@
+"""Records of ground motion, alone and in sets."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _rocking
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._scene import Column
+
+Array = npt.NDArray[np.float64]
+
+#: Size of one g [m/s²] where no scene says.
+GRAVITY = 9.81
+
+
+class Record:
+    """Ground acceleration at equal intervals, linear between the samples and zero outside; not changed after it was made.
+
+    Parameters
+    ----------
+    accel : array, shape (samples,)
+        Accelerations [m/s²].
+    dt : float
+        Sampling interval [s].
+    start : float
+        Time of the first sample [s].
+    name : str
+        As in tables and reports.
+
+    >>> Record([0.0, 1.0, -1.0, 0.0], dt=0.01).duration
+    0.03
+    """
+
+    def __init__(self, accel: npt.ArrayLike, dt: float, *, start: float = 0.0, name: str = "") -> None:
+        samples = np.ascontiguousarray(accel, dtype=np.float64)
+        if samples.ndim != 1:
+            raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
+        self._record = _rocking.Record(samples, float(dt), float(start), name)
+
+    @classmethod
+    def _of(cls, record: _rocking.Record) -> "Record":
+        made = cls.__new__(cls)
+        made._record = record
+        return made
+
+    @classmethod
+    def read(
+        cls,
+        file: str | os.PathLike[str],
+        *,
+        units: str | None = None,
+        dt: float | None = None,
+        lenient: bool = False,
+        channel: int | None = None,
+        column: str | int | None = None,
+        skip_rows: int = 0,
+        gravity: float = GRAVITY,
+    ) -> "Record":
+        """Reads a file of PEER, ESM, ITACA, K-NET, KiK-net, CSMIP, COSMOS, or a table; what the file does not say is given as for records of scene files.
+
+        Raises
+        ------
+        RecordError
+            With the place in the file and the remedy.
+        OSError
+            For a file that cannot be opened.
+        """
+        name = None if column is None else str(column)
+        return cls._of(_rocking.Record.read(os.fspath(file), gravity, dt, units, lenient, channel, skip_rows, name))
+
+    @classmethod
+    def synthetic(
+        cls,
+        seed: int,
+        *,
+        duration: float = 20.0,
+        dt: float = 0.01,
+        frequency: float = 2.5,
+        damping: float = 0.6,
+        pga: float = 3.0,
+    ) -> "Record":
+        """Filtered noise, the same for the same seed on every machine; units s, s, Hz, dimensionless, m/s²."""
+        return cls._of(_rocking.Record.synthetic(seed, duration, dt, frequency, damping, pga))
+
+    def scaled(
+        self,
+        scale: float | None = None,
+        *,
+        gravity: float = GRAVITY,
+        column: "Column | None" = None,
+        sa_period: float | None = None,
+        sa_damping: float | None = None,
+        **size: float,
+    ) -> "Record":
+        """The record times a factor, or scaled to one measure by its name in a scene file.
+
+        Measures are ``pga`` [m/s²], ``pga_g`` [g], ``pga_uplift`` [g tan α], ``pgv`` [m/s], ``pgv_uplift`` [g tan α / p], ``pgd`` [m], ``arias`` [m/s],
+        ``cav`` [m/s], and ``sa`` [m/s²] or ``sa_g`` [g] at ``sa_period`` [s]. Those of ``uplift`` need the column.
+
+        >>> float(Record([0.0, 1.0, -2.0], dt=0.01).scaled(pga=0.5).accel.min())
+        -0.5
+        """
+        if len(size) + (scale is not None) != 1:
+            known = ", ".join(["scale", *_rocking.MEASURES])
+            raise TypeError(f"give one size, of {known}; {len(size) + (scale is not None)} are given")
+        if scale is not None:
+            return Record._of(self._record.scaled(float(scale)))
+        ((measure, value),) = size.items()
+        scene = None if column is None else column._native()
+        return Record._of(self._record.scaled_to(measure, float(value), gravity, scene, sa_period, sa_damping))
+
+    def trimmed(self, start: float, stop: float) -> "Record":
+        """The samples from ``start`` to ``stop``, both included, counted from the first sample [s]."""
+        return Record._of(self._record.trimmed(start, stop))
+
+    def starting_at(self, start: float) -> "Record":
+        """The record with its first sample at a time [s]."""
+        return Record._of(self._record.starting_at(start))
+
+    def named(self, name: str) -> "Record":
+        """The record under another name."""
+        return Record._of(self._record.named(name))
+
+    @property
+    def name(self) -> str:
+        """File, or name."""
+        return self._record.source[0]
+
+    @property
+    def t(self) -> Array:
+        """Times of the samples [s], shape (samples,)."""
+        times: Array = self.start + self.dt * np.arange(len(self), dtype=np.float64)
+        return times
+
+    @property
+    def accel(self) -> Array:
+        """Accelerations [m/s²], shape (samples,)."""
+        return self._record.accel
+
+    @property
+    def velocity(self) -> Array:
+        """Ground velocity [m/s], from rest at the first sample, shape (samples,)."""
+        return self._record.velocity
+
+    @property
+    def displacement(self) -> Array:
+        """Ground displacement [m], from rest at the first sample, shape (samples,)."""
+        return self._record.displacement
+
+    @property
+    def dt(self) -> float:
+        """Sampling interval [s]."""
+        return self._record.dt
+
+    @property
+    def start(self) -> float:
+        """Time of the first sample [s]."""
+        return self._record.start
+
+    @property
+    def duration(self) -> float:
+        """Time from the first sample to the last [s]."""
+        return self._record.duration
+
+    @property
+    def scale(self) -> float:
+        """Factor of the samples since they were read."""
+        return self._record.scale
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is to be known of the file, a sentence each."""
+        return self._record.warnings
+
+    def measures(self, gravity: float = GRAVITY) -> dict[str, float]:
+        """Intensity measures by name: PGA, PGV, PGD, Arias intensity, CAV, durations, mean period; SI."""
+        return self._record.measures(gravity)
+
+    def spectrum(self, periods: npt.ArrayLike, damping: float = 0.05) -> Array:
+        """Pseudo-spectral accelerations [m/s²] at periods [s], of the shape of the periods."""
+        wanted = np.asarray(periods, dtype=np.float64)
+        return self._record.spectrum(np.ascontiguousarray(wanted.ravel()), damping).reshape(wanted.shape)
+
+    def to_csv(self, file: str | os.PathLike[str] | None = None) -> str | None:
+        """The record as a table of times and accelerations that reads back to the same samples; text where no file is given."""
+        text = self._record.to_csv()
+        if file is None:
+            return text
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(text)
+        return None
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draws the accelerations over time."""
+        from ._plot import record
+
+        return record(self, ax)
+
+    def __len__(self) -> int:
+        return len(self._record.accel)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Record) and self._record.equals(other._record)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        peak = float(np.abs(self.accel).max())
+        return f"<Record {self.name or 'without name'}: {len(self)} samples every {self.dt:g} s, peak {peak:.4g} m/s²>"
+
+    def _scene_keys(self) -> dict[str, Any]:
+        return {"kind": "record", "accel": self.accel.tolist(), "dt": self.dt, "start": self.start}
+
+    def __getstate__(self) -> bytes:
+        return self._record.state()
+
+    def __setstate__(self, state: bytes) -> None:
+        self._record = _rocking.Record.from_state(state)
+
+
+class StudyRecord:
+    """Components of one record under a name: horizontal, and perhaps vertical."""
+
+    def __init__(self, name: str, horizontal: Record, vertical: Record | None = None) -> None:
+        self.name = name
+        self.horizontal = horizontal
+        self.vertical = vertical
+
+    def _native(self) -> _rocking.StudyRecord:
+        return _rocking.StudyRecord(self.name, self.horizontal._record, None if self.vertical is None else self.vertical._record)
+
+    @classmethod
+    def _of(cls, record: _rocking.StudyRecord) -> "StudyRecord":
+        vertical = record.vertical
+        return cls(record.name, Record._of(record.horizontal), None if vertical is None else Record._of(vertical))
+
+    def __repr__(self) -> str:
+        return f"<StudyRecord {self.name}{': horizontal and vertical' if self.vertical else ''}>"
+
+
+class Records(Sequence[StudyRecord]):
+    """Records of a study, each under a name of its own."""
+
+    def __init__(self, records: "Iterable[StudyRecord | Record]") -> None:
+        self._records: list[StudyRecord] = []
+        for number, record in enumerate(records, start=1):
+            if isinstance(record, Record):
+                record = StudyRecord(record.name or f"record {number}", record)
+            self._records.append(record)
+        names = [record.name for record in self._records]
+        for name in names:
+            if names.count(name) > 1:
+                raise ValueError(f"record {name} is there twice; give each record a name of its own with Record.named")
+
+    @overload
+    def __getitem__(self, index: int) -> StudyRecord: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> "Records": ...
+
+    def __getitem__(self, index: int | slice) -> "StudyRecord | Records":
+        return Records(self._records[index]) if isinstance(index, slice) else self._records[index]
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def __iter__(self) -> Iterator[StudyRecord]:
+        return iter(self._records)
+
+    def __repr__(self) -> str:
+        return f"<Records: {', '.join(record.name for record in self._records)}>"
+
+
+def records(
+    folder: str | os.PathLike[str],
+    *,
+    component: str | None = None,
+    vertical: bool | None = None,
+    units: str | None = None,
+    dt: float | None = None,
+    lenient: bool | None = None,
+    channel: int | None = None,
+    column: str | int | None = None,
+    skip_rows: int | None = None,
+) -> Records:
+    """All record files of a folder, in the order of their names.
+
+    Parameters
+    ----------
+    component : str
+        ``horizontal`` (the default) takes each horizontal component as a record of its own, ``vertical`` the vertical ones, another name those whose
+        file name or header says so (``H1``, ``EW``, ...).
+    vertical : bool
+        Whether the vertical component of each record shakes as well.
+
+    Raises
+    ------
+    SceneError
+        For a folder without records, a record without the component, a file that cannot be read.
+    """
+    keys: dict[str, Any] = {
+        "folder": os.path.abspath(folder),
+        "component": component,
+        "vertical": vertical,
+        "units": units,
+        "dt": dt,
+        "lenient": lenient,
+        "channel": channel,
+        "column": column,
+        "skip_rows": skip_rows,
+    }
+    # The reader of studies finds components; any column and any level do.
+    study = {"measure": "pga", "levels": [1.0], "records": keys, "scene": {"block": [{"half_width": 0.1, "half_height": 1.0}]}}
+    found = _rocking.Ida.from_toml(_rocking.to_toml(study), "<records>").records
+    return Records(StudyRecord._of(record) for record in found)
+
+
+def synthetic(seeds: Iterable[int], *, duration: float = 20.0, dt: float = 0.01, frequency: float = 2.5, damping: float = 0.6) -> Records:
+    """Synthetic records, one for each seed; units s, s, Hz, dimensionless."""
+    made = (Record.synthetic(seed, duration=duration, dt=dt, frequency=frequency, damping=damping) for seed in seeds)
+    return Records(made)

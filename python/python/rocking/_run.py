@@ -1,0 +1,274 @@
+"""Runs: arrays, events, summary, pictures."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _rocking
+from ._motion import MotionLike
+from ._record import Array
+from ._scene import Column, Scene, SceneKeys
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from typing_extensions import Unpack
+
+
+def simulate(
+    column: "Scene | Column | Iterable[Mapping[str, Any]]",
+    motion: MotionLike | None = None,
+    *,
+    vertical: MotionLike | None = None,
+    rows: bool = True,
+    forces: bool = True,
+    wanted: str = "everything",
+    **arguments: "Unpack[SceneKeys]",
+) -> "Run":
+    """Runs a scene, or a column under a ground motion.
+
+    The computation releases the interpreter's lock, and Ctrl-C ends it.
+
+    Parameters
+    ----------
+    column : Scene, Column or blocks
+    motion, vertical : Motion, Record or mapping
+        Ground motion; of a scene, in place of its own.
+    rows : bool
+        Whether rows are returned, every ``output_dt`` seconds. Without them a short run takes a fraction of the time.
+    forces : bool
+        Whether friction demand and smallest normal forces are found.
+    wanted : str
+        ``everything``, ``outcome`` (whether and when it overturns: no rows, events, peaks or forces) or ``overturns`` (whether it does).
+    **arguments
+        As of :class:`Scene`.
+
+    Raises
+    ------
+    SceneError
+        With the key and the remedy.
+    SolveError
+        With the time.
+
+    >>> run = simulate(Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2, output_dt=0.5)
+    >>> run.t.tolist(), run.theta.shape, run.impacts
+    ([0.0, 0.5, 1.0, 1.5, 2.0], (5, 1), 3)
+    """
+    if not isinstance(column, Scene):
+        scene = Scene(column, motion, vertical, **arguments)
+    elif arguments or motion is not None or vertical is not None:
+        scene = column.replace(horizontal=motion, vertical=vertical, **arguments)
+    else:
+        scene = column
+    return Run(scene, scene._compiled.run(rows, forces, wanted))
+
+
+class Run:
+    """The response of a column. Blocks and interfaces are base first."""
+
+    def __init__(self, scene: Scene, response: _rocking.Response) -> None:
+        self.scene = scene
+        self._response = response
+
+    @cached_property
+    def t(self) -> Array:
+        """Times of the rows [s], shape (rows,)."""
+        return self._response.t()
+
+    @cached_property
+    def theta(self) -> Array:
+        """Angles of the blocks [rad], clockwise positive, shape (rows, blocks)."""
+        return self._response.theta()
+
+    @cached_property
+    def omega(self) -> Array:
+        """Rates of the angles [rad/s], shape (rows, blocks)."""
+        return self._response.omega()
+
+    @cached_property
+    def ground(self) -> Array:
+        """Ground acceleration, horizontal and vertical [m/s²], shape (rows, 2)."""
+        return self._response.ground()
+
+    @cached_property
+    def pattern(self) -> npt.NDArray[np.int8]:
+        """Signs of the interfaces: 1 open on the right corner, -1 on the left, 0 closed; shape (rows, blocks)."""
+        return self._response.pattern()
+
+    @cached_property
+    def slide(self) -> Array | None:
+        """Slides at the interfaces [m], shape (rows, blocks); None without friction."""
+        return self._response.slide()
+
+    @cached_property
+    def gap(self) -> Array | None:
+        """Gaps of free interfaces [m], shape (rows, blocks); None without friction."""
+        return self._response.gap()
+
+    @cached_property
+    def place(self) -> Array | None:
+        """Centroids in the frame of the ground [m], shape (rows, blocks, 2); None where nothing slides or flies."""
+        state = self._response.place_and_velocity()
+        return None if state is None else state[:, :, :2]
+
+    @cached_property
+    def velocity(self) -> Array | None:
+        """Velocities of the centroids in the frame of the ground [m/s], shape (rows, blocks, 2); None where nothing slides or flies."""
+        state = self._response.place_and_velocity()
+        return None if state is None else state[:, :, 2:]
+
+    @cached_property
+    def force(self) -> Array | None:
+        """Normal force, tangential force [N] and moment [N m] of the contacts, shape (rows, blocks, 3); None where nothing slides or flies."""
+        return self._response.force()
+
+    @cached_property
+    def events(self) -> pd.DataFrame:
+        """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s], impulses [N s]."""
+        columns: dict[str, Any] = {}
+        for name, values in self._response.events().items():
+            if getattr(values, "ndim", 1) == 2:
+                columns.update({f"{name}_{block + 1}": values[:, block] for block in range(values.shape[1])})
+            elif name == "interface":
+                columns[name] = pd.arrays.IntegerArray(values, values == 0)
+            else:
+                columns[name] = values if isinstance(values, np.ndarray) else pd.array(values, dtype="string")
+        return pd.DataFrame(columns)
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """The content of ``summary.json``."""
+        read: dict[str, Any] = json.loads(self._response.summary())
+        return read
+
+    @property
+    def status(self) -> str:
+        """Why the run ended: ``end-of-time``, ``at-rest``, ``overturned``, ``collapsed``, ``undetermined``, ..."""
+        return self._response.status
+
+    @property
+    def outcome(self) -> str:
+        """What became of the column, as in tables: ``no-uplift``, ``rocks``, ``overturns``, ``slides``, ``collapses``, ``undetermined``."""
+        return self._response.outcome
+
+    @property
+    def overturned(self) -> bool:
+        """Whether the column overturned, or is certain to."""
+        return self._response.overturned
+
+    @property
+    def t_final(self) -> float:
+        """When the run ended [s]."""
+        return self._response.t_final
+
+    @property
+    def impacts(self) -> int:
+        """Number of impacts."""
+        return self._response.impacts
+
+    @property
+    def seconds(self) -> float:
+        """Duration of the computation [s]."""
+        return self._response.seconds
+
+    @cached_property
+    def peak_theta(self) -> Array:
+        """Largest size of each angle [rad], shape (blocks,)."""
+        return self._response.peak_theta()
+
+    @cached_property
+    def alpha(self) -> Array:
+        """Slenderness of the stack that begins with each block [rad], shape (blocks,)."""
+        return np.array(self.scene._compiled.stacks()["alpha"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What must be known before the run is believed, a sentence each."""
+        return self._response.warnings
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The rows as a table with the columns of ``response.csv`` before ``pattern``: ``t``, ``theta_1``, ..., ``omega_1``, ..., ``ground_x``, ``ground_y``."""
+        columns: dict[str, Any] = {"t": self.t}
+        for name, values in (("theta", self.theta), ("omega", self.omega), ("slide", self.slide), ("gap", self.gap)):
+            if values is not None:
+                columns.update({f"{name}_{block + 1}": values[:, block] for block in range(values.shape[1])})
+        columns.update({"ground_x": self.ground[:, 0], "ground_y": self.ground[:, 1]})
+        return pd.DataFrame(columns)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """The rows as a data set over ``t`` and ``block``."""
+        import xarray
+
+        names = {"theta": "rad", "omega": "rad/s", "slide": "m", "gap": "m"}
+        known = {name: values for name in names if (values := getattr(self, name)) is not None}
+        variables = {name: (("t", "block"), values, {"units": names[name]}) for name, values in known.items()}
+        ground = {"ground": (("t", "direction"), self.ground, {"units": "m/s²"})}
+        coordinates = {"t": self.t, "block": np.arange(1, self.theta.shape[1] + 1), "direction": ["horizontal", "vertical"]}
+        return xarray.Dataset({**variables, **ground}, coords=coordinates, attrs={"status": self.status, "t_final": self.t_final})
+
+    def to_json(self) -> str:
+        """Summary, rows and events as JSON."""
+        rows = {name: self.to_pandas()[name].tolist() for name in self.to_pandas().columns}
+        return json.dumps({"summary": self.summary, "rows": rows, "events": json.loads(self._response.events_json())})
+
+    def write(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the folder of the run: ``response.csv``, ``events.json`` and ``summary.json``, as ``rocking run`` does."""
+        self._response.write(os.fspath(folder))
+
+    def report(self, file: str | os.PathLike[str]) -> None:
+        """Writes the page of the run: one HTML file with outcome, validity, animation, figures, inputs."""
+        with tempfile.TemporaryDirectory() as folder:
+            self.write(folder)
+            page = _rocking.page(folder)
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(page)
+
+    def figures(self) -> dict[str, str]:
+        """The figures of the page as SVG, by their names: ``time-history``, ``phase-portrait``, ``energy``, ``forces``, ``slides``."""
+        with tempfile.TemporaryDirectory() as folder:
+            self.write(folder)
+            return {name: svg for name, _, svg in _rocking.figures(folder)}
+
+    def plot(self, axes: Any = None) -> "npt.NDArray[Any]":
+        """Draws ground acceleration and angles over time; returns both axes of matplotlib."""
+        from ._plot import run
+
+        return run(self, axes)
+
+    def _repr_svg_(self) -> str | None:
+        return self.figures()["time-history"] if len(self.t) else None
+
+    def _repr_html_(self) -> str:
+        shares = ", ".join(f"{peak:.3g}" for peak in self.peak_theta / self.alpha) if len(self.peak_theta) else "not asked"
+        facts = {
+            "outcome": f"{self.outcome} ({self.status} at t = {self.t_final:.4g} s)",
+            "impacts": str(self.impacts),
+            "largest |θ|/α, base first": shares,
+            "warnings": "<br>".join(escape(warning) for warning in self.warnings) or "none",
+        }
+        table = "".join(f"<tr><th style='text-align:left'>{name}</th><td style='text-align:left'>{text}</td></tr>" for name, text in facts.items())
+        return f"<div>{self._repr_svg_() or ''}<table>{table}</table></div>"
+
+    def __repr__(self) -> str:
+        return f"<Run: {self.outcome} ({self.status} at t = {self.t_final:.6g} s), {self.impacts} impact(s), {len(self.t)} row(s)>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Run) and self._response.equals(other._response)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __getstate__(self) -> tuple[Scene, bytes]:
+        return self.scene, self._response.state()
+
+    def __setstate__(self, state: tuple[Scene, bytes]) -> None:
+        self.scene, self._response = state[0], _rocking.Response.from_state(state[1])

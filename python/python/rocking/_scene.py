@@ -1,0 +1,479 @@
+"""Columns and scenes: the keys of a scene file, checked by its reader."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypedDict, Union
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _rocking
+from ._motion import Motion, MotionLike
+from ._record import Array, Record
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+#: Name in errors of a scene that has no file.
+WITHOUT_FILE = "<scene>"
+
+Numbers = Union[Sequence[float], npt.NDArray[np.float64]]
+
+
+class SceneKeys(TypedDict, total=False):
+    """Keys of a scene file other than column and ground motion, under the names of arguments."""
+
+    title: str
+    gravity: float
+    friction: float | Mapping[str, Any]
+    law: str
+    eta: float
+    factors: Numbers
+    theta: Numbers
+    omega: Numbers
+    slide: Numbers
+    x: Numbers
+    y: Numbers
+    vx: Numbers
+    vy: Numbers
+    t_end: float
+    method: str
+    rtol: float
+    atol: float
+    step: float
+    stick_angle: float
+    overturn_angle: float
+    output_dt: float
+    keys: Mapping[str, Any]
+
+
+#: Where the arguments stand in a scene file.
+ARGUMENTS: dict[str, str] = {
+    **{name: name for name in ("title", "gravity", "friction")},
+    **{name: f"restitution.{name}" for name in ("law", "eta", "factors")},
+    **{name: f"initial.{name}" for name in ("theta", "omega", "slide", "x", "y", "vx", "vy")},
+    **{name: f"solver.{name}" for name in ("t_end", "method", "rtol", "atol", "step", "stick_angle", "overturn_angle")},
+    "output_dt": "output.dt",
+}
+
+#: Keys of which a scene has one.
+ALTERNATIVES = ({"restitution.law", "restitution.eta", "restitution.factors"},)
+
+
+class Block(Mapping[str, Any]):
+    """A block: the keys of a ``[[block]]`` of a scene file; lengths in m, mass in kg.
+
+    ``height`` and ``width`` may be given instead of their halves.
+
+    >>> Block(half_width=0.4, height=1.6, density=2700)
+    Block(half_width=0.4, half_height=0.8, density=2700)
+    """
+
+    def __init__(
+        self,
+        *,
+        half_width: float | None = None,
+        half_height: float | None = None,
+        width: float | None = None,
+        height: float | None = None,
+        bottom_half_width: float | None = None,
+        top_half_width: float | None = None,
+        shape: str | None = None,
+        depth: float | None = None,
+        density: float | None = None,
+        mass: float | None = None,
+        centroid_height: float | None = None,
+        inertia: float | None = None,
+        **others: Any,
+    ) -> None:
+        keys: dict[str, Any] = {
+            "half_width": _half("width", half_width, width),
+            "bottom_half_width": bottom_half_width,
+            "top_half_width": top_half_width,
+            "half_height": _half("height", half_height, height),
+            "shape": shape,
+            "depth": depth,
+            "density": density,
+            "mass": mass,
+            "centroid_height": centroid_height,
+            "inertia": inertia,
+            **others,
+        }
+        self._keys = {key: value for key, value in keys.items() if value is not None}
+
+    def __getitem__(self, key: str) -> Any:
+        return self._keys[key]
+
+    def __iter__(self) -> Any:
+        return iter(self._keys)
+
+    def __len__(self) -> int:
+        return len(self._keys)
+
+    def __repr__(self) -> str:
+        return f"Block({', '.join(f'{key}={value!r}' for key, value in self._keys.items())})"
+
+
+def _half(name: str, half: float | None, whole: float | None) -> float | None:
+    if half is not None and whole is not None:
+        raise TypeError(f"half_{name} and {name} are given; give one of them")
+    return whole / 2 if whole is not None else half
+
+
+class Column:
+    """A column of blocks, base first, checked when it is made.
+
+    Parameters
+    ----------
+    blocks : iterable of Block or mapping
+        Base first.
+    gravity : float
+        [m/s²], 9.81 unless given.
+
+    >>> column = Column.drums(5, half_width=0.5, top_half_width=0.4, height=5.0, density=2700)
+    >>> len(column), round(column.alpha, 4)
+    (5, 0.2141)
+    """
+
+    def __init__(self, blocks: Iterable[Mapping[str, Any]], *, gravity: float | None = None) -> None:
+        self._become({"block": [dict(block) for block in blocks]}, gravity)
+
+    def _become(self, keys: dict[str, Any], gravity: float | None) -> None:
+        self._keys: dict[str, Any] = {**keys, **({} if gravity is None else {"gravity": gravity})}
+        self._compiled: _rocking.Scene | None = None
+        self._native()
+
+    def _native(self) -> _rocking.Scene:
+        if self._compiled is None:
+            self._compiled = _rocking.Scene.from_keys(self._keys, "<column>", None, None)
+        return self._compiled
+
+    @classmethod
+    def cut(
+        cls,
+        blocks: int,
+        *,
+        half_width: float | None = None,
+        half_height: float | None = None,
+        width: float | None = None,
+        height: float | None = None,
+        top_half_width: float | None = None,
+        shape: str | None = None,
+        depth: float | None = None,
+        density: float | None = None,
+        mass: float | None = None,
+        gravity: float | None = None,
+        **others: Any,
+    ) -> "Column":
+        """A column cut into blocks of equal height, with straight sides: ``[column]`` of a scene file. Height and mass are those of the whole column."""
+        keys: dict[str, Any] = {
+            "blocks": blocks,
+            "half_width": _half("width", half_width, width),
+            "top_half_width": top_half_width,
+            "half_height": _half("height", half_height, height),
+            "shape": shape,
+            "depth": depth,
+            "density": density,
+            "mass": mass,
+            **others,
+        }
+        made = cls.__new__(cls)
+        made._become({"column": {key: value for key, value in keys.items() if value is not None}}, gravity)
+        return made
+
+    @classmethod
+    def drums(cls, blocks: int, **sizes: Any) -> "Column":
+        """Round drums: :meth:`cut` with ``shape="drum"``; half-widths are radii, a density is in kg/m³."""
+        return cls.cut(blocks, shape="drum", **sizes)
+
+    @classmethod
+    def prisms(cls, blocks: int, **sizes: Any) -> "Column":
+        """Prisms: :meth:`cut` with ``shape="prism"``; a density is in kg/m³ with ``depth``, in kg/m² without."""
+        return cls.cut(blocks, shape="prism", **sizes)
+
+    @property
+    def blocks(self) -> pd.DataFrame:
+        """Sizes of the blocks, base first, a row each; m, kg, kg m²."""
+        return pd.DataFrame(self._native().blocks(), index=pd.RangeIndex(1, len(self) + 1, name="block"))
+
+    @property
+    def stacks(self) -> pd.DataFrame:
+        """The stack that begins with each block, as one body: ``alpha`` [rad], ``R`` [m], ``p`` [rad/s], ``uplift_acceleration`` [m/s²], ``housner_ratio``."""
+        return pd.DataFrame(self._native().stacks(), index=pd.RangeIndex(1, len(self) + 1, name="block"))
+
+    @property
+    def alpha(self) -> float:
+        """Slenderness of the whole column [rad]."""
+        return self._native().stacks()["alpha"][0]
+
+    @property
+    def R(self) -> float:
+        """Distance of the centre of gravity of the whole column from a corner of its base [m]."""
+        return self._native().stacks()["R"][0]
+
+    @property
+    def p(self) -> float:
+        """Frequency parameter of the whole column as one body [rad/s]."""
+        return self._native().stacks()["p"][0]
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """Horizontal ground acceleration that opens the base [m/s²]."""
+        return self._native().stacks()["uplift_acceleration"][0]
+
+    def __len__(self) -> int:
+        return len(self._native().blocks()["mass"])
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Column) and self._native().equals(other._native())
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        stacks = self._native().stacks()
+        return f"<Column of {len(self)} block(s): alpha = {stacks['alpha'][0]:.4f} rad, p = {stacks['p'][0]:.4f} rad/s>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self._keys
+
+    def __setstate__(self, keys: dict[str, Any]) -> None:
+        self._keys, self._compiled = keys, None
+
+
+class Scene:
+    """What is simulated: the keys of a scene file, checked by its reader; not changed after it was made.
+
+    Parameters
+    ----------
+    column : Column, or iterable of Block
+    horizontal, vertical : Motion, Record or mapping
+        Ground motion.
+    **arguments
+        Every other key of a scene file: ``title``; ``gravity`` [m/s²]; ``friction``, a coefficient or ``{"static": .., "kinetic": ..}``; ``eta``,
+        ``factors`` or ``law`` of impacts; ``theta`` [rad], ``omega`` [rad/s], ``slide`` [m], ``x``, ``y`` [m], ``vx``, ``vy`` [m/s] at t = 0, base first;
+        ``t_end`` [s], ``method``, ``rtol``, ``atol``, ``step`` [s], ``stick_angle`` [rad], ``overturn_angle`` [rad] of the solver; ``output_dt`` [s], the
+        interval of the rows. ``keys`` takes any others under their dotted names.
+
+    Raises
+    ------
+    SceneError
+        With the key and the remedy.
+
+    >>> scene = Scene(Column.drums(2, half_width=0.4, height=3.2, density=2700), theta=[0.05, 0.05], t_end=2)
+    >>> scene.keys["solver"]
+    {'t_end': 2}
+    """
+
+    def __init__(
+        self,
+        column: "Column | Iterable[Mapping[str, Any]]",
+        horizontal: MotionLike | None = None,
+        vertical: MotionLike | None = None,
+        **arguments: "Unpack[SceneKeys]",
+    ) -> None:
+        column = column if isinstance(column, Column) else Column(column)
+        keys = _copy(column._keys)
+        motions = {name: motion for name, motion in (("horizontal", horizontal), ("vertical", vertical)) if motion is not None}
+        if motions:
+            keys["excitation"] = motions
+        for key, value in _dotted(arguments):
+            _put(keys, key, value)
+        self._become(keys, WITHOUT_FILE)
+
+    def _become(self, keys: dict[str, Any], file: str, native: _rocking.Scene | None = None, text: str | None = None) -> None:
+        self._keys, self._file, self._text = keys, file, text
+        if native is None:
+            shown = keys
+            records: list[Record | None] = [None, None]
+            motions = keys.get("excitation")
+            if isinstance(motions, Mapping):
+                records = [record if isinstance(record := motions.get(name), Record) else None for name in ("horizontal", "vertical")]
+                if any(records):
+                    others = {name: motion for name, motion in motions.items() if not isinstance(motion, Record)}
+                    shown = {**keys, "excitation": others or None}
+            horizontal, vertical = (None if record is None else record._record for record in records)
+            native = _rocking.Scene.from_keys(shown, file, horizontal, vertical)
+        self._compiled = native
+
+    @classmethod
+    def _of(cls, keys: dict[str, Any], file: str, native: _rocking.Scene | None = None, text: str | None = None) -> "Scene":
+        made = cls.__new__(cls)
+        made._become(keys, file, native, text)
+        return made
+
+    @classmethod
+    def load(cls, file: str | os.PathLike[str]) -> "Scene":
+        """Reads a scene file; records are found relative to it."""
+        path = os.fspath(file)
+        return cls.from_toml(_rocking.scene_text(path), file=path)
+
+    @classmethod
+    def from_toml(cls, text: str, *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
+        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it."""
+        path = os.fspath(file)
+        native = _rocking.Scene.from_toml(text, path)
+        return cls._of(_rocking.from_toml(text), path, native, text)
+
+    @classmethod
+    def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
+        """Reads the keys of a scene file as a nested dictionary."""
+        return cls._of(_copy(keys), os.fspath(file))
+
+    def replace(
+        self,
+        *,
+        column: "Column | None" = None,
+        horizontal: MotionLike | None = None,
+        vertical: MotionLike | None = None,
+        **arguments: "Unpack[SceneKeys]",
+    ) -> "Scene":
+        """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``. A value of None in ``keys`` removes a key."""
+        keys = _copy(self._keys)
+        if column is not None:
+            keys = {**{key: value for key, value in keys.items() if key not in ("column", "block")}, **_copy(column._keys)}
+        for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
+            if motion is not None:
+                _put(keys, f"excitation.{name}", motion)
+        for key, value in _dotted(arguments):
+            for group in ALTERNATIVES:
+                if key in group:
+                    for other in group - {key}:
+                        _put(keys, other, None)
+            _put(keys, key, value)
+        return Scene._of(keys, self._file)
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """The keys as in a scene file; a copy."""
+        keys: dict[str, Any] = _copy(self._keys)
+        return keys
+
+    @property
+    def toml(self) -> str:
+        """The scene as the text of a scene file, records in memory with their samples."""
+        return self._text if self._text is not None else _rocking.to_toml(self._keys)
+
+    @property
+    def file(self) -> str:
+        """The scene file; ``<scene>`` for a scene without one."""
+        return self._file
+
+    @property
+    def column(self) -> Column:
+        """The column."""
+        made = Column.__new__(Column)
+        made._become({key: _copy(self._keys[key]) for key in ("column", "block", "gravity") if key in self._keys}, None)
+        return made
+
+    @property
+    def title(self) -> str:
+        """The title; empty where there is none."""
+        return self._compiled.title
+
+    @property
+    def t_end(self) -> float:
+        """End of the run [s]."""
+        return self._compiled.t_end
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is to be known of its records, a sentence each."""
+        return self._compiled.warnings
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes the scene file."""
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(self.toml)
+
+    def to_json(self) -> str:
+        """The scene with all of its numbers in SI, as the solver has it."""
+        return self._compiled.json()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self._compiled.equals(other._compiled)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        blocks = len(self._compiled.blocks()["mass"])
+        return f"<Scene{f' “{self.title}”' if self.title else ''} of {blocks} block(s) until {self.t_end:g} s>"
+
+    def __getstate__(self) -> tuple[dict[str, Any], str, str | None, bytes]:
+        return self._keys, self._file, self._text, self._compiled.state()
+
+    def __setstate__(self, state: tuple[dict[str, Any], str, str | None, bytes]) -> None:
+        keys, file, text, native = state
+        self._become(keys, file, _rocking.Scene.from_state(native), text)
+
+
+def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
+    """Arguments under the dotted names of their keys."""
+    for name, value in arguments.items():
+        if name == "keys":
+            yield from value.items()
+        elif name not in ARGUMENTS:
+            known = ", ".join([*ARGUMENTS, "keys"])
+            raise TypeError(f"there is no argument `{name}`; arguments are {known}")
+        elif value is not None:
+            yield ARGUMENTS[name], value
+
+
+def _copy(value: Any) -> Any:
+    """A copy of nested dictionaries and lists; motions and arrays are shared."""
+    if isinstance(value, Motion):
+        return value
+    if isinstance(value, Mapping):
+        return {key: _copy(item) for key, item in value.items()}
+    return [_copy(item) for item in value] if isinstance(value, list) else value
+
+
+def _put(keys: dict[str, Any], key: str, value: Any) -> None:
+    """Sets a dotted key, ``block[2].mass`` that of the second block; ``None`` removes it."""
+    place: Any = keys
+    *tables, last = key.split(".")
+    for name in tables:
+        part = _part(name)
+        if isinstance(part, str):
+            inner = place.get(part)
+            if isinstance(inner, Motion):
+                inner = place[part] = dict(inner)
+            elif not isinstance(inner, dict):
+                if value is None:
+                    return
+                if inner is not None:
+                    raise ValueError(f"`{key}`: {name} is a {type(inner).__name__} and has no keys")
+                inner = place[part] = {}
+            place = inner
+        else:
+            place = _item(place, part, key)
+    part = _part(last)
+    if not isinstance(part, str):
+        (name, number) = part
+        items = list(place.get(name, ()))
+        if not 1 <= number <= len(items):
+            raise ValueError(f"`{key}`: the scene has no such item")
+        items[number - 1] = value
+        place[name] = items
+    elif value is None:
+        place.pop(part, None)
+    else:
+        place[part] = value
+
+
+def _part(name: str) -> "str | tuple[str, int]":
+    indexed = re.fullmatch(r"(\w+)\[(\d+)\]", name)
+    return (indexed[1], int(indexed[2])) if indexed else name
+
+
+def _item(place: dict[str, Any], part: tuple[str, int], key: str) -> Any:
+    items = place.get(part[0])
+    if not isinstance(items, list) or not 1 <= part[1] <= len(items):
+        raise ValueError(f"`{key}`: the scene has no such item")
+    return items[part[1] - 1]
+
+
+__all__ = ["ARGUMENTS", "Array", "Block", "Column", "Scene", "SceneKeys"]

@@ -1,0 +1,316 @@
+"""Incremental dynamic analysis and fragility."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _rocking
+from ._errors import StudyError
+from ._frame import frame
+from ._record import Array, Record, Records, StudyRecord
+from ._scene import Column, Scene, SceneKeys
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from typing_extensions import Unpack
+
+
+class Ida:
+    """Records times levels of a measure, before it is run; the run of any index is found without the others.
+
+    Parameters
+    ----------
+    column : Scene, Column or blocks
+        Ground motion and end of a scene are not used: a run lasts as long as its record and ``free_swing`` seconds more.
+    records : Records, or iterable of Record
+    measure : str
+        ``pga``, ``pga_g``, ``pga_uplift``, ``pgv``, ``pgv_uplift``, ``pgd``, ``arias``, ``cav``, ``sa`` or ``sa_g``; upper case will do.
+    levels : array, shape (levels,)
+        In the unit of the measure, above zero.
+    free_swing : float
+        [s], 10 unless given.
+    sa_period, sa_damping : float
+        Period [s] and damping ratio of ``sa`` and ``sa_g``.
+    **arguments
+        As of :class:`Scene`.
+    """
+
+    def __init__(
+        self,
+        column: "Scene | Column | Iterable[Mapping[str, Any]]",
+        records: "Records | Iterable[Record | StudyRecord]",
+        measure: str,
+        levels: npt.ArrayLike,
+        *,
+        free_swing: float | None = None,
+        sa_period: float | None = None,
+        sa_damping: float | None = None,
+        **arguments: "Unpack[SceneKeys]",
+    ) -> None:
+        scene = column if isinstance(column, Scene) else Scene(column, **arguments)
+        if scene is column and arguments:
+            scene = scene.replace(**arguments)
+        found = records if isinstance(records, Records) else Records(records)
+        sizes = np.asarray(levels, dtype=np.float64).ravel().tolist()
+        self._source = (scene, found, measure, sizes, free_swing, sa_period, sa_damping)
+        self._become()
+
+    def _become(self) -> None:
+        scene, records, measure, levels, free_swing, sa_period, sa_damping = self._source
+        natives = [record._native() for record in records]
+        self._ida = _rocking.Ida(scene._compiled, natives, measure, levels, free_swing, sa_period, sa_damping)
+
+    @property
+    def scene(self) -> Scene:
+        """The base scene."""
+        return self._source[0]
+
+    @property
+    def records(self) -> Records:
+        """The records."""
+        return self._source[1]
+
+    @property
+    def measure(self) -> str:
+        """Heading of the measure in the table."""
+        return self._ida.measure
+
+    @property
+    def levels(self) -> Array:
+        """Levels, in the unit of the measure, shape (levels,)."""
+        return np.array(self._ida.levels)
+
+    def __len__(self) -> int:
+        return len(self._ida)
+
+    def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
+        """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking ida``."""
+        return frame(self._ida.table(start, len(self) if stop is None else stop, threads), start)
+
+    def run(self, *, threads: int = 0) -> "Study":
+        """All runs."""
+        return Study(self.table(threads=threads), self.measure)
+
+    def simulate(self, index: int) -> _rocking.Response:
+        """The response of a run, with rows and without forces."""
+        return self._ida.scene(index).run(True, False, "everything")
+
+    def __repr__(self) -> str:
+        return f"<Ida of {len(self.records)} record(s) at {len(self.levels)} level(s) of {self.measure}>"
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        return self._source
+
+    def __setstate__(self, source: tuple[Any, ...]) -> None:
+        self._source = source
+        self._become()
+
+
+def ida(
+    column: "Scene | Column | Iterable[Mapping[str, Any]]",
+    records: "Records | Iterable[Record | StudyRecord]",
+    measure: str,
+    levels: npt.ArrayLike,
+    *,
+    free_swing: float | None = None,
+    sa_period: float | None = None,
+    sa_damping: float | None = None,
+    threads: int = 0,
+    **arguments: "Unpack[SceneKeys]",
+) -> "Study":
+    """Runs each record at each level; arguments as of :class:`Ida`, and the number of threads (0: as many as the machine has).
+
+    >>> from rocking import Column, synthetic
+    >>> study = ida(Column.prisms(1, half_width=0.3, half_height=1.2), synthetic(range(3)), "PGV", [0.05, 0.5, 3.0], eta=0.9)
+    >>> len(study.table), study.stripes.runs.tolist()
+    (9, [3, 3, 3])
+    """
+    periods = {"free_swing": free_swing, "sa_period": sa_period, "sa_damping": sa_damping}
+    return Ida(column, records, measure, levels, **periods, **arguments).run(threads=threads)
+
+
+class Study:
+    """The runs of a study, and what follows from them.
+
+    Parameters
+    ----------
+    table : DataFrame
+        A row per run, with the columns of ``rocking ida``, or of ``rocking sweep`` over records and a measure.
+    measure : str
+        Column of the levels; the one that has the name of a measure unless given.
+    """
+
+    def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
+        self.table = table
+        if measure is None:
+            known = [name for name in map(str, table.columns) if _rocking.measure_label(_last(name)) is not None]
+            if len(known) != 1:
+                problem = f"several columns are measures: {', '.join(known)}" if known else "no column has the name of a measure"
+                raise StudyError(f"{problem}; name the column with `measure`")
+            measure = known[0]
+        for name in (measure, "outcome"):
+            if name not in table.columns:
+                raise StudyError(f"the table has no column `{name}`; it has {', '.join(map(str, table.columns))}")
+        self.measure = measure
+
+    @classmethod
+    def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
+        """Runs a study file of ``rocking ida``."""
+        native = _rocking.Ida.from_toml(_rocking.scene_text(os.fspath(file)), os.fspath(file))
+        return cls(frame(native.table(0, len(native), threads)), native.measure)
+
+    @property
+    def label(self) -> str:
+        """Label of an axis of the measure: quantity and unit."""
+        return _rocking.measure_label(_last(self.measure)) or self.measure
+
+    def _columns(self) -> tuple[list[str], list[float], list[str | None], list[bool], Array, Array]:
+        table = self.table
+        names = [str(name) for name in table.columns]
+        records = ["record"] if "record" in names else [name for name in names if _last(name) in ("file", "seed")]
+        if records:
+            labels = table[records].astype(str).agg(", ".join, axis=1).tolist()
+        else:
+            labels = [f"run {number}" for number in range(1, len(table) + 1)]
+        outcomes = [None if pd.isna(outcome) else str(outcome) for outcome in table["outcome"]]
+        if "first_uplift" in names:
+            uplift = table["first_uplift"].notna().tolist()
+        else:
+            uplift = [outcome in ("rocks", "overturns") for outcome in outcomes]
+
+        def grid(prefix: str) -> Array:
+            own = [name for name in names if name.startswith(prefix) and name[len(prefix) :].isdigit()]
+            return np.ascontiguousarray(table[own].to_numpy(dtype=np.float64, na_value=np.nan)).reshape(len(table), len(own))
+
+        levels = table[self.measure].to_numpy(dtype=np.float64).tolist()
+        return labels, levels, outcomes, uplift, grid("peak_"), grid("residual_slide_")
+
+    @cached_property
+    def stripes(self) -> pd.DataFrame:
+        """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost."""
+        columns = _rocking.stripes(*self._columns())
+        return pd.DataFrame(columns).rename(columns={"level": self.measure})
+
+    def fragility(
+        self,
+        state: str = "overturned",
+        *,
+        replicates: int = 1000,
+        confidence: float = 0.9,
+        seed: int = 0,
+        layout: str | None = None,
+    ) -> "Fragility":
+        """The probability of a limit state given the level.
+
+        Parameters
+        ----------
+        state : str
+            ``uplift``, ``overturned``, ``peak > 0.35`` (|θ|/α), ``peak_2 > 0.35`` of the second block, or ``slide > 0.05`` [m].
+        replicates, confidence, seed
+            Resampled sets of records for the bands, their share within the bands, and the seed of the resampling.
+        layout : str
+            ``stripes`` or ``cloud``; as the data have it unless given.
+        """
+        columns = self._columns()
+        kind = state.strip().split("_")[0].split()[0] if state.strip() else ""
+        if kind.startswith("peak") and columns[4].shape[1] == 0:
+            raise StudyError(f"the state `{state}` needs the columns peak_1, ...: run the sweep with ask = \"peaks\"")
+        if kind.startswith("slide") and columns[5].shape[1] == 0:
+            raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: give the scene friction")
+        text, statements = _rocking.fragility(*columns, state, replicates, confidence, seed, layout)
+        return Fragility(json.loads(text), statements, self.measure, self.label)
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draws the curves of the records and the fractiles."""
+        from ._plot import study
+
+        return study(self, ax)
+
+    def __repr__(self) -> str:
+        counts = self.table["outcome"].value_counts()
+        told = ", ".join(f"{name} {counts[name]}" for name in counts.index if counts[name])
+        return f"<Study of {len(self.table)} runs over {self.measure}: {told}>"
+
+
+def _last(key: str) -> str:
+    """The last part of a dotted key; a measure such as ``sa(0.5)`` has a point of its own."""
+    return key if _rocking.measure_label(key) is not None else key.rsplit(".", 1)[-1]
+
+
+class Fragility:
+    """The probability of a limit state given the level: a lognormal curve, or why there is none.
+
+    Attributes
+    ----------
+    state, measure : str
+    fit : str
+        ``lognormal``, or why there is no curve: ``no-runs``, ``one-record``, ``never``, ``always``, ``step``, ``falling``.
+    median, dispersion : float or None
+        Of the curve; the median in the unit of the measure.
+    bands : dict or None
+        ``median``, ``dispersion`` and, over ``levels``, ``probability``: lower and upper ends.
+    goodness : dict or None
+        Pearson's chi-squared, its p-value, McFadden's R².
+    falls, resurrections : list
+        Where the state is not monotonic in the level.
+    statements : list of str
+        What is to be known, a sentence each.
+    """
+
+    def __init__(self, found: dict[str, Any], statements: list[str], measure: str, label: str) -> None:
+        self._found = found
+        self.measure = measure
+        self.label = label
+        self.statements = statements
+        self.state: str = found["state"]
+        self.layout: str = found["layout"]
+        self.records: int = found["records"]
+        self.fit: str = found["fit"]["kind"]
+        self.median: float | None = found["fit"].get("median")
+        self.dispersion: float | None = found["fit"].get("dispersion")
+        self.log_likelihood: float | None = found["fit"].get("log_likelihood")
+        self.bands: dict[str, Any] | None = found["bands"]
+        self.goodness: dict[str, Any] | None = found["goodness"]
+        self.falls: list[list[float]] = found["falls"]
+        self.resurrections: list[str] = found["resurrections"]
+
+    @property
+    def counts(self) -> pd.DataFrame:
+        """A row per level: ``level``, ``runs``, ``reached``, ``undecided`` and the raw ``share``."""
+        table = pd.DataFrame(self._found["counts"], columns=["level", "runs", "reached", "undecided"])
+        return table.assign(share=table.reached / table.runs.where(table.runs > 0))
+
+    def probability(self, levels: npt.ArrayLike) -> Array:
+        """Probability of the state by the curve, of the shape of the levels.
+
+        Raises
+        ------
+        StudyError
+            Where there is no curve.
+        """
+        if self.median is None or self.dispersion is None:
+            raise StudyError(self.statements[0])
+        sizes = np.asarray(levels, dtype=np.float64)
+        values = _rocking.probability(self.median, self.dispersion, sizes.ravel().tolist())
+        return np.array(values).reshape(sizes.shape)
+
+    def plot(self, ax: "Axes | None" = None, **style: Any) -> "Axes":
+        """Draws the curve with its bands and the raw shares."""
+        from ._plot import fragility
+
+        return fragility(self, ax, **style)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it, as JSON has it."""
+        return self._found
+
+    def __repr__(self) -> str:
+        return f"<Fragility of {self.state} over {self.measure}: {self.statements[0]}>"

@@ -1,0 +1,109 @@
+"""Sweeps: many scenes from one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from . import _rocking
+from ._frame import frame
+from ._scene import Scene
+
+
+class Sweep:
+    """A scene and the axes over its keys; the point of any index is found without the others.
+
+    Parameters
+    ----------
+    scene : Scene
+        The base scene.
+    axes : mapping
+        Keys of a scene file, dotted or short as in a sweep file, and their values: a sequence of numbers or names, or
+        ``{"from": .., "to": .., "steps": .., "scale": "log"}``. The last axis runs fastest.
+    ask : str
+        ``outcome``, ``overturns``, ``peaks`` or ``slides``.
+    combine : str
+        ``cartesian`` or ``paired``.
+
+    Raises
+    ------
+    SceneError
+        For a key that no scene has, an axis without values, a scene that cannot be read.
+
+    >>> from rocking import Column, pulse
+    >>> scene = Scene(Column.prisms(1, half_width=0.4, half_height=1.6), pulse("sine-pulse", amplitude_uplift=3, omega_p=5), eta=0.9)
+    >>> sweep = Sweep(scene, {"amplitude_uplift": [0.5, 2.0, 8.0]})
+    >>> sweep.table().outcome.tolist()
+    ['no-uplift', 'rocks', 'overturns']
+    """
+
+    def __init__(self, scene: Scene, axes: Mapping[str, Any], *, ask: str = "outcome", combine: str = "cartesian") -> None:
+        self._source: tuple[Any, ...] = (scene, dict(axes), ask, combine)
+        text = _rocking.to_toml({"ask": ask, "combine": combine, "axes": dict(axes)})
+        self._sweep = _rocking.Sweep.from_toml(text, "<sweep>", scene.toml, scene.file)
+
+    @classmethod
+    def load(cls, file: str | os.PathLike[str]) -> "Sweep":
+        """Reads a sweep file."""
+        made = cls.__new__(cls)
+        made._source = (os.fspath(file),)
+        made._sweep = _rocking.Sweep.load(os.fspath(file))
+        return made
+
+    @property
+    def axes(self) -> dict[str, int]:
+        """Dotted keys of the axes, and their numbers of values."""
+        return dict(self._sweep.axes)
+
+    @property
+    def ask(self) -> str:
+        """What is asked of each run."""
+        return self._sweep.ask
+
+    def __len__(self) -> int:
+        return len(self._sweep)
+
+    def scene(self, index: int) -> Scene:
+        """The scene of a point, without rows and forces."""
+        native = self._sweep.scene(index)
+        return Scene._of(_rocking.from_toml(native.toml), WITHOUT_KEYS, native, native.toml)
+
+    def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
+        """Runs the points from ``start`` to before ``stop``; a row each, with the columns of ``rocking sweep``.
+
+        ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it. A point whose scene cannot be read or run is a row
+        with ``outcome`` "error". Blank are ``NaN`` and ``NA``.
+        """
+        return frame(self._sweep.table(start, len(self) if stop is None else stop, threads), start)
+
+    def shard(self, number: int, count: int) -> range:
+        """Indices of the ``number``-th (from 1) of ``count`` parts, as ``rocking sweep --shard``."""
+        if not 1 <= number <= count:
+            raise ValueError(f"there is no part {number} of {count}")
+        return range(len(self) * (number - 1) // count, len(self) * number // count)
+
+    def __repr__(self) -> str:
+        axes = ", ".join(f"{key} ({count})" for key, count in self.axes.items())
+        return f"<Sweep of {len(self)} points over {axes}; ask = {self.ask}>"
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        return self._source
+
+    def __setstate__(self, source: tuple[Any, ...]) -> None:
+        if len(source) == 1:
+            self.__dict__.update(Sweep.load(source[0]).__dict__)
+        else:
+            scene, axes, ask, combine = source
+            self.__init__(scene, axes, ask=ask, combine=combine)  # type: ignore[misc]
+
+
+#: File of a scene that a sweep made of its base scene.
+WITHOUT_KEYS = "<point of a sweep>"
+
+
+def sweep(scene: Scene, axes: Mapping[str, Any], *, ask: str = "outcome", combine: str = "cartesian", threads: int = 0) -> pd.DataFrame:
+    """Runs a sweep; as :class:`Sweep` and :meth:`Sweep.table`."""
+    return Sweep(scene, axes, ask=ask, combine=combine).table(threads=threads)

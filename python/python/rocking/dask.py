@@ -1,0 +1,93 @@
+"""Studies beyond one machine: a sweep or an incremental dynamic analysis as a lazy ``dask.dataframe``.
+
+A study finds the run of any index without the others, so a partition is a range of indices and a task sends nothing but the study and two numbers. Names and
+types of the columns are known beforehand. A task that is lost with its worker is run again elsewhere and gives the same rows.
+
+>>> import rocking as rk, rocking.dask as rd
+>>> scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.pulse("sine-pulse", amplitude_uplift=3, omega_p=5), eta=0.9)
+>>> sweep = rk.Sweep(scene, {"omega_p": [2.0, 4.0], "amplitude_uplift": {"from": 1, "to": 8, "steps": 50}})
+>>> table = rd.frame(sweep, partition_size=25)
+>>> table.npartitions, int((table.outcome == "overturns").sum().compute(scheduler="sync"))
+(4, 32)
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Union
+
+import pandas as pd
+
+from ._study import Ida
+from ._sweep import Sweep
+
+if TYPE_CHECKING:
+    import dask.dataframe as dd
+
+#: Seconds that a partition should take: a task costs the scheduler and the worker some milliseconds.
+SECONDS_PER_PARTITION = 5.0
+
+#: Rows of the largest partition [rows]: some 100 bytes each, so that a worker holds tens of megabytes.
+MOST_ROWS = 500_000
+
+#: Rows that are timed to choose a partition.
+TIMED_ROWS = 512
+
+Plan = Union[Sweep, Ida]
+
+
+def _part(bounds: tuple[int, int], plan: Plan, threads: int) -> pd.DataFrame:
+    """The rows of a partition."""
+    return plan.table(*bounds, threads=threads)
+
+
+def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, threads: int = 1) -> int:
+    """Rows of a partition that takes so many seconds, from the time of rows spread over the study.
+
+    The estimate costs some hundred runs; partitions of a study whose runs differ much take between a fraction and a multiple of it.
+    """
+    import time
+
+    length = len(plan)
+    pieces = 8
+    rows = max(1, min(TIMED_ROWS, length) // pieces)
+    starts = sorted({(length - rows) * piece // max(pieces - 1, 1) for piece in range(pieces)} if length > rows else {0})
+    begin = time.perf_counter()
+    for start in starts:
+        plan.table(start, min(start + rows, length), threads=threads)
+    spent = time.perf_counter() - begin
+    per_row = spent / (rows * len(starts))
+    return int(min(max(seconds / per_row, 1.0), MOST_ROWS))
+
+
+def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) -> "dd.DataFrame":
+    """The table of a study as a lazy data frame.
+
+    Parameters
+    ----------
+    plan : Sweep or Ida
+        Files that its scene names must be readable by the workers; records read with ``Record.read`` travel with the study.
+    partition_size : int
+        Rows of a partition; chosen by :func:`partition_size` unless given.
+    threads : int
+        Threads of a task: 1 where workers have one thread a core, as those of a ``LocalCluster`` with ``threads_per_worker=1``.
+    """
+    import dask.dataframe as dd
+
+    length = len(plan)
+    size = globals()["partition_size"](plan) if partition_size is None else partition_size
+    if size < 1:
+        raise ValueError(f"partition_size = {size}; give at least one row")
+    bounds = [(start, min(start + size, length)) for start in range(0, length, size)]
+    # Known beforehand: an empty range has the columns of all others.
+    meta = plan.table(0, 0, threads=1)
+    divisions = (*(start for start, _ in bounds), length - 1)
+    from_map: Any = dd.from_map
+    made: dd.DataFrame = from_map(_part, bounds, plan=plan, threads=threads, meta=meta, divisions=divisions, label="rocking")
+    return made
+
+
+def to_parquet(plan: Plan, folder: str | os.PathLike[str], *, partition_size: int | None = None, threads: int = 1, **options: Any) -> None:
+    """Runs a study into a folder of Parquet files, a file per partition, by the present client; no worker holds more than its partition."""
+    table: Any = frame(plan, partition_size=partition_size, threads=threads)
+    table.to_parquet(os.fspath(folder), write_index=False, **options)

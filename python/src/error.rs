@@ -1,0 +1,102 @@
+//! Errors of the library as exceptions of the package (`python/rocking/_errors.py`), with the same text.
+
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use rocking::run_folder::FolderError;
+use rocking::studies::IdaError;
+use rocking::{RecordError, SceneErrors, SceneFileError, SolveError};
+use std::path::Path;
+
+/// An exception of this class with these arguments; the failure of its construction, where that fails.
+fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+    let made = py.import("rocking._errors").and_then(|module| module.getattr(class)?.call1(arguments));
+    made.map_or_else(|failure| failure, PyErr::from_value)
+}
+
+/// `SceneError(message, file, line, key, problem, remedy, record, faults)`.
+pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
+    let text = error.to_string();
+    let shown = |path: &Path| path.display().to_string();
+    match error {
+        SceneFileError::Scene { file, line, key, problem, remedy, .. } => {
+            exception(py, "SceneError", (text, shown(file), *line, key, problem, remedy))
+        }
+        SceneFileError::Record { file, line, key, record, problem } => {
+            exception(py, "SceneError", (text, shown(file), *line, key, problem, "", shown(record)))
+        }
+        SceneFileError::Several { faults } => {
+            let faults: Vec<Py<PyAny>> = faults.iter().map(|fault| scene(py, fault).into_value(py).into_any()).collect();
+            match PyTuple::new(py, &faults) {
+                Ok(faults) => exception(py, "SceneError", (text, "", 0, "", "", "", "", faults)),
+                Err(failure) => failure,
+            }
+        }
+        SceneFileError::Unreadable { file, problem } => {
+            exception(py, "SceneError", (text, shown(file), 0, "", problem))
+        }
+        _ => exception(py, "SceneError", (text,)),
+    }
+}
+
+/// Faults of a scene that has no line.
+pub fn faults(py: Python<'_>, file: &Path, errors: &SceneErrors) -> PyErr {
+    let file = file.display().to_string();
+    let made: Vec<PyErr> = errors
+        .faults()
+        .iter()
+        .map(|fault| {
+            let text = format!("{file}: {fault}");
+            exception(py, "SceneError", (text, &file, 0, &fault.key, &fault.problem, &fault.remedy))
+        })
+        .collect();
+    match &made[..] {
+        [one] => one.clone_ref(py),
+        several => {
+            let values: Vec<Py<PyAny>> = several.iter().map(|fault| fault.value(py).clone().unbind().into_any()).collect();
+            match PyTuple::new(py, &values) {
+                Ok(faults) => exception(py, "SceneError", (errors.to_string(), file, 0, "", "", "", "", faults)),
+                Err(failure) => failure,
+            }
+        }
+    }
+}
+
+/// `SolveError(message, time)`; of a scene that is not valid, `SceneError`.
+pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
+    let time = match error {
+        SolveError::Scene(errors) => return faults(py, Path::new("<scene>"), errors),
+        SolveError::StepTooSmall { time, .. }
+        | SolveError::NotFinite { time, .. }
+        | SolveError::Stalled { time, .. }
+        | SolveError::Cancelled { time }
+        | SolveError::SingularMass { time, .. } => Some(*time),
+        _ => None,
+    };
+    exception(py, "SolveError", (error.to_string(), time))
+}
+
+/// `RecordError(message, file)`.
+pub fn record(py: Python<'_>, file: &str, error: &RecordError) -> PyErr {
+    let text = if file.is_empty() { error.to_string() } else { format!("{file}: {error}") };
+    exception(py, "RecordError", (text, file))
+}
+
+/// `StudyError(message)`.
+pub fn study(py: Python<'_>, error: &IdaError) -> PyErr {
+    exception(py, "StudyError", (error.to_string(),))
+}
+
+/// `StudyError(message)`.
+pub fn of_study(py: Python<'_>, message: &str) -> PyErr {
+    exception(py, "StudyError", (message,))
+}
+
+/// `FolderError(message)`.
+pub fn folder(py: Python<'_>, error: &FolderError) -> PyErr {
+    exception(py, "FolderError", (error.to_string(),))
+}
+
+/// A failure of JSON: of a pickle that is damaged, or of another version.
+pub fn json(error: serde_json::Error) -> PyErr {
+    pyo3::exceptions::PyValueError::new_err(format!("{error}; the pickle is damaged, or of another version of rocking"))
+}

@@ -1,0 +1,170 @@
+//! Keys of scene files: a Python dictionary as TOML, and the other way round.
+//!
+//! Numbers may be of NumPy, lists may be arrays or tuples, and paths may be `os.PathLike`. `None` leaves a key out. An object with a method
+//! `_scene_keys()` stands for the dictionary that the method returns.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::intern;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use std::fmt::Write as _;
+
+/// What stands at a key.
+enum Found<'py> {
+    Nothing,
+    /// TOML text.
+    Value(String),
+    Table(Bound<'py, PyDict>),
+    Tables(Vec<Bound<'py, PyDict>>),
+}
+
+/// The TOML text of a dictionary.
+#[pyfunction]
+pub fn to_toml(keys: &Bound<'_, PyDict>) -> PyResult<String> {
+    let mut text = String::new();
+    table(&mut text, "", keys)?;
+    Ok(text)
+}
+
+/// Values first, then tables, as TOML wants it.
+fn table(text: &mut String, path: &str, keys: &Bound<'_, PyDict>) -> PyResult<()> {
+    let mut inner = Vec::new();
+    for (key, value) in keys.iter() {
+        let key: String = key.extract().map_err(|_| PyTypeError::new_err(format!("{path}: a key must be text")))?;
+        let key = bare_or_quoted(&key);
+        let dotted = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        match found(&dotted, &value)? {
+            Found::Nothing => {}
+            Found::Value(value) => {
+                let _ = writeln!(text, "{key} = {value}");
+            }
+            tables => inner.push((dotted, tables)),
+        }
+    }
+    for (dotted, tables) in inner {
+        match tables {
+            Found::Table(keys) => {
+                let _ = writeln!(text, "\n[{dotted}]");
+                table(text, &dotted, &keys)?;
+            }
+            Found::Tables(list) => {
+                for keys in list {
+                    let _ = writeln!(text, "\n[[{dotted}]]");
+                    table(text, &dotted, &keys)?;
+                }
+            }
+            Found::Nothing | Found::Value(_) => {}
+        }
+    }
+    Ok(())
+}
+
+fn found<'py>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
+    let py = value.py();
+    if value.is_none() {
+        return Ok(Found::Nothing);
+    }
+    if let Ok(flag) = value.cast::<PyBool>() {
+        return Ok(Found::Value(flag.is_true().to_string()));
+    }
+    if let Ok(number) = value.cast::<PyFloat>() {
+        return Ok(Found::Value(float(number.value())));
+    }
+    if value.is_instance_of::<PyInt>() {
+        return Ok(Found::Value(value.str()?.to_string()));
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return Ok(Found::Value(quoted(text.to_str()?)));
+    }
+    if let Ok(keys) = value.cast::<PyDict>() {
+        return Ok(Found::Table(keys.clone()));
+    }
+    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        return list(key, value);
+    }
+    if let Some(method) = value.getattr_opt(intern!(py, "_scene_keys"))? {
+        return found(key, &method.call0()?);
+    }
+    if let Some(method) = value.getattr_opt(intern!(py, "tolist"))? {
+        return found(key, &method.call0()?);
+    }
+    if let Some(method) = value.getattr_opt(intern!(py, "__fspath__"))? {
+        return found(key, &method.call0()?);
+    }
+    if let Ok(number) = value.extract::<f64>() {
+        return Ok(Found::Value(float(number)));
+    }
+    let kind = value.get_type().name()?;
+    Err(PyTypeError::new_err(format!("key `{key}`: a {kind} cannot stand in a scene; give a number, text, a list or a dictionary")))
+}
+
+fn list<'py>(key: &str, items: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
+    let (mut values, mut tables) = (Vec::new(), Vec::new());
+    for item in items.try_iter()? {
+        match found(key, &item?)? {
+            Found::Value(value) => values.push(value),
+            Found::Table(keys) => tables.push(keys),
+            Found::Nothing => return Err(PyTypeError::new_err(format!("key `{key}`: None stands in a list; leave it out"))),
+            Found::Tables(_) => return Err(PyTypeError::new_err(format!("key `{key}`: a list of lists of tables is no scene"))),
+        }
+    }
+    match (values.is_empty(), tables.is_empty()) {
+        (_, true) => Ok(Found::Value(format!("[{}]", values.join(", ")))),
+        (true, false) => Ok(Found::Tables(tables)),
+        (false, false) => Err(PyTypeError::new_err(format!("key `{key}`: a list has tables and values; give one of them"))),
+    }
+}
+
+/// As TOML reads it back to the same bits.
+fn float(number: f64) -> String {
+    if number.is_nan() { "nan".into() } else { format!("{number:?}") }
+}
+
+fn bare_or_quoted(key: &str) -> String {
+    let is_bare = !key.is_empty() && key.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-".contains(&byte));
+    if is_bare { key.into() } else { quoted(key) }
+}
+
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for sign in text.chars() {
+        match sign {
+            '"' | '\\' => quoted.extend(['\\', sign]),
+            _ if sign.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", sign as u32);
+            }
+            _ => quoted.push(sign),
+        }
+    }
+    quoted + "\""
+}
+
+/// The dictionary of TOML text.
+#[pyfunction]
+pub fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyDict>> {
+    let read: toml::Table = text.parse().map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))?;
+    dictionary(py, &read)
+}
+
+fn dictionary<'py>(py: Python<'py>, read: &toml::Table) -> PyResult<Bound<'py, PyDict>> {
+    let keys = PyDict::new(py);
+    for (key, value) in read {
+        keys.set_item(key, python(py, value)?)?;
+    }
+    Ok(keys)
+}
+
+fn python<'py>(py: Python<'py>, value: &toml::Value) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match value {
+        toml::Value::String(text) => text.into_pyobject(py)?.into_any(),
+        toml::Value::Integer(number) => number.into_pyobject(py)?.into_any(),
+        toml::Value::Float(number) => number.into_pyobject(py)?.into_any(),
+        toml::Value::Boolean(flag) => flag.into_pyobject(py)?.to_owned().into_any(),
+        toml::Value::Datetime(time) => time.to_string().into_pyobject(py)?.into_any(),
+        toml::Value::Array(items) => {
+            let items = items.iter().map(|item| python(py, item)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, items)?.into_any()
+        }
+        toml::Value::Table(table) => dictionary(py, table)?.into_any(),
+    })
+}

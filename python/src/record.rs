@@ -1,0 +1,242 @@
+//! Records of ground motion.
+
+use crate::error;
+use crate::scene::Scene;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use rocking::ground::{AccelerationUnit, Measure, Synthetic, TextOptions, read_file};
+use rocking::intensity::{DEFAULT_DAMPING, Intensity, IntensityUnit, NAMES};
+use std::path::PathBuf;
+
+/// A record: accelerations at equal intervals, linear between.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct Record {
+    pub record: rocking::Record,
+}
+
+impl From<rocking::Record> for Record {
+    fn from(record: rocking::Record) -> Record {
+        Record { record }
+    }
+}
+
+impl Record {
+    fn refused(&self, py: Python<'_>, error: &rocking::RecordError) -> PyErr {
+        error::record(py, &self.record.source().file, error)
+    }
+}
+
+#[pymethods]
+impl Record {
+    /// Samples `[m/s²]`, their interval `[s]`, the time of the first `[s]`, a name.
+    #[new]
+    fn new(py: Python<'_>, accel: PyReadonlyArray1<'_, f64>, dt: f64, start: f64, name: &str) -> PyResult<Record> {
+        let accel = accel.as_array().to_vec();
+        let record = rocking::Record::new(accel, dt, start).map_err(|error| error::record(py, name, &error))?;
+        Ok(record.named(name).into())
+    }
+
+    /// Reads a file.
+    #[staticmethod]
+    #[pyo3(signature = (file, gravity, dt, units, lenient, channel, skip_rows, column))]
+    #[expect(clippy::too_many_arguments, reason = "the keys of a record, one argument each")]
+    fn read(
+        py: Python<'_>,
+        file: PathBuf,
+        gravity: f64,
+        dt: Option<f64>,
+        units: Option<&str>,
+        lenient: bool,
+        channel: Option<usize>,
+        skip_rows: usize,
+        column: Option<String>,
+    ) -> PyResult<Record> {
+        let units = match units {
+            None => None,
+            Some(name) => Some(AccelerationUnit::parse(name).ok_or_else(|| {
+                PyValueError::new_err(format!("there is no unit `{name}`; give g, m/s2, cm/s2, gal, mg or in/s2"))
+            })?),
+        };
+        let options = TextOptions { gravity, dt, units, lenient, channel, skip_rows, column };
+        let name = file.to_string_lossy().into_owned();
+        let bytes = py.detach(|| read_file(&file)).map_err(|failure| {
+            pyo3::exceptions::PyOSError::new_err(format!("{name}: {failure}"))
+        })?;
+        let record = py.detach(|| rocking::Record::from_bytes(&bytes, &options));
+        record.map(|record| record.named(&name).into()).map_err(|refused| error::record(py, &name, &refused))
+    }
+
+    /// Filtered noise.
+    #[staticmethod]
+    fn synthetic(py: Python<'_>, seed: u64, duration: f64, dt: f64, frequency: f64, damping: f64, pga: f64) -> PyResult<Record> {
+        let synthetic = Synthetic { pga, duration, dt, seed, frequency, damping };
+        let record = py.detach(|| synthetic.record()).map_err(|refused| error::record(py, "", &refused))?;
+        Ok(record.named(format!("seed {seed}")).into())
+    }
+
+    /// The record times a factor.
+    fn scaled(&self, py: Python<'_>, factor: f64) -> PyResult<Record> {
+        let scaled = self.record.clone().scaled(factor);
+        scaled.map(Record::from).map_err(|refused| self.refused(py, &refused))
+    }
+
+    /// The record scaled to a measure, of the names of a scene file.
+    #[pyo3(signature = (measure, size, gravity, column, sa_period, sa_damping))]
+    fn scaled_to(
+        &self,
+        py: Python<'_>,
+        measure: &str,
+        size: f64,
+        gravity: f64,
+        column: Option<&Scene>,
+        sa_period: Option<f64>,
+        sa_damping: Option<f64>,
+    ) -> PyResult<Record> {
+        let intensity = intensity(measure, sa_period, sa_damping)?;
+        if !(size.is_finite() && size > 0.0) {
+            return Err(PyValueError::new_err(format!("{measure} = {size} is out of range; give a number above zero")));
+        }
+        let (unit, gravity) = match (intensity.unit, column) {
+            (_, Some(scene)) => (intensity.unit_size(&scene.scene.column), scene.scene.column.gravity()),
+            (IntensityUnit::Si, None) => (1.0, gravity),
+            (IntensityUnit::Gravity, None) => (gravity, gravity),
+            _ => {
+                return Err(PyValueError::new_err(format!("{measure} is over what opens the base of a column; give `column`")));
+            }
+        };
+        let record = self.record.clone();
+        let scaled = match intensity.measure {
+            Measure::Pga => record.scaled_to_peak(size * unit),
+            other => record.scaled_to(other, size * unit, gravity),
+        };
+        scaled.map(Record::from).map_err(|refused| self.refused(py, &refused))
+    }
+
+    /// The samples of a stretch.
+    fn trimmed(&self, py: Python<'_>, start: f64, stop: f64) -> PyResult<Record> {
+        let trimmed = self.record.clone().trimmed(start, stop);
+        trimmed.map(Record::from).map_err(|refused| self.refused(py, &refused))
+    }
+
+    /// The record with its first sample at a time.
+    fn starting_at(&self, start: f64) -> PyResult<Record> {
+        if !start.is_finite() {
+            return Err(PyValueError::new_err(format!("start = {start} is out of range; give a finite number of seconds")));
+        }
+        Ok(self.record.clone().starting_at(start).into())
+    }
+
+    /// The record under another name.
+    fn named(&self, name: &str) -> Record {
+        self.record.clone().named(name).into()
+    }
+
+    #[getter]
+    fn accel<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.record.accel())
+    }
+
+    #[getter]
+    fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.record.velocity().into_pyarray(py)
+    }
+
+    #[getter]
+    fn displacement<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.record.displacement().into_pyarray(py)
+    }
+
+    #[getter]
+    fn dt(&self) -> f64 {
+        self.record.dt()
+    }
+
+    #[getter]
+    fn start(&self) -> f64 {
+        self.record.start()
+    }
+
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.record.duration()
+    }
+
+    #[getter]
+    fn scale(&self) -> f64 {
+        self.record.scale()
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.record.warnings().to_vec()
+    }
+
+    /// Name of the file, title, station and component.
+    #[getter]
+    fn source(&self) -> [String; 4] {
+        let source = self.record.source();
+        [&source.file, &source.title, &source.station, &source.component].map(String::clone)
+    }
+
+    /// Measures by name.
+    fn measures<'py>(&self, py: Python<'py>, gravity: f64) -> PyResult<Bound<'py, PyDict>> {
+        let measures = py.detach(|| self.record.measures(gravity));
+        let text = serde_json::to_string(&measures).map_err(error::json)?;
+        py.import("json")?.getattr("loads")?.call1((text,))?.cast_into().map_err(Into::into)
+    }
+
+    /// Pseudo-spectral acceleration at periods `[s]`, `[m/s²]`.
+    fn spectrum<'py>(&self, py: Python<'py>, periods: PyReadonlyArray1<'_, f64>, damping: f64) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let periods = periods.as_array().to_vec();
+        if let Some(period) = periods.iter().find(|period| !(period.is_finite() && **period > 0.0)) {
+            return Err(PyValueError::new_err(format!("period = {period} is out of range; give seconds above zero")));
+        }
+        if !(0.0..1.0).contains(&damping) {
+            return Err(PyValueError::new_err(format!("damping = {damping} is out of range; give a ratio from 0 to below 1")));
+        }
+        let values: Vec<f64> =
+            py.detach(|| periods.iter().map(|period| self.record.spectral_acceleration(*period, damping)).collect());
+        Ok(values.into_pyarray(py))
+    }
+
+    fn to_csv(&self) -> String {
+        self.record.to_csv()
+    }
+
+    /// All of it, to be pickled.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &serde_json::to_vec(&self.record).map_err(error::json)?))
+    }
+
+    #[staticmethod]
+    fn from_state(state: &[u8]) -> PyResult<Record> {
+        Ok(Record { record: serde_json::from_slice(state).map_err(error::json)? })
+    }
+
+    fn equals(&self, other: &Record) -> bool {
+        self.record == other.record
+    }
+}
+
+/// A measure by its name.
+pub fn intensity(name: &str, sa_period: Option<f64>, sa_damping: Option<f64>) -> PyResult<Intensity> {
+    let lower = name.to_ascii_lowercase();
+    if !NAMES.contains(&&*lower) {
+        return Err(PyValueError::new_err(format!("there is no measure `{name}`; choose one of {}", NAMES.join(", "))));
+    }
+    let damping = sa_damping.unwrap_or(DEFAULT_DAMPING);
+    if !(0.0..1.0).contains(&damping) {
+        return Err(PyValueError::new_err(format!("sa_damping = {damping} is out of range; give a ratio from 0 to below 1")));
+    }
+    if let Some(period) = sa_period.filter(|period| !(period.is_finite() && *period > 0.0)) {
+        return Err(PyValueError::new_err(format!("sa_period = {period} is out of range; give seconds above zero")));
+    }
+    let found = Intensity::named(&lower, sa_period.map(|period| [period, damping]))
+        .ok_or_else(|| PyValueError::new_err(format!("`{name}` is of a period; give sa_period in s")))?;
+    match (found.measure, sa_period) {
+        (Measure::Sa { .. }, _) | (_, None) => Ok(found),
+        _ => Err(PyValueError::new_err(format!("`{name}` has no period; leave sa_period out, or measure by sa or sa_g"))),
+    }
+}

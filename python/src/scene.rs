@@ -1,0 +1,196 @@
+//! Scenes, read from the keys of a scene file.
+
+use crate::error;
+use crate::interrupt::Signals;
+use crate::keys::to_toml;
+use crate::record::Record;
+use crate::run::Response;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use rocking::run_folder::SceneText;
+use rocking::{Motion, Wanted, simulate_observed};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A scene that has passed the checks of the reader.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct Scene {
+    pub scene: Arc<rocking::Scene>,
+    pub origin: Arc<Origin>,
+}
+
+/// The file of a scene, as reports name it.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Origin {
+    pub file: PathBuf,
+    pub text: String,
+}
+
+impl Origin {
+    pub fn scene_text(&self) -> SceneText {
+        SceneText { file: self.file.clone(), text: self.text.clone() }
+    }
+}
+
+/// A scene as it is pickled: samples of records included.
+#[derive(Serialize, Deserialize)]
+struct Pickled<S, O> {
+    scene: S,
+    origin: O,
+}
+
+/// The text of a scene file.
+#[pyfunction]
+pub fn scene_text(py: Python<'_>, file: PathBuf) -> PyResult<String> {
+    rocking::scene_file::text(&file).map_err(|refused| error::scene(py, &refused))
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads TOML text; `file` is named in errors, and records are found relative to it.
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: String, file: PathBuf) -> PyResult<Scene> {
+        let scene = py.detach(|| rocking::Scene::from_toml(&text, &file)).map_err(|refused| error::scene(py, &refused))?;
+        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
+    }
+
+    /// Reads keys; records in memory take the place of a component of the ground motion.
+    #[staticmethod]
+    #[pyo3(signature = (keys, file, horizontal, vertical))]
+    fn from_keys(
+        py: Python<'_>,
+        keys: &Bound<'_, PyDict>,
+        file: PathBuf,
+        horizontal: Option<&Record>,
+        vertical: Option<&Record>,
+    ) -> PyResult<Scene> {
+        let text = to_toml(keys)?;
+        let mut scene = rocking::Scene::from_toml(&text, &file).map_err(|refused| error::scene(py, &refused))?;
+        if horizontal.is_some() || vertical.is_some() {
+            let motion = |record: &Record| Motion::Record(record.record.clone());
+            let excitation = &mut scene.excitation;
+            excitation.horizontal = horizontal.map(motion).or(excitation.horizontal.take());
+            excitation.vertical = vertical.map(motion).or(excitation.vertical.take());
+            scene.check().map_err(|errors| error::faults(py, &file, &errors))?;
+        }
+        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
+    }
+
+    /// Runs the scene.
+    #[pyo3(signature = (rows, forces, wanted))]
+    fn run(&self, py: Python<'_>, rows: bool, forces: bool, wanted: &str) -> PyResult<Response> {
+        let wanted = match wanted {
+            "everything" => Wanted::Everything,
+            "outcome" => Wanted::Outcome,
+            "overturns" => Wanted::Overturns,
+            _ => {
+                let problem = format!("there is no answer `{wanted}`; give everything, outcome or overturns");
+                return Err(PyValueError::new_err(problem));
+            }
+        };
+        let is_as_read = rows && forces && wanted == Wanted::Everything;
+        let scene = if is_as_read {
+            self.scene.clone()
+        } else {
+            let mut scene = (*self.scene).clone();
+            scene.options.wanted = wanted;
+            scene.options.record_forces = forces;
+            scene.output_dt = scene.output_dt.filter(|_| rows);
+            Arc::new(scene)
+        };
+        let mut signals = Signals::new();
+        let start = Instant::now();
+        let result = py.detach(|| simulate_observed(&scene, |_| signals.poll()));
+        let seconds = start.elapsed().as_secs_f64();
+        signals.finish()?;
+        let response = result.map_err(|failed| error::solve(py, &failed))?;
+        Ok(Response { scene, origin: self.origin.clone(), response, seconds })
+    }
+
+    #[getter]
+    fn toml(&self) -> &str {
+        &self.origin.text
+    }
+
+    /// The scene as the solver has it.
+    fn json(&self) -> PyResult<String> {
+        serde_json::to_string(&*self.scene).map_err(error::json)
+    }
+
+    /// Sizes of the blocks, base first, a list each.
+    fn blocks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let blocks = self.scene.column.blocks();
+        let columns = PyDict::new(py);
+        let column = |name: &str, of: fn(&rocking::Block) -> f64| {
+            columns.set_item(name, blocks.iter().map(of).collect::<Vec<f64>>())
+        };
+        column("bottom_half_width", |block| block.bottom_half_width)?;
+        column("top_half_width", |block| block.top_half_width)?;
+        column("half_height", |block| block.half_height)?;
+        column("centroid_height", |block| block.centroid_height)?;
+        column("mass", |block| block.mass)?;
+        column("inertia", |block| block.inertia)?;
+        Ok(columns)
+    }
+
+    /// The stacks that begin with each block as one body, base first, a list each.
+    fn stacks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let column = &self.scene.column;
+        let stacks: Vec<rocking::Stack> = (0..column.len()).map(|interface| column.stack(interface)).collect();
+        let columns = PyDict::new(py);
+        let list = |name: &str, of: fn(&rocking::Stack) -> f64| {
+            columns.set_item(name, stacks.iter().map(of).collect::<Vec<f64>>())
+        };
+        list("alpha", rocking::Stack::slenderness)?;
+        list("R", rocking::Stack::radius)?;
+        list("p", rocking::Stack::frequency_parameter)?;
+        list("uplift_acceleration", rocking::Stack::uplift_acceleration)?;
+        list("housner_ratio", rocking::Stack::housner_ratio)?;
+        Ok(columns)
+    }
+
+    #[getter]
+    fn gravity(&self) -> f64 {
+        self.scene.column.gravity()
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.scene.title
+    }
+
+    #[getter]
+    fn t_end(&self) -> f64 {
+        self.scene.options.t_end
+    }
+
+    #[getter]
+    fn has_friction(&self) -> bool {
+        self.scene.friction.is_some()
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.scene.excitation.warnings()
+    }
+
+    /// All of it, to be pickled.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let pickled = Pickled { scene: &*self.scene, origin: &*self.origin };
+        Ok(PyBytes::new(py, &serde_json::to_vec(&pickled).map_err(error::json)?))
+    }
+
+    #[staticmethod]
+    fn from_state(py: Python<'_>, state: &[u8]) -> PyResult<Scene> {
+        let Pickled { scene, origin }: Pickled<rocking::Scene, Origin> = serde_json::from_slice(state).map_err(error::json)?;
+        scene.check().map_err(|errors| error::faults(py, Path::new(&origin.file), &errors))?;
+        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
+    }
+
+    fn equals(&self, other: &Scene) -> bool {
+        self.scene == other.scene
+    }
+}

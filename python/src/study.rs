@@ -1,0 +1,297 @@
+//! Incremental dynamic analysis and fragility.
+
+use crate::error;
+use crate::record::{Record, intensity};
+use crate::scene::{Origin, Scene};
+use crate::sweep::{ERROR, in_parts, layout, per_block, range};
+use crate::table::{Column, Names, Values, into_python, whole};
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use rocking::intensity::Intensity;
+use rocking::studies::{self, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError};
+use rocking::sweep::Fate;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Components of a record under a name.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct StudyRecord {
+    record: studies::StudyRecord,
+}
+
+#[pymethods]
+impl StudyRecord {
+    #[new]
+    #[pyo3(signature = (name, horizontal, vertical))]
+    fn new(name: String, horizontal: &Record, vertical: Option<&Record>) -> StudyRecord {
+        let vertical = vertical.map(|record| record.record.clone());
+        StudyRecord { record: studies::StudyRecord { name, horizontal: horizontal.record.clone(), vertical } }
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.record.name
+    }
+
+    #[getter]
+    fn horizontal(&self) -> Record {
+        self.record.horizontal.clone().into()
+    }
+
+    #[getter]
+    fn vertical(&self) -> Option<Record> {
+        self.record.vertical.clone().map(Record::from)
+    }
+}
+
+/// A column, records and levels.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct Ida {
+    ida: studies::Ida,
+    /// Limit states of a study's file.
+    states: Vec<String>,
+    options: FragilityOptions,
+}
+
+/// Runs made together at first.
+const FIRST_PART: usize = 16;
+
+#[pymethods]
+impl Ida {
+    #[new]
+    #[pyo3(signature = (scene, records, measure, levels, free_swing, sa_period, sa_damping))]
+    #[expect(clippy::too_many_arguments, reason = "the keys of a study, one argument each")]
+    fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        records: Vec<PyRef<'_, StudyRecord>>,
+        measure: &str,
+        levels: Vec<f64>,
+        free_swing: Option<f64>,
+        sa_period: Option<f64>,
+        sa_damping: Option<f64>,
+    ) -> PyResult<Ida> {
+        let intensity = intensity(measure, sa_period, sa_damping)?;
+        let records = records.iter().map(|record| record.record.clone()).collect();
+        let ida = studies::Ida::new((*scene.scene).clone(), records, intensity, levels);
+        let ida = match free_swing {
+            Some(seconds) => ida.and_then(|ida| ida.with_free_swing(seconds)),
+            None => ida,
+        };
+        let ida = ida.map_err(|refused| error::study(py, &refused))?;
+        Ok(Ida { ida, states: Vec::new(), options: FragilityOptions::default() })
+    }
+
+    /// Reads the text of a study file.
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: String, file: PathBuf) -> PyResult<Ida> {
+        let read = py.detach(|| IdaFile::from_toml(&text, &file)).map_err(|refused| error::scene(py, &refused))?;
+        let states = read.states.iter().map(ToString::to_string).collect();
+        Ok(Ida { ida: read.ida, states, options: read.options })
+    }
+
+    fn __len__(&self) -> usize {
+        self.ida.len()
+    }
+
+    /// Heading of the measure in a table.
+    #[getter]
+    fn measure(&self) -> String {
+        self.ida.intensity().to_string()
+    }
+
+    #[getter]
+    fn levels(&self) -> Vec<f64> {
+        self.ida.levels().to_vec()
+    }
+
+    #[getter]
+    fn free_swing(&self) -> f64 {
+        self.ida.free_swing()
+    }
+
+    #[getter]
+    fn records(&self) -> Vec<StudyRecord> {
+        self.ida.records().iter().map(|record| StudyRecord { record: record.clone() }).collect()
+    }
+
+    /// Limit states, replicates, confidence and seed of a study's file.
+    #[getter]
+    fn conclusions(&self) -> (Vec<String>, usize, f64, u64) {
+        (self.states.clone(), self.options.replicates, self.options.confidence, self.options.seed)
+    }
+
+    #[getter]
+    fn base(&self) -> Scene {
+        Scene { scene: Arc::new(self.ida.scene().clone()), origin: Arc::new(Origin::default()) }
+    }
+
+    /// The scene of a run.
+    fn scene(&self, py: Python<'_>, index: usize) -> PyResult<Scene> {
+        range(index, index + 1, self.ida.len())?;
+        let scene = self.ida.scene_of(index).map_err(|failed| run_error(py, &failed))?;
+        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin::default()) })
+    }
+
+    /// The rows of a range of runs.
+    fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
+        let range = range(start, stop, self.ida.len())?;
+        let runs = in_parts(py, range, threads, FIRST_PART, |part| self.ida.runs(part))?;
+        let scales = runs.iter().map(|run| run.scale).collect();
+        let levels = runs.iter().map(|run| run.level).collect();
+        let indices = runs.iter().map(|run| run.index as i64).collect();
+        let names = Names::of(self.ida.records().iter().map(|record| record.name.clone()));
+        let names = names.column(runs.iter().map(|run| self.ida.records()[run.record].name.as_str()));
+        let results: Vec<Result<IdaOutcome, RunError>> = runs.into_iter().map(|run| run.result).collect();
+        let found = || results.iter().map(|result| result.as_ref().ok());
+        let number = |of: fn(&IdaOutcome) -> Option<f64>| {
+            Values::Number(found().map(|found| found.and_then(of).unwrap_or(f64::NAN)).collect())
+        };
+        let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
+        let mut columns = vec![
+            Column::new("index", Values::Index(indices)),
+            Column::new("record", names),
+            Column::new("scale", Values::Number(scales)),
+            Column::new(self.ida.intensity().to_string(), Values::Number(levels)),
+            Column::new("outcome", fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))),
+            Column::new("impacts", whole(found().map(|found| found.map(|found| found.impacts)))),
+            Column::new("block", whole(found().map(|found| found.and_then(|found| found.block)))),
+            Column::new("overturned_at", number(|found| found.overturned_at)),
+            Column::new("first_uplift", number(|found| found.first_uplift)),
+            Column::new("largest_gap", number(|found| Some(found.largest_gap))),
+        ];
+        let blocks = self.ida.scene().column.len();
+        columns.extend(per_block("peak", blocks, &results, |found| &found.peaks));
+        if self.ida.scene().friction.is_some() {
+            columns.extend(per_block("residual_slide", blocks, &results, |found| &found.residual_slides));
+        }
+        let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
+        columns.push(Column::new("error", Values::Text(errors.collect())));
+        into_python(py, columns)
+    }
+}
+
+fn run_error(py: Python<'_>, failed: &RunError) -> PyErr {
+    match failed {
+        RunError::Record(refused) => error::record(py, "", refused),
+        RunError::Scene(errors) => error::faults(py, "<study>".as_ref(), errors),
+        RunError::Solve(failed) => error::solve(py, failed),
+        _ => error::of_study(py, &failed.to_string()),
+    }
+}
+
+/// Runs of a table as observations. `peaks` and `slides` have the shape (runs, blocks), blanks are not numbers.
+fn observations(
+    records: Vec<String>,
+    levels: Vec<f64>,
+    outcomes: Vec<Option<String>>,
+    uplift: Vec<bool>,
+    peaks: &PyReadonlyArray2<'_, f64>,
+    slides: &PyReadonlyArray2<'_, f64>,
+) -> PyResult<Vec<Observation>> {
+    let runs = records.len();
+    let (peaks, slides) = (peaks.as_array(), slides.as_array());
+    if [levels.len(), outcomes.len(), uplift.len(), peaks.nrows(), slides.nrows()].iter().any(|length| *length != runs) {
+        return Err(PyValueError::new_err("columns of a study must be equally long"));
+    }
+    let numbers = |row: numpy::ndarray::ArrayView1<'_, f64>| row.iter().copied().filter(|number| !number.is_nan()).collect();
+    records
+        .into_iter()
+        .zip(outcomes)
+        .enumerate()
+        .map(|(run, (record, outcome))| {
+            let level = levels[run];
+            if !(level.is_finite() && level > 0.0) {
+                return Err(PyValueError::new_err(format!("row {run}: the level {level} is not a number above zero")));
+            }
+            let fate = match outcome.as_deref() {
+                None | Some(ERROR) => None,
+                Some(name) => Some(Fate::ALL.into_iter().find(|fate| fate.name() == name).ok_or_else(|| {
+                    PyValueError::new_err(format!("row {run}: `{name}` is no outcome of a run"))
+                })?),
+            };
+            Ok(Observation {
+                record,
+                level,
+                fate,
+                has_uplift: uplift[run],
+                peaks: numbers(peaks.row(run)),
+                residual_slides: numbers(slides.row(run)),
+            })
+        })
+        .collect()
+}
+
+/// The fragility of a limit state as JSON, and its statements.
+#[pyfunction]
+#[pyo3(signature = (records, levels, outcomes, uplift, peaks, slides, state, replicates, confidence, seed, layout_name))]
+#[expect(clippy::too_many_arguments, reason = "columns of a table and options, one argument each")]
+pub fn fragility(
+    py: Python<'_>,
+    records: Vec<String>,
+    levels: Vec<f64>,
+    outcomes: Vec<Option<String>>,
+    uplift: Vec<bool>,
+    peaks: PyReadonlyArray2<'_, f64>,
+    slides: PyReadonlyArray2<'_, f64>,
+    state: &str,
+    replicates: usize,
+    confidence: f64,
+    seed: u64,
+    layout_name: Option<&str>,
+) -> PyResult<(String, Vec<String>)> {
+    let runs = observations(records, levels, outcomes, uplift, &peaks, &slides)?;
+    let state: LimitState =
+        state.parse().map_err(|refused| error::of_study(py, &format!("there is no state `{state}`; {refused}")))?;
+    if !(confidence > 0.0 && confidence < 1.0) {
+        return Err(PyValueError::new_err(format!("confidence = {confidence} is out of range; give a share between 0 and 1")));
+    }
+    let mut options = FragilityOptions::default();
+    (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
+    options.layout = layout(layout_name)?;
+    // One part of one run: the bands are made by the pool's threads.
+    let made = in_parts(py, 0..1, 0, 1, |_| vec![Fragility::of(&runs, state, &options)])?;
+    let found = made.first().ok_or_else(|| error::of_study(py, "no curve was made"))?;
+    Ok((serde_json::to_string(found).map_err(error::json)?, found.statements()))
+}
+
+/// Probability of the lognormal curve at levels.
+#[pyfunction]
+pub fn probability(median: f64, dispersion: f64, levels: Vec<f64>) -> Vec<f64> {
+    levels.iter().map(|level| studies::probit::normal((level / median).ln() / dispersion)).collect()
+}
+
+/// Stripes of the runs of a table, as columns.
+#[pyfunction]
+pub fn stripes<'py>(
+    py: Python<'py>,
+    records: Vec<String>,
+    levels: Vec<f64>,
+    outcomes: Vec<Option<String>>,
+    uplift: Vec<bool>,
+    peaks: PyReadonlyArray2<'py, f64>,
+    slides: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let stripes = studies::stripes(&observations(records, levels, outcomes, uplift, &peaks, &slides)?);
+    let columns = PyDict::new(py);
+    columns.set_item("level", stripes.iter().map(|stripe| stripe.level).collect::<Vec<_>>())?;
+    columns.set_item("runs", stripes.iter().map(|stripe| stripe.runs).collect::<Vec<_>>())?;
+    for (place, fate) in Fate::ALL.into_iter().enumerate() {
+        let counts: Vec<usize> = stripes.iter().map(|stripe| stripe.fates[place]).collect();
+        columns.set_item(fate.name().replace('-', "_"), counts)?;
+    }
+    columns.set_item("errors", stripes.iter().map(|stripe| stripe.errors).collect::<Vec<_>>())?;
+    for (place, share) in studies::FRACTILES.into_iter().enumerate() {
+        let values: Vec<f64> = stripes.iter().map(|stripe| stripe.fractiles.map_or(f64::NAN, |values| values[place])).collect();
+        columns.set_item(format!("peak_{:.0}", 100.0 * share), values)?;
+    }
+    Ok(columns)
+}
+
+/// The label of an axis of a measure, by its heading in a table; none for another heading.
+#[pyfunction]
+pub fn measure_label(heading: &str) -> Option<String> {
+    heading.parse().ok().map(|intensity: Intensity| intensity.label())
+}

@@ -1,0 +1,195 @@
+//! Sweeps: the table of a range of points, with the columns of the command line's.
+
+use crate::error;
+use crate::interrupt::INTERVAL;
+use crate::scene::{Origin, Scene};
+use crate::table::{Column, Names, Values, into_python, whole};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use rocking::scene_file::{MOST_BLOCKS, Setting, Template};
+use rocking::sweep::{Ask, Axis, Fate, Outcome, PointError};
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Outcome of a failed point, as in a table of the command line.
+pub const ERROR: &str = "error";
+
+/// A base scene and what varies.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct Sweep {
+    sweep: rocking::Sweep,
+}
+
+/// Runs a range in parts, on a pool of so many threads (0: as many as the machine has), and looks for signals between them. The pool is of the call: a
+/// process that is forked later has none that is broken.
+pub fn in_parts<T: Send>(
+    py: Python<'_>,
+    range: Range<usize>,
+    threads: usize,
+    first: usize,
+    lines: impl Fn(Range<usize>) -> Vec<T> + Sync,
+) -> PyResult<Vec<T>> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|failed| pyo3::exceptions::PyOSError::new_err(failed.to_string()))?;
+    let (mut made, mut next, mut size) = (Vec::with_capacity(range.len()), range.start, first);
+    while next < range.end {
+        let end = range.end.min(next.saturating_add(size));
+        let start = Instant::now();
+        made.extend(py.detach(|| pool.install(|| lines(next..end))));
+        py.check_signals()?;
+        // As long as a user waits for the answer to Ctrl-C, and no shorter: threads come together at the end of a part.
+        if start.elapsed() < 2 * INTERVAL {
+            size *= 2;
+        } else if start.elapsed() > 8 * INTERVAL {
+            size = (size / 2).max(first);
+        }
+        next = end;
+    }
+    Ok(made)
+}
+
+/// A range of the `length` points or runs of a study.
+pub fn range(start: usize, stop: usize, length: usize) -> PyResult<Range<usize>> {
+    if start > stop || stop > length {
+        return Err(PyIndexError::new_err(format!("rows {start} to {stop} are not of the {length} rows of the study")));
+    }
+    Ok(start..stop)
+}
+
+/// Points run together at first.
+const FIRST_PART: usize = 256;
+
+#[pymethods]
+impl Sweep {
+    /// Reads the text of a sweep file without `scene`, and the text of its base scene.
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: String, file: PathBuf, base: String, base_file: PathBuf) -> PyResult<Sweep> {
+        let sweep = py.detach(|| {
+            let template = Template::from_toml(base, &base_file)?;
+            rocking::Sweep::from_toml(&text, &file, Some(template))
+        });
+        Ok(Sweep { sweep: sweep.map_err(|refused| error::scene(py, &refused))? })
+    }
+
+    /// Reads a sweep file.
+    #[staticmethod]
+    fn load(py: Python<'_>, file: PathBuf) -> PyResult<Sweep> {
+        let sweep = py.detach(|| rocking::Sweep::from_file(&file)).map_err(|refused| error::scene(py, &refused))?;
+        Ok(Sweep { sweep })
+    }
+
+    fn __len__(&self) -> usize {
+        self.sweep.len()
+    }
+
+    #[getter]
+    fn ask(&self) -> &'static str {
+        match self.sweep.ask {
+            Ask::Overturns => "overturns",
+            Ask::Peaks => "peaks",
+            Ask::Slides => "slides",
+            _ => "outcome",
+        }
+    }
+
+    /// Dotted keys of the axes, and their numbers of values.
+    #[getter]
+    fn axes(&self) -> Vec<(String, usize)> {
+        self.sweep.axes.iter().map(|axis| (axis.key.clone(), axis.values.len())).collect()
+    }
+
+    /// The scene of a point.
+    fn scene(&self, py: Python<'_>, index: usize) -> PyResult<Scene> {
+        range(index, index + 1, self.sweep.len())?;
+        let scene = self.sweep.scene(index).map_err(|refused| error::scene(py, &refused))?;
+        let origin = Origin { file: self.sweep.template.file().into(), text: self.sweep.template.text().into() };
+        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
+    }
+
+    /// The rows of a range of points.
+    fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
+        let range = range(start, stop, self.sweep.len())?;
+        let blocks = if self.sweep.ask.is_of_peaks() { self.blocks(py)? } else { 0 };
+        let results = in_parts(py, range.clone(), threads, FIRST_PART, |part| self.sweep.lines(part, |row| row.result))?;
+        into_python(py, py.detach(|| self.columns(range, &results, blocks)))
+    }
+}
+
+impl Sweep {
+    /// Blocks of the largest column, as far as axes are within the limits of a scene.
+    fn blocks(&self, py: Python<'_>) -> PyResult<usize> {
+        let base = self.sweep.template.with(std::iter::empty()).map_err(|refused| error::scene(py, &refused))?;
+        let counts = self.sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
+        let counts = counts.filter_map(|count| count.to_string().parse().ok()).filter(|count| *count <= MOST_BLOCKS);
+        Ok(counts.max().unwrap_or(base.column.len()))
+    }
+
+    fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], blocks: usize) -> Vec<Column> {
+        let ask = self.sweep.ask;
+        let found = || results.iter().map(|result| result.as_ref().ok());
+        let mut columns = vec![Column::new("index", Values::Index(range.clone().map(|index| index as i64).collect()))];
+        for (place, axis) in self.sweep.axes.iter().enumerate() {
+            let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
+            columns.push(Column::new(&axis.key, axis_values(axis, settings)));
+        }
+        let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
+        columns.push(Column::new("outcome", fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))));
+        // A run that ends when its outcome is certain has not had all its impacts.
+        let is_counted = |found: &&Outcome| match found.fate {
+            Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
+            Fate::Overturns => ask != Ask::Overturns,
+            _ => ask.is_of_peaks(),
+        };
+        columns.push(Column::new("impacts", whole(found().map(|found| found.filter(is_counted).map(|found| found.impacts)))));
+        columns.push(Column::new("block", whole(found().map(|found| found.and_then(|found| found.block)))));
+        let time = |found: Option<&Outcome>| found.and_then(|found| found.overturned_at).unwrap_or(f64::NAN);
+        columns.push(Column::new("overturned_at", Values::Number(found().map(time).collect())));
+        if ask.is_of_peaks() {
+            columns.extend(per_block("peak", blocks, results, |found| &found.peaks));
+            let mode = |found: Option<&Outcome>| found.and_then(|found| found.last_mode.clone());
+            columns.push(Column::new("last_mode", Values::Text(found().map(mode).collect())));
+            if ask == Ask::Slides {
+                columns.extend(per_block("residual_slide", blocks, results, |found| &found.residual_slides));
+            }
+        }
+        let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
+        columns.push(Column::new("error", Values::Text(errors.collect())));
+        columns
+    }
+}
+
+/// The column of an axis: numbers, or names.
+fn axis_values<'s>(axis: &Axis, settings: impl Iterator<Item = &'s Setting>) -> Values {
+    let number = |setting: &Setting| match setting {
+        Setting::Number(number) => Some(*number),
+        Setting::Text(_) => None,
+    };
+    if axis.values.iter().all(|setting| number(setting).is_some()) {
+        return Values::Number(settings.map(|setting| number(setting).unwrap_or(f64::NAN)).collect());
+    }
+    let names: Vec<String> = settings.map(Setting::to_string).collect();
+    Names::of(axis.values.iter().map(Setting::to_string)).column(names.iter().map(String::as_str))
+}
+
+/// `name_1, name_2, ..`: columns of a list that each result has; blank where there is none, and beyond its end.
+pub fn per_block<T, E>(name: &str, blocks: usize, results: &[Result<T, E>], list: impl Fn(&T) -> &Vec<f64>) -> Vec<Column> {
+    let of_block = |block: usize| {
+        let value = |result: &Result<T, E>| result.as_ref().ok().and_then(|found| list(found).get(block).copied());
+        let values = results.iter().map(|result| value(result).unwrap_or(f64::NAN)).collect();
+        Column::new(format!("{name}_{}", block + 1), Values::Number(values))
+    };
+    (0..blocks).map(of_block).collect()
+}
+
+/// A way to share the levels of a study, by its name.
+pub fn layout(name: Option<&str>) -> PyResult<Option<rocking::studies::Layout>> {
+    match name {
+        None => Ok(None),
+        Some("stripes") => Ok(Some(rocking::studies::Layout::Stripes)),
+        Some("cloud") => Ok(Some(rocking::studies::Layout::Cloud)),
+        Some(name) => Err(PyValueError::new_err(format!("there is no layout `{name}`; give stripes or cloud"))),
+    }
+}

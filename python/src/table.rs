@@ -1,0 +1,84 @@
+//! Columns of a table on their way to pandas: a tuple `(name, kind, ...)` each, with arrays wherever there are many numbers.
+
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
+use std::collections::HashMap;
+
+/// A column of a table.
+pub enum Values {
+    /// Whole numbers; `("int", values)`.
+    Index(Vec<i64>),
+    /// Whole numbers with blanks; `("Int64", values, is_blank)`.
+    Whole(Vec<i64>, Vec<bool>),
+    /// Numbers, a blank is not a number; `("float", values)`.
+    Number(Vec<f64>),
+    /// Names of a list known beforehand; `("category", codes, names)`, the code of a blank is -1.
+    Names(Vec<i32>, Vec<String>),
+    /// Text with blanks; `("string", list)`.
+    Text(Vec<Option<String>>),
+}
+
+/// A column with its name.
+pub struct Column {
+    pub name: String,
+    pub values: Values,
+}
+
+impl Column {
+    pub fn new(name: impl Into<String>, values: Values) -> Column {
+        Column { name: name.into(), values }
+    }
+
+    /// As Python has it.
+    pub fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
+        let name = self.name;
+        match self.values {
+            Values::Index(values) => (name, "int", values.into_pyarray(py)).into_pyobject(py),
+            Values::Whole(values, blanks) => {
+                (name, "Int64", values.into_pyarray(py), blanks.into_pyarray(py)).into_pyobject(py)
+            }
+            Values::Number(values) => (name, "float", values.into_pyarray(py)).into_pyobject(py),
+            Values::Names(codes, names) => (name, "category", codes.into_pyarray(py), names).into_pyobject(py),
+            Values::Text(values) => (name, "string", values).into_pyobject(py),
+        }
+    }
+}
+
+/// The columns of a table as Python has them.
+pub fn into_python(py: Python<'_>, columns: Vec<Column>) -> PyResult<Bound<'_, PyList>> {
+    let columns = columns.into_iter().map(|column| column.into_python(py)).collect::<PyResult<Vec<_>>>()?;
+    PyList::new(py, columns)
+}
+
+/// Whole numbers with blanks.
+pub fn whole(values: impl Iterator<Item = Option<usize>>) -> Values {
+    let (values, blanks) = values.map(|value| (value.map_or(0, |value| value as i64), value.is_none())).unzip();
+    Values::Whole(values, blanks)
+}
+
+/// Names as places in their list, in which each stands once.
+pub struct Names {
+    names: Vec<String>,
+    places: HashMap<String, i32>,
+}
+
+impl Names {
+    pub fn of<T: Into<String>>(all: impl IntoIterator<Item = T>) -> Names {
+        let mut known = Names { names: Vec::new(), places: HashMap::new() };
+        for name in all {
+            let name = name.into();
+            if !known.places.contains_key(&name) {
+                known.places.insert(name.clone(), known.names.len() as i32);
+                known.names.push(name);
+            }
+        }
+        known
+    }
+
+    /// The column of these names, -1 for a name that is none of them.
+    pub fn column<'n>(self, values: impl Iterator<Item = &'n str>) -> Values {
+        let codes = values.map(|name| self.places.get(name).copied().unwrap_or(-1)).collect();
+        Values::Names(codes, self.names)
+    }
+}

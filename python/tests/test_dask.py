@@ -1,0 +1,103 @@
+"""Studies on a cluster of two workers have the rows of local ones, whatever becomes of a worker."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pytest
+import rocking as rk
+
+dd = pytest.importorskip("dask.dataframe")
+distributed = pytest.importorskip("distributed")
+rd = pytest.importorskip("rocking.dask")
+
+pytestmark = pytest.mark.filterwarnings("ignore")
+
+SCENE = rk.Scene(
+    rk.Column.prisms(1, half_width=0.4, half_height=1.56), rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9, t_end=20, rtol=1e-6
+)
+SWEEP = rk.Sweep(SCENE, {"omega_p": {"from": 0.5, "to": 8, "steps": 76}, "amplitude_uplift": {"from": 0.5, "to": 12, "steps": 116}}, ask="peaks")
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[Any]:
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            yield client
+
+
+def text(table: pd.DataFrame) -> bytes:
+    return table.to_csv(index=False).encode()
+
+
+def test_columns_are_known_beforehand() -> None:
+    lazy = rd.frame(SWEEP, partition_size=1000)
+    here = SWEEP.table(0, 10)
+    assert list(lazy.columns) == list(here.columns) and lazy.npartitions == -(-len(SWEEP) // 1000)
+    assert lazy.divisions[0] == 0 and lazy.divisions[-1] == len(SWEEP) - 1
+    for name in here.columns:
+        assert str(lazy.dtypes[name]) in (str(here.dtypes[name]), f"{here.dtypes[name]}[pyarrow]"), name
+    plan = rk.Ida(SCENE, rk.synthetic(range(3), duration=6.0), "pgv", [0.1, 0.4, 0.9])
+    assert list(rd.frame(plan, partition_size=2).columns) == list(plan.table(0, 0).columns)
+
+
+def test_a_sweep_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> None:
+    here = SWEEP.table()
+    there = rd.frame(SWEEP, partition_size=500).compute()
+    assert text(there) == text(here)
+    assert there.index.equals(here.index) and there.outcome.cat.categories.equals(here.outcome.cat.categories)
+    lazy = rd.frame(SWEEP, partition_size=700)
+    counts = lazy.groupby("outcome", observed=True).index.count().compute()
+    assert counts.sort_index().to_dict() == here.groupby("outcome", observed=True)["index"].count().sort_index().to_dict()
+
+
+def test_a_study_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> None:
+    plan = rk.Ida(SCENE, rk.synthetic(range(4), duration=6.0), "PGV", [0.1, 0.3, 0.5, 0.7, 0.9, 1.5])
+    here = plan.run()
+    there = rd.frame(plan, partition_size=5).compute()
+    assert text(there) == text(here.table)
+    assert rk.Study(there).fragility("overturned").to_dict() == here.fragility("overturned").to_dict()
+
+
+def test_a_killed_worker_loses_nothing(client: Any, tmp_path: Path) -> None:
+    sweep = rk.Sweep(SCENE, {"omega_p": {"from": 0.5, "to": 8, "steps": 300}, "amplitude_uplift": {"from": 0.5, "to": 12, "steps": 400}}, ask="peaks")
+    here = sweep.table()
+    victims = list(client.run(os.getpid).values())
+    assert len(victims) == 2
+    killed: list[float] = []
+
+    def kill() -> None:
+        # In the middle: some partitions are done and others are not.
+        while len(list(tmp_path.glob("*.parquet"))) < 10:
+            time.sleep(0.01)
+        os.kill(victims[0], signal.SIGKILL)
+        killed.append(len(list(tmp_path.glob("*.parquet"))))
+
+    killer = threading.Thread(target=kill, daemon=True)
+    killer.start()
+    rd.to_parquet(sweep, tmp_path, partition_size=1500)
+    killer.join(timeout=10)
+    assert killed and killed[0] < 80, f"killed after {killed} of 80 partitions"
+    assert os.getpid() not in victims and len(list(tmp_path.glob("*.parquet"))) == 80
+    there = pd.read_parquet(tmp_path).sort_values("index", ignore_index=True)
+    assert text(there) == text(here)
+    client.wait_for_workers(2, timeout=60)
+    assert victims[0] not in client.run(os.getpid).values()
+
+
+def test_a_partition_takes_about_as_long_as_asked() -> None:
+    size = rd.partition_size(SWEEP, seconds=0.5)
+    begin = time.perf_counter()
+    SWEEP.table(0, min(size, len(SWEEP)), threads=1)
+    spent = (time.perf_counter() - begin) * max(size / len(SWEEP), 1.0)
+    # Runs differ, and so do moments of a machine that others use.
+    assert 1 <= size <= rd.MOST_ROWS and 0.05 < spent < 5.0
+    with pytest.raises(ValueError, match="at least one row"):
+        rd.frame(SWEEP, partition_size=0)

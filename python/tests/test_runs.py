@@ -1,0 +1,99 @@
+"""The reference runs through Python are those of the command line, to the last bit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import rocking as rk
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+@pytest.mark.parametrize("file", sorted(SCENES.glob("*.toml")), ids=lambda file: file.stem)
+def test_a_run_has_the_bits_of_the_command_line(file: Path, command, tmp_path: Path) -> None:
+    command("run", file, "--out", tmp_path, "--quiet")
+    run = rk.simulate(rk.Scene.load(file))
+    rows = pd.read_csv(tmp_path / "response.csv", float_precision="round_trip")
+    blocks = len(run.scene.column)
+    assert run.theta.shape == (len(rows), blocks) == run.omega.shape
+    pd.testing.assert_frame_equal(run.to_pandas(), rows.drop(columns="pattern"), check_exact=True)
+    shown = {1: "+", 0: "0", -1: "-"}
+    assert ["(" + ",".join(shown[sign] for sign in row) + ")" for row in run.pattern.tolist()] == rows.pattern.tolist()
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    for one in (summary, run.summary):
+        one.pop("wall_seconds")
+    assert run.summary == summary
+    events = json.loads((tmp_path / "events.json").read_text())
+    assert json.loads(run.to_json())["events"] == events
+    assert run.events.t.tolist() == [event["t"] for event in events]
+    assert run.events.kind.tolist() == [event["kind"] for event in events]
+
+
+def test_the_folder_of_a_run_is_that_of_the_command_line(scenes: Path, command, tmp_path: Path) -> None:
+    file = scenes / "two-drums-record.toml"
+    command("run", file, "--out", tmp_path / "command", "--quiet")
+    rk.simulate(rk.Scene.load(str(file))).write(tmp_path / "python")
+    for name in ("response.csv", "events.json"):
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "command" / name).read_bytes()
+
+
+def test_a_scene_of_arguments_is_the_scene_of_the_file(scenes: Path) -> None:
+    column = rk.Column.cut(3, half_width=0.4, half_height=1.56)
+    motion = rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0)
+    made = rk.simulate(column, motion, eta=0.9, t_end=20, rtol=1e-6)
+    loaded = rk.Scene.load(scenes / "sweeps" / "column.toml").replace(keys={"column.blocks": 3})
+    read = rk.simulate(loaded)
+    assert np.array_equal(made.theta, read.theta) and made.impacts == read.impacts > 0
+
+
+def test_without_rows_and_forces_the_motion_is_the_same(scenes: Path) -> None:
+    scene = rk.Scene.load(scenes / "three-drums-pulse.toml")
+    full, bare = rk.simulate(scene), rk.simulate(scene, rows=False, forces=False)
+    assert bare.theta.shape == (0, 3) and bare.summary["friction_demand"] == []
+    assert np.array_equal(full.peak_theta, bare.peak_theta) and full.events.equals(bare.events)
+    decided = rk.simulate(scene, wanted="outcome")
+    assert decided.outcome == full.outcome and len(decided.peak_theta) == 0
+    with pytest.raises(ValueError, match="everything, outcome or overturns"):
+        rk.simulate(scene, wanted="all")
+
+
+def test_friction_brings_slides_and_places() -> None:
+    column = rk.Column.prisms(2, half_width=0.4, half_height=0.8)
+    motion = rk.pulse("sine-pulse", amplitude_g=0.6, frequency=2)
+    run = rk.simulate(column, motion, friction=0.2, t_end=2)
+    assert run.outcome == "slides" and run.slide is not None and abs(run.slide[-1, 0]) > 0.01
+    assert run.place.shape == run.velocity.shape == (len(run.t), 2, 2) and run.force.shape == (len(run.t), 2, 3)
+    assert np.allclose(run.place[0], [[0.0, 0.4], [0.0, 1.2]]) and np.allclose(run.force[0, :, 0].ptp() if hasattr(run.force, "ptp") else 0.0, 0.0)
+    sticking = rk.simulate(column, motion.replace(amplitude_g=0.05), friction={"static": 0.9, "kinetic": [0.8, 0.7]}, t_end=1)
+    assert sticking.outcome == "no-uplift" and sticking.place is None and np.all(sticking.slide == 0)
+
+
+def test_tables_pictures_and_pages(scenes: Path, tmp_path: Path) -> None:
+    run = rk.simulate(rk.Scene.load(scenes / "three-drums-pulse.toml"))
+    table, data = run.to_pandas(), run.to_xarray()
+    assert list(table.columns)[:4] == ["t", "theta_1", "theta_2", "theta_3"]
+    assert np.array_equal(data.theta.sel(block=2), table.theta_2) and data.theta.units == "rad"
+    above, below = run.plot()
+    assert len(below.lines) == 4 and "θ / α" in below.get_ylabel() and len(above.lines) == 1
+    assert run._repr_svg_().startswith("<svg") and "impacts" in run._repr_html_()
+    assert set(run.figures()) == {"time-history", "phase-portrait", "energy", "forces"}
+    run.report(tmp_path / "run.html")
+    page = (tmp_path / "run.html").read_text()
+    assert page.startswith("<!") and run.scene.title in page
+    empty = rk.simulate(run.scene, rows=False)
+    assert empty._repr_svg_() is None and "rocks" in empty._repr_html_()
+    with pytest.raises(ValueError, match="rows=True"):
+        empty.plot()
+
+
+def test_the_page_is_that_of_the_command_line(scenes: Path, command, tmp_path: Path) -> None:
+    file = scenes / "five-drums-free.toml"
+    run = rk.simulate(rk.Scene.load(str(file)))
+    run.write(tmp_path / "folder")
+    command("report", tmp_path / "folder", "--out", tmp_path / "command.html")
+    run.report(tmp_path / "python.html")
+    assert (tmp_path / "python.html").read_bytes() == (tmp_path / "command.html").read_bytes()

@@ -1,0 +1,153 @@
+"""Scenes are the keys of scene files, and errors are the reader's."""
+
+from __future__ import annotations
+
+import pickle
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rocking as rk
+from rocking._scene import ARGUMENTS
+
+ROOT = Path(__file__).resolve().parents[2]
+COLUMN = rk.Column.prisms(2, half_width=0.4, half_height=1.6)
+
+
+def test_every_key_of_the_reference_has_its_argument() -> None:
+    text = (ROOT / "docs" / "book" / "scene-file.md").read_text()
+    chapters = {"Top level": "", "Impacts": "restitution.", "Initial state": "initial.", "Solver": "solver.", "Output": "output."}
+    documented = set()
+    for section in text.split("\n## ")[1:]:
+        table = next((table for head, table in chapters.items() if section.startswith(head)), None)
+        if table is None:
+            continue
+        for row in re.findall(r"^\| (`.*?) \|", section, re.MULTILINE):
+            documented |= {table + key for key in re.findall(r"`(\w+)`", row)}
+    assert len(documented) > 18 and documented == set(ARGUMENTS.values())
+
+
+def test_a_column_is_cut_and_measured() -> None:
+    column = rk.Column.drums(5, half_width=0.5, top_half_width=0.4, height=5.0, density=2700)
+    assert len(column) == 5 and column.blocks.half_height.tolist() == [0.5] * 5
+    assert column.blocks.mass.sum() == pytest.approx(2700 * np.pi * 5 * (0.25 + 0.2 + 0.16) / 3)
+    one = rk.Column([rk.Block(width=0.6, height=0.8, mass=100.0)])
+    assert one.R == pytest.approx(0.5) and one.p == pytest.approx(np.sqrt(3 * 9.81 / 2)) and one.alpha == pytest.approx(np.arctan(0.75))
+    assert one.uplift_acceleration == pytest.approx(0.75 * 9.81)
+    assert one == rk.Column([{"half_width": 0.3, "half_height": 0.4, "mass": 100.0}]) != column
+    with pytest.raises(TypeError, match="give one of them"):
+        rk.Block(width=1.0, half_width=0.5, height=1.0)
+
+
+def test_a_scene_goes_to_text_and_back() -> None:
+    scene = rk.Scene(
+        COLUMN,
+        rk.pulse("ricker", amplitude_g=np.float64(0.4), frequency=1.2) + {"kind": "synthetic", "pga_g": 0.1, "seed": np.int64(3)},
+        {"kind": "harmonic", "amplitude_g": 0.05, "frequency": 4.0, "duration": 10.0},
+        title='Two "drums"\n– with everything',
+        factors=np.array([0.95, 0.9]),
+        theta=(0.01, 0.01),
+        t_end=20,
+        rtol=1e-8,
+        output_dt=0.05,
+    )
+    again = rk.Scene.from_toml(scene.toml)
+    assert again == scene and again.title == 'Two "drums"\n– with everything'
+    assert rk.Scene.from_dict(scene.keys) == scene and rk.Scene.from_dict(again.keys) == scene
+    assert scene.replace(t_end=10) != scene and scene.replace(t_end=10).replace(t_end=20) == scene
+
+
+def test_replacing_takes_dotted_keys_and_alternatives(tmp_path: Path) -> None:
+    scene = rk.Scene([rk.Block(half_width=0.4, half_height=0.8)] * 2, rk.pulse("ricker", amplitude=2.0, omega=5.0), eta=0.9)
+    changed = scene.replace(factors=[1.0, 1.0], keys={"block[2].half_width": 0.3, "excitation.horizontal.amplitude": 3.0, "solver.t_end": 4.0})
+    assert changed.keys["restitution"] == {"factors": [1.0, 1.0]} and changed.t_end == 4.0
+    assert changed.column.blocks.top_half_width.tolist() == [0.4, 0.3] and changed.keys["excitation"]["horizontal"]["amplitude"] == 3.0
+    assert scene.keys["block"][1]["half_width"] == 0.4 and scene.keys["excitation"]["horizontal"]["amplitude"] == 2.0
+    assert scene.replace(keys={"restitution.eta": None}) == rk.Scene(scene.column, rk.pulse("ricker", amplitude=2.0, omega=5.0))
+    with pytest.raises(ValueError, match="no such item"):
+        scene.replace(keys={"block[3].mass": 1.0})
+    scene.save(tmp_path / "scene.toml")
+    assert rk.Scene.load(tmp_path / "scene.toml") == scene
+
+
+def test_records_are_found_beside_their_scene(scenes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    loaded = rk.Scene.load(scenes / "two-drums-record.toml")
+    assert loaded.replace(t_end=5).keys["excitation"]["horizontal"]["file"] == "records/synthetic.AT2"
+    # Pickled, the samples travel with it.
+    (tmp_path / "moved").mkdir()
+    for name in ("two-drums-record.toml", "records/synthetic.AT2"):
+        target = tmp_path / "moved" / name
+        target.parent.mkdir(exist_ok=True)
+        target.write_bytes((scenes / name).read_bytes())
+    moved = pickle.dumps(rk.Scene.load(tmp_path / "moved" / "two-drums-record.toml"))
+    (tmp_path / "moved" / "records" / "synthetic.AT2").unlink()
+    run = rk.simulate(pickle.loads(moved))
+    assert run.impacts == rk.simulate(loaded).impacts > 0
+
+
+def test_an_error_names_file_line_key_and_remedy(tmp_path: Path) -> None:
+    with pytest.raises(rk.SceneError) as caught:
+        rk.Scene(COLUMN, eta=1.5)
+    error = caught.value
+    assert (error.file, error.key) == ("<scene>", "restitution.eta") and error.problem == "1.5 is out of range"
+    assert error.remedy == "give a number from 0 to 1" and error.faults == (error,)
+    text = rk.Scene(COLUMN, eta=0.5).toml.replace("0.5", "1.5")
+    assert text.splitlines()[error.line - 1] == "eta = 1.5"
+    assert str(error) == f"<scene>, line {error.line}, key `restitution.eta`: 1.5 is out of range; give a number from 0 to 1"
+    file = tmp_path / "scene.toml"
+    file.write_text("[column]\nblocks = 2\nhalf_width = 0.4\nhalf_hight = 1.6\n")
+    with pytest.raises(rk.SceneError) as caught:
+        rk.Scene.load(file)
+    assert (caught.value.file, caught.value.line, caught.value.key) == (str(file), 4, "column.half_hight")
+    assert "did you mean `half_height`?" in str(caught.value)
+    with pytest.raises(rk.SceneError, match="check the path") as caught:
+        rk.Scene.load(tmp_path / "none.toml")
+    assert caught.value.file == str(tmp_path / "none.toml") and caught.value.line == 0
+
+
+def test_several_faults_are_all_told_and_errors_are_pickled() -> None:
+    with pytest.raises(rk.SceneError) as caught:
+        rk.Scene(COLUMN, t_end=-1.0, rtol=1.0)
+    assert sorted(fault.key for fault in caught.value.faults) == ["solver.rtol", "solver.t_end"]
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and [fault.line for fault in again.faults] == [fault.line for fault in caught.value.faults]
+    for base in (rk.RockingError, ValueError):
+        assert isinstance(again, base)
+
+
+def test_a_missing_record_is_an_error_with_its_place(tmp_path: Path) -> None:
+    with pytest.raises(rk.SceneError) as caught:
+        rk.Scene(COLUMN, {"kind": "record", "file": tmp_path / "none.AT2"})
+    assert caught.value.key == "excitation.horizontal.file" and caught.value.record == str(tmp_path / "none.AT2") and caught.value.line > 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind", "text"),
+    [
+        ({"etta": 0.9}, TypeError, "no argument `etta`"),
+        ({"keys": {"solver.rtoll": 1.0}}, rk.SceneError, "rtol"),
+        ({"theta": [0.1]}, rk.SceneError, "1 number\\(s\\) for 2 block"),
+        ({"theta": [0.1, None]}, TypeError, "None stands in a list"),
+        ({"title": object()}, TypeError, "key `title`: a object cannot stand in a scene"),
+        ({"t_end": float("nan")}, rk.SceneError, "solver.t_end"),
+        ({"t_end": "ten"}, rk.SceneError, "text stands here"),
+        ({"friction": -0.1}, rk.SceneError, "friction"),
+        ({"keys": {"title.x": 1}, "title": "t"}, ValueError, "has no keys"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments, kind, text: str) -> None:
+    with pytest.raises(kind, match=text):
+        rk.Scene(COLUMN, **arguments)
+
+
+def test_bad_columns_and_motions_are_refused() -> None:
+    with pytest.raises(rk.SceneError, match="half_width"):
+        rk.Column.drums(2, half_width=-1.0, height=2.0)
+    with pytest.raises(rk.SceneError, match="add a \\[\\[block\\]\\]"):
+        rk.Column([])
+    with pytest.raises(rk.SceneError, match="there is no kind `rickr`"):
+        rk.simulate(COLUMN, rk.pulse("rickr", amplitude=1.0, omega=1.0))
+    with pytest.raises(rk.SceneError, match="amplitude_g"):
+        rk.simulate(COLUMN, rk.pulse("ricker", amplitude=1.0, amplitude_g=1.0, omega=1.0))

@@ -1,0 +1,187 @@
+"""Sweeps, incremental dynamic analyses and fragilities have the values of the command line's tables."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import rocking as rk
+
+COLUMN = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
+SCENE = rk.Scene(COLUMN, rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9, t_end=20, rtol=1e-6)
+
+
+def as_read(table: pd.DataFrame) -> pd.DataFrame:
+    """A table as pandas reads it back from CSV."""
+    text = table.to_csv(index=False)
+    import io
+
+    return pd.read_csv(io.StringIO(text), float_precision="round_trip")
+
+
+@pytest.mark.parametrize("ask", ["outcome", "overturns", "peaks"])
+def test_a_sweep_has_the_table_of_the_command_line(ask: str, command, scenes: Path, tmp_path: Path) -> None:
+    file = tmp_path / "sweep.toml"
+    base = (scenes / "sweeps" / "column.toml").read_text()
+    (tmp_path / "column.toml").write_text(base)
+    axes = 'blocks = [1, 2, 500]\nmethod = ["auto", "dop853"]\nomega_p = { from = 1, to = 8, steps = 4 }\namplitude_uplift = { from = 0.5, to = 12, steps = 5, scale = "log" }\n'
+    file.write_text(f'scene = "column.toml"\nask = "{ask}"\n[axes]\n{axes}')
+    command("sweep", file, "--out", tmp_path / "table.csv", "--quiet")
+    expected = pd.read_csv(tmp_path / "table.csv", float_precision="round_trip")
+    made = rk.sweep(
+        rk.Scene.load(tmp_path / "column.toml"),
+        {
+            "blocks": [1, 2, 500],
+            "method": ["auto", "dop853"],
+            "omega_p": np.linspace(1, 8, 4),
+            "amplitude_uplift": {"from": 0.5, "to": 12, "steps": 5, "scale": "log"},
+        },
+        ask=ask,
+    )
+    assert list(made.columns) == list(expected.columns)
+    pd.testing.assert_frame_equal(as_read(made), expected, check_exact=True, check_dtype=False)
+    loaded = rk.Sweep.load(file)
+    pd.testing.assert_frame_equal(loaded.table(), made)
+    pd.testing.assert_frame_equal(pd.concat([loaded.table(0, 7), loaded.table(7, threads=1)]), made)
+    assert (made.outcome == "error").sum() == 40 and made.error.notna().sum() == 40
+
+
+def test_a_sweep_with_friction_asks_for_slides() -> None:
+    scene = SCENE.replace(friction=0.4)
+    table = rk.sweep(scene, {"friction": [0.2, 0.9], "amplitude_uplift": [2.0, 4.0]}, ask="slides")
+    assert {"peak_1", "last_mode", "residual_slide_1"} < set(table.columns) and abs(table.residual_slide_1[0]) > 0
+    with pytest.raises(rk.SceneError, match="without friction"):
+        rk.sweep(SCENE, {"amplitude_uplift": [2.0]}, ask="slides")
+
+
+def test_a_point_of_a_sweep_is_a_scene() -> None:
+    sweep = rk.Sweep(SCENE, {"amplitude_uplift": [1.5, 6.0], "omega_p": [3.0, 4.0, 5.0]}, ask="peaks")
+    table, run = sweep.table(), rk.simulate(sweep.scene(1))
+    assert len(sweep) == 6 and table["excitation.horizontal.omega_p"].tolist() == [3.0, 4.0, 5.0] * 2
+    assert table.peak_1[1] == run.peak_theta[0] / run.alpha[0] and table.impacts[1] == run.impacts
+    assert sweep.axes == {"excitation.horizontal.amplitude_uplift": 2, "excitation.horizontal.omega_p": 3}
+    assert [sweep.shard(part, 4) for part in (1, 2, 3, 4)] == [range(0, 1), range(1, 3), range(3, 4), range(4, 6)]
+    pd.testing.assert_frame_equal(pickle.loads(pickle.dumps(sweep)).table(), table)
+    with pytest.raises(IndexError):
+        sweep.table(0, 7)
+
+
+def test_a_record_in_memory_is_swept() -> None:
+    record = rk.Record.synthetic(1, duration=8.0)
+    scene = rk.Scene(COLUMN, record, eta=0.9, t_end=12)
+    table = rk.sweep(scene, {"excitation.horizontal.pgv": [0.2, 2.0]}, ask="peaks")
+    expected = [rk.simulate(scene.replace(horizontal=record.scaled(pgv=size))).peak_theta[0] / COLUMN.alpha for size in (0.2, 2.0)]
+    assert table.peak_1.tolist() == expected
+
+
+@pytest.mark.parametrize(
+    ("axes", "options", "text"),
+    [
+        ({"amplitude_gg": [1.0]}, {}, "amplitude_gg"),
+        ({"amplitude_uplift": []}, {}, "the axis has no values"),
+        ({}, {}, "axes"),
+        ({"amplitude_uplift": [1.0]}, {"ask": "everything"}, "there is no question"),
+        ({"amplitude_uplift": [1.0], "omega_p": [1.0, 2.0]}, {"combine": "paired"}, "equally long"),
+    ],
+)
+def test_bad_sweeps_are_refused(axes, options, text: str) -> None:
+    with pytest.raises(rk.SceneError, match=text) as caught:
+        rk.sweep(SCENE, axes, **options)
+    assert caught.value.file == "<sweep>"
+
+
+@pytest.fixture(scope="module")
+def statue(command, scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the study of the statue, made by the command line."""
+    folder = tmp_path_factory.mktemp("statue")
+    command("ida", scenes / "studies" / "statue-ida.toml", "--out", folder / "ida.csv", "--quiet")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def study(scenes: Path) -> rk.Study:
+    scene = rk.Scene.load(scenes / "studies" / "statue.toml")
+    records = rk.synthetic(range(1, 7), frequency=1.5, duration=20.0)
+    return rk.ida(scene, records, "PGV", np.round(np.linspace(0.1, 1.5, 15), 12))
+
+
+def test_a_study_has_the_tables_of_the_command_line(statue: Path, study: rk.Study, scenes: Path) -> None:
+    expected = pd.read_csv(statue / "ida.csv", float_precision="round_trip")
+    pd.testing.assert_frame_equal(as_read(study.table), expected, check_exact=True, check_dtype=False)
+    stripes = pd.read_csv(statue / "ida-stripes.csv", float_precision="round_trip")
+    pd.testing.assert_frame_equal(as_read(study.stripes), stripes, check_exact=True, check_dtype=False)
+    pd.testing.assert_frame_equal(rk.Study.load(scenes / "studies" / "statue-ida.toml").table, study.table)
+
+
+def test_fragilities_are_those_of_the_command_line(statue: Path, study: rk.Study) -> None:
+    curves = pd.read_csv(statue / "ida-fragility.csv", float_precision="round_trip").set_index("state")
+    shares = pd.read_csv(statue / "ida-shares.csv", float_precision="round_trip")
+    for state in ("uplift", "peak > 0.15", "peak > 0.35", "overturned"):
+        found, row = study.fragility(state, seed=1), curves.loc[state]
+        assert (found.fit, found.median, found.dispersion) == (row.fit, row["median"], row.dispersion)
+        assert found.bands["median"] == [row.median_low, row.median_high] and found.goodness["pseudo_r2"] == row.pseudo_r2
+        assert "; ".join(found.statements) == row.statement
+        own = shares[shares.state == state]
+        assert found.counts.share.tolist() == own.share.tolist()
+        assert found.probability(own.pgv).tolist() == pytest.approx(own.curve.tolist(), rel=1e-14)
+    # A table that was read back, and one without bands.
+    again = rk.Study(pd.read_csv(statue / "ida.csv"), "pgv").fragility("overturned", replicates=0)
+    assert again.median == curves.loc["overturned", "median"] and again.bands is None
+
+
+def test_figures_of_studies(study: rk.Study) -> None:
+    ax = study.plot()
+    assert len(ax.lines) == 6 + 3 + 1 and ax.get_ylabel() == "PGV [m/s]"
+    ax = study.fragility("overturned", replicates=100).plot()
+    assert len(ax.lines) == 2 and len(ax.collections) == 1
+    same = study.fragility("uplift", replicates=0).plot(ax, label="first motion")
+    assert same is ax and "first motion" in ax.get_legend_handles_labels()[1][1]
+    none = study.fragility("peak > 100000")
+    assert "Study of 90 runs" in repr(study) and "lognormal" in repr(none)
+
+
+def test_states_without_a_curve_say_why() -> None:
+    study = rk.ida(COLUMN, rk.synthetic(range(3), duration=6.0), "pga_uplift", [0.2, 0.4])
+    found = study.fragility("uplift")
+    assert found.fit == "never" and found.median is None and "go higher" in found.statements[0]
+    assert len(found.plot().lines) == 1
+    with pytest.raises(rk.StudyError, match="go higher"):
+        found.probability([1.0])
+    one = rk.ida(COLUMN, [rk.Record.synthetic(0)], "pga_uplift", [0.2, 40.0])
+    assert one.fragility("uplift").fit == "one-record"
+
+
+def test_bad_studies_are_refused() -> None:
+    records = rk.synthetic(range(2), duration=6.0)
+    for arguments, text in (
+        (([], "pgv", [1.0]), "no record"),
+        ((records, "pgv", []), "no level"),
+        ((records, "pgv", [1.0, -1.0]), "above zero"),
+        ((records, "pgx", [1.0]), "no measure `pgx`"),
+        ((records, "sa", [1.0]), "sa_period"),
+    ):
+        with pytest.raises((rk.StudyError, ValueError), match=text):
+            rk.ida(COLUMN, *arguments)
+    study = rk.ida(COLUMN, records, "sa_g", [0.1, 1.0], sa_period=0.5)
+    assert study.measure == "sa_g(0.5)" and study.label.startswith("Sa(0.5 s")
+    with pytest.raises(rk.StudyError, match="no state `falling`"):
+        study.fragility("falling")
+    with pytest.raises(rk.StudyError, match="give the scene friction"):
+        study.fragility("slide > 0.1")
+    with pytest.raises(ValueError, match="confidence"):
+        study.fragility(confidence=2.0)
+    with pytest.raises(rk.StudyError, match="no column has the name of a measure"):
+        rk.Study(study.table.drop(columns="sa_g(0.5)"))
+    with pytest.raises(rk.StudyError, match="ask = \"peaks\""):
+        rk.Study(rk.sweep(rk.Scene(COLUMN, rk.Record.synthetic(1)), {"pgv": [0.1, 0.2]})).fragility("peak > 0.1")
+
+
+def test_a_study_is_pickled_and_runs_in_ranges() -> None:
+    plan = rk.Ida(COLUMN, rk.synthetic(range(3), duration=6.0), "pgv", [0.1, 0.4, 0.9], eta=0.9)
+    table = plan.run().table
+    again = pickle.loads(pickle.dumps(plan))
+    pd.testing.assert_frame_equal(pd.concat([again.table(0, 4), again.table(4, threads=1)]), table)
+    assert len(plan) == 9 and plan.levels.tolist() == [0.1, 0.4, 0.9] and "3 record(s)" in repr(plan)
