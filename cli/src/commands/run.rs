@@ -9,7 +9,8 @@ use crate::plot::NAMES;
 use crate::progress::Progress;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
-use rocking::run_folder::{Folder, Results, Run as Finished, SceneText};
+use rocking::run_folder::{COMPANIONS, Folder, Results, Run as Finished, SceneText};
+use rocking::trust::{Follow, Trust, Verdict, follow_run};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -25,21 +26,30 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     }
     let folder = Folder::create(out)?;
     let bar = Progress::of_run(scene.options.t_end, asked.quiet);
+    let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| {
         bar.reached_time(t);
         ControlFlow::Continue(())
     })
-    .map_err(|error| Failure::Solve { scene: path.clone(), out: out.clone(), error })?;
+    .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
+    let trust = match asked.no_trust {
+        true => None,
+        false => Some(follow_run(&scene, &response, Follow::default()).map_err(failed)?),
+    };
     bar.finish();
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
-    finished.outdated = NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]).collect();
+    finished.trust = trust.as_ref();
+    finished.outdated.extend(NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]));
     finished.outdated.push(report::NAME.into());
     folder.write(&finished)?;
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
+    if out.join(COMPANIONS).is_file() {
+        written.push(COMPANIONS.into());
+    }
     if asked.plots || asked.report {
         // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
         let results = Results::read(out)?;
@@ -58,14 +68,14 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if asked.json {
         return json_text(&folder.summary()?);
     }
-    print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), shown(out)))
+    print(&format!("{}wrote {} to {}\n", account(&scene, &response, trust.as_ref()), written.join(", "), shown(out)))
 }
 
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
 const MODES_PRINTED: usize = 8;
 
 /// A few lines on what happened.
-fn account(scene: &Scene, response: &Response) -> String {
+fn account(scene: &Scene, response: &Response, trust: Option<&Trust>) -> String {
     let outcome = match (response.status, response.overturned_block) {
         (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
         (StopReason::Falls, _) => format!("overturns, certain from t = {:.4} s on", response.t_final),
@@ -92,7 +102,13 @@ fn account(scene: &Scene, response: &Response) -> String {
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", printable(&scene.title));
     }
-    let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts);
+    // What follows from the laws of contact, or does not, is told by the run itself.
+    let is_open = trust.is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined);
+    let lead = if is_open { "not determined; this run " } else { "" };
+    let _ = writeln!(text, "{lead}{outcome}; {} impact(s)", response.impacts);
+    if let Some(trust) = trust {
+        let _ = writeln!(text, "trust: {}", trust.sentence());
+    }
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
     if let Some(report) = response.motion_at_contacts() {
