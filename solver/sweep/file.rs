@@ -35,7 +35,7 @@ impl Sweep {
         let ask = match root.text("ask").map_err(own)? {
             None => Ask::default(),
             Some((name, _)) => Ask::parse(&name).ok_or_else(|| {
-                own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides"]))
+                own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides", "trust"]))
             })?,
         };
         let template = Template::from_file(&base)?;

@@ -10,6 +10,7 @@ use crate::response::{ModeName, Response, StopReason};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
+use crate::trust::{Follow, follow_run};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
 
@@ -57,6 +58,8 @@ pub enum Ask {
     Peaks,
     /// As [`Ask::Peaks`], and the slides at the end; of scenes with friction.
     Slides,
+    /// As [`Ask::Peaks`], and whether the verdict is determined: nine companions of each run say so ([`crate::trust`]), and take ten times as long.
+    Trust,
 }
 
 impl Ask {
@@ -67,13 +70,14 @@ impl Ask {
             "overturns" => Some(Ask::Overturns),
             "peaks" => Some(Ask::Peaks),
             "slides" => Some(Ask::Slides),
+            "trust" => Some(Ask::Trust),
             _ => None,
         }
     }
 
     /// Whether runs go on to their end, and largest angles are asked for.
     pub fn is_of_peaks(self) -> bool {
-        matches!(self, Ask::Peaks | Ask::Slides)
+        matches!(self, Ask::Peaks | Ask::Slides | Ask::Trust)
     }
 }
 
@@ -106,12 +110,21 @@ pub enum Fate {
     Collapses,
     /// No motion follows from the laws of contact with friction.
     Undetermined,
+    /// Runs that differ by less than anybody can know do not agree on what becomes of it ([`crate::trust`]); of studies only.
+    NotDetermined,
 }
 
 impl Fate {
     /// All of them.
-    pub const ALL: [Fate; 6] =
-        [Fate::NoUplift, Fate::Slides, Fate::Rocks, Fate::Overturns, Fate::Collapses, Fate::Undetermined];
+    pub const ALL: [Fate; 7] = [
+        Fate::NoUplift,
+        Fate::Slides,
+        Fate::Rocks,
+        Fate::Overturns,
+        Fate::Collapses,
+        Fate::Undetermined,
+        Fate::NotDetermined,
+    ];
 
     /// What became of the column of a run.
     pub fn of(response: &Response) -> Fate {
@@ -126,7 +139,7 @@ impl Fate {
         }
     }
 
-    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`.
+    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
     pub fn name(self) -> &'static str {
         match self {
             Fate::NoUplift => "no-uplift",
@@ -135,6 +148,7 @@ impl Fate {
             Fate::Slides => "slides",
             Fate::Collapses => "collapses",
             Fate::Undetermined => "undetermined",
+            Fate::NotDetermined => "not-determined",
         }
     }
 }
@@ -158,6 +172,8 @@ pub struct Outcome {
     pub last_mode: Option<String>,
     /// Slides at the end, base first `[m]`; only if they are asked for.
     pub residual_slides: Vec<f64>,
+    /// Whether the verdict is determined; only if that is asked for.
+    pub determined: Option<bool>,
 }
 
 /// Why a point has no result.
@@ -252,7 +268,11 @@ impl<'s> Worker<'s> {
         };
         // Read from a file, it is valid.
         let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
-        Ok(self.sweep.outcome(scene, &response))
+        let mut outcome = self.sweep.outcome(scene, &response);
+        if self.sweep.ask == Ask::Trust {
+            outcome.determined = Some(follow_run(scene, &response, Follow::VERDICT)?.determined);
+        }
+        Ok(outcome)
     }
 }
 
@@ -305,7 +325,7 @@ impl Sweep {
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,
-            Ask::Peaks | Ask::Slides => Wanted::Everything,
+            Ask::Peaks | Ask::Slides | Ask::Trust => Wanted::Everything,
         };
         Ok(scene)
     }
@@ -341,6 +361,7 @@ impl Sweep {
                 Some(report) if self.ask == Ask::Slides => report.residual_slide.clone(),
                 _ => Vec::new(),
             },
+            determined: None,
         }
     }
 }

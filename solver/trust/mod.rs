@@ -240,27 +240,37 @@ impl Trust {
             }
             return text;
         }
-        let known = format!("angles are known up to t = {:.4} s only", self.horizon);
         let verdicts = self.verdicts();
         let told = match &verdicts[..] {
-            [one] => format!("{}, which proves nothing beyond", counted(*one)),
-            many => many.iter().map(|one| counted(*one)).collect::<Vec<_>>().join(", "),
+            [(Some(verdict), _)] if *verdict == self.verdict => {
+                format!("all {count} companions {} as well, which proves nothing beyond", plural(*verdict))
+            }
+            counts => {
+                let counts: Vec<String> = counts.iter().map(|one| counted(*one)).collect();
+                format!("of {count} companions {}", counts.join(", "))
+            }
         };
-        format!("{known}, small changes grow {grown} times by then; of {count} companions {told}")
+        format!("angles are known up to t = {:.4} s only; small changes grow {grown} times; {told}", self.horizon)
     }
 }
 
 /// So many companions with a verdict, in words.
 fn counted((verdict, count): (Option<Verdict>, usize)) -> String {
-    let verb = match (verdict, count) {
-        (None, _) => "failed",
-        (Some(verdict), 1) => verdict.words(),
-        (Some(Verdict::Stands), _) => "stand",
-        (Some(Verdict::Overturns), _) => "overturn",
-        (Some(Verdict::Collapses), _) => "collapse",
-        (Some(Verdict::Undetermined), _) => "end undetermined",
-    };
-    format!("{count} {verb}")
+    match (verdict, count) {
+        (None, _) => format!("{count} failed"),
+        (Some(verdict), 1) => format!("1 {verdict}"),
+        (Some(verdict), _) => format!("{count} {}", plural(verdict)),
+    }
+}
+
+/// What several columns do.
+fn plural(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stands => "stand",
+        Verdict::Overturns => "overturn",
+        Verdict::Collapses => "collapse",
+        Verdict::Undetermined => "end undetermined",
+    }
 }
 
 /// A factor with two digits.

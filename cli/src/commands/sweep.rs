@@ -47,7 +47,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
     table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
-        sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()))
+        sweep.lines(batch, |row| with_trust(&row, sweep.ask, columns.len()))
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
@@ -119,6 +119,10 @@ pub const OUTCOME: &str = "outcome";
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
+/// The column that says whether the verdict is determined, and what it says where it is not.
+pub const TRUST: &str = "trust";
+pub const NOT_DETERMINED: &str = "not-determined";
+
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     let of_axis = |axis: &Axis| {
@@ -145,6 +149,9 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
         if sweep.ask == Ask::Slides {
             columns.extend(per_block("residual_slide"));
         }
+        if sweep.ask == Ask::Trust {
+            columns.push(Column::sparse(TRUST, Kind::Text));
+        }
     }
     columns.push(Column::sparse("error", Kind::Text));
     Ok(columns)
@@ -152,6 +159,17 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
 
 /// Columns of every table besides its axes: index, outcome, impacts, block, time, error.
 const FIXED: usize = 6;
+
+/// A row as so many cells, that of trust before the error.
+fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
+    if ask != Ask::Trust {
+        return cells(row, ask, columns);
+    }
+    let cells = cells(row, ask, columns - 1);
+    let word = row.result.as_ref().ok().and_then(|outcome| outcome.determined);
+    let word = word.map_or("", |determined| if determined { "determined" } else { NOT_DETERMINED });
+    cells.iter().take(columns - 2).chain([word]).chain(cells.iter().skip(columns - 2)).collect()
+}
 
 /// A row as so many cells.
 fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {

@@ -2,7 +2,7 @@
 
 use super::curve::Point;
 use super::drawn_run::{DrawnRun, FALL};
-use super::sheet::{Anchor, Panel, Sheet};
+use super::sheet::{Anchor, Panel, Sheet, text_width};
 use super::style::{self, Stroke};
 use rocking::trust::{Band, Trust};
 
@@ -11,6 +11,9 @@ const GRAIN: f64 = 1.0;
 
 /// Darkness of the area of a block, of one.
 const OPACITY: f64 = 0.16;
+
+/// The words at the horizon.
+const HORIZON: &str = "angles known up to here";
 
 /// What companions say of a run whose angles are not determined to its end, with their band.
 fn open<'a>(motion: &'a DrawnRun) -> Option<&'a Trust> {
@@ -48,7 +51,10 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     }
     let x = panel.place_x(trust.horizon);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
-    sheet.words_up_on_paper([x - 6.0, frame.bottom() - 8.0], "angles known up to here", style::NOTE, Anchor::Start);
+    // Left of the line, unless it begins at once.
+    let is_room = x - frame.left > text_width(HORIZON, style::NOTE) + 12.0;
+    let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
+    sheet.words_on_paper([at, frame.top + 16.0], HORIZON, style::NOTE, anchor);
 }
 
 /// The range of a block's angles per column of paper: `x`, and its lower and upper end `[px]`.
