@@ -155,7 +155,7 @@ struct Summary<'a> {
 /// The files of a run, in the order in which they are put in place: the summary last, as a sign that the others are there.
 const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
 
-/// The range of the angles of a run and its companions over time; of runs whose angles are not determined to the end.
+/// The range of the angles of a run and its companions over time; of runs whose companions do not agree to the end.
 pub const COMPANIONS: &str = "companions.csv";
 
 /// The folder of a run's results, proved to be writable.
@@ -334,7 +334,7 @@ pub struct Results {
     pub version: String,
     /// The file of the scene.
     pub scene: SceneText,
-    /// What its companions say, with the range of their angles where those are not determined to the end; `None` for a run without.
+    /// What its companions say, with the range of their angles where they do not agree to the end; `None` for a run without.
     #[serde(default)]
     pub trust: Option<Trust>,
     /// Name of the method that ran.
@@ -460,7 +460,8 @@ impl Results {
         if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Some("an angle or a time is out of range".into());
         }
-        let times_of = |trust: &Trust| [trust.certain_at, trust.horizon, trust.solver_horizon, trust.ends_at];
+        let times_of =
+            |trust: &Trust| [trust.certain_at, trust.horizon, trust.solver_horizon, trust.input_horizon, trust.ends_at];
         if self.trust.as_ref().is_some_and(|trust| times_of(trust).iter().any(|t| !(0.0..=LARGEST_NUMBER).contains(t)))
         {
             return Some("a time of `trust` is out of range".into());

@@ -183,6 +183,9 @@ pub struct Run {
     /// change of the shaking that changes the verdict, take ten to thirty times as long as the run, on all threads. Files of the run are the same without.
     #[arg(long)]
     pub no_trust: bool,
+    /// Follow a run by its companions although it took more than five seconds.
+    #[arg(long, conflicts_with = "no_trust")]
+    pub trust: bool,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,

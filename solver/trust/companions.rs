@@ -69,6 +69,11 @@ impl Change {
         Some(changed)
     }
 
+    /// Whether the change is no larger than errors of a run at a good tolerance: all but the larger changes of the input.
+    pub(super) fn is_small(self) -> bool {
+        self.size().is_none_or(|size| size == CHANGES[0])
+    }
+
     /// Size of a relative change of the input; `None` for a tolerance.
     fn size(self) -> Option<f64> {
         match self {

@@ -7,9 +7,9 @@
 //!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
 //! ```
 //!
-//! The *horizon* is the time up to which all runs agree to [`AGREEMENT`]. A verdict that is certain by then, and is that of all companions, is
-//! *determined*. Beyond the horizon neither angles nor verdict follow from the scene: slender stacks in long shaking are chaotic, and no tolerance
-//! helps. `undetermined` is another word: a run with friction ends so where no motion follows from the laws of contact
+//! The *horizon* is the time up to which the runs agree to [`AGREEMENT`] that differ by their tolerance or by 1e-9: up to then the scene determines the
+//! angles, and the solver finds them. A verdict that is certain by then, and is that of all companions, those with changes of 1e-6 too, is *determined*.
+//! Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` is another word: a run with friction ends so where no motion follows from the laws of contact
 //! ([`StopReason::Undetermined`]).
 //!
 //! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
@@ -49,16 +49,19 @@ const MOST_ROWS: f64 = 5_000.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Trust {
-    /// Whether the verdict of the run is determined: reached within the horizon, and that of all companions.
+    /// Whether the verdict of the run is determined: certain within the horizon, and that of all companions.
     pub determined: bool,
     /// The verdict of the run itself.
     pub verdict: Verdict,
     /// Time from which the verdict of the run was certain `[s]`: of overturning, of rest, of too little energy to overturn, or the end of the run.
     pub certain_at: f64,
-    /// Time up to which all runs agree to [`AGREEMENT`] `[s]`; [`Trust::ends_at`] where they agree to the end.
+    /// Time up to which the companions with another tolerance, and those with changes of 1e-9, agree with the run to [`AGREEMENT`] `[s]`;
+    /// [`Trust::ends_at`] where they agree to the end.
     pub horizon: f64,
-    /// The same of the companions that differ by their tolerance only: beyond it the solver's own error is larger.
+    /// The same of the companions with another tolerance alone: beyond it the solver's own error is larger.
     pub solver_horizon: f64,
+    /// The same of all companions: beyond it angles hang on the seventh digit of the inputs.
+    pub input_horizon: f64,
     /// When the run ended `[s]`.
     pub ends_at: f64,
     /// Largest change of an angle over `α`, per relative change of excitation or sizes, up to the end or to the horizon, dimensionless.
@@ -143,7 +146,7 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
     let until = |is_taken: fn(&Companion) -> bool| {
         companions.iter().filter(|one| is_taken(one)).filter_map(|one| one.parts_at).fold(ends_at, f64::min)
     };
-    let horizon = until(|_| true);
+    let horizon = until(|one| one.change.is_small());
     let verdict = Verdict::of(response.status);
     let same_verdict = companions.iter().all(|one| one.verdict == Some(verdict));
     let block = lost_block(response);
@@ -157,6 +160,7 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
         verdict,
         certain_at,
         horizon,
+        input_horizon: until(|_| true),
         solver_horizon: until(|one| matches!(one.change, Change::Tolerance(_))),
         ends_at,
         amplification,
@@ -204,9 +208,9 @@ impl Trust {
         }
     }
 
-    /// Whether angles are determined to the end of the run.
+    /// Whether all companions agree to the end of the run.
     pub fn reaches_the_end(&self) -> bool {
-        self.horizon >= self.ends_at
+        self.input_horizon >= self.ends_at
     }
 
     /// The companions by their verdict, the most frequent first; `None` for those that failed.
@@ -227,13 +231,11 @@ impl Trust {
         let count = self.companions.len();
         let grown = format!("{}{}", if self.grows_on { "more than " } else { "" }, times(self.amplification));
         if self.determined {
-            let mut text = match self.reaches_the_end() {
-                true => format!("{count} companions agree to the end, small changes grow {grown} times"),
-                false => format!(
-                    "{count} companions agree up to t = {:.4} s; the verdict was certain at t = {:.4} s",
-                    self.horizon, self.certain_at
-                ),
+            let until = match self.reaches_the_end() {
+                true => "agree to the end".to_string(),
+                false => format!("have this verdict and agree up to t = {:.4} s", self.input_horizon),
             };
+            let mut text = format!("{count} companions {until}, small changes grow {grown} times");
             if let Some(fold) = &self.fold {
                 text.push_str("; ");
                 text.push_str(&fold.sentence());

@@ -16,6 +16,7 @@ mod shell;
 mod spectrum;
 mod sweep;
 mod thresholds;
+mod trust;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;

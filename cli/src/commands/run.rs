@@ -1,6 +1,7 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::{Dynamics, Picture, Run};
+use crate::commands::trust::Followed;
 use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
 use crate::number::fixed;
@@ -10,7 +11,6 @@ use crate::progress::Progress;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
 use rocking::run_folder::{COMPANIONS, Folder, Results, Run as Finished, SceneText};
-use rocking::trust::{Follow, Trust, Verdict, follow_run};
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -34,15 +34,12 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     })
     .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
-    let trust = match asked.no_trust {
-        true => None,
-        false => Some(follow_run(&scene, &response, Follow::default()).map_err(failed)?),
-    };
+    let followed = Followed::of(asked, &scene, &response, seconds).map_err(failed)?;
     bar.finish();
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
-    finished.trust = trust.as_ref();
+    finished.trust = followed.trust();
     finished.outdated.extend(NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]));
     finished.outdated.push(report::NAME.into());
     folder.write(&finished)?;
@@ -68,14 +65,14 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if asked.json {
         return json_text(&folder.summary()?);
     }
-    print(&format!("{}wrote {} to {}\n", account(&scene, &response, trust.as_ref()), written.join(", "), shown(out)))
+    print(&format!("{}wrote {} to {}\n", account(&scene, &response, &followed), written.join(", "), shown(out)))
 }
 
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
 const MODES_PRINTED: usize = 8;
 
 /// A few lines on what happened.
-fn account(scene: &Scene, response: &Response, trust: Option<&Trust>) -> String {
+fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     let outcome = match (response.status, response.overturned_block) {
         (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
         (StopReason::Falls, _) => format!("overturns, certain from t = {:.4} s on", response.t_final),
@@ -102,13 +99,8 @@ fn account(scene: &Scene, response: &Response, trust: Option<&Trust>) -> String 
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", printable(&scene.title));
     }
-    // What follows from the laws of contact, or does not, is told by the run itself.
-    let is_open = trust.is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined);
-    let lead = if is_open { "not determined; this run " } else { "" };
-    let _ = writeln!(text, "{lead}{outcome}; {} impact(s)", response.impacts);
-    if let Some(trust) = trust {
-        let _ = writeln!(text, "trust: {}", trust.sentence());
-    }
+    let _ = writeln!(text, "{}{outcome}; {} impact(s)", followed.lead(), response.impacts);
+    text.push_str(&followed.line());
     let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
     if let Some(report) = response.motion_at_contacts() {

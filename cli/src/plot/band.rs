@@ -1,4 +1,4 @@
-//! The range of the angles of a run and its companions, behind the run's own curves, from the horizon on.
+//! The range of the angles of a run and its companions, behind the run's own curves, from where they part.
 
 use super::curve::Point;
 use super::drawn_run::{DrawnRun, FALL};
@@ -12,8 +12,9 @@ const GRAIN: f64 = 1.0;
 /// Darkness of the area of a block, of one.
 const OPACITY: f64 = 0.16;
 
-/// The words at the horizon.
+/// The words at the horizon, and at that of all companions.
 const HORIZON: &str = "angles known up to here";
+const BY_SIX_DIGITS: &str = "known by six digits of the inputs";
 
 /// What companions say of a run whose angles are not determined to its end, with their band.
 fn open<'a>(motion: &'a DrawnRun) -> Option<&'a Trust> {
@@ -49,19 +50,22 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
             sheet.veil(corners, style::line(block).color, OPACITY);
         }
     }
-    let x = panel.place_x(trust.horizon);
-    sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
-    // Left of the line, unless it begins at once.
-    let is_room = x - frame.left > text_width(HORIZON, style::NOTE) + 12.0;
-    let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
-    sheet.words_on_paper([at, frame.top + 16.0], HORIZON, style::NOTE, anchor);
+    let lines = [(trust.input_horizon, BY_SIX_DIGITS, 16.0), (trust.horizon, HORIZON, 34.0)];
+    for (t, words, down) in lines.into_iter().filter(|(t, ..)| *t < trust.ends_at) {
+        let x = panel.place_x(t);
+        sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
+        // Left of the line, unless it begins at once.
+        let is_room = x - frame.left > text_width(words, style::NOTE) + 12.0;
+        let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
+        sheet.words_on_paper([at, frame.top + down], words, style::NOTE, anchor);
+    }
 }
 
 /// The range of a block's angles per column of paper: `x`, and its lower and upper end `[px]`.
 fn edges(trust: &Trust, block: usize, end: f64, panel: &Panel, alpha: f64) -> Vec<(f64, [f64; 2])> {
     let mut edges: Vec<(f64, [f64; 2])> = Vec::new();
     let Band { t, low, high, .. } = &trust.band;
-    for (place, t) in t.iter().enumerate().filter(|(_, t)| (trust.horizon..=end).contains(t)) {
+    for (place, t) in t.iter().enumerate().filter(|(_, t)| (trust.input_horizon..=end).contains(t)) {
         let place_of = |angle: f64| panel.place([*t, angle / alpha]);
         let ([x, bottom], [_, top]) = (place_of(low[place][block]), place_of(high[place][block]));
         match edges.last_mut().filter(|(last, _)| x - *last < GRAIN) {
@@ -76,9 +80,9 @@ fn edges(trust: &Trust, block: usize, end: f64, panel: &Panel, alpha: f64) -> Ve
 pub fn caption(motion: &DrawnRun) -> String {
     open(motion).map_or(String::new(), |trust| {
         format!(
-            " Shaded: the range of the run and its {} companions, which differ by less than anybody can know; angles are known up to t = {:.4} s.",
+            " Shaded: the range of the run and its {} companions, which differ by less than anybody can know; they agree up to t = {:.4} s.",
             trust.companions.len(),
-            trust.horizon
+            trust.input_horizon
         )
     })
 }
