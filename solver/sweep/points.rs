@@ -32,6 +32,9 @@ pub enum Combine {
     Cartesian,
     /// The first values together, then the second ones, and so on.
     Paired,
+    /// The last so many axes are samples, the first values of these together, then the second ones; each sample with each combination of the values of the
+    /// other axes. Samples run fastest.
+    Sampled(usize),
 }
 
 impl Combine {
@@ -279,11 +282,27 @@ impl<'s> Worker<'s> {
 impl Sweep {
     /// Number of points.
     pub fn len(&self) -> usize {
-        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        let lengths = |axes: &[Axis]| axes.iter().map(|axis| axis.values.len()).collect::<Vec<_>>();
         match self.combine {
-            Combine::Cartesian => lengths.product(),
-            Combine::Paired => lengths.min().unwrap_or(0),
+            Combine::Paired => lengths(&self.axes).into_iter().min().unwrap_or(0),
+            _ => lengths(self.grid()).into_iter().product::<usize>() * self.samples().unwrap_or(1),
         }
+    }
+
+    /// The axes that are not sampled.
+    pub fn grid(&self) -> &[Axis] {
+        self.parts().0
+    }
+
+    /// Number of samples for each combination of the other axes; `None` for a sweep without distributions.
+    pub fn samples(&self) -> Option<usize> {
+        self.parts().1.iter().map(|axis| axis.values.len()).min()
+    }
+
+    /// The axes that are not sampled, and those that are.
+    fn parts(&self) -> (&[Axis], &[Axis]) {
+        let sampled = if let Combine::Sampled(count) = self.combine { count } else { 0 };
+        self.axes.split_at(self.axes.len().saturating_sub(sampled))
     }
 
     /// Whether there is no point.
@@ -300,15 +319,18 @@ impl Sweep {
 
     /// The same, in place of what was there.
     fn put_settings<'s>(&'s self, index: usize, settings: &mut Vec<&'s Setting>) {
-        let mut rest = index;
         settings.clear();
-        settings.extend(self.axes.iter().rev().map(|axis| match self.combine {
-            Combine::Paired => &axis.values[index],
-            Combine::Cartesian => {
-                let value = &axis.values[rest % axis.values.len()];
-                rest /= axis.values.len();
-                value
-            }
+        if self.combine == Combine::Paired {
+            settings.extend(self.axes.iter().map(|axis| &axis.values[index]));
+            return;
+        }
+        let ((grid, sampled), samples) = (self.parts(), self.samples().unwrap_or(1));
+        let (mut rest, sample) = (index / samples, index % samples);
+        settings.extend(sampled.iter().rev().map(|axis| &axis.values[sample]));
+        settings.extend(grid.iter().rev().map(|axis| {
+            let value = &axis.values[rest % axis.values.len()];
+            rest /= axis.values.len();
+            value
         }));
         settings.reverse();
     }

@@ -8,6 +8,7 @@ mod inputs;
 mod merge;
 mod modes;
 mod plot;
+mod probability;
 mod record;
 mod records;
 mod report;

@@ -4,6 +4,7 @@
 //! whole sweep in a file beside its table, by which `rocking merge` recognises shards of another sweep.
 
 use crate::arguments;
+use crate::commands::probability::{self, Lost};
 use crate::commands::{inputs, spectrum};
 use crate::error::{Failure, at};
 use crate::output;
@@ -33,6 +34,9 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
     let mut outputs = vec![out.clone()];
     outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    // Probabilities are those of whole tables.
+    let is_sampled = sweep.samples().is_some() && asked.shard.is_none();
+    outputs.extend(is_sampled.then(|| probability::table(&out)));
     output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
@@ -52,11 +56,14 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
+    let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
+    let probabilities = probability::write(&sweep, &lost, &out)?;
     if asked.json {
-        json(&tally)?;
+        json(&Counts { tally: &tally, lost })?;
     } else if !asked.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-        print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), shown(&out)))?;
+        let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
+        print(&format!("{tally}{wrote}{probabilities}{drawn}"))?;
     }
     match first_error {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
@@ -260,6 +267,16 @@ impl std::fmt::Display for Fnv {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{:016x}", self.0)
     }
+}
+
+/// A sweep as JSON.
+#[derive(Serialize)]
+struct Counts<'a> {
+    #[serde(flatten)]
+    tally: &'a Tally,
+    /// Probabilities of a sweep over distributions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    lost: Vec<Lost>,
 }
 
 /// Number of rows by outcome.

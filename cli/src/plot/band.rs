@@ -12,10 +12,6 @@ const GRAIN: f64 = 1.0;
 /// Darkness of the area of a block, of one.
 const OPACITY: f64 = 0.16;
 
-/// The words at the horizon, and at that of all companions.
-const HORIZON: &str = "angles known up to here";
-const BY_SIX_DIGITS: &str = "known by six digits of the inputs";
-
 /// What companions say of a run whose angles are not determined to its end, with their band.
 fn open<'a>(motion: &'a DrawnRun) -> Option<&'a Trust> {
     motion.results.trust.as_ref().filter(|trust| !trust.reaches_the_end() && !trust.band.is_empty())
@@ -50,15 +46,17 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
             sheet.veil(corners, style::line(block).color, OPACITY);
         }
     }
-    let lines = [(trust.input_horizon, BY_SIX_DIGITS, 16.0), (trust.horizon, HORIZON, 34.0)];
-    for (t, words, down) in lines.into_iter().filter(|(t, ..)| *t < trust.ends_at) {
-        let x = panel.place_x(t);
-        sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
-        // Left of the line, unless it begins at once.
-        let is_room = x - frame.left > text_width(words, style::NOTE) + 12.0;
-        let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
-        sheet.words_on_paper([at, frame.top + down], words, style::NOTE, anchor);
-    }
+    // Where the scene determines the angles to the end, its first six digits may not.
+    let (t, words) = match trust.horizon < trust.ends_at {
+        true => (trust.horizon, "angles known up to here"),
+        false => (trust.input_horizon, "known up to here by six digits"),
+    };
+    let x = panel.place_x(t);
+    sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
+    // Left of the line, unless it begins at once.
+    let is_room = x - frame.left > text_width(words, style::NOTE) + 12.0;
+    let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
+    sheet.words_on_paper([at, frame.top + 16.0], words, style::NOTE, anchor);
 }
 
 /// The range of a block's angles per column of paper: `x`, and its lower and upper end `[px]`.
