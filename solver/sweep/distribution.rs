@@ -36,7 +36,7 @@ impl Distribution {
     /// Lognormal, cut off outside its bounds.
     pub fn lognormal(median: f64, dispersion: f64, bounds: [f64; 2]) -> Result<Distribution, Refused> {
         let remedy = "give `[median, dispersion]`, both above zero";
-        if !(median > 0.0) {
+        if median <= 0.0 {
             return Err((format!("a median of {median}"), remedy));
         }
         let law = LogNormal::new(libm::log(median), dispersion);
@@ -61,7 +61,7 @@ impl Distribution {
             return Err((problem, "give at least one value, and a weight for each"));
         }
         let total: f64 = weights.iter().sum();
-        if weights.iter().any(|weight| !(*weight >= 0.0)) || !(total > 0.0) {
+        if weights.iter().any(|weight| *weight < 0.0) || total <= 0.0 {
             return Err((format!("weights of {weights:?}"), "give weights of zero or above, not all zero"));
         }
         let mut sum = 0.0;

@@ -28,7 +28,7 @@ impl Comparison {
         for (place, (row, others)) in rows().enumerate() {
             let here = relative_difference(&scales, row, others);
             // A number that is none agrees with nothing.
-            if !(here <= AGREEMENT) {
+            if here > AGREEMENT || here.is_nan() {
                 return Comparison { parts_at: Some(run.samples[place.saturating_sub(1)].t), difference };
             }
             difference = difference.max(here);
@@ -46,12 +46,12 @@ fn relative_difference(scales: &[[f64; 2]], row: &Sample, other: &Sample) -> f64
     let mut largest = 0.0f64;
     for (place, [slenderness, half_width]) in scales.iter().enumerate() {
         let (a, b) = (row.theta[place], other.theta[place]);
-        let mut here = (a - b).abs() / slenderness.max(a.abs()).max(b.abs());
+        let mut here = (a - b).abs() / slenderness.max(a.abs()).max(b.abs()).max(f64::MIN_POSITIVE);
         if let (Some(a), Some(b)) = (row.slide.get(place), other.slide.get(place)) {
             here = here.max((a - b).abs() / half_width);
         }
         // Not `max`, which loses what is no number.
-        if !(here <= largest) {
+        if here > largest || here.is_nan() {
             largest = here;
         }
     }
