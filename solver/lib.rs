@@ -63,6 +63,7 @@ pub mod scene;
 pub mod scene_file;
 pub mod studies;
 pub mod sweep;
+pub mod trust;
 
 pub use column::{Block, Column, ColumnError, Stack};
 pub use friction::Friction;

@@ -8,6 +8,7 @@ mod inputs;
 mod merge;
 mod modes;
 mod plot;
+mod probability;
 mod record;
 mod records;
 mod report;
@@ -16,6 +17,7 @@ mod shell;
 mod spectrum;
 mod sweep;
 mod thresholds;
+mod trust;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;
