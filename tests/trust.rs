@@ -191,7 +191,7 @@ fn regression_a_chaotic_column_is_not_determined() {
         "{trust:?}"
     );
     assert!(trust.grows_on && trust.amplification > 1e6, "{}", trust.amplification);
-    assert_eq!((trust.words(), trust.fold.is_none()), ("not determined", true));
+    assert_eq!((trust.outcome.as_str(), trust.fold.is_none()), ("not determined", true));
     assert!(trust.sentence().contains("angles are known up to t = "), "{}", trust.sentence());
     // The run itself is that without companions.
     assert_eq!(response, simulate(&scene).expect("a run"));

@@ -63,7 +63,10 @@ fn samples_are_found_without_the_others() {
                  half_width = { normal = [0.25, 0.02], min = 0.2 }\nhalf_height = [0.9, 1.0, 1.1]\n";
     let folder = folder("sampling-shards", sweep);
     let told = succeeds(&folder, &["check", "sweep.toml"]);
-    assert!(told.contains("150 point(s)"), "{told}");
+    assert!(
+        told.contains("150 point(s)") && told.contains("excitation.horizontal.amplitude: 50 value(s), from 2.0"),
+        "{told}"
+    );
     succeeds(&folder, &["sweep", "sweep.toml", "--out", "whole.csv"]);
     let rows = table(&folder, "whole.csv");
     assert_eq!(rows[0][..4], ["index", "column.half_height", "excitation.horizontal.amplitude", "column.half_width"]);
@@ -83,8 +86,11 @@ fn samples_are_found_without_the_others() {
     for shard in ["1/3", "2/3", "3/3"] {
         succeeds(&folder, &["sweep", "sweep.toml", "--shard", shard, "--out", &format!("part-{}.csv", &shard[..1])]);
     }
-    succeeds(&folder, &["merge", "merged.csv", "part-3.csv", "part-1.csv", "part-2.csv", "--sweep", "sweep.toml"]);
+    let told =
+        succeeds(&folder, &["merge", "merged.csv", "part-3.csv", "part-1.csv", "part-2.csv", "--sweep", "sweep.toml"]);
     assert_eq!(table(&folder, "merged.csv"), rows);
+    assert_eq!(table(&folder, "merged-probability.csv"), probabilities);
+    assert!(told.contains("column.half_height = 0.9: lost with probability "), "{told}");
 }
 
 #[test]
