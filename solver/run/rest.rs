@@ -102,14 +102,7 @@ impl Inside for Rest {
                 t = self.held_until.min(segment.end);
             }
             let until = if segment.end < end { segment.end } else { end };
-            let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - t);
-            let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
-            let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
-            for place in 0..=count {
-                let time = t + (until - t) * place as f64 / count as f64;
-                let forces = contact_forces(column, Ground::at(segment, time, column.gravity()));
-                note([&forces; 3]);
-            }
+            visit_forces(column, segment, [t, until], &mut |forces| note([forces; 3]));
             t = until;
         }
     }
@@ -118,6 +111,22 @@ impl Inside for Rest {
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
         (state.t, state.segment) = if self.is_final { self.since } else { self.until };
         state
+    }
+}
+
+/// Calls `note` with contact forces at rest at places of a span of a segment, its ends among them.
+pub(crate) fn visit_forces(
+    column: &Column,
+    segment: &Segment,
+    [from, until]: [f64; 2],
+    note: &mut dyn FnMut(&[ContactForce]),
+) {
+    let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - from);
+    let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
+    let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
+    for place in 0..=count {
+        let t = from + (until - from) * place as f64 / count as f64;
+        note(&contact_forces(column, Ground::at(segment, t, column.gravity())));
     }
 }
 
