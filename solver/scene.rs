@@ -1,7 +1,7 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
 use crate::column::Column;
-use crate::friction::Friction;
+use crate::friction::{self, Friction};
 use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
@@ -460,6 +460,16 @@ impl Scene {
             if let Some(value) = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST) {
                 faults.note(key, format!("{value:?} is out of range"), "give sizes up to 1e6");
             }
+        }
+        let are_valid = |list: &[f64]| list.len() == blocks && list.iter().all(|value| value.is_finite());
+        if are_valid(x)
+            && are_valid(y)
+            && (theta.is_empty() || are_valid(theta))
+            && let Some((block, depth)) = friction::deepest(&self.column, [x, y], theta)
+        {
+            let below = if block == 0 { "the ground".into() } else { format!("block {block}") };
+            let problem = format!("block {} reaches {depth:.3e} m into {below}", block + 1);
+            faults.note("initial.y", problem, "place it higher: y is the height of the centroid");
         }
         if let Some(angle) = self.initial.theta.iter().find(|angle| angle.abs() >= self.options.overturn_angle) {
             let problem = format!("a block starts at {angle} rad, which is overturned");

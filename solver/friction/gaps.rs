@@ -147,6 +147,16 @@ pub fn slide_of_landing(chain: &Chain, corner: Corner) -> f64 {
     view.sign * (view.position()[0] - f64::from(corner.side) * own)
 }
 
+/// How far a corner of one block of a free interface is inside the other one, at most `[m]`.
+pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize) -> f64 {
+    let depth = |corner: Corner| {
+        let [beside, above] = gap_of_pose(column, pose, corner);
+        if beside < 0.0 { -above } else { 0.0 }
+    };
+    let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
+    corners.map(depth).fold(0.0, f64::max)
+}
+
 /// How far the faces of a free interface reach over each other, along the lower one `[m]`.
 pub fn overlap(column: &Column, pose: &Pose, interface: usize) -> f64 {
     let blocks = column.blocks();
