@@ -16,16 +16,17 @@ mod series;
 mod stress;
 
 use reference::{Settings, replay, tightest};
-use rocking::ground::Synthetic;
+use rocking::ground::{Synthetic, TextOptions};
 use rocking::trust::{self, Follow, Trust, Verdict};
-use rocking::{Column, Method, Motion, Restitution, Scene, simulate};
+use rocking::{Column, Method, Motion, Record, Restitution, Scene, simulate};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use stress::Random;
 
-/// Slender stacks in long shaking: harmonic motion or a synthetic record, one to three blocks.
-fn scene(seed: u64) -> Scene {
+/// Slender stacks in long shaking: harmonic motion or a record, one to three blocks. The record is one of these, or a synthetic one where there are none.
+fn scene(seed: u64, records: &[Record]) -> Scene {
     let random = &mut Random::new(seed);
     random.bits();
     let half_height = random.scale(0.3, 3.0);
@@ -37,9 +38,12 @@ fn scene(seed: u64) -> Scene {
     let stack = scene.column.stack(0);
     let uplift = 9.81 * half_width / half_height;
     let amplitude = uplift * random.scale(1.05, 3.0);
-    let motion = if random.once_in(3) {
+    let motion = if random.once_in(3) || !records.is_empty() {
         let seed = random.bits() % 1_000_000;
-        let record = Synthetic { seed, ..Synthetic::default() }.record().expect("a record");
+        let record = match records.len() {
+            0 => Synthetic { seed, ..Synthetic::default() }.record().expect("a record"),
+            count => records[seed as usize % count].clone(),
+        };
         let record = record.scaled_to_peak(uplift * random.scale(1.2, 6.0)).expect("a record that is not silent");
         Motion::Record(record)
     } else {
@@ -97,8 +101,8 @@ fn followed(scene: &Scene) -> Option<Trust> {
     trust::follow_run(scene, &run, Follow::VERDICT).ok()
 }
 
-fn count(seed: u64, tally: &Mutex<Tally>) {
-    let scene = scene(seed);
+fn count(seed: u64, records: &[Record], tally: &Mutex<Tally>) {
+    let scene = scene(seed, records);
     let Some(trust) = followed(&scene) else { return };
     let with = |change: &dyn Fn(&mut Tally)| change(&mut tally.lock().expect("no panic while it is held"));
     with(&|tally| {
@@ -126,7 +130,7 @@ fn count(seed: u64, tally: &Mutex<Tally>) {
 }
 
 /// Counts scenes on all cores.
-fn count_all(seeds: std::ops::Range<u64>, tally: &Mutex<Tally>) {
+fn count_all(seeds: std::ops::Range<u64>, records: &[Record], tally: &Mutex<Tally>) {
     let next = AtomicU64::new(seeds.start);
     let work = || {
         loop {
@@ -134,7 +138,7 @@ fn count_all(seeds: std::ops::Range<u64>, tally: &Mutex<Tally>) {
             if seed >= seeds.end {
                 return;
             }
-            count(seed, tally);
+            count(seed, records, tally);
         }
     };
     let hook = std::panic::take_hook();
@@ -148,10 +152,10 @@ fn count_all(seeds: std::ops::Range<u64>, tally: &Mutex<Tally>) {
 /// Scenes between two lines of a long count.
 const BATCH: u64 = 500;
 
-fn check(seeds: std::ops::Range<u64>) {
+fn check(seeds: std::ops::Range<u64>, records: &[Record]) {
     let (since, tally) = (std::time::Instant::now(), Mutex::new(Tally::default()));
     for first in seeds.clone().step_by(BATCH as usize) {
-        count_all(first..seeds.end.min(first + BATCH), &tally);
+        count_all(first..seeds.end.min(first + BATCH), records, &tally);
         println!("{:?} in {:.0?}", tally.lock().expect("no panic while it is held"), since.elapsed());
     }
     let tally = tally.into_inner().expect("no panic while it is held");
@@ -163,7 +167,7 @@ fn check(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn verdicts_called_determined_are_those_of_double_doubles() {
-    check(0..SHORT);
+    check(0..SHORT, &[]);
 }
 
 /// Scenes of the short test.
@@ -173,8 +177,27 @@ const SHORT: u64 = 30;
 #[test]
 #[ignore = "takes a fifth of a second per scene"]
 fn verdicts_of_many_long_scenes_called_determined_are_those_of_double_doubles() {
-    let count = std::env::var("ROCKING_SCENES").ok().and_then(|text| text.parse().ok()).unwrap_or(1000);
-    check(SHORT..SHORT + count);
+    check(SHORT..SHORT + scenes_asked(), &[]);
+}
+
+fn scenes_asked() -> u64 {
+    std::env::var("ROCKING_SCENES").ok().and_then(|text| text.parse().ok()).unwrap_or(1000)
+}
+
+/// The same under the records of the folder ROCKING_RECORDS, or of `../shared/records`.
+#[test]
+#[ignore = "needs records, and a fifth of a second per scene"]
+fn verdicts_under_records_called_determined_are_those_of_double_doubles() {
+    let folder = std::env::var("ROCKING_RECORDS")
+        .map_or_else(|_| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/records"), PathBuf::from);
+    let files = std::fs::read_dir(&folder).expect("a folder of records");
+    let mut files: Vec<PathBuf> = files.map(|entry| entry.expect("readable").path()).collect();
+    files.sort();
+    let records: Vec<Record> =
+        files.iter().filter_map(|file| Record::open(file, &TextOptions::default()).ok()).collect();
+    println!("{} record(s)", records.len());
+    assert!(records.len() > 2, "{}", folder.display());
+    check(0..scenes_asked(), &records);
 }
 
 /// Three slender drums in twenty seconds of harmonic motion stand or overturn as the tolerance has it.
@@ -191,7 +214,7 @@ fn regression_a_chaotic_column_is_not_determined() {
         "{trust:?}"
     );
     assert!(trust.grows_on && trust.amplification > 1e6, "{}", trust.amplification);
-    assert_eq!((trust.words(), trust.fold.is_none()), ("not determined", true));
+    assert_eq!((trust.outcome.as_str(), trust.fold.is_none()), ("not determined", true));
     assert!(trust.sentence().contains("angles are known up to t = "), "{}", trust.sentence());
     // The run itself is that without companions.
     assert_eq!(response, simulate(&scene).expect("a run"));

@@ -63,7 +63,10 @@ fn samples_are_found_without_the_others() {
                  half_width = { normal = [0.25, 0.02], min = 0.2 }\nhalf_height = [0.9, 1.0, 1.1]\n";
     let folder = folder("sampling-shards", sweep);
     let told = succeeds(&folder, &["check", "sweep.toml"]);
-    assert!(told.contains("150 point(s)"), "{told}");
+    assert!(
+        told.contains("150 point(s)") && told.contains("excitation.horizontal.amplitude: 50 value(s), from 2.0"),
+        "{told}"
+    );
     succeeds(&folder, &["sweep", "sweep.toml", "--out", "whole.csv"]);
     let rows = table(&folder, "whole.csv");
     assert_eq!(rows[0][..4], ["index", "column.half_height", "excitation.horizontal.amplitude", "column.half_width"]);
@@ -83,8 +86,44 @@ fn samples_are_found_without_the_others() {
     for shard in ["1/3", "2/3", "3/3"] {
         succeeds(&folder, &["sweep", "sweep.toml", "--shard", shard, "--out", &format!("part-{}.csv", &shard[..1])]);
     }
-    succeeds(&folder, &["merge", "merged.csv", "part-3.csv", "part-1.csv", "part-2.csv", "--sweep", "sweep.toml"]);
+    let told =
+        succeeds(&folder, &["merge", "merged.csv", "part-3.csv", "part-1.csv", "part-2.csv", "--sweep", "sweep.toml"]);
     assert_eq!(table(&folder, "merged.csv"), rows);
+    assert_eq!(table(&folder, "merged-probability.csv"), probabilities);
+    assert!(told.contains("column.half_height = 0.9: lost with probability "), "{told}");
+}
+
+/// Correlations of normal axes are those asked for; of plain samples within 3 / √n, and of those of a Latin hypercube.
+#[test]
+fn axes_are_correlated_as_asked() {
+    for method in ["plain", "latin-hypercube", "sobol"] {
+        let sweep = format!(
+            "[sampling]\nsamples = 4096\nmethod = \"{method}\"\ncorrelations = [{{ axes = [\"half_width\", \"amplitude\"], value = -0.7 }}]\n\
+             [axes]\namplitude = {{ lognormal = [1.0, 0.3] }}\nhalf_height = {{ normal = [1.0, 0.01] }}\nhalf_width = {{ normal = [0.25, 0.01] }}\n"
+        );
+        let folder = folder("sampling-correlated", &sweep);
+        succeeds(&folder, &["sweep", "sweep.toml", "--out", "table.csv"]);
+        let rows = table(&folder, "table.csv");
+        let column = |name: &str| -> Vec<f64> {
+            let place = rows[0].iter().position(|own| own == name).expect("a column");
+            rows[1..].iter().map(|row| number(&row[place])).collect()
+        };
+        let logarithms: Vec<f64> = column("excitation.horizontal.amplitude").iter().map(|a| a.ln()).collect();
+        let axes = [logarithms, column("column.half_width"), column("column.half_height")];
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let product = |a: &[f64], b: &[f64]| {
+            let (of_a, of_b) = (mean(a), mean(b));
+            mean(&a.iter().zip(b).map(|(a, b)| (a - of_a) * (b - of_b)).collect::<Vec<_>>())
+        };
+        let correlation = |a: usize, b: usize| {
+            product(&axes[a], &axes[b]) / (product(&axes[a], &axes[a]) * product(&axes[b], &axes[b])).sqrt()
+        };
+        let found = [correlation(0, 1), correlation(0, 2), correlation(1, 2)];
+        for (found, wanted) in found.into_iter().zip([-0.7, 0.0, 0.0]) {
+            assert!((found - wanted).abs() < 3.0 / 64.0, "{method}: {found} and {wanted}");
+        }
+        assert!((product(&axes[1], &axes[1]).sqrt() / 0.01 - 1.0).abs() < 0.05, "the deviation stays");
+    }
 }
 
 #[test]
@@ -120,6 +159,18 @@ fn bad_distributions_are_refused_with_place_and_remedy() {
         (
             format!("combine = \"paired\"\n{sampling}[axes]\nhalf_width = {{ uniform = [0.2, 0.3] }}\n"),
             vec!["leave `combine` out"],
+        ),
+        (
+            format!(
+                "{sampling}correlations = [{{ axes = [\"half_width\", \"half_height\"], value = 0.5 }}]\n[axes]\nhalf_width = {{ uniform = [0.2, 0.3] }}\n"
+            ),
+            vec!["`half_height` is no distributed axis", "column.half_width"],
+        ),
+        (
+            format!(
+                "{sampling}correlations = [{{ axes = [\"half_width\", \"half_height\"], value = 1.5 }}]\n[axes]\nhalf_width = {{ uniform = [0.2, 0.3] }}\n"
+            ),
+            vec!["1.5 is out of range", "below 1"],
         ),
         (
             format!("{sampling}[axes]\nhalf_width = {{ normal = [0.25, 0.01], minimum = 0.2 }}\n"),

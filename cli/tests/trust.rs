@@ -39,6 +39,7 @@ fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     let summary = summary(&folder.join("with"));
     let trust = &summary["trust"];
     assert_eq!((&summary["status"], &trust["determined"]), (&"end-of-time".into(), &false.into()));
+    assert_eq!(trust["outcome"], "not determined");
     let horizon = trust["horizon"].as_f64().expect("a number");
     assert!(horizon > 1.0 && horizon < 20.0, "{horizon}");
     assert_eq!(trust["companions"].as_array().map(Vec::len), Some(9));

@@ -1,8 +1,7 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
-use super::distribution::Distribution;
+use super::distributed::{KINDS, Placed, distribution, sample, sampling};
 use super::points::{Ask, Axis, Combine, Sweep};
-use super::sampling::{LONGEST_SOBOL, MOST_DIMENSIONS, Sampling, SamplingMethod};
 use crate::scene_file::edit::exclude_each_other;
 use crate::scene_file::reader::Reader;
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
@@ -54,7 +53,7 @@ impl Sweep {
         // Dotted keys of one table stand together in TOML, wherever they are in the file.
         placed.sort_by_key(|(_, place, _)| place.start);
         distinct(&placed).map_err(own)?;
-        let combine = sample(&root, combine, sampling, &mut placed).map_err(own)?;
+        let combine = sample(&root, combine, sampling, &mut placed, &template).map_err(own)?;
         let (axes, places): (_, Vec<Place>) = placed.into_iter().map(|(axis, place, _)| (axis, place)).unzip();
         let sweep = Sweep { template, axes, combine, ask };
         if ask == Ask::Slides && sweep.scene(0).is_ok_and(|scene| scene.friction.is_none()) {
@@ -144,9 +143,6 @@ impl Sweep {
     }
 }
 
-/// An axis, its place, and the distribution that it is drawn from.
-type Placed = (Axis, Place, Option<Distribution>);
-
 /// Whether a fault of a key is one of an axis.
 fn is_of_axis(axis: &str, key: &str) -> bool {
     axis == key || axis.starts_with(&format!("{key}."))
@@ -155,97 +151,6 @@ fn is_of_axis(axis: &str, key: &str) -> bool {
 fn too_many(sweep: &Sweep) -> bool {
     let lengths: Vec<usize> = sweep.grid().iter().map(|axis| axis.values.len()).chain(sweep.samples()).collect();
     product(&lengths).is_none_or(|points| points > MOST_POINTS)
-}
-
-/// `[sampling]`: how many samples, by which method, from which seed.
-fn sampling(root: &mut Table) -> Result<Option<Sampling>, Wrong> {
-    let Some(mut table) = root.table("sampling")? else { return Ok(None) };
-    let method = match table.text("method")? {
-        None => SamplingMethod::default(),
-        Some((name, _)) => SamplingMethod::parse(&name)
-            .ok_or_else(|| table.no_such("method", "sampling method", &name, &SamplingMethod::NAMES))?,
-    };
-    let Some(samples) = table.whole("samples", 1)? else {
-        return Err(table.missing("samples", "say how many samples are drawn, e.g. samples = 1000"));
-    };
-    let most = if method == SamplingMethod::Sobol { u64::from(LONGEST_SOBOL) } else { MOST_VALUES as u64 };
-    if samples > most {
-        let remedy = format!("give at most {most} by method `{}`", method.name());
-        return Err(table.wrong("samples", format!("{samples} samples are too many"), &remedy));
-    }
-    let seed = table.whole("seed", 0)?.unwrap_or(0);
-    table.close()?;
-    Ok(Some(Sampling { samples: samples as u32, method, seed }))
-}
-
-/// Draws the values of distributed axes, and puts these behind the others.
-fn sample(root: &Table, combine: Combine, sampling: Option<Sampling>, axes: &mut [Placed]) -> Result<Combine, Wrong> {
-    axes.sort_by_key(|(.., distribution)| distribution.is_some());
-    let first = axes.partition_point(|(.., distribution)| distribution.is_none());
-    let sampling = match (sampling, axes.get(first)) {
-        (None, None) => return Ok(combine),
-        (Some(sampling), Some(_)) => sampling,
-        (None, Some((axis, place, _))) => {
-            let (key, problem) =
-                (format!("axes.{}", axis.key), "it is a distribution, and nothing says how it is sampled".into());
-            let remedy = "add [sampling] with `samples`, e.g. samples = 1000".into();
-            return Err(Wrong { place: place.clone(), key, problem, remedy, cause: Cause::Key });
-        }
-        (Some(_), None) => {
-            let remedy = "remove it, or give an axis a distribution, e.g. { normal = [mean, standard deviation] }";
-            return Err(root.wrong("sampling", "no axis is a distribution".into(), remedy));
-        }
-    };
-    if combine == Combine::Paired {
-        let remedy = "leave `combine` out: distributed axes are sampled together, with each combination of the others";
-        return Err(root.wrong("combine", "distributed axes are not paired with others".into(), remedy));
-    }
-    let distributed = &mut axes[first..];
-    if sampling.method == SamplingMethod::Sobol && distributed.len() > MOST_DIMENSIONS {
-        let problem = format!("{} distributed axes are too many for a Sobol sequence", distributed.len());
-        return Err(root.wrong(
-            "sampling",
-            problem,
-            &format!("give at most {MOST_DIMENSIONS}, or choose another method"),
-        ));
-    }
-    for (dimension, (axis, _, distribution)) in distributed.iter_mut().enumerate() {
-        if let Some(distribution) = distribution {
-            let values = (0..sampling.samples).map(|sample| distribution.quantile(sampling.unit(sample, dimension)));
-            axis.values = values.collect();
-        }
-    }
-    Ok(Combine::Sampled(distributed.len()))
-}
-
-/// Keys of distributions.
-const KINDS: [&str; 4] = ["normal", "lognormal", "uniform", "discrete"];
-
-/// `{ lognormal = [median, dispersion] }` and the like, with `min` and `max`.
-fn distribution(table: &mut Table, kind: &'static str) -> Result<Distribution, Wrong> {
-    let refused = |table: &Table, (problem, remedy): (String, &str)| table.wrong(kind, problem, remedy);
-    if kind == "discrete" {
-        let values = table.settings(kind)?.unwrap_or_default();
-        let weights = table.numbers("weights")?;
-        return Distribution::discrete(values, weights).map_err(|why| refused(table, why));
-    }
-    let pair = table.numbers(kind)?.unwrap_or_default();
-    let [a, b] = pair[..] else {
-        let remedy = match kind {
-            "normal" => "give `[mean, standard deviation]`",
-            "lognormal" => "give `[median, dispersion]`",
-            _ => "give `[from, to]`",
-        };
-        return Err(table.wrong(kind, format!("{} number(s)", pair.len()), remedy));
-    };
-    if kind == "uniform" {
-        return Distribution::uniform(a, b).map_err(|why| refused(table, why));
-    }
-    let mut bound = |key: &'static str, open: f64| Ok(table.number(key)?.map_or(open, |(value, _)| value));
-    let bounds = [bound("min", f64::NEG_INFINITY)?, bound("max", f64::INFINITY)?];
-    let made =
-        if kind == "normal" { Distribution::normal(a, b, bounds) } else { Distribution::lognormal(a, b, bounds) };
-    made.map_err(|why| refused(table, why))
 }
 
 /// Whether no axis takes the place of another one.

@@ -3,9 +3,13 @@
 pub(crate) mod file;
 mod points;
 
+mod distributed;
+
 mod distribution;
 
 mod sampling;
+
+mod copula;
 
 pub use points::{Ask, Axis, Combine, Fate, Outcome, PointError, Row, Sweep};
 pub use sampling::SamplingMethod;

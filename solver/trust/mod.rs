@@ -49,6 +49,9 @@ const MOST_ROWS: f64 = 5_000.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Trust {
+    /// The verdict in words as far as it is determined: `stands`, `overturns`, `collapses`, or `not determined`; `ends undetermined` where no motion follows
+    /// from the laws of contact.
+    pub outcome: String,
     /// Whether the verdict of the run is determined: certain within the horizon, and that of all companions.
     pub determined: bool,
     /// The verdict of the run itself.
@@ -155,7 +158,13 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
     let determined = same_verdict && horizon >= certain_at && verdict != Verdict::Undetermined;
     let (amplification, grows_on) = companions::amplification(&companions);
     let all = || std::iter::once(&own).chain(runs.iter().filter_map(|(_, run)| run.as_ref()));
+    let outcome = match (verdict, determined) {
+        (Verdict::Undetermined, _) => verdict.words(),
+        (_, false) => "not determined",
+        (verdict, true) => verdict.words(),
+    };
     Ok(Trust {
+        outcome: outcome.into(),
         determined,
         verdict,
         certain_at,
@@ -199,15 +208,6 @@ fn certain_at(scene: &Scene, response: &Response) -> Result<f64, SolveError> {
 }
 
 impl Trust {
-    /// The verdict, or `not determined`.
-    pub fn words(&self) -> &'static str {
-        match (self.verdict, self.determined) {
-            (Verdict::Undetermined, _) => Verdict::Undetermined.words(),
-            (_, false) => "not determined",
-            (verdict, true) => verdict.words(),
-        }
-    }
-
     /// Whether all companions agree to the end of the run.
     pub fn reaches_the_end(&self) -> bool {
         self.input_horizon >= self.ends_at

@@ -6,7 +6,7 @@ use crate::ground;
 use crate::number::{coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
-use rocking::scene_file::{Derived, SceneFile};
+use rocking::scene_file::{Derived, SceneFile, Setting};
 use rocking::studies::{IdaFile, StudyRecord};
 use rocking::sweep::{Axis, Combine};
 use rocking::{Block, Friction, Motion, Restitution, Scene};
@@ -111,9 +111,15 @@ struct AxisFindings {
 
 fn check_sweep(path: &Path, as_json: bool) -> Result<(), Failure> {
     let sweep = sweep::read(path)?;
-    let axis = |axis: &Axis| {
+    let axis = |(place, axis): (usize, &Axis)| {
+        let mut values: Vec<&Setting> = axis.values.iter().collect();
+        // Samples have no order of their own.
+        if place >= sweep.grid().len() {
+            let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { 0.0 };
+            values.sort_by(|a, b| number(a).total_cmp(&number(b)));
+        }
         let [from, to] =
-            [axis.values.first(), axis.values.last()].map(|value| value.map_or_else(String::new, ToString::to_string));
+            [values.first(), values.last()].map(|value| value.map_or_else(String::new, ToString::to_string));
         AxisFindings { key: axis.key.clone(), values: axis.values.len(), from, to }
     };
     let findings = SweepFindings {
@@ -124,7 +130,7 @@ fn check_sweep(path: &Path, as_json: bool) -> Result<(), Failure> {
             _ => "cartesian",
         },
         points: sweep.len(),
-        axes: sweep.axes.iter().map(axis).collect(),
+        axes: sweep.axes.iter().enumerate().map(axis).collect(),
     };
     if as_json {
         return json(&findings);

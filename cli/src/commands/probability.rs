@@ -1,9 +1,9 @@
 //! The probability that the column is lost, of a sweep over distributions: a line and a row for each combination of the other axes.
 
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{NOT_DETERMINED, OUTCOME, TRUST};
 use crate::error::{Failure, at};
 use crate::output;
+use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 use crate::table::open;
 use crate::text::shown;
 use rocking::studies::Proportion;

@@ -120,15 +120,10 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     sweep.template.records().into_iter().chain(of_axes).collect()
 }
 
-/// The `outcome` column of a table.
-pub const OUTCOME: &str = "outcome";
+pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
-
-/// The column that says whether the verdict is determined, and what it says where it is not.
-pub const TRUST: &str = "trust";
-pub const NOT_DETERMINED: &str = "not-determined";
 
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
