@@ -123,11 +123,15 @@ pub enum Command {
     ///
     /// A sweep that was interrupted continues when it is started again. A run ends when its outcome is certain unless the sweep
     /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
+    ///
+    /// Of axes that are distributions it prints the probability that the column is lost, and writes TABLE-probability.csv.
     Sweep(Sweep),
     /// Incremental dynamic analysis: each record at each level of an intensity measure; tables, figures and fragility.
     ///
     /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
     /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
+    ///
+    /// Each run is followed by nine companions; where its verdict is not determined it counts as undecided. `trust = false` in the file leaves them out.
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///
