@@ -5,6 +5,7 @@ mod diagnostics;
 mod error;
 mod modes;
 mod multi_sample_step;
+mod needs;
 mod phase;
 mod phase_motion;
 mod problem;

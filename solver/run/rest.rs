@@ -8,7 +8,7 @@
 use super::error::SolveError;
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Ended, Flow, Inside, Over, Stretch};
+use super::stretch::{Ended, Flow, Inside, Over, Panel, Stretch};
 use crate::column::Column;
 use crate::friction::guards::Guard;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
@@ -95,7 +95,7 @@ impl Inside for Rest {
     /// Nothing moves.
     fn raise_peaks(&mut self, _: &mut [f64]) {}
 
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3])) {
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
         let (column, end, (mut t, first)) = (&problem.scene.column, self.until.0, self.since);
         for segment in &problem.ground[first..=self.last] {
             if t < self.held_until {
@@ -108,7 +108,9 @@ impl Inside for Rest {
             for place in 0..=count {
                 let time = t + (until - t) * place as f64 / count as f64;
                 let forces = contact_forces(column, Ground::at(segment, time, column.gravity()));
-                note([&forces; 3]);
+                // A place stands for the time since the last one.
+                let since = if place == 0 { time } else { time - (until - t) / count as f64 };
+                note(&Panel { forces: [&forces; 3], times: &|| [since, time], weight: 1.0 });
             }
             t = until;
         }

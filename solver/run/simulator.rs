@@ -107,6 +107,16 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
+        let mut response = self.response(scene, progress)?;
+        response.truncated = response.status.stands() && scene.excitation.moves_after(scene.options.t_end);
+        Ok(response)
+    }
+
+    fn response(
+        &mut self,
+        scene: &Scene,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Response, SolveError> {
         if let Some(friction) = &scene.friction {
             return self.run_with_friction(scene, friction, progress);
         }
@@ -136,7 +146,7 @@ impl Simulator {
         }
         // Blocks that are dropped or thrown do not begin on each other.
         if scene.initial.x.is_empty() {
-            match self.run_valid(&sticking, progress) {
+            match self.response(&sticking, progress) {
                 Ok(response) if sticking::stands(scene, &coefficients, &response) => {
                     return Ok(sticking::reported(&scene.column, response));
                 }

@@ -3,4 +3,4 @@
 pub(crate) mod file;
 mod points;
 
-pub use points::{Ask, Axis, Combine, Fate, Outcome, PointError, Row, Sweep};
+pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep};

@@ -300,6 +300,7 @@ impl<'p> Recorder<'p> {
         Response {
             status,
             t_final: end.t,
+            truncated: false,
             overturned_block: (status == StopReason::Overturned).then_some(place).flatten().map(|block| block + 1),
             samples: self.samples,
             events: self.events,
@@ -310,6 +311,7 @@ impl<'p> Recorder<'p> {
             impulse_friction_demand: recorded(self.impulse_friction_demand),
             min_normal_force: recorded(self.min_normal_force),
             separations: Vec::new(),
+            validity: None,
             work,
             used_generic: false,
             sliding: Some(self.report),
