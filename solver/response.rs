@@ -296,7 +296,7 @@ pub struct SlidingReport {
     pub friction_work: f64,
     /// Energy lost at impacts `[J]`.
     pub impact_losses: f64,
-    /// Work of the ground's inertial forces on the column `[J]`.
+    /// Work of the ground's inertial forces on the column `[J]`; where everything sticks, what the change of energy and the losses at impacts leave.
     pub ground_work: f64,
     /// Energy at the end less that at the start, relative to the ground `[J]`.
     pub energy_change: f64,

@@ -22,6 +22,7 @@ use crate::mechanics::dynamics::ContactForce;
 use crate::response::{BlockAtEvent, BlockState, Event, Response, Sample};
 use crate::scene::{Initial, Look, OutputColumn, Restitution, Scene, SolveOptions};
 use crate::sweep::Fate;
+use crate::trust::{Band, Trust};
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Description, Motion};
 use serde::{Deserialize, Serialize};
@@ -112,6 +113,8 @@ pub struct Run<'a> {
     pub wall_seconds: f64,
     /// Warnings about the records of the scene and about the run.
     pub warnings: Vec<String>,
+    /// What its companions say; `None` for a run without.
+    pub trust: Option<&'a Trust>,
     /// Names of files in the folder that were made of an earlier run, and are removed.
     pub outdated: Vec<String>,
 }
@@ -122,8 +125,8 @@ impl<'a> Run<'a> {
         let mut warnings = scene.excitation.warnings();
         warnings.extend(cut(scene, response));
         warnings.extend(response.warnings(None));
-        let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, Vec::new());
-        Run { scene, response, scene_text, wall_seconds, warnings, outdated }
+        let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, vec![COMPANIONS.into()]);
+        Run { scene, response, scene_text, wall_seconds, warnings, trust: None, outdated }
     }
 }
 
@@ -155,6 +158,7 @@ struct Summary<'a> {
     alpha: Vec<f64>,
     /// Frequency parameter of these stacks `[rad/s]`.
     p: Vec<f64>,
+    trust: Option<&'a Trust>,
     method: &'a str,
     wall_seconds: f64,
     warnings: &'a [String],
@@ -172,6 +176,9 @@ struct Summary<'a> {
 
 /// The files of a run, in the order in which they are put in place: the summary last, as a sign that the others are there.
 const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
+
+/// The range of the angles of a run and its companions over time; of runs whose companions do not agree to the end.
+pub const COMPANIONS: &str = "companions.csv";
 
 /// The folder of a run's results, proved to be writable.
 #[derive(Debug)]
@@ -216,6 +223,7 @@ impl Folder {
             peaks: response.peaks(&scene.column),
             alpha: stacks(|stack| stack.slenderness()),
             p: stacks(|stack| stack.frequency_parameter()),
+            trust: run.trust,
             method: scene.options.method.stepper().name(),
             wall_seconds: run.wall_seconds,
             warnings: &run.warnings,
@@ -233,11 +241,16 @@ impl Folder {
             self.draft(|file| events(file, &response.events))?,
             self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&summary)).map_err(Into::into))?,
         ];
+        let band = run.trust.filter(|trust| !trust.reaches_the_end()).map(|trust| &trust.band);
+        let band = band
+            .filter(|band| !band.is_empty())
+            .map(|band| self.draft(|file| file.write_all(band.to_csv().as_bytes())));
+        let band = band.transpose()?.map(|draft| (COMPANIONS, draft));
         let failed = |path: &Path, source: Error| FolderError::Write { path: path.into(), source };
         for path in run.outdated.iter().map(|name| self.0.join(name)).filter(|path| path.is_file()) {
             std::fs::remove_file(&path).map_err(|error| failed(&path, error))?;
         }
-        for (name, draft) in FILES.into_iter().zip(drafts) {
+        for (name, draft) in band.into_iter().chain(FILES.into_iter().zip(drafts)) {
             let path = self.0.join(name);
             std::fs::rename(&draft.0, &path).map_err(|error| failed(&path, error))?;
         }
@@ -367,6 +380,9 @@ pub struct Results {
     pub version: String,
     /// The file of the scene.
     pub scene: SceneText,
+    /// What its companions say, with the range of their angles where they do not agree to the end; `None` for a run without.
+    #[serde(default)]
+    pub trust: Option<Trust>,
     /// Name of the method that ran.
     pub method: String,
     /// Warnings, a sentence each.
@@ -472,6 +488,14 @@ impl Results {
             return Err(FolderError::Damaged { path: events, problem });
         }
         read.response.events = list;
+        let companions = folder.join(COMPANIONS);
+        if let Some(trust) = read.trust.as_mut().filter(|trust| !trust.reaches_the_end() && companions.is_file()) {
+            trust.band = Band::from_csv(&text(&companions)?, length).map_err(|line| FolderError::Row {
+                path: companions,
+                line,
+                problem: "it is not a time and the ranges of the angles".into(),
+            })?;
+        }
         if read.peak_ground_acceleration == [0.0; 2] {
             let rows = &read.response.samples;
             read.peak_ground_acceleration =
@@ -503,6 +527,12 @@ impl Results {
         let times = || response.time_in_mode.values().chain([&options.t_end, &response.t_final]).copied();
         if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Some("an angle or a time is out of range".into());
+        }
+        let times_of =
+            |trust: &Trust| [trust.certain_at, trust.horizon, trust.solver_horizon, trust.input_horizon, trust.ends_at];
+        if self.trust.as_ref().is_some_and(|trust| times_of(trust).iter().any(|t| !(0.0..=LARGEST_NUMBER).contains(t)))
+        {
+            return Some("a time of `trust` is out of range".into());
         }
         let of_block =
             |block: &Block| [block.bottom_half_width, block.half_width(), block.half_height, block.mass, block.inertia];

@@ -187,6 +187,15 @@ pub struct Run {
     /// Write report.html as well: one page with outcome, validity, figures and an animation.
     #[arg(long)]
     pub report: bool,
+    /// Run the scene alone, without the companions that say how far its verdict can be trusted.
+    ///
+    /// Companions are the same scene at a tighter tolerance, and with excitation and sizes changed by 1e-9 and 1e-6. They, and the search for the
+    /// change of the shaking that changes the verdict, take ten to thirty times as long as the run, on all threads. Files of the run are the same without.
+    #[arg(long)]
+    pub no_trust: bool,
+    /// Follow a run by its companions although it took more than five seconds.
+    #[arg(long, conflicts_with = "no_trust")]
+    pub trust: bool,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,

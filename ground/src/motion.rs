@@ -7,6 +7,7 @@
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
 //! (their pulse, and Gabor's wavelet beside it).
 
+use crate::error::RecordError;
 use crate::piece::Piece;
 use crate::record::Record;
 use crate::spans::{Span, Spans, overlay};
@@ -190,6 +191,33 @@ impl Motion {
                 None
             }
         }
+    }
+
+    /// The motion with its acceleration multiplied by a factor.
+    ///
+    /// # Errors
+    /// [`RecordError::Acceleration`] for samples of a record out of range.
+    ///
+    /// ```
+    /// let pulse = rocking_ground::Motion::SinePulse { amplitude: 2.0, omega: 8.0, start: 0.0 };
+    /// assert_eq!(pulse.clone().scaled(1.5)?.value(0.1), 1.5 * pulse.value(0.1));
+    /// # Ok::<(), rocking_ground::RecordError>(())
+    /// ```
+    pub fn scaled(mut self, factor: f64) -> Result<Motion, RecordError> {
+        match &mut self {
+            Motion::Record(record) => return record.clone().scaled(factor).map(Motion::Record),
+            Motion::Sum { terms } => {
+                let scaled: Result<_, _> = terms.drain(..).map(|term| term.scaled(factor)).collect();
+                *terms = scaled?;
+            }
+            Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => *velocity *= factor,
+            motion => {
+                if let Some(amplitude) = motion.amplitude_mut() {
+                    *amplitude *= factor;
+                }
+            }
+        }
+        Ok(self)
     }
 
     /// Acceleration at `t` `[m/s²]`; where it jumps, the value after the jump.

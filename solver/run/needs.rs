@@ -100,16 +100,16 @@ impl Account {
 }
 
 impl Needs {
-    /// The account of a run that begins with these angles `[rad]`.
-    pub fn new(column: &Column, theta: &[f64]) -> Needs {
+    /// The account of a run that begins at a time `[s]` with these angles `[rad]`.
+    pub fn new(column: &Column, start: f64, theta: &[f64]) -> Needs {
         let blocks = theta.len();
         let mut balances = PerBlock::filled(0.0, blocks);
         balances.iter_mut().enumerate().for_each(|(block, own)| *own = column.stack(block).slenderness());
         let is_beyond = is_beyond(theta, &balances);
         Needs {
             balances,
-            last_end: 0.0,
-            beyond: if is_beyond { 0.0 } else { f64::INFINITY },
+            last_end: start,
+            beyond: if is_beyond { start } else { f64::INFINITY },
             is_near: is_beyond,
             counted: vec![Account::NEW; blocks],
             apart: vec![Account::NEW; blocks],

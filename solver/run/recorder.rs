@@ -46,9 +46,22 @@ pub(crate) struct Recorder {
     times: Vec<f64>,
 }
 
+/// A place in a record, to which what is recorded after it can be undone. Times in modes stay.
+pub(crate) struct Mark {
+    samples: usize,
+    sample_segment: usize,
+    peak_theta: PerBlock<f64>,
+    friction_demand: PerBlock<f64>,
+    impulse_friction_demand: PerBlock<f64>,
+    min_normal_force: PerBlock<f64>,
+    events: usize,
+    impacts: usize,
+    separations: usize,
+}
+
 impl Recorder {
-    /// The record of a run that begins with a state.
-    pub fn new(problem: &Problem, start: &State) -> Recorder {
+    /// The record of a run that begins with a state, or goes on from it after so many rows.
+    pub fn new(problem: &Problem, start: &State, rows: usize) -> Recorder {
         // Lists of what is not recorded are empty.
         let list = |is_recorded: bool, entry: f64| match is_recorded {
             true => PerBlock::filled(entry, start.theta.len()),
@@ -57,14 +70,14 @@ impl Recorder {
         let (is_recorded, records_forces) = (problem.is_recorded(), problem.records_forces());
         let mut recorder = Recorder {
             samples: Vec::new(),
-            next_sample: 0,
-            sample_segment: 0,
+            next_sample: rows,
+            sample_segment: start.segment,
             pattern: start.pattern.clone(),
             peak_theta: list(is_recorded, 0.0),
             friction_demand: list(records_forces, 0.0),
             impulse_friction_demand: list(records_forces, 0.0),
             min_normal_force: list(records_forces, f64::INFINITY),
-            needs: records_forces.then(|| Needs::new(&problem.scene.column, &start.theta)),
+            needs: records_forces.then(|| Needs::new(&problem.scene.column, start.t, &start.theta)),
             events: Vec::new(),
             impacts: 0,
             separations: Vec::new(),
@@ -73,6 +86,47 @@ impl Recorder {
         };
         recorder.record_angles(&start.theta);
         recorder
+    }
+
+    /// The present place in the record.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            samples: self.samples.len(),
+            sample_segment: self.sample_segment,
+            peak_theta: self.peak_theta.clone(),
+            friction_demand: self.friction_demand.clone(),
+            impulse_friction_demand: self.impulse_friction_demand.clone(),
+            min_normal_force: self.min_normal_force.clone(),
+            events: self.events.len(),
+            impacts: self.impacts,
+            separations: self.separations.len(),
+        }
+    }
+
+    /// Forgets what has been recorded since a mark.
+    pub fn undo(&mut self, mark: Mark) {
+        self.next_sample -= self.samples.len() - mark.samples;
+        self.samples.truncate(mark.samples);
+        self.events.truncate(mark.events);
+        self.separations.truncate(mark.separations);
+        (self.sample_segment, self.impacts) = (mark.sample_segment, mark.impacts);
+        (self.peak_theta, self.min_normal_force) = (mark.peak_theta, mark.min_normal_force);
+        (self.friction_demand, self.impulse_friction_demand) = (mark.friction_demand, mark.impulse_friction_demand);
+    }
+
+    /// Largest angles so far, per block `[rad]`.
+    pub fn peak_theta(&self) -> &[f64] {
+        &self.peak_theta
+    }
+
+    /// Largest friction demands of forces so far, per interface.
+    pub fn friction_demand(&self) -> &[f64] {
+        &self.friction_demand
+    }
+
+    /// Smallest normal forces so far, per interface `[N]`.
+    pub fn min_normal_force(&self) -> &[f64] {
+        &self.min_normal_force
     }
 
     /// Records a stretch.
@@ -221,6 +275,14 @@ impl Recorder {
                 self.record_row(problem, t, theta, omega);
             }
         }
+        let mut response = self.so_far(problem, last, status, modes);
+        response.overturned_block = block.map(|block| block + 1);
+        response.work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
+        response
+    }
+
+    /// The response of a run up to a state, without the rows that follow.
+    pub fn so_far(self, problem: &Problem, last: &State, status: StopReason, modes: &mut Modes) -> Response {
         let mut time_in_mode = BTreeMap::new();
         if problem.is_recorded() {
             let time = |mode: usize| self.times.get(mode).copied().unwrap_or(0.0);
@@ -233,16 +295,17 @@ impl Recorder {
                 time_in_mode.insert(ModeName::REST.to_string(), at_rest);
             }
         }
-        let end = if status.overturns() { last.t } else { problem.scene.options.t_end };
+        let end = match status {
+            StopReason::AtRest => problem.scene.options.t_end,
+            _ => last.t,
+        };
         let separations = self.separations.iter().map(|separation| separation.t);
         let validity = self.needs.map(|needs| needs.finish(status.overturns(), end, separations));
-        let mut work = modes.take_work();
-        work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
         Response {
             status,
             t_final: last.t,
             truncated: false,
-            overturned_block: block.map(|block| block + 1),
+            overturned_block: None,
             samples: self.samples,
             events: self.events,
             impacts: self.impacts,
@@ -253,7 +316,7 @@ impl Recorder {
             min_normal_force: self.min_normal_force.to_vec(),
             separations: self.separations,
             validity,
-            work,
+            work: modes.take_work(),
             used_generic: modes.used_generic(),
             sliding: None,
         }

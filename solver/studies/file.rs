@@ -57,11 +57,13 @@ impl IdaFile {
         let intensity = intensity(&mut root).map_err(own)?;
         let levels = values(&mut root, "levels", "give a list, or { from, to, steps }").map_err(own)?;
         let free_swing = root.number("free_swing").map_err(own)?.map_or(DEFAULT_FREE_SWING, |(value, _)| value);
+        let is_followed = root.flag("trust").map_err(own)?.unwrap_or(true);
         let records = records(&reader, &mut root, &scene.column)?;
         let (states, options) = fragility(&mut root, &scene).map_err(own)?;
         root.close().map_err(own)?;
         inputs.extend(kept.files());
         let ida = Ida::new(scene, records, intensity, levels).and_then(|ida| ida.with_free_swing(free_swing));
+        let ida = ida.map(|ida| ida.followed(is_followed));
         let ida = ida.map_err(|error| {
             let (key, remedy) = match &error {
                 IdaError::Level { .. } | IdaError::NoLevels => ("levels", "correct the levels"),

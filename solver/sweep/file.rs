@@ -1,6 +1,8 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
+use super::distribution::Distribution;
 use super::points::{Ask, Axis, Combine, Sweep};
+use super::sampling::{LONGEST_SOBOL, MOST_DIMENSIONS, Sampling, SamplingMethod};
 use crate::scene_file::edit::exclude_each_other;
 use crate::scene_file::reader::Reader;
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
@@ -34,11 +36,12 @@ impl Sweep {
         };
         let ask = match root.text("ask").map_err(own)? {
             None => Ask::default(),
-            Some((name, _)) => Ask::parse(&name).ok_or_else(|| {
-                own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides", "validity"]))
-            })?,
+            Some((name, _)) => {
+                Ask::parse(&name).ok_or_else(|| own(root.no_such("ask", "question", &name, &Ask::NAMES)))?
+            }
         };
         let template = Template::from_file(&base)?;
+        let sampling = sampling(&mut root).map_err(own)?;
         let Some(mut table) = root.table("axes").map_err(own)? else {
             return Err(own(root.missing("axes", "add [axes] with a line for each key that varies")));
         };
@@ -49,9 +52,10 @@ impl Sweep {
             return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
         }
         // Dotted keys of one table stand together in TOML, wherever they are in the file.
-        placed.sort_by_key(|(_, place)| place.start);
+        placed.sort_by_key(|(_, place, _)| place.start);
         distinct(&placed).map_err(own)?;
-        let (axes, places): (_, Vec<Place>) = placed.into_iter().unzip();
+        let combine = sample(&root, combine, sampling, &mut placed).map_err(own)?;
+        let (axes, places): (_, Vec<Place>) = placed.into_iter().map(|(axis, place, _)| (axis, place)).unzip();
         let sweep = Sweep { template, axes, combine, ask };
         if ask == Ask::Slides && sweep.scene(0).is_ok_and(|scene| scene.friction.is_none()) {
             let problem =
@@ -63,7 +67,7 @@ impl Sweep {
             Combine::Paired if lengths.iter().any(|length| *length != lengths[0]) => {
                 Some((format!("the axes have {lengths:?} values"), "paired axes must be equally long"))
             }
-            Combine::Cartesian if product(&lengths).is_none_or(|points| points > MOST_POINTS) => {
+            Combine::Cartesian | Combine::Sampled(_) if too_many(&sweep) => {
                 Some(("there are more than 1e12 points".to_string(), "give the axes fewer values"))
             }
             _ => None,
@@ -72,8 +76,7 @@ impl Sweep {
             return Err(own(root.wrong("axes", problem, remedy)));
         }
         if let Some((key, problem, remedy)) = sweep.misfit() {
-            let is_own = |axis: &Axis| axis.key == key || axis.key.starts_with(&format!("{key}."));
-            let axis = sweep.axes.iter().position(is_own);
+            let axis = sweep.axes.iter().position(|axis| is_of_axis(&axis.key, &key));
             return Err(own(Wrong {
                 place: axis.map_or_else(|| root.find("axes"), |axis| places[axis].clone()),
                 problem: format!("`{key}` of {}: {problem}", sweep.template.file().display()),
@@ -82,7 +85,32 @@ impl Sweep {
                 cause: Cause::Key,
             }));
         }
+        if let Some((axis, problem)) = sweep.bad_sample() {
+            return Err(own(Wrong {
+                place: places[axis].clone(),
+                key: format!("axes.{}", sweep.axes[axis].key),
+                problem,
+                remedy: "cut the distribution off by `min` and `max`, or choose one without such values".into(),
+                cause: Cause::Value,
+            }));
+        }
         Ok(sweep)
+    }
+
+    /// A sampled axis whose smallest or largest value no scene takes, and why; every such sample would be a row with an error.
+    fn bad_sample(&self) -> Option<(usize, String)> {
+        let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { f64::NAN };
+        (self.grid().len()..self.axes.len()).find_map(|axis| {
+            let Axis { key, values } = &self.axes[axis];
+            let by_size = |a: &usize, b: &usize| number(&values[*a]).total_cmp(&number(&values[*b]));
+            let extremes = [(0..values.len()).min_by(by_size)?, (0..values.len()).max_by(by_size)?];
+            extremes.into_iter().find_map(|sample| match self.scene(sample).err()? {
+                SceneFileError::Scene { key: own, problem, .. } if is_of_axis(key, &own) => {
+                    Some((axis, format!("sample {sample} is {}: {problem}", values[sample])))
+                }
+                _ => None,
+            })
+        })
     }
 
     /// A key with which no scene goes, as far as a few of them tell, with problem and remedy: every row would say so.
@@ -93,17 +121,22 @@ impl Sweep {
         };
         let first = misfit(0)?;
         let has_same = |index: usize| misfit(index).is_some_and(|(key, ..)| key == first.0);
-        self.samples().into_iter().all(has_same).then_some(first)
+        self.some_points().into_iter().all(has_same).then_some(first)
     }
 
     /// The last point, and one for each kind of ground motion.
-    fn samples(&self) -> Vec<usize> {
+    fn some_points(&self) -> Vec<usize> {
         let (mut samples, mut stride) = (vec![self.len() - 1], 1);
-        for axis in self.axes.iter().rev() {
+        for (place, axis) in self.axes.iter().enumerate().rev() {
+            let is_sampled = place >= self.grid().len();
+            // Samples run fastest, all of their axes together.
+            if place + 1 == self.grid().len() {
+                stride = self.samples().unwrap_or(1);
+            }
             if axis.key.ends_with(".kind") {
                 samples.extend((0..axis.values.len()).map(|place| place * stride));
             }
-            if self.combine == Combine::Cartesian {
+            if self.combine != Combine::Paired && !is_sampled {
                 stride *= axis.values.len();
             }
         }
@@ -111,11 +144,115 @@ impl Sweep {
     }
 }
 
+/// An axis, its place, and the distribution that it is drawn from.
+type Placed = (Axis, Place, Option<Distribution>);
+
+/// Whether a fault of a key is one of an axis.
+fn is_of_axis(axis: &str, key: &str) -> bool {
+    axis == key || axis.starts_with(&format!("{key}."))
+}
+
+fn too_many(sweep: &Sweep) -> bool {
+    let lengths: Vec<usize> = sweep.grid().iter().map(|axis| axis.values.len()).chain(sweep.samples()).collect();
+    product(&lengths).is_none_or(|points| points > MOST_POINTS)
+}
+
+/// `[sampling]`: how many samples, by which method, from which seed.
+fn sampling(root: &mut Table) -> Result<Option<Sampling>, Wrong> {
+    let Some(mut table) = root.table("sampling")? else { return Ok(None) };
+    let method = match table.text("method")? {
+        None => SamplingMethod::default(),
+        Some((name, _)) => SamplingMethod::parse(&name)
+            .ok_or_else(|| table.no_such("method", "sampling method", &name, &SamplingMethod::NAMES))?,
+    };
+    let Some(samples) = table.whole("samples", 1)? else {
+        return Err(table.missing("samples", "say how many samples are drawn, e.g. samples = 1000"));
+    };
+    let most = if method == SamplingMethod::Sobol { u64::from(LONGEST_SOBOL) } else { MOST_VALUES as u64 };
+    if samples > most {
+        let remedy = format!("give at most {most} by method `{}`", method.name());
+        return Err(table.wrong("samples", format!("{samples} samples are too many"), &remedy));
+    }
+    let seed = table.whole("seed", 0)?.unwrap_or(0);
+    table.close()?;
+    Ok(Some(Sampling { samples: samples as u32, method, seed }))
+}
+
+/// Draws the values of distributed axes, and puts these behind the others.
+fn sample(root: &Table, combine: Combine, sampling: Option<Sampling>, axes: &mut [Placed]) -> Result<Combine, Wrong> {
+    axes.sort_by_key(|(.., distribution)| distribution.is_some());
+    let first = axes.partition_point(|(.., distribution)| distribution.is_none());
+    let sampling = match (sampling, axes.get(first)) {
+        (None, None) => return Ok(combine),
+        (Some(sampling), Some(_)) => sampling,
+        (None, Some((axis, place, _))) => {
+            let (key, problem) =
+                (format!("axes.{}", axis.key), "it is a distribution, and nothing says how it is sampled".into());
+            let remedy = "add [sampling] with `samples`, e.g. samples = 1000".into();
+            return Err(Wrong { place: place.clone(), key, problem, remedy, cause: Cause::Key });
+        }
+        (Some(_), None) => {
+            let remedy = "remove it, or give an axis a distribution, e.g. { normal = [mean, standard deviation] }";
+            return Err(root.wrong("sampling", "no axis is a distribution".into(), remedy));
+        }
+    };
+    if combine == Combine::Paired {
+        let remedy = "leave `combine` out: distributed axes are sampled together, with each combination of the others";
+        return Err(root.wrong("combine", "distributed axes are not paired with others".into(), remedy));
+    }
+    let distributed = &mut axes[first..];
+    if sampling.method == SamplingMethod::Sobol && distributed.len() > MOST_DIMENSIONS {
+        let problem = format!("{} distributed axes are too many for a Sobol sequence", distributed.len());
+        return Err(root.wrong(
+            "sampling",
+            problem,
+            &format!("give at most {MOST_DIMENSIONS}, or choose another method"),
+        ));
+    }
+    for (dimension, (axis, _, distribution)) in distributed.iter_mut().enumerate() {
+        if let Some(distribution) = distribution {
+            let values = (0..sampling.samples).map(|sample| distribution.quantile(sampling.unit(sample, dimension)));
+            axis.values = values.collect();
+        }
+    }
+    Ok(Combine::Sampled(distributed.len()))
+}
+
+/// Keys of distributions.
+const KINDS: [&str; 4] = ["normal", "lognormal", "uniform", "discrete"];
+
+/// `{ lognormal = [median, dispersion] }` and the like, with `min` and `max`.
+fn distribution(table: &mut Table, kind: &'static str) -> Result<Distribution, Wrong> {
+    let refused = |table: &Table, (problem, remedy): (String, &str)| table.wrong(kind, problem, remedy);
+    if kind == "discrete" {
+        let values = table.settings(kind)?.unwrap_or_default();
+        let weights = table.numbers("weights")?;
+        return Distribution::discrete(values, weights).map_err(|why| refused(table, why));
+    }
+    let pair = table.numbers(kind)?.unwrap_or_default();
+    let [a, b] = pair[..] else {
+        let remedy = match kind {
+            "normal" => "give `[mean, standard deviation]`",
+            "lognormal" => "give `[median, dispersion]`",
+            _ => "give `[from, to]`",
+        };
+        return Err(table.wrong(kind, format!("{} number(s)", pair.len()), remedy));
+    };
+    if kind == "uniform" {
+        return Distribution::uniform(a, b).map_err(|why| refused(table, why));
+    }
+    let mut bound = |key: &'static str, open: f64| Ok(table.number(key)?.map_or(open, |(value, _)| value));
+    let bounds = [bound("min", f64::NEG_INFINITY)?, bound("max", f64::INFINITY)?];
+    let made =
+        if kind == "normal" { Distribution::normal(a, b, bounds) } else { Distribution::lognormal(a, b, bounds) };
+    made.map_err(|why| refused(table, why))
+}
+
 /// Whether no axis takes the place of another one.
-fn distinct(axes: &[(Axis, Place)]) -> Result<(), Wrong> {
-    for (index, (axis, place)) in axes.iter().enumerate() {
-        let is_other = |(other, _): &&(Axis, Place)| other.key == axis.key || exclude_each_other(&other.key, &axis.key);
-        let Some((other, _)) = axes[..index].iter().find(is_other) else { continue };
+fn distinct(axes: &[Placed]) -> Result<(), Wrong> {
+    for (index, (axis, place, _)) in axes.iter().enumerate() {
+        let is_other = |(other, ..): &&Placed| other.key == axis.key || exclude_each_other(&other.key, &axis.key);
+        let Some((other, ..)) = axes[..index].iter().find(is_other) else { continue };
         return Err(Wrong {
             place: place.clone(),
             key: format!("axes.{}", axis.key),
@@ -132,11 +269,11 @@ fn product(lengths: &[usize]) -> Option<usize> {
 }
 
 /// The axes of a table with their places, those of tables within under their dotted names.
-fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<(Axis, Place)>) -> Result<(), Wrong> {
+fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<Placed>) -> Result<(), Wrong> {
     for key in table.keys() {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         if let Some(values) = table.settings(&key)? {
-            axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
+            axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
@@ -144,9 +281,14 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
         if inner.keys().is_empty() && !template.has_table(&path) {
             return Err(no_values(table, &key));
         }
-        if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
+        if let Some(kind) = KINDS.into_iter().find(|kind| inner.has(kind)) {
+            let found = distribution(&mut inner, kind)?;
+            // Its values are drawn once all axes are known.
+            let own = axis(table, &key, &path, vec![found.quantile(0.5)], template)?;
+            axes.push((own, table.find(&key), Some(found)));
+        } else if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
             let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
-            axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
+            axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
         } else {
             read_axes(&mut inner, &path, template, axes)?;
         }

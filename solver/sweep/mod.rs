@@ -3,4 +3,9 @@
 pub(crate) mod file;
 mod points;
 
+mod distribution;
+
+mod sampling;
+
 pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep};
+pub use sampling::SamplingMethod;

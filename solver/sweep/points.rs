@@ -11,6 +11,7 @@ use crate::response::{ModeName, Response, StopReason};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
+use crate::trust::{Follow, follow_run};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
@@ -33,6 +34,9 @@ pub enum Combine {
     Cartesian,
     /// The first values together, then the second ones, and so on.
     Paired,
+    /// The last so many axes are samples, the first values of these together, then the second ones; each sample with each combination of the values of the
+    /// other axes. Samples run fastest.
+    Sampled(usize),
 }
 
 impl Combine {
@@ -61,9 +65,14 @@ pub enum Ask {
     Slides,
     /// As [`Ask::Peaks`], and what contacts need; of scenes without friction.
     Validity,
+    /// As [`Ask::Peaks`], and whether the verdict is determined: nine companions of each run say so ([`crate::trust`]), and take ten times as long.
+    Trust,
 }
 
 impl Ask {
+    /// Names in sweep files.
+    pub const NAMES: [&str; 6] = ["outcome", "overturns", "peaks", "slides", "validity", "trust"];
+
     /// The question of this name.
     pub fn parse(name: &str) -> Option<Ask> {
         match name {
@@ -72,13 +81,14 @@ impl Ask {
             "peaks" => Some(Ask::Peaks),
             "slides" => Some(Ask::Slides),
             "validity" => Some(Ask::Validity),
+            "trust" => Some(Ask::Trust),
             _ => None,
         }
     }
 
     /// Whether runs go on to their end, and largest angles are asked for.
     pub fn is_of_peaks(self) -> bool {
-        matches!(self, Ask::Peaks | Ask::Slides | Ask::Validity)
+        matches!(self, Ask::Peaks | Ask::Slides | Ask::Validity | Ask::Trust)
     }
 }
 
@@ -111,12 +121,21 @@ pub enum Fate {
     Collapses,
     /// No motion follows from the laws of contact with friction.
     Undetermined,
+    /// Runs that differ by less than anybody can know do not agree on what becomes of it ([`crate::trust`]); of studies only.
+    NotDetermined,
 }
 
 impl Fate {
     /// All of them.
-    pub const ALL: [Fate; 6] =
-        [Fate::NoUplift, Fate::Slides, Fate::Rocks, Fate::Overturns, Fate::Collapses, Fate::Undetermined];
+    pub const ALL: [Fate; 7] = [
+        Fate::NoUplift,
+        Fate::Slides,
+        Fate::Rocks,
+        Fate::Overturns,
+        Fate::Collapses,
+        Fate::Undetermined,
+        Fate::NotDetermined,
+    ];
 
     /// What became of the column of a run.
     pub fn of(response: &Response) -> Fate {
@@ -131,7 +150,7 @@ impl Fate {
         }
     }
 
-    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`.
+    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
     pub fn name(self) -> &'static str {
         match self {
             Fate::NoUplift => "no-uplift",
@@ -140,6 +159,7 @@ impl Fate {
             Fate::Slides => "slides",
             Fate::Collapses => "collapses",
             Fate::Undetermined => "undetermined",
+            Fate::NotDetermined => "not-determined",
         }
     }
 }
@@ -167,6 +187,8 @@ pub struct Outcome {
     pub residual_slides: Vec<f64>,
     /// What contacts need, up to the point of no return; only if that is asked for, and nothing slid.
     pub needs: Option<Needs>,
+    /// Whether the verdict is determined; only if that is asked for.
+    pub determined: Option<bool>,
 }
 
 /// What the contacts of a run need, all of them together, up to the point of no return ([`crate::validity`]).
@@ -289,18 +311,38 @@ impl<'s> Worker<'s> {
         };
         // Read from a file, it is valid.
         let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
-        Ok(self.sweep.outcome(scene, &response))
+        let mut outcome = self.sweep.outcome(scene, &response);
+        if self.sweep.ask == Ask::Trust {
+            outcome.determined = Some(follow_run(scene, &response, Follow::VERDICT)?.determined);
+        }
+        Ok(outcome)
     }
 }
 
 impl Sweep {
     /// Number of points.
     pub fn len(&self) -> usize {
-        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        let lengths = |axes: &[Axis]| axes.iter().map(|axis| axis.values.len()).collect::<Vec<_>>();
         match self.combine {
-            Combine::Cartesian => lengths.product(),
-            Combine::Paired => lengths.min().unwrap_or(0),
+            Combine::Paired => lengths(&self.axes).into_iter().min().unwrap_or(0),
+            _ => lengths(self.grid()).into_iter().product::<usize>() * self.samples().unwrap_or(1),
         }
+    }
+
+    /// The axes that are not sampled.
+    pub fn grid(&self) -> &[Axis] {
+        self.parts().0
+    }
+
+    /// Number of samples for each combination of the other axes; `None` for a sweep without distributions.
+    pub fn samples(&self) -> Option<usize> {
+        self.parts().1.iter().map(|axis| axis.values.len()).min()
+    }
+
+    /// The axes that are not sampled, and those that are.
+    fn parts(&self) -> (&[Axis], &[Axis]) {
+        let sampled = if let Combine::Sampled(count) = self.combine { count } else { 0 };
+        self.axes.split_at(self.axes.len().saturating_sub(sampled))
     }
 
     /// Whether there is no point.
@@ -317,15 +359,18 @@ impl Sweep {
 
     /// The same, in place of what was there.
     fn put_settings<'s>(&'s self, index: usize, settings: &mut Vec<&'s Setting>) {
-        let mut rest = index;
         settings.clear();
-        settings.extend(self.axes.iter().rev().map(|axis| match self.combine {
-            Combine::Paired => &axis.values[index],
-            Combine::Cartesian => {
-                let value = &axis.values[rest % axis.values.len()];
-                rest /= axis.values.len();
-                value
-            }
+        if self.combine == Combine::Paired {
+            settings.extend(self.axes.iter().map(|axis| &axis.values[index]));
+            return;
+        }
+        let ((grid, sampled), samples) = (self.parts(), self.samples().unwrap_or(1));
+        let (mut rest, sample) = (index / samples, index % samples);
+        settings.extend(sampled.iter().rev().map(|axis| &axis.values[sample]));
+        settings.extend(grid.iter().rev().map(|axis| {
+            let value = &axis.values[rest % axis.values.len()];
+            rest /= axis.values.len();
+            value
         }));
         settings.reverse();
     }
@@ -341,7 +386,7 @@ impl Sweep {
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,
-            Ask::Peaks | Ask::Slides | Ask::Validity => Wanted::Everything,
+            Ask::Peaks | Ask::Slides | Ask::Validity | Ask::Trust => Wanted::Everything,
         };
         scene.options.record_forces = self.ask == Ask::Validity;
         Ok(scene)
@@ -382,6 +427,7 @@ impl Sweep {
                 Some(report) if self.ask == Ask::Slides => report.residual_slide.clone(),
                 _ => Vec::new(),
             },
+            determined: None,
         }
     }
 }

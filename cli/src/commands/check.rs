@@ -146,7 +146,11 @@ fn check_sweep(path: &Path, as_json: bool) -> Result<(), Failure> {
     };
     let mut findings = SweepFindings {
         scene: sweep.template.file().into(),
-        combine: if sweep.combine == Combine::Paired { "paired" } else { "cartesian" },
+        combine: match sweep.combine {
+            Combine::Paired => "paired",
+            Combine::Sampled(_) => "samples of the distributed axes, with each combination of the others",
+            _ => "cartesian",
+        },
         points: sweep.len(),
         axes: sweep.axes.iter().map(axis).collect(),
         columns: sweep::columns(&sweep)?.into_iter().map(|column| column.name).collect(),

@@ -9,6 +9,7 @@ mod keys;
 mod merge;
 mod modes;
 mod plot;
+mod probability;
 mod record;
 mod records;
 mod report;
@@ -17,6 +18,7 @@ mod shell;
 mod spectrum;
 mod sweep;
 mod thresholds;
+mod trust;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;

@@ -1,6 +1,7 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::{Dynamics, Picture, Run};
+use crate::commands::trust::Followed;
 use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
 use crate::number::fixed;
@@ -9,7 +10,7 @@ use crate::plot::NAMES;
 use crate::progress::Progress;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
-use rocking::run_folder::{Folder, Results, Run as Finished, SceneText};
+use rocking::run_folder::{COMPANIONS, Folder, Results, Run as Finished, SceneText};
 use rocking::sweep::Fate;
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
@@ -26,21 +27,27 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     }
     let folder = Folder::create(out)?;
     let bar = Progress::of_run(scene.options.t_end, asked.quiet);
+    let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| {
         bar.reached_time(t);
         ControlFlow::Continue(())
     })
-    .map_err(|error| Failure::Solve { scene: path.clone(), out: out.clone(), error })?;
+    .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
+    let followed = Followed::of(asked, &scene, &response, seconds).map_err(failed)?;
     bar.finish();
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
-    finished.outdated = NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]).collect();
+    finished.trust = followed.trust();
+    finished.outdated.extend(NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]));
     finished.outdated.push(report::NAME.into());
     folder.write(&finished)?;
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
+    if out.join(COMPANIONS).is_file() {
+        written.push(COMPANIONS.into());
+    }
     if asked.plots || asked.report {
         // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
         let results = Results::read(out)?;
@@ -59,14 +66,14 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if asked.json {
         return json_text(&folder.summary()?);
     }
-    print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), shown(out)))
+    print(&format!("{}wrote {} to {}\n", account(&scene, &response, &followed), written.join(", "), shown(out)))
 }
 
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
 const MODES_PRINTED: usize = 8;
 
 /// A few lines on what happened.
-fn account(scene: &Scene, response: &Response) -> String {
+fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     // The words of `outcome` in tables and in summary.json.
     let fate = Fate::of(response).name().replace('-', " ");
     let t = response.t_final;
@@ -101,7 +108,8 @@ fn account(scene: &Scene, response: &Response) -> String {
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", printable(&scene.title));
     }
-    let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts);
+    let _ = writeln!(text, "{}{outcome}; {} impact(s)", followed.lead(), response.impacts);
+    text.push_str(&followed.line());
     let (peaks, angles) = (list(&response.peaks(&scene.column)), list(&response.peak_theta));
     let _ = writeln!(text, "largest |θ|/α, base first: {peaks} (|θ|: {angles} rad)");
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));

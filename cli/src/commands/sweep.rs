@@ -4,6 +4,7 @@
 //! whole sweep in a file beside its table, by which `rocking merge` recognises shards of another sweep.
 
 use crate::arguments;
+use crate::commands::probability::{self, Lost};
 use crate::commands::{inputs, spectrum};
 use crate::error::{Failure, at};
 use crate::output;
@@ -33,6 +34,9 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
     let mut outputs = vec![out.clone()];
     outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    // Probabilities are those of whole tables.
+    let is_sampled = sweep.samples().is_some() && asked.shard.is_none();
+    outputs.extend(is_sampled.then(|| probability::table(&out)));
     output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
@@ -47,16 +51,19 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
     table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
-        sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()))
+        sweep.lines(batch, |row| with_trust(&row, sweep.ask, columns.len()))
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
+    let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
+    let probabilities = probability::write(&sweep, &lost, &out)?;
     if asked.json {
-        json(&tally)?;
+        json(&Counts { tally: &tally, lost })?;
     } else if !asked.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-        print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), shown(&out)))?;
+        let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
+        print(&format!("{tally}{wrote}{probabilities}{drawn}"))?;
     }
     match first_error {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
@@ -122,6 +129,10 @@ pub const TIME: &str = "overturned_at";
 /// The column that says whether the run was cut: the ground moves on after it.
 pub const TRUNCATED: &str = "truncated";
 
+/// The column that says whether the verdict is determined, and what it says where it is not.
+pub const TRUST: &str = "trust";
+pub const NOT_DETERMINED: &str = "not-determined";
+
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     let of_axis = |axis: &Axis| {
@@ -154,6 +165,9 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
             columns.push(Column::sparse("min_normal", Kind::Number));
             columns.push(Column::sparse("separations", Kind::Whole));
         }
+        if sweep.ask == Ask::Trust {
+            columns.push(Column::sparse(TRUST, Kind::Text));
+        }
     }
     columns.push(Column::sparse(TRUNCATED, Kind::Text));
     columns.push(Column::sparse("error", Kind::Text));
@@ -165,6 +179,17 @@ const FIXED: usize = 7;
 
 /// Columns of `ask = "validity"` besides peaks and mode.
 const OF_VALIDITY: usize = 4;
+
+/// A row as so many cells, that of trust before those of the cut and the error.
+fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
+    if ask != Ask::Trust {
+        return cells(row, ask, columns);
+    }
+    let cells = cells(row, ask, columns - 1);
+    let word = row.result.as_ref().ok().and_then(|outcome| outcome.determined);
+    let word = word.map_or("", |determined| if determined { "determined" } else { NOT_DETERMINED });
+    cells.iter().take(columns - 3).chain([word]).chain(cells.iter().skip(columns - 3)).collect()
+}
 
 /// A row as so many cells.
 fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
@@ -265,6 +290,16 @@ impl std::fmt::Display for Fnv {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{:016x}", self.0)
     }
+}
+
+/// A sweep as JSON.
+#[derive(Serialize)]
+struct Counts<'a> {
+    #[serde(flatten)]
+    tally: &'a Tally,
+    /// Probabilities of a sweep over distributions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    lost: Vec<Lost>,
 }
 
 /// Number of rows by outcome.

@@ -38,6 +38,7 @@ pub enum Ask {
     Peaks,
     Slides,
     Validity,
+    Trust,
 }
 
 /// The values of an axis, or a table of axes whose names begin alike.

@@ -5,6 +5,7 @@
 //! All that the page says of a run stands in [`Results`]; no motion is computed here.
 
 mod outcome;
+mod trust;
 mod validity;
 
 mod inputs;

@@ -2,6 +2,7 @@
 
 use crate::number::{degrees, percent, significant};
 use crate::plot::modes::sketch;
+use crate::report::trust;
 use crate::text::escape;
 use rocking::Event;
 use rocking::pattern::{ModeLabel, Pattern};
@@ -65,6 +66,7 @@ pub fn sentence(results: &Results) -> String {
             ),
         ),
     };
+    let (class, words) = trust::qualified(results, class, words);
     // Told apart by shape, not by colour alone.
     let sign = match class {
         "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
@@ -73,7 +75,8 @@ pub fn sentence(results: &Results) -> String {
         _ => "<path d=\"M4 12c3-6 5-6 8 0s5 6 8 0\"/>",
     };
     format!(
-        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}",
+        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}{}",
+        trust::paragraph(results),
         places(results)
     )
 }
