@@ -1,7 +1,7 @@
 //! What a run without sliding asks of its contacts: friction, compression, no separation.
 //!
-//! Contacts count up to the point of no return: the time from which on some block is past its balance, `|θ_i| > α_i`, until the column has
-//! overturned. A block that falls slides and parts as it likes; the outcome is known by then. In a run that does not overturn all of it counts.
+//! Contacts count up to the point of no return: the time from which on some block is past its balance, `|θ_i| > α_i`, and none comes back from there
+//! until the column has overturned. A block that falls slides and parts as it likes; the outcome is known by then. In a run that does not overturn all of it counts.
 
 use crate::json::number;
 use serde::{Deserialize, Serialize};

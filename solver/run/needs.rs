@@ -1,6 +1,6 @@
 //! The account of what contacts need: extremes with time and angle, and how long (`crate::validity`).
 //!
-//! What comes after a block has passed its balance is kept apart. It joins the account if the block comes back, and is dropped if the column
+//! What comes after a block has passed its balance is kept apart. It joins the account if a block comes back, and is dropped if the column
 //! overturns.
 
 use super::stretch::{Inside, Panel};
@@ -17,8 +17,10 @@ pub(crate) struct Needs {
     balances: PerBlock<f64>,
     /// End of the last stretch `[s]`.
     last_end: f64,
-    /// Time from which on some block has been past its balance `[s]`; infinite where none is.
+    /// Time from which on some block has been past its balance, and none has come back `[s]`; infinite where none is past it.
     beyond: f64,
+    /// Whether each block was past its balance at the end of the last stretch.
+    is_past: PerBlock<bool>,
     /// Whether the time of the present stretch matters: some block has been near its balance.
     is_near: bool,
     counted: Vec<Account>,
@@ -106,10 +108,14 @@ impl Needs {
         let mut balances = PerBlock::filled(0.0, blocks);
         balances.iter_mut().enumerate().for_each(|(block, own)| *own = column.stack(block).slenderness());
         let is_beyond = is_beyond(theta, &balances);
+        let mut is_past = PerBlock::filled(false, blocks);
+        let both = theta.iter().zip(&balances);
+        is_past.iter_mut().zip(both).for_each(|(is_past, (theta, balance))| *is_past = theta.abs() > *balance);
         Needs {
             balances,
             last_end: start,
             beyond: if is_beyond { start } else { f64::INFINITY },
+            is_past,
             is_near: is_beyond,
             counted: vec![Account::NEW; blocks],
             apart: vec![Account::NEW; blocks],
@@ -121,24 +127,31 @@ impl Needs {
     pub fn begin(&mut self, inside: &mut dyn Inside, end: f64, peaks: &[f64]) {
         self.is_near = is_beyond(peaks, &self.balances);
         if self.is_near {
-            let is_beyond = |t: f64, inside: &mut dyn Inside| is_beyond(&inside.state_at(t).0, &self.balances);
-            match (is_beyond(end, inside), self.beyond.is_finite()) {
-                (true, false) => {
-                    let (mut short, mut long) = (self.last_end, end);
-                    for _ in 0..ROUNDS {
-                        let middle = 0.5 * (short + long);
-                        *(if is_beyond(middle, inside) { &mut long } else { &mut short }) = middle;
-                    }
-                    self.beyond = long;
+            let theta = inside.state_at(end).0;
+            let mut is_any_beyond = false;
+            let mut has_returned = false;
+            for ((is_past, theta), balance) in self.is_past.iter_mut().zip(&theta).zip(&self.balances) {
+                let was_past = std::mem::replace(is_past, theta.abs() > *balance);
+                has_returned |= was_past && !*is_past;
+                is_any_beyond |= *is_past;
+            }
+            if has_returned {
+                self.come_back();
+                self.beyond = if is_any_beyond { end } else { f64::INFINITY };
+            } else if is_any_beyond && !self.beyond.is_finite() {
+                let (mut short, mut long) = (self.last_end, end);
+                for _ in 0..ROUNDS {
+                    let middle = 0.5 * (short + long);
+                    let is_long = is_beyond(&inside.state_at(middle).0, &self.balances);
+                    *(if is_long { &mut long } else { &mut short }) = middle;
                 }
-                (false, true) => self.come_back(),
-                _ => {}
+                self.beyond = long;
             }
         }
         self.last_end = end;
     }
 
-    /// The blocks are back: what was kept apart counts.
+    /// A block is back: what was kept apart counts.
     fn come_back(&mut self) {
         self.beyond = f64::INFINITY;
         for (counted, apart) in self.counted.iter_mut().zip(&mut self.apart) {
