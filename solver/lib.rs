@@ -64,6 +64,7 @@ pub mod scene_file;
 pub mod studies;
 pub mod sweep;
 pub mod trust;
+pub mod validity;
 
 pub use column::{Block, Column, ColumnError, Stack};
 pub use friction::Friction;
@@ -82,6 +83,10 @@ pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordErro
 pub use run::Skips;
 pub use run::certainty::stands as outcome;
 pub use run::{Simulator, SolveError, simulate, simulate_observed};
-pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SceneErrors, SolveOptions, Wanted};
+pub use scene::{
+    DynamicsSource, Initial, Look, Method, OutputColumn, Restitution, Scene, SceneError, SceneErrors, SolveOptions,
+    Wanted,
+};
 pub use scene_file::SceneFileError;
 pub use sweep::Sweep;
+pub use validity::Validity;

@@ -15,12 +15,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::column::{Block, Column};
+use crate::column::{Block, Column, Shape, Stack};
 use crate::friction::Friction;
 use crate::json::Explicit;
 use crate::mechanics::dynamics::ContactForce;
 use crate::response::{BlockAtEvent, BlockState, Event, Response, Sample};
-use crate::scene::{Initial, Restitution, Scene, SolveOptions};
+use crate::scene::{Initial, Look, OutputColumn, Restitution, Scene, SolveOptions};
+use crate::sweep::Fate;
 use crate::trust::{Band, Trust};
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Description, Motion};
@@ -122,10 +123,21 @@ impl<'a> Run<'a> {
     /// A run with its warnings, without scene file, duration, or outdated files.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         let mut warnings = scene.excitation.warnings();
+        warnings.extend(cut(scene, response));
         warnings.extend(response.warnings(None));
         let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, vec![COMPANIONS.into()]);
         Run { scene, response, scene_text, wall_seconds, warnings, trust: None, outdated }
     }
+}
+
+/// The warning of a run that ends before its ground motion; a motion without end has none, as it must be cut somewhere.
+fn cut(scene: &Scene, response: &Response) -> Option<String> {
+    let still = scene.excitation.still_from().filter(|_| response.truncated)?;
+    let end = scene.options.t_end;
+    Some(format!(
+        "the ground motion is cut: it lasts until t = {still:.4} s, and the run ends at solver.t_end = {end} s; the outcome holds up to then \
+         (leave t_end out for a run to the end of the motion and a free swing)"
+    ))
 }
 
 /// `summary.json` as it is written.
@@ -138,12 +150,22 @@ struct Summary<'a> {
     response: &'a Response,
     /// `[s]`
     overturned_at: Option<f64>,
+    /// As in the table of a sweep.
+    outcome: &'a str,
+    /// Largest `|θ|` of each block over the slenderness of the stack that begins with it, as in the table of a sweep, dimensionless.
+    peaks: Vec<f64>,
+    /// Slenderness of the stack above each interface `[rad]`.
+    alpha: Vec<f64>,
+    /// Frequency parameter of these stacks `[rad/s]`.
+    p: Vec<f64>,
     trust: Option<&'a Trust>,
     method: &'a str,
     wall_seconds: f64,
     warnings: &'a [String],
     options: &'a SolveOptions,
     column: &'a Column,
+    #[serde(skip_serializing_if = "<[Look]>::is_empty")]
+    looks: &'a [Look],
     friction: Option<&'a Friction>,
     restitution: &'a Restitution,
     excitation: BTreeMap<&'a str, Option<Description<'a>>>,
@@ -188,18 +210,26 @@ impl Folder {
             let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
             peaks.map_or(0.0, |[acceleration, ..]| acceleration)
         };
+        let stacks = |quantity: fn(&Stack) -> f64| -> Vec<f64> {
+            (0..scene.column.len()).map(|block| quantity(&scene.column.stack(block))).collect()
+        };
         let summary = Summary {
             title: &scene.title,
             version: env!("CARGO_PKG_VERSION"),
             scene: &run.scene_text,
             response,
             overturned_at: response.overturned_at(),
+            outcome: Fate::of(response).name(),
+            peaks: response.peaks(&scene.column),
+            alpha: stacks(|stack| stack.slenderness()),
+            p: stacks(|stack| stack.frequency_parameter()),
             trust: run.trust,
             method: scene.options.method.stepper().name(),
             wall_seconds: run.wall_seconds,
             warnings: &run.warnings,
             options: &scene.options,
             column: &scene.column,
+            looks: &scene.looks,
             friction: scene.friction.as_ref(),
             restitution: &scene.restitution,
             excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
@@ -207,7 +237,7 @@ impl Folder {
             initial: &scene.initial,
         };
         let drafts = [
-            self.draft(|file| history(file, scene.column.len(), &response.samples))?,
+            self.draft(|file| history(file, scene, &response.samples))?,
             self.draft(|file| events(file, &response.events))?,
             self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&summary)).map_err(Into::into))?,
         ];
@@ -292,8 +322,9 @@ fn numbers_of(state: &BlockState) -> [f64; 7] {
 }
 
 /// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates, and where
-/// blocks slid or flew, [`STATE_COLUMNS`] after these.
-fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::Result<()> {
+/// blocks slid or flew, [`STATE_COLUMNS`] after these; at the end the columns that the scene asks for.
+fn history(mut file: impl Write, scene: &Scene, samples: &[Sample]) -> std::io::Result<()> {
+    let blocks = scene.column.len();
     let mut columns = vec!["theta", "omega"];
     if samples.iter().any(|sample| !sample.slide.is_empty()) {
         columns.extend(["slide", "gap"]);
@@ -303,7 +334,14 @@ fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::
     }
     write!(file, "t")?;
     columns.iter().try_for_each(|name| (1..=blocks).try_for_each(|block| write!(file, ",{name}_{block}")))?;
-    writeln!(file, ",ground_x,ground_y,pattern")?;
+    write!(file, ",ground_x,ground_y,pattern")?;
+    for column in &scene.output_columns {
+        match column {
+            OutputColumn::Relative => (1..=blocks).try_for_each(|interface| write!(file, ",phi_{interface}"))?,
+            OutputColumn::Top => write!(file, ",top_x,top_y")?,
+        }
+    }
+    writeln!(file)?;
     for sample in samples {
         // `{:?}` is the shortest text that reads back to the same bits.
         write!(file, "{:?}", sample.t)?;
@@ -316,7 +354,15 @@ fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::
         sample.ground.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
         // A pattern with a comma is quoted.
         let quote = if blocks > 1 { "\"" } else { "" };
-        writeln!(file, ",{quote}{}{quote}", sample.pattern)?;
+        write!(file, ",{quote}{}{quote}", sample.pattern)?;
+        for column in &scene.output_columns {
+            let numbers = match column {
+                OutputColumn::Relative => sample.relative_angles(),
+                OutputColumn::Top => sample.top_displacement(&scene.column).to_vec(),
+            };
+            numbers.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
+        }
+        writeln!(file)?;
     }
     Ok(())
 }
@@ -345,6 +391,9 @@ pub struct Results {
     pub options: Options,
     /// The column.
     pub column: Column,
+    /// Looks of the blocks, base first; empty for prisms without names.
+    #[serde(default)]
+    pub looks: Vec<Look>,
     /// Coefficients of friction of the scene.
     pub friction: Option<Friction>,
     /// Law of impacts.
@@ -388,6 +437,19 @@ impl Results {
     /// The smallest coefficient of static friction of the scene, `None` for one without friction.
     pub fn available_friction(&self) -> Option<f64> {
         self.friction.as_ref().map(Friction::least)
+    }
+
+    /// The shape of a block, from zero.
+    pub fn shape(&self, block: usize) -> Shape {
+        self.looks.get(block).map(|look| look.shape).unwrap_or_default()
+    }
+
+    /// The number of a block, from zero, as it is told: from 1, and its name where it has one.
+    pub fn block_name(&self, block: usize) -> String {
+        match self.looks.get(block) {
+            Some(look) if !look.name.is_empty() => format!("{} ({})", block + 1, look.name),
+            _ => format!("{}", block + 1),
+        }
     }
 
     /// Reads the folder of a run.
@@ -449,6 +511,12 @@ impl Results {
         let lists = [&response.friction_demand, &response.impulse_friction_demand, &response.min_normal_force];
         if response.peak_theta.len() != length || lists.iter().any(|list| !list.is_empty() && list.len() != length) {
             return Some(format!("peaks or forces are not of {length} block(s)"));
+        }
+        if !self.looks.is_empty() && self.looks.len() != length {
+            return Some(format!("`looks` are not of {length} block(s)"));
+        }
+        if response.validity.as_ref().is_some_and(|validity| validity.contacts.len() != length) {
+            return Some(format!("`validity` is not of {length} interface(s)"));
         }
         if response.overturned_block.is_some_and(|block| !(1..=length).contains(&block)) {
             return Some("`overturned_block` is no block of the column".into());
@@ -520,7 +588,12 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
             numbers.push(number.ok_or_else(|| broken("a number is missing, or not one of a run".into()))?);
             rest = after;
         }
-        let pattern = Pattern::parse(rest.trim_matches('"')).filter(|pattern| pattern.0.len() == blocks);
+        // Columns that the scene has asked for follow from the others, and are not read.
+        let pattern = match rest.strip_prefix('"') {
+            Some(quoted) => quoted.split('"').next(),
+            None => rest.split(',').next(),
+        };
+        let pattern = pattern.and_then(Pattern::parse).filter(|pattern| pattern.0.len() == blocks);
         let (Some(pattern), true) = (pattern, numbers.len() == count) else {
             return Err(broken(format!("it is not {count} numbers and a pattern of {blocks} block(s)")));
         };

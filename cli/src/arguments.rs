@@ -1,5 +1,6 @@
 //! Arguments of the command line.
 
+use crate::keys::Kind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
@@ -41,7 +42,7 @@ pub enum Command {
     },
     /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points; or a study: its records and levels.
     Check {
-        /// Scene, sweep or study file (TOML).
+        /// Scene, sweep or study file (TOML); `-` reads a scene from standard input.
         scene: PathBuf,
         /// Print JSON instead of text.
         #[arg(long)]
@@ -151,6 +152,15 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         sweep: Option<PathBuf>,
     },
+    /// List all keys of scenes, sweeps and studies with types, units and defaults.
+    Keys {
+        /// Kind of file; all of them if it is left out.
+        #[arg(value_enum)]
+        file: Option<Kind>,
+        /// Print the JSON schema of the kind (of scenes, if none is named) instead of text: for editors and other programs.
+        #[arg(long)]
+        schema: bool,
+    },
     /// Print the completion script of a shell.
     Completions {
         /// The shell.
@@ -167,7 +177,7 @@ pub enum Command {
 /// `rocking run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// Scene file (TOML).
+    /// Scene file (TOML); `-` reads standard input.
     pub scene: PathBuf,
     /// Folder for the results; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = "out")]

@@ -234,6 +234,23 @@ impl Motion {
         self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
     }
 
+    /// Time from which on the ground does not move any more `[s]`: the end, of a record without the zeros at its end; none for a motion
+    /// without end.
+    ///
+    /// ```
+    /// use rocking_ground::{Motion, Record};
+    /// let record = Record::new(vec![0.0, 1.0, -1.0, 0.0, 0.0, 0.0], 0.5, 2.0)?;
+    /// assert_eq!(Motion::Record(record).still_from(), Some(3.5));
+    /// # Ok::<(), rocking_ground::RecordError>(())
+    /// ```
+    pub fn still_from(&self) -> Option<f64> {
+        match self {
+            Motion::Record(record) => Some(record.still_from()),
+            Motion::Sum { terms } => terms.iter().try_fold(0.0f64, |last, term| Some(last.max(term.still_from()?))),
+            _ => self.end(),
+        }
+    }
+
     /// Name and value of the first parameter that is not finite, larger than `largest` in size, or not above its lower bound.
     pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
         if let Motion::Sum { terms } = self {

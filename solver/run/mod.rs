@@ -7,6 +7,7 @@ mod error;
 mod fold;
 mod modes;
 mod multi_sample_step;
+mod needs;
 mod phase;
 mod phase_motion;
 mod problem;

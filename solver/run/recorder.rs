@@ -1,9 +1,10 @@
 //! The recorder: the only writer of rows, events, peaks, forces and times in modes.
 
 use super::modes::Modes;
+use super::needs::{InPanel, Needs};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Over, Request, Stretch};
+use super::stretch::{Over, Panel, Request, Stretch};
 use super::transition::Transition;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
@@ -34,6 +35,8 @@ pub(crate) struct Recorder {
     impulse_friction_demand: PerBlock<f64>,
     /// Per interface `[N]`.
     min_normal_force: PerBlock<f64>,
+    /// The same up to the point of no return, with times; where forces are recorded.
+    needs: Option<Needs>,
     events: Vec<Event>,
     impacts: usize,
     separations: Vec<Separation>,
@@ -74,6 +77,7 @@ impl Recorder {
             friction_demand: list(records_forces, 0.0),
             impulse_friction_demand: list(records_forces, 0.0),
             min_normal_force: list(records_forces, f64::INFINITY),
+            needs: records_forces.then(|| Needs::new(&problem.scene.column, start.t, &start.theta)),
             events: Vec::new(),
             impacts: 0,
             separations: Vec::new(),
@@ -145,9 +149,11 @@ impl Recorder {
             self.record_row(problem, t, theta.to_vec(), omega.to_vec());
         }
         stretch.inside.raise_peaks(&mut self.peak_theta);
-        if problem.records_forces() {
-            stretch.inside.forces(problem, &mut |forces| self.record_forces(forces));
-        }
+        let Some(mut needs) = self.needs.take_if(|_| !stretch.is_coarse) else { return };
+        needs.begin(stretch.inside, stretch.end, &self.peak_theta);
+        stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, &mut needs));
+        needs.end(stretch.inside);
+        self.needs = Some(needs);
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -186,10 +192,11 @@ impl Recorder {
     }
 
     /// Records the extremes within a panel from its contact forces at start, middle and end: those of the parabolas through them.
-    fn record_forces(&mut self, forces: [&[ContactForce]; 3]) {
+    fn record_forces(&mut self, panel: &Panel, needs: &mut Needs) {
         for interface in 0..self.friction_demand.len() {
-            let [a, b, c] = forces.map(|forces| forces[interface]);
-            let least = -crest([a, b, c].map(|force| -force.normal));
+            let [a, b, c] = panel.forces.map(|forces| forces[interface]);
+            let normal = [a, b, c].map(|force| force.normal);
+            let least = -crest(normal.map(|normal| -normal));
             let demand = [a, b, c].map(|force| friction(&force));
             let is_finite = demand.iter().all(|demand| demand.is_finite());
             // Between the places the contact may part with a force along it.
@@ -197,6 +204,7 @@ impl Recorder {
             let most = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
             self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
             self.friction_demand[interface] = self.friction_demand[interface].max(most);
+            needs.add(interface, panel, &InPanel { demand, normal, largest_demand: most, least_normal: least });
         }
     }
 
@@ -287,9 +295,16 @@ impl Recorder {
                 time_in_mode.insert(ModeName::REST.to_string(), at_rest);
             }
         }
+        let end = match status {
+            StopReason::AtRest => problem.scene.options.t_end,
+            _ => last.t,
+        };
+        let separations = self.separations.iter().map(|separation| separation.t);
+        let validity = self.needs.map(|needs| needs.finish(status.overturns(), end, separations));
         Response {
             status,
             t_final: last.t,
+            truncated: false,
             overturned_block: None,
             samples: self.samples,
             events: self.events,
@@ -300,6 +315,7 @@ impl Recorder {
             impulse_friction_demand: self.impulse_friction_demand.to_vec(),
             min_normal_force: self.min_normal_force.to_vec(),
             separations: self.separations,
+            validity,
             work: modes.take_work(),
             used_generic: modes.used_generic(),
             sliding: None,

@@ -105,6 +105,16 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
+        let mut response = self.response(scene, progress)?;
+        response.truncated = response.status.stands() && scene.excitation.moves_after(scene.options.t_end);
+        Ok(response)
+    }
+
+    fn response(
+        &mut self,
+        scene: &Scene,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Response, SolveError> {
         if let Some(friction) = &scene.friction {
             return self.run_with_friction(scene, friction, progress);
         }

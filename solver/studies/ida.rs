@@ -330,7 +330,6 @@ impl Ida {
 
 fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
     let column = &scene.column;
-    let share = |(block, peak): (usize, &f64)| peak / column.stack(block).slenderness();
     let slides = response.sliding.as_ref().map(|report| report.residual_slide.clone());
     IdaOutcome {
         fate: Fate::of(response),
@@ -339,7 +338,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
         overturned_at: response.overturned_at(),
         first_uplift: first_uplift(response),
         largest_gap: largest_gap(column, response),
-        peaks: response.peak_theta.iter().enumerate().map(share).collect(),
+        peaks: response.peaks(column),
         residual_slides: slides.unwrap_or_default(),
         horizon: None,
     }

@@ -35,9 +35,9 @@ impl Sweep {
         };
         let ask = match root.text("ask").map_err(own)? {
             None => Ask::default(),
-            Some((name, _)) => Ask::parse(&name).ok_or_else(|| {
-                own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides", "trust"]))
-            })?,
+            Some((name, _)) => {
+                Ask::parse(&name).ok_or_else(|| own(root.no_such("ask", "question", &name, &Ask::NAMES)))?
+            }
         };
         let template = Template::from_file(&base)?;
         let sampling = sampling(&mut root).map_err(own)?;
@@ -248,8 +248,7 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
         Setting::Number(match (share, is_log) {
             (0.0, _) => from,
             (1.0, _) => to,
-            // Whole numbers from end to end stay whole.
-            (_, false) => from + step as f64 * (to - from) / (steps - 1.0),
+            (_, false) => decimal(from + step as f64 * (to - from) / (steps - 1.0), from.abs().max(to.abs())),
             (share, true) => {
                 let [from, to] = [from, to].map(libm::log);
                 // Rounding of the logarithm is a relative error of the number.
@@ -260,8 +259,17 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     Ok((0..steps as usize).map(value).collect())
 }
 
+/// Roundings of a value between two ends, relative to the larger one.
+const ROUNDING_OF_STEPS: f64 = 4.0 * f64::EPSILON;
+
+/// A value between ends of this size: of decimal steps the decimal number, 1 and not 0.9999999999999999.
+fn decimal(value: f64, size: f64) -> f64 {
+    let error = ROUNDING_OF_STEPS * size;
+    if value.abs() <= error { 0.0 } else { rounded(value, error / value.abs()) }
+}
+
 /// The number of twelve digits that a number is but for a relative error: powers of ten between powers of ten, whole numbers.
-pub(crate) fn rounded(value: f64, error: f64) -> f64 {
+fn rounded(value: f64, error: f64) -> f64 {
     let short = format!("{value:.11e}").parse().unwrap_or(value);
     if (value - short).abs() <= error * value.abs() { short } else { value }
 }

@@ -5,6 +5,7 @@ mod fragility;
 mod ida;
 mod init;
 mod inputs;
+mod keys;
 mod merge;
 mod modes;
 mod plot;
@@ -61,6 +62,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Ida(asked) => ida::ida(&asked),
         Command::Fragility(asked) => fragility::fragility(&asked),
         Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
+        Command::Keys { file, schema } => keys::keys(file, schema),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),
     }

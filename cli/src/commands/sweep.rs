@@ -125,6 +125,9 @@ pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
+/// The column that says whether the run was cut: the ground moves on after it.
+pub const TRUNCATED: &str = "truncated";
+
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     let of_axis = |axis: &Axis| {
@@ -151,18 +154,28 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
         if sweep.ask == Ask::Slides {
             columns.extend(per_block("residual_slide"));
         }
+        if sweep.ask == Ask::Validity {
+            columns.push(Column::sparse("valid", Kind::Text));
+            columns.push(Column::sparse("mu_demand", Kind::Number));
+            columns.push(Column::sparse("min_normal", Kind::Number));
+            columns.push(Column::sparse("separations", Kind::Whole));
+        }
         if sweep.ask == Ask::Trust {
             columns.push(Column::sparse(TRUST, Kind::Text));
         }
     }
+    columns.push(Column::sparse(TRUNCATED, Kind::Text));
     columns.push(Column::sparse("error", Kind::Text));
     Ok(columns)
 }
 
-/// Columns of every table besides its axes: index, outcome, impacts, block, time, error.
-const FIXED: usize = 6;
+/// Columns of every table besides its axes: index, outcome, impacts, block, time, truncated, error.
+const FIXED: usize = 7;
 
-/// A row as so many cells, that of trust before the error.
+/// Columns of `ask = "validity"` besides peaks and mode.
+const OF_VALIDITY: usize = 4;
+
+/// A row as so many cells, that of trust before those of the cut and the error.
 fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     if ask != Ask::Trust {
         return cells(row, ask, columns);
@@ -170,7 +183,7 @@ fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     let cells = cells(row, ask, columns - 1);
     let word = row.result.as_ref().ok().and_then(|outcome| outcome.determined);
     let word = word.map_or("", |determined| if determined { "determined" } else { NOT_DETERMINED });
-    cells.iter().take(columns - 2).chain([word]).chain(cells.iter().skip(columns - 2)).collect()
+    cells.iter().take(columns - 3).chain([word]).chain(cells.iter().skip(columns - 3)).collect()
 }
 
 /// A row as so many cells.
@@ -193,13 +206,23 @@ fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
             cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
             if let Some(mode) = &outcome.last_mode {
                 // Columns of fewer blocks than the largest have blank peaks and slides.
-                let blocks =
-                    if ask == Ask::Slides { (columns - FIXED - axes - 1) / 2 } else { columns - FIXED - axes - 1 };
+                let blocks = match (ask, columns - FIXED - axes - 1) {
+                    (Ask::Slides, others) => others / 2,
+                    (Ask::Validity, others) => others - OF_VALIDITY,
+                    (_, others) => others,
+                };
                 cells.resize(before_peaks + blocks, String::new());
                 cells.push(mode.clone());
                 cells.extend(outcome.residual_slides.iter().map(|slide| format!("{slide:?}")));
-                cells.resize(columns - 1, String::new());
+                if let Some(needs) = outcome.needs {
+                    cells.push(needs.valid.to_string());
+                    cells.push(format!("{:?}", needs.mu_demand));
+                    cells.push(format!("{:?}", needs.min_normal));
+                    cells.push(needs.separations.to_string());
+                }
             }
+            cells.resize(columns - 2, String::new());
+            cells.push(outcome.truncated.to_string());
             cells.push(String::new());
         }
         Err(error) => {
@@ -285,6 +308,8 @@ struct Tally {
     collapses: usize,
     undetermined: usize,
     errors: usize,
+    /// Rows whose ground motion goes on after the run, and that did not overturn before; counted above by outcome.
+    truncated: usize,
 }
 
 impl Tally {
@@ -292,9 +317,12 @@ impl Tally {
     fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
         let (mut tally, mut first_error) = (Tally::default(), None);
         let mut reader = csv::Reader::from_path(path)?;
-        let outcome = reader.headers()?.iter().position(|name| name == OUTCOME);
+        let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
+        let [outcome, truncated] = [OUTCOME, TRUNCATED].map(|name| reader.headers().map(|own| place(own, name)));
+        let (outcome, truncated) = (outcome?, truncated?);
         for row in reader.records() {
             let row = row?;
+            tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
             *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
                 name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
                 name if name == Fate::Rocks.name() => &mut tally.rocks,
@@ -323,6 +351,14 @@ impl std::fmt::Display for Tally {
                 write!(f, ", {name} {count}")?;
             }
         }
-        writeln!(f, ", errors {errors}")
+        writeln!(f, ", errors {errors}")?;
+        if self.truncated > 0 {
+            writeln!(
+                f,
+                "the ground still moves at the end of {} run(s), where solver.t_end cuts them",
+                self.truncated
+            )?;
+        }
+        Ok(())
     }
 }

@@ -236,7 +236,7 @@ impl<'p> Recorder<'p> {
         while let Some(t) = self.next_row().filter(|t| *t < until) {
             self.row(t, inside.moment(t.max(from), true));
         }
-        rest::visit_forces(column, &self.problem.ground[segment], [from, until], &mut |forces| {
+        rest::visit_forces(column, &self.problem.ground[segment], [from, until], &mut |forces, _| {
             forces.iter().enumerate().for_each(|(interface, contact)| self.contact(interface, contact));
         });
     }
@@ -381,6 +381,7 @@ impl<'p> Recorder<'p> {
         Response {
             status,
             t_final: end.t,
+            truncated: false,
             overturned_block: (status == StopReason::Overturned).then_some(place).flatten().map(|block| block + 1),
             samples: self.samples,
             events: self.events,
@@ -391,6 +392,7 @@ impl<'p> Recorder<'p> {
             impulse_friction_demand: recorded(self.impulse_friction_demand),
             min_normal_force: recorded(self.min_normal_force),
             separations: Vec::new(),
+            validity: None,
             work: self.work,
             used_generic: false,
             sliding: Some(self.report),
