@@ -34,7 +34,7 @@ fn summary(folder: &Path) -> serde_json::Value {
 fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     let folder = folder("trust-chaotic");
     let told = succeeds(&folder, &["run", "chaotic.toml", "--out", "with", "--report", "--plots"]);
-    assert!(told.starts_with("not determined; this run stands at t = 40.0000 s"), "{told}");
+    assert!(told.starts_with("not determined; this run rocks and stands at t = 40.0000 s"), "{told}");
     assert!(told.contains("trust: angles are known up to t = ") && told.contains("companions.csv"), "{told}");
     let summary = summary(&folder.join("with"));
     let trust = &summary["trust"];
@@ -57,7 +57,7 @@ fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     // Without companions: the same run, and nothing left of them.
     let before = ["response.csv", "events.json"].map(|name| text(folder.join("with").join(name)));
     let told = succeeds(&folder, &["run", "chaotic.toml", "--out", "with", "--no-trust"]);
-    assert!(told.starts_with("stands at t = 40.0000 s") && !told.contains("trust"), "{told}");
+    assert!(told.starts_with("rocks and stands at t = 40.0000 s") && !told.contains("trust"), "{told}");
     assert_eq!(["response.csv", "events.json"].map(|name| text(folder.join("with").join(name))), before);
     assert!(!folder.join("with/companions.csv").exists());
     assert!(self::summary(&folder.join("with"))["trust"].is_null());
@@ -77,7 +77,7 @@ fn a_plain_run_says_in_one_line_that_it_is_determined() {
     let folder = folder("trust-plain");
     let told = succeeds(&folder, &["run", "plain.toml", "--out", "out"]);
     let lines: Vec<&str> = told.lines().collect();
-    assert!(lines[0].starts_with("stands at t = 10.0000 s"), "{told}");
+    assert!(lines[0].starts_with("rocks and stands at t = 10.0000 s"), "{told}");
     assert!(lines[1].starts_with("trust: 9 companions agree to the end, small changes grow "), "{told}");
     assert!(lines[1].ends_with("% more shaking") && lines[1].contains("; overturns with "), "{told}");
     assert!(!folder.join("out/companions.csv").exists());
