@@ -1,6 +1,6 @@
 //! The reference of a kind of file as text, from its schema: a heading per table, a line per key.
 
-use super::Kind;
+use super::kind::Kind;
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
