@@ -118,8 +118,17 @@ fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
     );
     let (read, mut asked) = keys_asked_by(|| rocking::Sweep::from_file(&folder.path().join("sweep.toml")));
     read.expect("valid");
+    write(
+        "sampled.toml",
+        "scene = \"s.toml\"\n[axes]\neta = { normal = [0.9, 0.01] }\namplitude = { lognormal = [1, 0.2] }\nrtol = { uniform = [1e-9, 1e-8] }\n\
+        gravity = { discrete = [9.8, 9.9] }\n[sampling]\nsamples = 4\ncorrelations = [{ axes = [\"eta\", \"amplitude\"], value = 0.5 }]\n",
+    );
+    let (read, sampled) = keys_asked_by(|| rocking::Sweep::from_file(&folder.path().join("sampled.toml")));
+    read.expect("valid");
     // Of the keys of the base scene, which is read as well, none is of the sweep; those of a range stand below any axis.
-    asked.retain(|key| ["scene", "combine", "ask", "axes"].contains(&key.as_str()) || key.starts_with("axes."));
+    asked.retain(|key| {
+        ["scene", "combine", "ask", "axes", "sampling"].contains(&key.as_str()) || key.starts_with("axes.")
+    });
     let ranges: BTreeSet<String> =
         asked.iter().filter_map(|key| key.strip_prefix("axes.amplitude.")).map(String::from).collect();
     let own = schema("sweep");
@@ -127,7 +136,15 @@ fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
     assert_eq!(ranges, definition("Range"));
     assert_eq!(definition("Folder"), BTreeSet::from(["folder".to_string()]));
     let top = |keys: &BTreeSet<String>| keys.iter().filter(|key| !key.contains('.')).cloned().collect::<BTreeSet<_>>();
-    assert_eq!(top(&asked), BTreeSet::from(["scene", "combine", "ask", "axes"].map(String::from)));
+    let within = |keys: &BTreeSet<String>, above: &str| {
+        keys.iter().filter_map(|key| plain(key).strip_prefix(above).map(String::from)).collect::<BTreeSet<String>>()
+    };
+    let distribution: BTreeSet<String> = ["eta", "amplitude", "rtol", "gravity"]
+        .iter()
+        .flat_map(|axis| within(&sampled, &format!("axes.{axis}.")))
+        .collect();
+    assert_eq!(distribution, definition("Distribution"));
+    assert_eq!(within(&sampled, "sampling."), definition("Sampling"));
     let properties = own["properties"].as_object().expect("keys").keys().cloned().collect::<BTreeSet<_>>();
     assert_eq!(top(&asked), properties);
 

@@ -20,7 +20,9 @@ fn rows_are_the_runs_of_their_scenes() {
     assert_eq!(rows.len(), 61);
     let mut fates = std::collections::BTreeSet::new();
     for row in rows[1..].iter().step_by(3) {
-        let [_, blocks, omega, amplitude, outcome, impacts, block, t, truncated, error] = &row[..] else { panic!("{row:?}") };
+        let [_, blocks, omega, amplitude, outcome, impacts, block, t, truncated, error] = &row[..] else {
+            panic!("{row:?}")
+        };
         let scene = BASE
             .replace("blocks = 2", &format!("blocks = {blocks}"))
             .replace("omega = 10.0", &format!("omega_p = {omega}"))
@@ -285,7 +287,10 @@ fn friction_is_an_axis_and_residual_slides_are_asked_for() {
     let text = table(folder.path(), &[]);
     let rows = rows(&text);
     assert_eq!(rows[0][1..4], ["friction", "column.half_width", "excitation.horizontal.amplitude_g"]);
-    assert_eq!(rows[0][8..], ["peak_1", "peak_2", "last_mode", "residual_slide_1", "residual_slide_2", "truncated", "error"]);
+    assert_eq!(
+        rows[0][8..],
+        ["peak_1", "peak_2", "last_mode", "residual_slide_1", "residual_slide_2", "truncated", "error"]
+    );
     let mut fates = std::collections::BTreeSet::new();
     for row in &rows[1..] {
         let scene = BASE
