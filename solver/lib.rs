@@ -14,7 +14,7 @@
 //!
 //! ```text
 //! x⁺, motion  <- initial state, by the laws of contact                                         run/transition.rs
-//! loop                                                                                         run/simulator.rs
+//! loop                                                                                         run/fold.rs
 //!     stretch <- motion.next:  rest, free swing, step over samples, or one step of a method    run/rest.rs, phase_motion.rs
 //!     recorder reads the stretch: rows, peaks, forces                                          run/recorder.rs
 //!     no event:                                                            continue
@@ -26,8 +26,8 @@
 //!     motion  <- rest or the mode of x⁺                                                        run/modes.rs
 //! ```
 //!
-//! A scene with [`Friction`] runs like this first. Where its friction is used up or a contact would part, it is run anew by another loop
-//! (run/sliding/), over the ten states that an interface with friction may have: blocks slide, fly and land.
+//! A scene with [`Friction`] runs like this as far as its friction holds and no contact pulls. From there on another loop (run/sliding/) runs it,
+//! over the ten states that an interface with friction may have: blocks slide, fly and land. Whenever everything sticks again, this loop takes over.
 //!
 //! # Example
 //!
@@ -63,6 +63,8 @@ pub mod scene;
 pub mod scene_file;
 pub mod studies;
 pub mod sweep;
+pub mod trust;
+pub mod validity;
 
 pub use column::{Block, Column, ColumnError, Stack};
 pub use friction::Friction;
@@ -81,6 +83,10 @@ pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordErro
 pub use run::Skips;
 pub use run::certainty::stands as outcome;
 pub use run::{Simulator, SolveError, simulate, simulate_observed};
-pub use scene::{DynamicsSource, Initial, Method, Restitution, Scene, SceneError, SceneErrors, SolveOptions, Wanted};
+pub use scene::{
+    DynamicsSource, Initial, Look, Method, OutputColumn, Restitution, Scene, SceneError, SceneErrors, SolveOptions,
+    Wanted,
+};
 pub use scene_file::SceneFileError;
 pub use sweep::Sweep;
+pub use validity::Validity;

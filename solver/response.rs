@@ -1,8 +1,10 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
+use crate::column::Column;
 use crate::json::{number, numbers};
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
+use crate::validity::Validity;
 use rocking_codegen::pattern::{ModeLabel, Pattern};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -34,6 +36,11 @@ impl StopReason {
     /// Whether the column overturned, or is certain to.
     pub fn overturns(self) -> bool {
         matches!(self, StopReason::Overturned | StopReason::Falls)
+    }
+
+    /// Whether the column stands at the end of the run.
+    pub fn stands(self) -> bool {
+        matches!(self, StopReason::AtRest | StopReason::EndOfTime | StopReason::Stands)
     }
 }
 
@@ -289,7 +296,7 @@ pub struct SlidingReport {
     pub friction_work: f64,
     /// Energy lost at impacts `[J]`.
     pub impact_losses: f64,
-    /// Work of the ground's inertial forces on the column `[J]`.
+    /// Work of the ground's inertial forces on the column `[J]`; where everything sticks, what the change of energy and the losses at impacts leave.
     pub ground_work: f64,
     /// Energy at the end less that at the start, relative to the ground `[J]`.
     pub energy_change: f64,
@@ -322,6 +329,10 @@ pub struct Response {
     pub status: StopReason,
     /// When: at overturning, at coming to rest for good, when what is wanted is certain, or `t_end` `[s]`.
     pub t_final: f64,
+    /// Whether the ground moves on after `t_end`, up to which the column neither overturned nor collapsed: the outcome holds up to then, and
+    /// no longer.
+    #[serde(default)]
+    pub truncated: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
     /// The column at the output times.
@@ -337,7 +348,7 @@ pub struct Response {
     /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
     /// rest for good is in it until `t_end`. Empty where nothing but the outcome is wanted.
     pub time_in_mode: BTreeMap<String, f64>,
-    /// Largest `|T| / N` per interface, dimensionless; infinite where a contact parts with a force along it.
+    /// Largest `|T| / N` per interface, a fall included, dimensionless; infinite where a contact parts with a force along it.
     /// Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
     pub friction_demand: Vec<f64>,
@@ -345,11 +356,15 @@ pub struct Response {
     /// scene's options ask for no forces.
     #[serde(default, deserialize_with = "numbers")]
     pub impulse_friction_demand: Vec<f64>,
-    /// Smallest normal force per interface `[N]`. Empty if the scene's options ask for no forces.
+    /// Smallest normal force per interface, a fall included `[N]`. Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
     /// Contact problems without admissible pattern.
     pub separations: Vec<Separation>,
+    /// Forces and separations up to the point of no return, with times; `None` if the scene's options ask for no forces, and for runs in which
+    /// blocks slide and fly.
+    #[serde(default)]
+    pub validity: Option<Validity>,
     /// What it cost.
     #[serde(default)]
     pub work: Work,
@@ -364,6 +379,12 @@ impl Response {
     /// Time of overturning `[s]`.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
+    }
+
+    /// Largest `|θ|` of each block over the slenderness of the stack that begins with it, base first, dimensionless: above one the block has been past
+    /// its balance. Empty where nothing but the outcome is wanted.
+    pub fn peaks(&self, column: &Column) -> Vec<f64> {
+        self.peak_theta.iter().enumerate().map(|(block, peak)| peak / column.stack(block).slenderness()).collect()
     }
 
     /// The block that lost its support, from 1; events must have been recorded.
@@ -385,41 +406,54 @@ impl Response {
     }
 
     /// What a user must know before believing the run: separation and tension, and of a run without sliding where it needs more than a friction
-    /// coefficient.
+    /// coefficient; up to the point of no return ([`crate::validity`]).
     pub fn warnings(&self, friction: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
         if let Some(sliding) = &self.sliding {
             return self.with_build(sliding.warnings(self.status, self.t_final));
         }
-        if let Some(first) = self.separations.first() {
+        let (separations, first) = match &self.validity {
+            Some(validity) => (validity.separations, validity.first_separation),
+            None => (self.separations.len(), self.separations.first().map(|first| first.t)),
+        };
+        if let Some(first) = first {
             warnings.push(format!(
-                "{} separation(s), the first at t = {:.4} s: a block would leave its contact, which the model cannot follow; \
-                 what comes after is not reliable",
-                self.separations.len(),
-                first.t
+                "{separations} separation(s), the first at t = {first:.4} s: a block would leave its contact, which the model cannot follow; \
+                 what comes after is not reliable"
             ));
         }
+        let (friction_demand, min_normal_force) = self.counted_forces();
         let model = "which the model excludes";
         let parted = |normal: &f64| *normal < 0.0;
-        if let Some((interfaces, least)) = worst(&self.min_normal_force, parted, |a, b| a < b) {
+        if let Some((interfaces, least)) = worst(&min_normal_force, parted, |a, b| a < b) {
             let least = four_digits(least);
             warnings
                 .push(format!("{interfaces}: the normal force falls to {least} N: the contact would part, {model}"));
         }
         let Some(available) = friction else { return self.with_build(warnings) };
         let slides = |demand: &f64| demand.is_finite() && *demand > available;
-        if let Some((interfaces, _)) = worst(&self.friction_demand, |demand| demand.is_infinite(), |_, _| false) {
+        if let Some((interfaces, _)) = worst(&friction_demand, |demand| demand.is_infinite(), |_, _| false) {
             warnings.push(format!(
                 "{interfaces}: no friction coefficient is enough, as the contact parts: the blocks would slide, {model}"
             ));
         }
-        if let Some((interfaces, most)) = worst(&self.friction_demand, slides, |a, b| a > b) {
+        if let Some((interfaces, most)) = worst(&friction_demand, slides, |a, b| a > b) {
             warnings.push(format!(
                 "{interfaces}: the run needs a friction coefficient of {most:.3}, the scene has {available}: the blocks would \
                  slide, {model}"
             ));
         }
         self.with_build(warnings)
+    }
+
+    /// Largest friction demand and smallest normal force per interface `[N]` that count: up to the point of no return, where that is known.
+    pub fn counted_forces(&self) -> (Vec<f64>, Vec<f64>) {
+        match &self.validity {
+            Some(Validity { contacts, .. }) => {
+                contacts.iter().map(|one| (one.friction_demand.value, one.min_normal_force.value)).unzip()
+            }
+            None => (self.friction_demand.clone(), self.min_normal_force.clone()),
+        }
     }
 
     /// The warnings, and what must be known of the build that ran.

@@ -15,12 +15,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::column::{Block, Column};
+use crate::column::{Block, Column, Shape, Stack};
 use crate::friction::Friction;
 use crate::json::Explicit;
 use crate::mechanics::dynamics::ContactForce;
 use crate::response::{BlockAtEvent, BlockState, Event, Response, Sample};
-use crate::scene::{Initial, Restitution, Scene, SolveOptions};
+use crate::scene::{Initial, Look, OutputColumn, Restitution, Scene, SolveOptions};
+use crate::sweep::Fate;
+use crate::trust::{Band, Trust};
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Description, Motion};
 use serde::{Deserialize, Serialize};
@@ -111,6 +113,8 @@ pub struct Run<'a> {
     pub wall_seconds: f64,
     /// Warnings about the records of the scene and about the run.
     pub warnings: Vec<String>,
+    /// What its companions say; `None` for a run without.
+    pub trust: Option<&'a Trust>,
     /// Names of files in the folder that were made of an earlier run, and are removed.
     pub outdated: Vec<String>,
 }
@@ -119,9 +123,10 @@ impl<'a> Run<'a> {
     /// A run with its warnings, without scene file, duration, or outdated files.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         let mut warnings = scene.excitation.warnings();
+        warnings.extend(cut(scene, response));
         warnings.extend(response.warnings(None));
-        let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, Vec::new());
-        Run { scene, response, scene_text, wall_seconds, warnings, outdated }
+        let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, vec![COMPANIONS.into()]);
+        Run { scene, response, scene_text, wall_seconds, warnings, trust: None, outdated }
     }
 
     fn summary(&self) -> Summary<'_> {
@@ -131,17 +136,26 @@ impl<'a> Run<'a> {
             let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
             peaks.map_or(0.0, |[acceleration, ..]| acceleration)
         };
+        let stacks = |quantity: fn(&Stack) -> f64| -> Vec<f64> {
+            (0..scene.column.len()).map(|block| quantity(&scene.column.stack(block))).collect()
+        };
         Summary {
             title: &scene.title,
             version: env!("CARGO_PKG_VERSION"),
             scene: &self.scene_text,
             response,
             overturned_at: response.overturned_at(),
+            outcome: Fate::of(response).name(),
+            peaks: response.peaks(&scene.column),
+            alpha: stacks(|stack| stack.slenderness()),
+            p: stacks(|stack| stack.frequency_parameter()),
+            trust: self.trust,
             method: scene.options.method.stepper().name(),
             wall_seconds: self.wall_seconds,
             warnings: &self.warnings,
             options: &scene.options,
             column: &scene.column,
+            looks: &scene.looks,
             friction: scene.friction.as_ref(),
             restitution: &scene.restitution,
             excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
@@ -159,6 +173,16 @@ impl<'a> Run<'a> {
     }
 }
 
+/// The warning of a run that ends before its ground motion; a motion without end has none, as it must be cut somewhere.
+fn cut(scene: &Scene, response: &Response) -> Option<String> {
+    let still = scene.excitation.still_from().filter(|_| response.truncated)?;
+    let end = scene.options.t_end;
+    Some(format!(
+        "the ground motion is cut: it lasts until t = {still:.4} s, and the run ends at solver.t_end = {end} s; the outcome holds up to then \
+         (leave t_end out for a run to the end of the motion and a free swing)"
+    ))
+}
+
 /// `summary.json` as it is written.
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -169,11 +193,22 @@ struct Summary<'a> {
     response: &'a Response,
     /// `[s]`
     overturned_at: Option<f64>,
+    /// As in the table of a sweep.
+    outcome: &'a str,
+    /// Largest `|θ|` of each block over the slenderness of the stack that begins with it, as in the table of a sweep, dimensionless.
+    peaks: Vec<f64>,
+    /// Slenderness of the stack above each interface `[rad]`.
+    alpha: Vec<f64>,
+    /// Frequency parameter of these stacks `[rad/s]`.
+    p: Vec<f64>,
+    trust: Option<&'a Trust>,
     method: &'a str,
     wall_seconds: f64,
     warnings: &'a [String],
     options: &'a SolveOptions,
     column: &'a Column,
+    #[serde(skip_serializing_if = "<[Look]>::is_empty")]
+    looks: &'a [Look],
     friction: Option<&'a Friction>,
     restitution: &'a Restitution,
     excitation: BTreeMap<&'a str, Option<Description<'a>>>,
@@ -184,6 +219,9 @@ struct Summary<'a> {
 
 /// The files of a run, in the order in which they are put in place: the summary last, as a sign that the others are there.
 const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
+
+/// The range of the angles of a run and its companions over time; of runs whose companions do not agree to the end.
+pub const COMPANIONS: &str = "companions.csv";
 
 /// The folder of a run's results, proved to be writable.
 #[derive(Debug)]
@@ -212,15 +250,20 @@ impl Folder {
         let Run { scene, response, .. } = *run;
         let summary = run.summary();
         let drafts = [
-            self.draft(|file| history(file, scene.column.len(), &response.samples))?,
+            self.draft(|file| history(file, scene, &response.samples))?,
             self.draft(|file| events(file, &response.events))?,
             self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&summary)).map_err(Into::into))?,
         ];
+        let band = run.trust.filter(|trust| !trust.reaches_the_end()).map(|trust| &trust.band);
+        let band = band
+            .filter(|band| !band.is_empty())
+            .map(|band| self.draft(|file| file.write_all(band.to_csv().as_bytes())));
+        let band = band.transpose()?.map(|draft| (COMPANIONS, draft));
         let failed = |path: &Path, source: Error| FolderError::Write { path: path.into(), source };
         for path in run.outdated.iter().map(|name| self.0.join(name)).filter(|path| path.is_file()) {
             std::fs::remove_file(&path).map_err(|error| failed(&path, error))?;
         }
-        for (name, draft) in FILES.into_iter().zip(drafts) {
+        for (name, draft) in band.into_iter().chain(FILES.into_iter().zip(drafts)) {
             let path = self.0.join(name);
             std::fs::rename(&draft.0, &path).map_err(|error| failed(&path, error))?;
         }
@@ -292,8 +335,9 @@ fn numbers_of(state: &BlockState) -> [f64; 7] {
 }
 
 /// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates, and where
-/// blocks slid or flew, [`STATE_COLUMNS`] after these.
-fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::Result<()> {
+/// blocks slid or flew, [`STATE_COLUMNS`] after these; at the end the columns that the scene asks for.
+fn history(mut file: impl Write, scene: &Scene, samples: &[Sample]) -> std::io::Result<()> {
+    let blocks = scene.column.len();
     let mut columns = vec!["theta", "omega"];
     if samples.iter().any(|sample| !sample.slide.is_empty()) {
         columns.extend(["slide", "gap"]);
@@ -303,7 +347,14 @@ fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::
     }
     write!(file, "t")?;
     columns.iter().try_for_each(|name| (1..=blocks).try_for_each(|block| write!(file, ",{name}_{block}")))?;
-    writeln!(file, ",ground_x,ground_y,pattern")?;
+    write!(file, ",ground_x,ground_y,pattern")?;
+    for column in &scene.output_columns {
+        match column {
+            OutputColumn::Relative => (1..=blocks).try_for_each(|interface| write!(file, ",phi_{interface}"))?,
+            OutputColumn::Top => write!(file, ",top_x,top_y")?,
+        }
+    }
+    writeln!(file)?;
     for sample in samples {
         // `{:?}` is the shortest text that reads back to the same bits.
         write!(file, "{:?}", sample.t)?;
@@ -316,7 +367,15 @@ fn history(mut file: impl Write, blocks: usize, samples: &[Sample]) -> std::io::
         sample.ground.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
         // A pattern with a comma is quoted.
         let quote = if blocks > 1 { "\"" } else { "" };
-        writeln!(file, ",{quote}{}{quote}", sample.pattern)?;
+        write!(file, ",{quote}{}{quote}", sample.pattern)?;
+        for column in &scene.output_columns {
+            let numbers = match column {
+                OutputColumn::Relative => sample.relative_angles(),
+                OutputColumn::Top => sample.top_displacement(&scene.column).to_vec(),
+            };
+            numbers.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
+        }
+        writeln!(file)?;
     }
     Ok(())
 }
@@ -334,6 +393,9 @@ pub struct Results {
     pub version: String,
     /// The file of the scene.
     pub scene: SceneText,
+    /// What its companions say, with the range of their angles where they do not agree to the end; `None` for a run without.
+    #[serde(default)]
+    pub trust: Option<Trust>,
     /// Name of the method that ran.
     pub method: String,
     /// Warnings, a sentence each.
@@ -342,6 +404,9 @@ pub struct Results {
     pub options: Options,
     /// The column.
     pub column: Column,
+    /// Looks of the blocks, base first; empty for prisms without names.
+    #[serde(default)]
+    pub looks: Vec<Look>,
     /// Coefficients of friction of the scene.
     pub friction: Option<Friction>,
     /// Law of impacts.
@@ -387,6 +452,19 @@ impl Results {
         self.friction.as_ref().map(Friction::least)
     }
 
+    /// The shape of a block, from zero.
+    pub fn shape(&self, block: usize) -> Shape {
+        self.looks.get(block).map(|look| look.shape).unwrap_or_default()
+    }
+
+    /// The number of a block, from zero, as it is told: from 1, and its name where it has one.
+    pub fn block_name(&self, block: usize) -> String {
+        match self.looks.get(block) {
+            Some(look) if !look.name.is_empty() => format!("{} ({})", block + 1, look.name),
+            _ => format!("{}", block + 1),
+        }
+    }
+
     /// Reads the folder of a run.
     ///
     /// # Errors
@@ -423,6 +501,14 @@ impl Results {
             return Err(FolderError::Damaged { path: events, problem });
         }
         read.response.events = list;
+        let companions = folder.join(COMPANIONS);
+        if let Some(trust) = read.trust.as_mut().filter(|trust| !trust.reaches_the_end() && companions.is_file()) {
+            trust.band = Band::from_csv(&text(&companions)?, length).map_err(|line| FolderError::Row {
+                path: companions,
+                line,
+                problem: "it is not a time and the ranges of the angles".into(),
+            })?;
+        }
         if read.peak_ground_acceleration == [0.0; 2] {
             let rows = &read.response.samples;
             read.peak_ground_acceleration =
@@ -439,6 +525,12 @@ impl Results {
         if response.peak_theta.len() != length || lists.iter().any(|list| !list.is_empty() && list.len() != length) {
             return Some(format!("peaks or forces are not of {length} block(s)"));
         }
+        if !self.looks.is_empty() && self.looks.len() != length {
+            return Some(format!("`looks` are not of {length} block(s)"));
+        }
+        if response.validity.as_ref().is_some_and(|validity| validity.contacts.len() != length) {
+            return Some(format!("`validity` is not of {length} interface(s)"));
+        }
         if response.overturned_block.is_some_and(|block| !(1..=length).contains(&block)) {
             return Some("`overturned_block` is no block of the column".into());
         }
@@ -448,6 +540,12 @@ impl Results {
         let times = || response.time_in_mode.values().chain([&options.t_end, &response.t_final]).copied();
         if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Some("an angle or a time is out of range".into());
+        }
+        let times_of =
+            |trust: &Trust| [trust.certain_at, trust.horizon, trust.solver_horizon, trust.input_horizon, trust.ends_at];
+        if self.trust.as_ref().is_some_and(|trust| times_of(trust).iter().any(|t| !(0.0..=LARGEST_NUMBER).contains(t)))
+        {
+            return Some("a time of `trust` is out of range".into());
         }
         let of_block =
             |block: &Block| [block.bottom_half_width, block.half_width(), block.half_height, block.mass, block.inertia];
@@ -503,7 +601,12 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
             numbers.push(number.ok_or_else(|| broken("a number is missing, or not one of a run".into()))?);
             rest = after;
         }
-        let pattern = Pattern::parse(rest.trim_matches('"')).filter(|pattern| pattern.0.len() == blocks);
+        // Columns that the scene has asked for follow from the others, and are not read.
+        let pattern = match rest.strip_prefix('"') {
+            Some(quoted) => quoted.split('"').next(),
+            None => rest.split(',').next(),
+        };
+        let pattern = pattern.and_then(Pattern::parse).filter(|pattern| pattern.0.len() == blocks);
         let (Some(pattern), true) = (pattern, numbers.len() == count) else {
             return Err(broken(format!("it is not {count} numbers and a pattern of {blocks} block(s)")));
         };

@@ -1,7 +1,7 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
-use crate::column::Column;
-use crate::friction::Friction;
+use crate::column::{Column, Shape};
+use crate::friction::{self, Friction};
 use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
@@ -166,6 +166,13 @@ const LOOSEST: f64 = 1e-2;
 /// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
 const SHORTEST_RUN: f64 = 1e-9;
 
+/// Free swing after the ground motion where a scene gives no end, in `1/p` of the column as one body: a block within 2e-9 of its balance has
+/// fallen or come back by then.
+const FREE_SWING_OF_P: f64 = 20.0;
+
+/// Shortest free swing after the ground motion where a scene gives no end `[s]`.
+const LEAST_FREE_SWING: f64 = 10.0;
+
 /// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
 pub(crate) const LARGEST: f64 = 1e6;
 
@@ -194,6 +201,17 @@ const GRAVITIES: RangeInclusive<f64> = 1e-6..=1e6;
 /// Length of a run in `1/p` of the stack that rocks fastest, dimensionless: a run has some steps in each, and some microseconds a step.
 const MOST_RADIANS: f64 = 1e7;
 
+/// How a block looks and what it is called, for figures and reports.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Look {
+    /// Free text, such as `capital`; empty for none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// The solid of which the block is the side view.
+    pub shape: Shape,
+}
+
 /// What is simulated: [`Scene::new`] with fields of its own.
 ///
 /// Serialised it has all of its numbers, samples of records included, and reads back as an equal scene. Column and records are checked when
@@ -207,6 +225,9 @@ pub struct Scene {
     pub title: String,
     /// The column.
     pub column: Column,
+    /// Looks of the blocks, base first, length N; empty for prisms without names. Nothing is computed from it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub looks: Vec<Look>,
     /// Friction between the blocks: they slide and fly. `None` for the model without, in which contacts hold whatever the force.
     #[serde(default)]
     pub friction: Option<Friction>,
@@ -225,6 +246,34 @@ pub struct Scene {
     /// Interval of the samples returned `[s]`; `None` for none.
     #[serde(default)]
     pub output_dt: Option<f64>,
+    /// Columns that are added to `response.csv`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub output_columns: Vec<OutputColumn>,
+}
+
+/// Columns of `response.csv` that a scene asks for; angles and rates hold all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum OutputColumn {
+    /// `phi_1..`: rotation at each interface `[rad]`.
+    Relative,
+    /// `top_x, top_y`: displacement of the middle of the column's top `[m]`.
+    Top,
+}
+
+impl OutputColumn {
+    /// Names in scene files.
+    pub const NAMES: [&str; 2] = ["relative", "top"];
+
+    /// The columns of this name.
+    pub fn parse(name: &str) -> Option<OutputColumn> {
+        match name {
+            "relative" => Some(OutputColumn::Relative),
+            "top" => Some(OutputColumn::Top),
+            _ => None,
+        }
+    }
 }
 
 /// A fault of a scene; the file reader finds the same with lines and keys.
@@ -276,12 +325,14 @@ impl Scene {
         Scene {
             title: String::new(),
             column,
+            looks: Vec::new(),
             friction: None,
             restitution: Restitution::default(),
             excitation: Excitation::default(),
             initial: Initial::default(),
             options: SolveOptions::default(),
             output_dt: None,
+            output_columns: Vec::new(),
         }
     }
 
@@ -297,6 +348,21 @@ impl Scene {
         self.check_restitution(&mut faults);
         self.check_initial(&mut faults);
         if faults.0.is_empty() { Ok(()) } else { Err(SceneErrors(faults.0)) }
+    }
+
+    /// End of the run where a scene file gives none `[s]`: the ground has come to rest, and a free swing of `20/p` of the column as one body, or
+    /// of 10 s if that is longer, has passed; rounded up to a whole second. None for a motion without end.
+    ///
+    /// ```
+    /// use rocking::{Column, Motion, Scene};
+    /// let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81)?);
+    /// scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 2.0, start: 3.5, duration: 1.0 });
+    /// assert_eq!(scene.end_of_free_swing(), Some(15.0)); // p = 2.11 rad/s, so that 20/p is 9.5 s
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    pub fn end_of_free_swing(&self) -> Option<f64> {
+        let swing = FREE_SWING_OF_P / self.column.stack(0).frequency_parameter();
+        self.excitation.still_from().map(|still| (still + swing.max(LEAST_FREE_SWING)).ceil())
     }
 
     fn check_column(&self, faults: &mut Faults) {
@@ -460,6 +526,16 @@ impl Scene {
             if let Some(value) = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST) {
                 faults.note(key, format!("{value:?} is out of range"), "give sizes up to 1e6");
             }
+        }
+        let are_valid = |list: &[f64]| list.len() == blocks && list.iter().all(|value| value.is_finite());
+        if are_valid(x)
+            && are_valid(y)
+            && (theta.is_empty() || are_valid(theta))
+            && let Some((block, depth)) = friction::deepest(&self.column, [x, y], theta)
+        {
+            let below = if block == 0 { "the ground".into() } else { format!("block {block}") };
+            let problem = format!("block {} reaches {depth:.3e} m into {below}", block + 1);
+            faults.note("initial.y", problem, "place it higher: y is the height of the centroid");
         }
         if let Some(angle) = self.initial.theta.iter().find(|angle| angle.abs() >= self.options.overturn_angle) {
             let problem = format!("a block starts at {angle} rad, which is overturned");

@@ -378,3 +378,24 @@ fn the_energy_balance_closes() {
     }
     assert!(closed > 80, "{closed}");
 }
+
+#[test]
+fn blocks_placed_inside_each_other_are_refused() {
+    let column = Column::equal_blocks(2, 0.4, 1.6, 2700.0, 9.81).expect("valid");
+    let mut scene = Scene::new(column);
+    scene.friction = Some(Friction::uniform(0.5));
+    // Centroids of stacked blocks are at 0.8 m and 2.4 m.
+    let faults = |scene: &Scene| scene.check().map_err(|errors| errors.to_string());
+    let placed = |x: f64, y: [f64; 2]| {
+        let mut scene = scene.clone();
+        (scene.initial.x, scene.initial.y) = (vec![0.0, x], y.to_vec());
+        (scene.initial.vx, scene.initial.vy) = (vec![0.0; 2], vec![0.0; 2]);
+        scene
+    };
+    assert_eq!(faults(&placed(0.0, [0.8, 2.4])), Ok(()));
+    assert_eq!(faults(&placed(0.1, [0.9, 2.6])), Ok(()));
+    let refused = faults(&placed(0.1, [0.8, 2.3])).expect_err("the upper block is in the lower one");
+    assert!(refused.contains("initial.y") && refused.contains("block 2 reaches 1.000e-1 m into block 1"), "{refused}");
+    let refused = faults(&placed(0.0, [0.7, 2.4])).expect_err("the lower block is in the ground");
+    assert!(refused.contains("block 1 reaches 1.000e-1 m into the ground"), "{refused}");
+}

@@ -533,24 +533,28 @@ fn hostile_scenes_run_to_their_end() {
     check(Kind::Hostile, 0..300, &HOSTILE);
 }
 
-/// How many scenes the long form runs: `ROCKING_SCENES`, or 100,000.
-fn many() -> u64 {
-    let text = std::env::var("ROCKING_SCENES").ok();
-    text.map_or(100_000, |text| text.parse().expect("ROCKING_SCENES is a number of scenes"))
+/// The seeds of the long form: `ROCKING_SCENES`, a number or `first..end`; 100,000 otherwise.
+fn many() -> std::ops::Range<u64> {
+    let text = std::env::var("ROCKING_SCENES").unwrap_or("100000".into());
+    let number = |text: &str| text.parse().expect("ROCKING_SCENES is a number of scenes, or first..end");
+    match text.split_once("..") {
+        Some((first, end)) => number(first)..number(end),
+        None => 0..number(&text),
+    }
 }
 
 /// The long form: `cargo test --release --test stress_friction -- --ignored --nocapture many`.
 #[test]
 #[ignore = "takes minutes; run it after a change to contact, friction or events"]
 fn stress_many_everyday_scenes() {
-    check(Kind::Everyday, 0..many(), &EVERYDAY);
+    check(Kind::Everyday, many(), &EVERYDAY);
 }
 
 /// The same of hostile ones.
 #[test]
 #[ignore = "takes an hour; run it after a change to contact, friction or events"]
 fn stress_many_hostile_scenes() {
-    check(Kind::Hostile, 0..many(), &HOSTILE);
+    check(Kind::Hostile, many(), &HOSTILE);
 }
 
 /// One scene again, for a look at it: `ROCKING_SEED=hostile:17`.

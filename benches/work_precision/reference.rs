@@ -95,9 +95,9 @@ pub fn tightest(scene: &Scene) -> Response {
 /// Repeats a run in double-doubles.
 ///
 /// # Panics
-/// If the run has separations or overturns, or is so sensitive that doubles have lost it.
+/// If the run has separations, or is so sensitive that doubles have lost it.
 pub fn replay(scene: &Scene, run: &Response, settings: Settings) -> Reference {
-    assert!(run.separations.is_empty() && run.status != StopReason::Overturned, "not a run for a reference");
+    assert!(run.separations.is_empty(), "not a run for a reference");
     let mut replay = Replay::new(scene, run, settings);
     let mut last = 0.0;
     for (number, event) in run.events.iter().enumerate() {
@@ -109,7 +109,7 @@ pub fn replay(scene: &Scene, run: &Response, settings: Settings) -> Reference {
         replay.apply(event);
         last = event.t;
     }
-    replay.finish(run.status)
+    replay.finish(run)
 }
 
 struct Replay<'a> {
@@ -418,8 +418,15 @@ impl<'a> Replay<'a> {
         if distance(&rebound) <= distance(&plastic) { rebound } else { plastic }
     }
 
-    fn finish(mut self, status: StopReason) -> Reference {
-        let end = self.scene.options.t_end;
+    fn finish(mut self, run: &Response) -> Reference {
+        let (end, status) = (self.scene.options.t_end, run.status);
+        if status == StopReason::Overturned {
+            self.integrate(run.t_final, None);
+            let largest = self.theta.iter().map(|angle| angle.value().abs()).fold(0.0, f64::max);
+            let overturned = self.scene.options.overturn_angle;
+            assert!((largest - overturned).abs() < SAME_RUN, "{largest} rad at the time of overturning");
+            return self.reference;
+        }
         if self.pattern.dof() > 0 {
             assert_eq!(status, StopReason::EndOfTime, "a column at rest has no open interface");
             self.integrate(end, None);

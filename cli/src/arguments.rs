@@ -1,5 +1,6 @@
 //! Arguments of the command line.
 
+use crate::keys::Kind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
@@ -41,7 +42,7 @@ pub enum Command {
     },
     /// Validate a scene and explain it: sizes, slenderness, thresholds, ground motion; or a sweep: its axes and points; or a study: its records and levels.
     Check {
-        /// Scene, sweep or study file (TOML).
+        /// Scene, sweep or study file (TOML); `-` reads a scene from standard input.
         scene: PathBuf,
         /// Print JSON instead of text.
         #[arg(long)]
@@ -123,11 +124,15 @@ pub enum Command {
     ///
     /// A sweep that was interrupted continues when it is started again. A run ends when its outcome is certain unless the sweep
     /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
+    ///
+    /// Of axes that are distributions it prints the probability that the column is lost, and writes TABLE-probability.csv.
     Sweep(Sweep),
     /// Incremental dynamic analysis: each record at each level of an intensity measure; tables, figures and fragility.
     ///
     /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
     /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
+    ///
+    /// Each run is followed by nine companions; where its verdict is not determined it counts as undecided. `trust = false` in the file leaves them out.
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///
@@ -147,6 +152,15 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         sweep: Option<PathBuf>,
     },
+    /// List all keys of scenes, sweeps and studies with types, units and defaults.
+    Keys {
+        /// Kind of file; all of them if it is left out.
+        #[arg(value_enum)]
+        file: Option<Kind>,
+        /// Print the JSON schema of the kind (of scenes, if none is named) instead of text: for editors and other programs.
+        #[arg(long)]
+        schema: bool,
+    },
     /// Print the completion script of a shell.
     Completions {
         /// The shell.
@@ -163,7 +177,7 @@ pub enum Command {
 /// `rocking run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// Scene file (TOML).
+    /// Scene file (TOML); `-` reads standard input.
     pub scene: PathBuf,
     /// Folder for the results; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -177,6 +191,15 @@ pub struct Run {
     /// Write report.html as well: one page with outcome, validity, figures and an animation.
     #[arg(long)]
     pub report: bool,
+    /// Run the scene alone, without the companions that say how far its verdict can be trusted.
+    ///
+    /// Companions are the same scene at a tighter tolerance, and with excitation and sizes changed by 1e-9 and 1e-6. They, and the search for the
+    /// change of the shaking that changes the verdict, take ten to thirty times as long as the run, on all threads. Files of the run are the same without.
+    #[arg(long)]
+    pub no_trust: bool,
+    /// Follow a run by its companions although it took more than five seconds.
+    #[arg(long, conflicts_with = "no_trust")]
+    pub trust: bool,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,

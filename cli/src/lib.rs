@@ -7,6 +7,7 @@ mod commands;
 mod error;
 mod files;
 mod ground;
+mod keys;
 mod number;
 mod output;
 mod plot;

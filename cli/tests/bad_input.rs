@@ -213,7 +213,10 @@ fn types_and_syntax() {
     refused(&with("omega = 10.0", "omega = 10,0"), &["line 7", "omega", "decimals have a point"]);
     refused("[block]\nhalf_width = 0.3\n[block]\nhalf_width = 0.2\n", &["line 3", "duplicate", "[[block]]"]);
     refused("title = \"C:\\Users\"\n", &["line 1", "single quotes"]);
-    refused("[[block]]\nwidth = 0.8\nhalf_height = 1.0\n", &["line 2", "block[1].width", "did you mean `half_width`"]);
+    refused(
+        "[[block]]\nhalf_widht = 0.8\nheight = 1.0\n",
+        &["line 2", "block[1].half_widht", "did you mean `half_width`"],
+    );
 }
 
 #[test]

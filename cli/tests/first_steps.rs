@@ -86,7 +86,7 @@ fn a_check_says_what_was_derived() {
     {
         assert!(text.contains(part), "`{part}` is missing in\n{text}");
     }
-    let given = "[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\nmass = 2.0\ninertia = 1.0\n";
+    let given = "[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\nmass = 2.0\ninertia = 1.0\n[solver]\nt_end = 10\n";
     std::fs::write(folder.path().join("b.toml"), given).expect("written");
     assert!(!common::succeeds(folder.path(), &["check", "b.toml"]).contains("derived"));
     let check = parsed(&common::succeeds(folder.path(), &["check", "b.toml", "--json"]));

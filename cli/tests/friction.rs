@@ -73,7 +73,7 @@ fn a_drum_pushed_off_its_support_has_collapsed() {
     let account =
         run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
     assert_eq!(summary(folder.path())["status"], "collapsed", "{account}");
-    assert!(account.contains("collapsed at t = ") && account.contains("(block 2 lost its support)"), "{account}");
+    assert!(account.contains("collapses at t = ") && account.contains("(block 2 lost its support)"), "{account}");
     let page = page(folder.path());
     assert!(page.contains("<strong>collapses</strong>") && page.contains("block 2 loses its support"));
     let figure = std::fs::read_to_string(folder.path().join("out/time-history.svg")).expect("a figure");

@@ -276,7 +276,7 @@ fn components_of_a_folder_are_records() {
 #[test]
 fn an_interrupted_study_goes_on() {
     let folder = folder();
-    let study = "scene = \"block.toml\"\nmeasure = \"pga_uplift\"\nlevels = { from = 0.5, to = 6, steps = 300 }\n[records]\nfolder = \"records\"\n";
+    let study = "trust = false\nscene = \"block.toml\"\nmeasure = \"pga_uplift\"\nlevels = { from = 0.5, to = 6, steps = 300 }\n[records]\nfolder = \"records\"\n";
     let study = format!("{study}[records.synthetic]\nseeds = {{ from = 1, to = 12 }}\n[fragility]\nreplicates = 0\n");
     let (is_good, told) = run(folder.path(), &study);
     assert!(is_good, "{told}");

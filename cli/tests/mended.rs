@@ -211,7 +211,8 @@ fn a_number_that_is_not_finite_is_a_word_in_json() {
     assert_eq!(summary["friction_demand"][0], "infinite");
     succeeds(folder.path(), &["report", "out"]);
     let page = read_to_string(folder.path().join("out/report.html")).expect("written");
-    assert!(page.contains("no friction coefficient is enough at interface 1"));
+    // It parts in the fall, which does not count.
+    assert!(!page.contains("no friction coefficient is enough") && page.contains("point of no return"));
     // As earlier versions wrote it.
     let old = read_to_string(folder.path().join("out/summary.json")).expect("written").replace("\"infinite\"", "null");
     write(folder.path().join("out/summary.json"), old).expect("written");

@@ -20,7 +20,9 @@ fn rows_are_the_runs_of_their_scenes() {
     assert_eq!(rows.len(), 61);
     let mut fates = std::collections::BTreeSet::new();
     for row in rows[1..].iter().step_by(3) {
-        let [_, blocks, omega, amplitude, outcome, impacts, block, t, error] = &row[..] else { panic!("{row:?}") };
+        let [_, blocks, omega, amplitude, outcome, impacts, block, t, truncated, error] = &row[..] else {
+            panic!("{row:?}")
+        };
         let scene = BASE
             .replace("blocks = 2", &format!("blocks = {blocks}"))
             .replace("omega = 10.0", &format!("omega_p = {omega}"))
@@ -30,6 +32,7 @@ fn rows_are_the_runs_of_their_scenes() {
         let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
         assert_eq!(summary["status"] == "overturned", outcome == "overturns", "{row:?}");
         assert_eq!(error, "");
+        assert_eq!(summary["truncated"].to_string(), *truncated, "{row:?}");
         fates.insert(outcome.clone());
         if outcome == "overturns" {
             assert_eq!(summary["impacts"].to_string(), *impacts, "{row:?}");
@@ -55,7 +58,7 @@ fn a_scene_that_fails_is_a_row_with_its_error() {
     let text = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
     let outcomes: Vec<String> = rows(&text)[1..].iter().map(|row| row[3].clone()).collect();
     assert_eq!(outcomes, ["error", "error", "rocks", "rocks", "error", "error"], "{text}");
-    assert!(rows(&text)[1..3].iter().all(|row| row[7].contains("unknown")), "{text}");
+    assert!(rows(&text)[1..3].iter().all(|row| row[8].contains("unknown")), "{text}");
     // As many columns of peaks as a column may have blocks.
     let many = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nblocks = [2, 1000000000]\n";
     std::fs::write(folder.path().join("sweep.toml"), many).expect("written");
@@ -66,7 +69,7 @@ fn a_scene_that_fails_is_a_row_with_its_error() {
     let text = table(folder.path(), &[]);
     let rows = rows(&text);
     assert_eq!(rows.iter().filter(|row| row[2] == "error").count(), 1);
-    assert!(rows[2][6].contains("restitution.eta") && rows[2][6].contains("0 to 1"), "{text}");
+    assert!(rows[2][7].contains("restitution.eta") && rows[2][7].contains("0 to 1"), "{text}");
 }
 
 #[test]
@@ -75,7 +78,7 @@ fn peaks_are_asked_for_and_paired_axes_run_together() {
     let folder = folder(sweep);
     let rows = rows(&table(folder.path(), &[]));
     assert_eq!(rows.len(), 4);
-    assert_eq!(rows[0][7..], ["peak_1", "peak_2", "last_mode", "error"]);
+    assert_eq!(rows[0][7..], ["peak_1", "peak_2", "last_mode", "truncated", "error"]);
     let scene = BASE.replace("omega = 10.0", "omega_p = 4").replace("amplitude = 3.0", "amplitude_g = 0.5");
     std::fs::write(folder.path().join("one.toml"), scene).expect("written");
     let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
@@ -284,7 +287,10 @@ fn friction_is_an_axis_and_residual_slides_are_asked_for() {
     let text = table(folder.path(), &[]);
     let rows = rows(&text);
     assert_eq!(rows[0][1..4], ["friction", "column.half_width", "excitation.horizontal.amplitude_g"]);
-    assert_eq!(rows[0][8..], ["peak_1", "peak_2", "last_mode", "residual_slide_1", "residual_slide_2", "error"]);
+    assert_eq!(
+        rows[0][8..],
+        ["peak_1", "peak_2", "last_mode", "residual_slide_1", "residual_slide_2", "truncated", "error"]
+    );
     let mut fates = std::collections::BTreeSet::new();
     for row in &rows[1..] {
         let scene = BASE

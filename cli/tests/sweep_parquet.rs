@@ -96,6 +96,7 @@ fn columns_have_types() {
         ("peak_2", &number, optional),
         ("peak_3", &number, optional),
         ("last_mode", &text, optional),
+        ("truncated", &text, optional),
         ("error", &text, optional),
     ];
     let fields = file.metadata().file_metadata().schema().get_fields();

@@ -6,6 +6,9 @@ use crate::segment::Segment;
 use crate::spans::{divide, overlay};
 use serde::{Deserialize, Serialize};
 
+/// Relative error of a time that was made of a start and a number of intervals.
+const ROUNDING_OF_TIME: f64 = 1e-12;
+
 /// Ground motion in both directions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -30,6 +33,17 @@ impl Excitation {
             }
         }
         [&self.horizontal, &self.vertical].into_iter().flatten().flat_map(of).collect()
+    }
+
+    /// Time from which on the ground does not move any more `[s]`, zero without any motion; none for a motion without end.
+    pub fn still_from(&self) -> Option<f64> {
+        let motions = [&self.horizontal, &self.vertical].into_iter().flatten();
+        motions.map(Motion::still_from).try_fold(0.0f64, |last, own| Some(last.max(own?)))
+    }
+
+    /// Whether the ground moves after a time `[s]`, by more than the rounding of that time.
+    pub fn moves_after(&self, t: f64) -> bool {
+        self.still_from().is_none_or(|still| still > t * (1.0 + ROUNDING_OF_TIME))
     }
 
     /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.

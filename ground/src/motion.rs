@@ -7,6 +7,7 @@
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
 //! (their pulse, and Gabor's wavelet beside it).
 
+use crate::error::RecordError;
 use crate::piece::Piece;
 use crate::record::Record;
 use crate::spans::{Span, Spans, overlay};
@@ -192,6 +193,33 @@ impl Motion {
         }
     }
 
+    /// The motion with its acceleration multiplied by a factor.
+    ///
+    /// # Errors
+    /// [`RecordError::Acceleration`] for samples of a record out of range.
+    ///
+    /// ```
+    /// let pulse = rocking_ground::Motion::SinePulse { amplitude: 2.0, omega: 8.0, start: 0.0 };
+    /// assert_eq!(pulse.clone().scaled(1.5)?.value(0.1), 1.5 * pulse.value(0.1));
+    /// # Ok::<(), rocking_ground::RecordError>(())
+    /// ```
+    pub fn scaled(mut self, factor: f64) -> Result<Motion, RecordError> {
+        match &mut self {
+            Motion::Record(record) => return record.clone().scaled(factor).map(Motion::Record),
+            Motion::Sum { terms } => {
+                let scaled: Result<_, _> = terms.drain(..).map(|term| term.scaled(factor)).collect();
+                *terms = scaled?;
+            }
+            Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => *velocity *= factor,
+            motion => {
+                if let Some(amplitude) = motion.amplitude_mut() {
+                    *amplitude *= factor;
+                }
+            }
+        }
+        Ok(self)
+    }
+
     /// Acceleration at `t` `[m/s²]`; where it jumps, the value after the jump.
     pub fn value(&self, t: f64) -> f64 {
         match self {
@@ -204,6 +232,23 @@ impl Motion {
     /// End of the motion `[s]`; none for a motion without end.
     pub fn end(&self) -> Option<f64> {
         self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
+    }
+
+    /// Time from which on the ground does not move any more `[s]`: the end, of a record without the zeros at its end; none for a motion
+    /// without end.
+    ///
+    /// ```
+    /// use rocking_ground::{Motion, Record};
+    /// let record = Record::new(vec![0.0, 1.0, -1.0, 0.0, 0.0, 0.0], 0.5, 2.0)?;
+    /// assert_eq!(Motion::Record(record).still_from(), Some(3.5));
+    /// # Ok::<(), rocking_ground::RecordError>(())
+    /// ```
+    pub fn still_from(&self) -> Option<f64> {
+        match self {
+            Motion::Record(record) => Some(record.still_from()),
+            Motion::Sum { terms } => terms.iter().try_fold(0.0f64, |last, term| Some(last.max(term.still_from()?))),
+            _ => self.end(),
+        }
     }
 
     /// Name and value of the first parameter that is not finite, larger than `largest` in size, or not above its lower bound.

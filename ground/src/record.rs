@@ -189,6 +189,12 @@ impl Record {
         (self.accel.len() - 1) as f64 * self.dt
     }
 
+    /// Time from which on the ground does not move any more `[s]`: the first of the zeros at the end, or the last sample.
+    pub(crate) fn still_from(&self) -> f64 {
+        let moving = self.accel.iter().rposition(|a| *a != 0.0);
+        moving.map_or(self.start, |last| self.time((last + 1).min(self.accel.len() - 1)))
+    }
+
     /// Largest size of the samples `[m/s²]`.
     pub fn peak(&self) -> f64 {
         self.accel.peak

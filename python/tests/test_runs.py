@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import rocking as rk
+from tables import read
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 
@@ -17,7 +18,7 @@ SCENES = Path(__file__).resolve().parents[2] / "scenes"
 def test_a_run_has_the_bits_of_the_command_line(file: Path, command, tmp_path: Path) -> None:
     command("run", file, "--out", tmp_path, "--quiet")
     run = rk.simulate(rk.Scene.load(file))
-    rows = pd.read_csv(tmp_path / "response.csv", float_precision="round_trip")
+    rows = read(tmp_path / "response.csv")
     blocks = len(run.scene.column)
     assert run.theta.shape == (len(rows), blocks) == run.omega.shape
     pd.testing.assert_frame_equal(run.to_pandas(), rows.drop(columns="pattern"), check_exact=True)

@@ -9,17 +9,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import rocking as rk
+from tables import as_read, read
 
 COLUMN = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
 SCENE = rk.Scene(COLUMN, rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9, t_end=20, rtol=1e-6)
-
-
-def as_read(table: pd.DataFrame) -> pd.DataFrame:
-    """A table as pandas reads it back from CSV."""
-    text = table.to_csv(index=False)
-    import io
-
-    return pd.read_csv(io.StringIO(text), float_precision="round_trip")
 
 
 @pytest.mark.parametrize("ask", ["outcome", "overturns", "peaks"])
@@ -30,7 +23,7 @@ def test_a_sweep_has_the_table_of_the_command_line(ask: str, command, scenes: Pa
     axes = 'blocks = [1, 2, 500]\nmethod = ["auto", "dop853"]\nomega_p = { from = 1, to = 8, steps = 4 }\namplitude_uplift = { from = 0.5, to = 12, steps = 5, scale = "log" }\n'
     file.write_text(f'scene = "column.toml"\nask = "{ask}"\n[axes]\n{axes}')
     command("sweep", file, "--out", tmp_path / "table.csv", "--quiet")
-    expected = pd.read_csv(tmp_path / "table.csv", float_precision="round_trip")
+    expected = read(tmp_path / "table.csv")
     made = rk.sweep(
         rk.Scene.load(tmp_path / "column.toml"),
         {
@@ -109,16 +102,16 @@ def study(scenes: Path) -> rk.Study:
 
 
 def test_a_study_has_the_tables_of_the_command_line(statue: Path, study: rk.Study, scenes: Path) -> None:
-    expected = pd.read_csv(statue / "ida.csv", float_precision="round_trip")
+    expected = read(statue / "ida.csv")
     pd.testing.assert_frame_equal(as_read(study.table), expected, check_exact=True, check_dtype=False)
-    stripes = pd.read_csv(statue / "ida-stripes.csv", float_precision="round_trip")
+    stripes = read(statue / "ida-stripes.csv")
     pd.testing.assert_frame_equal(as_read(study.stripes), stripes, check_exact=True, check_dtype=False)
     pd.testing.assert_frame_equal(rk.Study.load(scenes / "studies" / "statue-ida.toml").table, study.table)
 
 
 def test_fragilities_are_those_of_the_command_line(statue: Path, study: rk.Study) -> None:
-    curves = pd.read_csv(statue / "ida-fragility.csv", float_precision="round_trip").set_index("state")
-    shares = pd.read_csv(statue / "ida-shares.csv", float_precision="round_trip")
+    curves = read(statue / "ida-fragility.csv").set_index("state")
+    shares = read(statue / "ida-shares.csv")
     for state in ("uplift", "peak > 0.15", "peak > 0.35", "overturned"):
         found, row = study.fragility(state, seed=1), curves.loc[state]
         assert (found.fit, found.median, found.dispersion) == (row.fit, row["median"], row.dispersion)

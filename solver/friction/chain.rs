@@ -77,15 +77,47 @@ impl Rates {
 
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug)]
-struct Turn {
+pub struct Turn {
     sin: f64,
     cos: f64,
 }
 
 impl Turn {
+    /// None.
+    const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
+
+    /// By an angle `[rad]`.
+    fn by(angle: f64) -> Turn {
+        let (sin, cos) = libm::sincos(angle);
+        Turn { sin, cos }
+    }
+
     /// `R(θ) (u, v)`
-    fn rotate(self, [u, v]: Vec2) -> Vec2 {
+    pub fn rotate(self, [u, v]: Vec2) -> Vec2 {
         [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
+    }
+
+    /// `R(-θ) (x, y)`
+    pub fn rotate_back(self, [x, y]: Vec2) -> Vec2 {
+        [x * self.cos - y * self.sin, x * self.sin + y * self.cos]
+    }
+}
+
+/// How the two blocks of an interface lie to each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Pose {
+    /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`.
+    pub apart: Vec2,
+    /// Turns of the lower block, or of the ground, and of the upper one.
+    pub lower: Turn,
+    pub upper: Turn,
+}
+
+impl Pose {
+    /// That of a free interface (from zero).
+    pub fn of_free(configuration: &Configuration, interface: usize) -> Pose {
+        let lower = interface.checked_sub(1).map_or(Turn::NONE, |below| Turn::by(configuration.theta[below]));
+        Pose { apart: configuration.apart[interface], lower, upper: Turn::by(configuration.theta[interface]) }
     }
 }
 
@@ -137,12 +169,8 @@ impl<'a> Chain<'a> {
     /// The geometry of a configuration.
     pub fn new(column: &'a Column, configuration: &Configuration) -> Chain<'a> {
         let blocks = column.blocks();
-        let turn = |angle: f64| {
-            let (sin, cos) = libm::sincos(angle);
-            Turn { sin, cos }
-        };
-        let turns: PerBlock<Turn> = configuration.theta.iter().map(|angle| turn(*angle)).collect();
-        let ground = Turn { sin: 0.0, cos: 1.0 };
+        let turns: PerBlock<Turn> = configuration.theta.iter().map(|angle| Turn::by(*angle)).collect();
+        let ground = Turn::NONE;
         let (vectors, link) = (PerBlock::filled([0.0; 2], blocks.len()), Link::default());
         let mut chain = Chain {
             column,
@@ -279,18 +307,18 @@ impl<'a> Chain<'a> {
 
     /// The turn of a block; of the ground, none.
     fn turn(&self, block: Option<usize>) -> Turn {
-        block.map_or(Turn { sin: 0.0, cos: 1.0 }, |block| self.turns[block])
+        block.map_or(Turn::NONE, |block| self.turns[block])
+    }
+
+    /// How the blocks of an interface lie to each other.
+    pub fn pose(&self, interface: usize) -> Pose {
+        let (lower, upper) = (self.turn(interface.checked_sub(1)), self.turns[interface]);
+        Pose { apart: self.apart(interface), lower, upper }
     }
 
     /// A vector of the ground's axes in the axes of a block, or of the ground.
-    pub fn in_block_axes(&self, block: Option<usize>, [x, y]: Vec2) -> Vec2 {
-        let Turn { sin, cos } = self.turn(block);
-        [x * cos - y * sin, x * sin + y * cos]
-    }
-
-    /// A vector of the axes of a block, or of the ground, in the ground's axes.
-    pub fn in_ground_axes(&self, block: Option<usize>, vector: Vec2) -> Vec2 {
-        self.turn(block).rotate(vector)
+    pub fn in_block_axes(&self, block: Option<usize>, vector: Vec2) -> Vec2 {
+        self.turn(block).rotate_back(vector)
     }
 
     /// The column.

@@ -1,7 +1,8 @@
 //! Gaps: a corner of one block seen from the face of the other that it may stand on (docs/book/model.md, section 15).
 
-use super::chain::{Chain, Rates, plus, scaled, swept};
+use super::chain::{Chain, Pose, Rates, Turn, plus, scaled, swept};
 use super::joint::{Face, Sign};
+use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 
 /// A corner at an interface (from zero), of a side, and the face of the other block that it may stand on: of the upper block if that is the lower
@@ -26,6 +27,8 @@ struct View {
     /// The block that has the corner, and the block that has the face; `None` for the ground.
     carrier: Option<usize>,
     frame: Option<usize>,
+    /// The turn of the face.
+    turn: Turn,
     /// +1 if the upper block has the corner.
     sign: f64,
     /// From the middle of its own face to the corner `[m]`.
@@ -37,31 +40,36 @@ struct View {
 }
 
 impl View {
-    fn new(chain: &Chain, corner: Corner) -> View {
+    fn new(column: &Column, pose: &Pose, corner: Corner) -> View {
         let Corner { interface, side, face } = corner;
         let below = interface.checked_sub(1);
-        let blocks = chain.column().blocks();
+        let blocks = column.blocks();
         let upper = blocks[interface].bottom_half_width;
         let lower = below.map_or(f64::INFINITY, |below| blocks[below].top_half_width);
         let (carrier, frame, sign, own, reach) = match face {
             Face::Upper => (below, Some(interface), -1.0, lower, upper),
             Face::Lower | Face::Both => (Some(interface), below, 1.0, upper, lower),
         };
-        let arm = chain.in_ground_axes(carrier, [f64::from(side) * own, 0.0]);
-        let place = plus(scaled(chain.apart(interface), sign), arm);
-        View { carrier, frame, sign, arm, place, reach }
+        let (carried, turn) = if sign > 0.0 { (pose.upper, pose.lower) } else { (pose.lower, pose.upper) };
+        let arm = carried.rotate([f64::from(side) * own, 0.0]);
+        let place = plus(scaled(pose.apart, sign), arm);
+        View { carrier, frame, turn, sign, arm, place, reach }
+    }
+
+    fn of(chain: &Chain, corner: Corner) -> View {
+        View::new(chain.column(), &chain.pose(corner.interface), corner)
     }
 
     /// Position in the axes of the face `[m]`.
-    fn position(&self, chain: &Chain) -> Vec2 {
-        chain.in_block_axes(self.frame, self.place)
+    fn position(&self) -> Vec2 {
+        self.turn.rotate_back(self.place)
     }
 
     /// Velocity in the axes of the face, which turn `[m/s]`.
-    fn velocity(&self, chain: &Chain, apart_rate: Vec2, omega: &[f64]) -> Vec2 {
+    fn velocity(&self, apart_rate: Vec2, omega: &[f64]) -> Vec2 {
         let rate = plus(scaled(apart_rate, self.sign), swept(of(self.carrier, omega), self.arm));
-        let ([u, v], turning) = (self.position(chain), of(self.frame, omega));
-        let [along, across] = chain.in_block_axes(self.frame, rate);
+        let ([u, v], turning) = (self.position(), of(self.frame, omega));
+        let [along, across] = self.turn.rotate_back(rate);
         [along - turning * v, across + turning * u]
     }
 }
@@ -73,8 +81,13 @@ fn of(block: Option<usize>, values: &[f64]) -> f64 {
 
 /// How far a corner is beside the face, and how far above it `[m]`.
 pub fn gap(chain: &Chain, corner: Corner) -> [f64; 2] {
-    let view = View::new(chain, corner);
-    let [u, v] = view.position(chain);
+    gap_of_pose(chain.column(), &chain.pose(corner.interface), corner)
+}
+
+/// The same, from how the two blocks lie to each other.
+pub fn gap_of_pose(column: &Column, pose: &Pose, corner: Corner) -> [f64; 2] {
+    let view = View::new(column, pose, corner);
+    let [u, v] = view.position();
     [u.abs() - view.reach, view.sign * v]
 }
 
@@ -85,8 +98,8 @@ pub fn gap_rate(chain: &Chain, rates: &Rates, corner: Corner) -> [f64; 2] {
 
 /// The same for a rate of the free interface `[m/s]` and rates of the blocks `[rad/s]`.
 pub fn gap_velocity(chain: &Chain, apart_rate: Vec2, omega: &[f64], corner: Corner) -> [f64; 2] {
-    let view = View::new(chain, corner);
-    view.velocity(chain, apart_rate, omega).map(|v| view.sign * v)
+    let view = View::of(chain, corner);
+    view.velocity(apart_rate, omega).map(|v| view.sign * v)
 }
 
 /// Second rates of the slide and of the gap `[m/s²]`, for first and second rates of the free interface and of the blocks' angles.
@@ -96,13 +109,13 @@ pub fn gap_acceleration(
     [omega, alpha]: [&[f64]; 2],
     corner: Corner,
 ) -> [f64; 2] {
-    let view = View::new(chain, corner);
-    let ([u, v], [u_rate, v_rate]) = (view.position(chain), view.velocity(chain, apart_rate, omega));
+    let view = View::of(chain, corner);
+    let ([u, v], [u_rate, v_rate]) = (view.position(), view.velocity(apart_rate, omega));
     let (turning, own) = (of(view.frame, omega), of(view.carrier, omega));
     let change = of(view.frame, alpha);
     let swept = plus(swept(of(view.carrier, alpha), view.arm), scaled(view.arm, -own * own));
     let total = plus(scaled(apart_acceleration, view.sign), swept);
-    let [along, across] = chain.in_block_axes(view.frame, total);
+    let [along, across] = view.turn.rotate_back(total);
     let square = turning * turning;
     [
         view.sign * (along - 2.0 * turning * v_rate - change * v + square * u),
@@ -112,32 +125,42 @@ pub fn gap_acceleration(
 
 /// The point where a corner is `[m]`, and the directions along and across the face that it may stand on.
 pub fn place_and_axes(chain: &Chain, corner: Corner) -> (Vec2, [Vec2; 2]) {
-    let view = View::new(chain, corner);
+    let view = View::of(chain, corner);
     let middle = match (view.frame, corner.face) {
         (_, Face::Upper) => chain.foot[corner.interface],
         (Some(below), _) => chain.top[below],
         (None, _) => [0.0, 0.0],
     };
-    let axes = [[1.0, 0.0], [0.0, 1.0]].map(|axis| chain.in_ground_axes(view.frame, axis));
+    let axes = [[1.0, 0.0], [0.0, 1.0]].map(|axis| view.turn.rotate(axis));
     (plus(middle, view.place), axes)
 }
 
 /// The slide with which an interface whose corner touches is where it is `[m]`.
 pub fn slide_of_landing(chain: &Chain, corner: Corner) -> f64 {
-    let view = View::new(chain, corner);
+    let view = View::of(chain, corner);
     let own = match corner.face {
         Face::Upper => {
             corner.interface.checked_sub(1).map_or(0.0, |below| chain.column().blocks()[below].top_half_width)
         }
         Face::Lower | Face::Both => chain.column().blocks()[corner.interface].bottom_half_width,
     };
-    view.sign * (view.position(chain)[0] - f64::from(corner.side) * own)
+    view.sign * (view.position()[0] - f64::from(corner.side) * own)
+}
+
+/// How far a corner of one block of a free interface is inside the other one, at most `[m]`.
+pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize) -> f64 {
+    let depth = |corner: Corner| {
+        let [beside, above] = gap_of_pose(column, pose, corner);
+        if beside < 0.0 { -above } else { 0.0 }
+    };
+    let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
+    corners.map(depth).fold(0.0, f64::max)
 }
 
 /// How far the faces of a free interface reach over each other, along the lower one `[m]`.
-pub fn overlap(chain: &Chain, interface: usize) -> f64 {
-    let blocks = chain.column().blocks();
+pub fn overlap(column: &Column, pose: &Pose, interface: usize) -> f64 {
+    let blocks = column.blocks();
     let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| blocks[below].top_half_width);
-    let [u, _] = chain.in_block_axes(interface.checked_sub(1), chain.apart(interface));
+    let [u, _] = pose.lower.rotate_back(pose.apart);
     blocks[interface].bottom_half_width + lower - u.abs()
 }

@@ -5,8 +5,8 @@
 //! closed: the resultant reaches an end, or the contact's length falls to zero       free: a corner reaches the other face
 //! ```
 
-use super::chain::Chain;
-use super::contact::{Coefficients, cone_margins, half_length};
+use super::chain::Pose;
+use super::contact::{cone_margins, half_length};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip};
 use super::rows::Answer;
@@ -39,11 +39,6 @@ impl Guard {
     /// Whether its value may start from zero: a gap that has just opened, a slide that has just begun.
     pub fn may_start_from_zero(self) -> bool {
         matches!(self, Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Land(..))
-    }
-
-    /// Whether its value depends on angles and slides alone.
-    pub fn is_plain(self) -> bool {
-        matches!(self, Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Overturn(_))
     }
 
     /// Whether its value depends on forces.
@@ -86,18 +81,8 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
     guards
 }
 
-/// What guards compare with.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits<'a> {
-    pub friction: &'a Coefficients,
-    /// `[rad]`
-    pub overturn_angle: f64,
-    /// Violation of a condition on forces that is rounding `[N]`.
-    pub slack: f64,
-}
-
-/// The value of a guard of angles and slides alone ([`Guard::is_plain`]).
-pub fn plain_value(guard: Guard, column: &Column, now: &Configuration, overturn_angle: f64) -> f64 {
+/// The value of a guard that depends on angles, slides and free interfaces alone, above zero while nothing happens.
+pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle: f64) -> f64 {
     match guard {
         Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
         Guard::Close(i) => {
@@ -111,33 +96,36 @@ pub fn plain_value(guard: Guard, column: &Column, now: &Configuration, overturn_
             _ => f64::INFINITY,
         },
         Guard::Overturn(block) => overturn_angle - now.theta[block].abs(),
-        Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..) | Guard::Collapse(_) | Guard::Land(_) => f64::INFINITY,
+        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(column, &Pose::of_free(now, i), i),
+        Guard::Collapse(i) => half_length(column, i, now.slide[i]),
+        Guard::Land(corner) => {
+            let [beside, above] = gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner);
+            beside.max(above)
+        }
+        Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..) => f64::INFINITY,
     }
 }
 
-/// The value of a guard, above zero while nothing happens; `answer` is needed where forces are.
-pub fn value(guard: Guard, chain: &Chain, now: &Configuration, answer: Option<&Answer>, limits: Limits) -> f64 {
-    let contact = |interface: usize| answer.map(|answer| answer.contacts[interface]).unwrap_or_default();
-    let Limits { friction, overturn_angle, slack } = limits;
+/// The value of a guard that depends on forces, with the static coefficients; `slack` is a violation that is rounding `[N]`.
+pub fn value_of_forces(
+    guard: Guard,
+    column: &Column,
+    now: &Configuration,
+    answer: &Answer,
+    fixed: &[f64],
+    slack: f64,
+) -> f64 {
     match guard {
         Guard::Cone(i, side) => {
-            let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), contact(i), friction.fixed[i]);
+            let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), answer.contacts[i], fixed[i]);
             slack + if side < 0 { to_left } else { to_right }
         }
-        Guard::Press(i) => contact(i).normal + slack,
+        Guard::Press(i) => answer.contacts[i].normal + slack,
         Guard::Tip(i, side) => {
-            half_length(chain.column(), i, now.slide[i]) * (contact(i).normal + slack)
-                + f64::from(side) * contact(i).moment
+            half_length(column, i, now.slide[i]) * (answer.contacts[i].normal + slack)
+                + f64::from(side) * answer.contacts[i].moment
         }
-        Guard::Land(corner) => {
-            let [beside, above] = gaps::gap(chain, corner);
-            beside.max(above)
-        }
-        Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(chain, i),
-        Guard::Collapse(i) => half_length(chain.column(), i, now.slide[i]),
-        Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Overturn(_) => {
-            plain_value(guard, chain.column(), now, overturn_angle)
-        }
+        _ => f64::INFINITY,
     }
 }
 

@@ -114,6 +114,24 @@ impl Configuration {
         configuration
     }
 
+    /// Places the blocks, which keep their angles, by centroids `[m]` and their velocities `[m/s]`, every interface free; what touches is found where the
+    /// run begins.
+    pub fn place(&mut self, column: &Column, [x, y]: [&[f64]; 2], [vx, vy]: [&[f64]; 2]) {
+        let (mut top, mut top_rate) = ([0.0, 0.0], [0.0, 0.0]);
+        for (i, block) in column.blocks().iter().enumerate() {
+            let ((sin, cos), rate) = (libm::sincos(self.theta[i]), self.omega[i]);
+            // A point of the axis at this height above the centroid, and its velocity.
+            let point = |height: f64| [x[i] + height * sin, y[i] + height * cos];
+            let velocity = |height: f64| [vx[i] + rate * height * cos, vy[i] - rate * height * sin];
+            let (foot, foot_rate) = (point(-block.centroid_height), velocity(-block.centroid_height));
+            self.joints[i] = Joint::Free;
+            self.apart[i] = [foot[0] - top[0], foot[1] - top[1]];
+            self.apart_rate[i] = [foot_rate[0] - top_rate[0], foot_rate[1] - top_rate[1]];
+            let above = 2.0 * block.half_height - block.centroid_height;
+            (top, top_rate) = (point(above), velocity(above));
+        }
+    }
+
     /// The pattern of signs: that of the relative angle where the interface is not closed.
     pub fn pattern(&self) -> Pattern {
         let state = |interface: usize| match self.joints[interface] {

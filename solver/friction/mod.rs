@@ -24,7 +24,11 @@ mod generated_test;
 #[cfg(test)]
 mod oracle_test;
 
+use crate::column::Column;
+use chain::Pose;
 use contact::Coefficients;
+use joint::Configuration;
+use rocking_codegen::pattern::Pattern;
 use serde::{Deserialize, Serialize};
 
 /// Coefficients of Coulomb friction between the blocks, dimensionless: one for all interfaces, or one per interface, base first.
@@ -83,4 +87,18 @@ impl Friction {
         let all = |list: &[f64]| (0..blocks).map(|i| list[i.min(list.len() - 1)]).collect();
         Coefficients { fixed: all(&self.fixed), kinetic: all(&self.kinetic) }
     }
+}
+
+/// Share of a column's size by which a corner may be below the face on which it lands: what a search for the landing leaves is far less.
+pub(crate) const DEPTH_SHARE: f64 = 1e-8;
+
+/// The block (from zero) that is placed deepest inside the one below, or in the ground, and how deep `[m]`: centroids `[m]`, angles `[rad]`.
+pub(crate) fn deepest(column: &Column, [x, y]: [&[f64]; 2], theta: &[f64]) -> Option<(usize, f64)> {
+    let still = vec![0.0; column.len()];
+    let theta = if theta.is_empty() { &still } else { theta };
+    let mut placed = Configuration::sticking(column, &Pattern::rest(column.len()), theta, &still);
+    placed.place(column, [x, y], [&still, &still]);
+    let depth = |interface| gaps::overlap_of_blocks(column, &Pose::of_free(&placed, interface), interface);
+    let deepest = (0..column.len()).map(|i| (i, depth(i))).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (deepest.1 > DEPTH_SHARE * column.size()).then_some(deepest)
 }

@@ -40,6 +40,42 @@ impl Sample {
         }
     }
 
+    /// Rotations at the interfaces, `φ_i = θ_i - θ_{i-1}` with the ground at `θ_0 = 0`, base first, length N `[rad]`.
+    pub fn relative_angles(&self) -> Vec<f64> {
+        let below = std::iter::once(&0.0).chain(&self.theta);
+        self.theta.iter().zip(below).map(|(own, below)| own - below).collect()
+    }
+
+    /// Displacement of the middle of the column's top from its place in the column at rest, to the right and upwards, in the frame of the moving ground
+    /// `[m]`.
+    pub fn top_displacement(&self, column: &Column) -> [f64; 2] {
+        // A way across and along a block that has turned clockwise by an angle.
+        let turned = |angle: f64, [across, along]: [f64; 2]| {
+            let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+            [across * cos + along * sin, along * cos - across * sin]
+        };
+        let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
+        let at_rest = [column.slides().iter().sum::<f64>(), height];
+        let (mut top, mut below) = ([0.0; 2], 0.0);
+        let blocks = column.blocks().iter().zip(&self.theta).zip(&self.pattern.0).enumerate();
+        for (interface, ((block, angle), state)) in blocks {
+            let [left, right] = column.contact(interface);
+            let pivot = if state.sign() > 0 { right } else { left };
+            let ways = [
+                turned(below, [pivot, 0.0]),
+                turned(*angle, [column.slides()[interface] - pivot, 2.0 * block.half_height]),
+            ];
+            top = ways.iter().fold(top, |[x, y], way| [x + way[0], y + way[1]]);
+            below = *angle;
+        }
+        if let (Some(last), Some(block), Some(angle)) = (self.blocks.last(), column.blocks().last(), self.theta.last())
+        {
+            let up = turned(*angle, [0.0, 2.0 * block.half_height - block.centroid_height]);
+            top = [0, 1].map(|axis| last.place[axis] + up[axis]);
+        }
+        [0, 1].map(|axis| top[axis] - at_rest[axis])
+    }
+
     /// `[θ, θ̇]` of the free angles: those of the lowest block of each link that moves.
     fn state_of_links(&self) -> Vec<f64> {
         let open = || self.pattern.0.iter().enumerate().filter(|(_, state)| state.is_open()).map(|(block, _)| block);
@@ -64,6 +100,24 @@ mod tests {
             gap: Vec::new(),
             blocks: Vec::new(),
         }
+    }
+
+    #[test]
+    fn the_top_moves_as_the_pivots_say() {
+        // Two blocks 0.8 m by 1.6 m lean to the right as one, about the right corner of the base.
+        let (column, lean) = (column(), 0.1f64);
+        let as_one = sample([lean; 2], [0.0; 2], [1, 0]);
+        let [x, y] = as_one.top_displacement(&column);
+        let expected = [0.4 - 0.4 * lean.cos() + 3.2 * lean.sin(), 3.2 * lean.cos() + 0.4 * lean.sin() - 3.2];
+        assert!((x - expected[0]).abs() < 1e-15 && (y - expected[1]).abs() < 1e-15, "{x} {y}");
+        assert_eq!(as_one.relative_angles(), [lean, 0.0]);
+        // The upper one turns back, about its left corner: as the lower one's top leads, and then about the corner.
+        let upright = sample([lean, 0.0], [0.0; 2], [1, -1]);
+        let lower_top = [0.4 - 0.4 * lean.cos() + 1.6 * lean.sin(), 1.6 * lean.cos() + 0.4 * lean.sin()];
+        let corner = [lower_top[0] - 0.4 * lean.cos(), lower_top[1] + 0.4 * lean.sin()];
+        let [x, y] = upright.top_displacement(&column);
+        assert!((x - (corner[0] + 0.4)).abs() < 1e-15 && (y - (corner[1] + 1.6 - 3.2)).abs() < 1e-15, "{x} {y}");
+        assert_eq!(sample([0.0; 2], [0.0; 2], [0, 0]).top_displacement(&column), [0.0, 0.0]);
     }
 
     fn column() -> Column {

@@ -1,10 +1,13 @@
 //! A run as a fold over stretches: a stretch of motion, its record, and at its end the transition from `x⁻` to `x⁺`.
 
 pub mod certainty;
+mod cones;
 mod diagnostics;
 mod error;
+mod fold;
 mod modes;
 mod multi_sample_step;
+mod needs;
 mod phase;
 mod phase_motion;
 mod problem;

@@ -8,10 +8,9 @@ use super::error::SolveError;
 use super::phase::{Gap, Kind, Phase, StepEnd, Swing};
 use super::problem::Problem;
 use super::state::{Pace, State};
-use super::stretch::{Ended, Flow, Found, Inside, Over, Request, Stretch};
+use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Request, Stretch};
 use crate::column::Column;
 use crate::contact::verge_acceleration;
-use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
@@ -207,7 +206,7 @@ impl Inside for Phase {
         }
     }
 
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3])) {
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
         match self.stretch {
             Kind::Step(step) => self.forces_in_step(problem, step, note),
             Kind::Swing(swing) => self.forces_in_swing(problem, &swing, note),
@@ -216,7 +215,7 @@ impl Inside for Phase {
             Kind::Instant if self.has_moved => {}
             Kind::Instant => {
                 self.evaluate_start_forces(problem);
-                note([&self.forces.start; 3]);
+                note(&Panel { forces: [&self.forces.start; 3], times: &|| [self.t; 2], weight: 1.0 });
             }
         }
     }

@@ -1,9 +1,10 @@
 //! The recorder: the only writer of rows, events, peaks, forces and times in modes.
 
 use super::modes::Modes;
+use super::needs::{InPanel, Needs};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Over, Request, Stretch};
+use super::stretch::{Over, Panel, Request, Stretch};
 use super::transition::Transition;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
@@ -34,6 +35,8 @@ pub(crate) struct Recorder {
     impulse_friction_demand: PerBlock<f64>,
     /// Per interface `[N]`.
     min_normal_force: PerBlock<f64>,
+    /// The same up to the point of no return, with times; where forces are recorded.
+    needs: Option<Needs>,
     events: Vec<Event>,
     impacts: usize,
     separations: Vec<Separation>,
@@ -43,9 +46,22 @@ pub(crate) struct Recorder {
     times: Vec<f64>,
 }
 
+/// A place in a record, to which what is recorded after it can be undone. Times in modes stay.
+pub(crate) struct Mark {
+    samples: usize,
+    sample_segment: usize,
+    peak_theta: PerBlock<f64>,
+    friction_demand: PerBlock<f64>,
+    impulse_friction_demand: PerBlock<f64>,
+    min_normal_force: PerBlock<f64>,
+    events: usize,
+    impacts: usize,
+    separations: usize,
+}
+
 impl Recorder {
-    /// The record of a run that begins with a state.
-    pub fn new(problem: &Problem, start: &State) -> Recorder {
+    /// The record of a run that begins with a state, or goes on from it after so many rows.
+    pub fn new(problem: &Problem, start: &State, rows: usize) -> Recorder {
         // Lists of what is not recorded are empty.
         let list = |is_recorded: bool, entry: f64| match is_recorded {
             true => PerBlock::filled(entry, start.theta.len()),
@@ -54,13 +70,14 @@ impl Recorder {
         let (is_recorded, records_forces) = (problem.is_recorded(), problem.records_forces());
         let mut recorder = Recorder {
             samples: Vec::new(),
-            next_sample: 0,
-            sample_segment: 0,
+            next_sample: rows,
+            sample_segment: start.segment,
             pattern: start.pattern.clone(),
             peak_theta: list(is_recorded, 0.0),
             friction_demand: list(records_forces, 0.0),
             impulse_friction_demand: list(records_forces, 0.0),
             min_normal_force: list(records_forces, f64::INFINITY),
+            needs: records_forces.then(|| Needs::new(&problem.scene.column, start.t, &start.theta)),
             events: Vec::new(),
             impacts: 0,
             separations: Vec::new(),
@@ -69,6 +86,47 @@ impl Recorder {
         };
         recorder.record_angles(&start.theta);
         recorder
+    }
+
+    /// The present place in the record.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            samples: self.samples.len(),
+            sample_segment: self.sample_segment,
+            peak_theta: self.peak_theta.clone(),
+            friction_demand: self.friction_demand.clone(),
+            impulse_friction_demand: self.impulse_friction_demand.clone(),
+            min_normal_force: self.min_normal_force.clone(),
+            events: self.events.len(),
+            impacts: self.impacts,
+            separations: self.separations.len(),
+        }
+    }
+
+    /// Forgets what has been recorded since a mark.
+    pub fn undo(&mut self, mark: Mark) {
+        self.next_sample -= self.samples.len() - mark.samples;
+        self.samples.truncate(mark.samples);
+        self.events.truncate(mark.events);
+        self.separations.truncate(mark.separations);
+        (self.sample_segment, self.impacts) = (mark.sample_segment, mark.impacts);
+        (self.peak_theta, self.min_normal_force) = (mark.peak_theta, mark.min_normal_force);
+        (self.friction_demand, self.impulse_friction_demand) = (mark.friction_demand, mark.impulse_friction_demand);
+    }
+
+    /// Largest angles so far, per block `[rad]`.
+    pub fn peak_theta(&self) -> &[f64] {
+        &self.peak_theta
+    }
+
+    /// Largest friction demands of forces so far, per interface.
+    pub fn friction_demand(&self) -> &[f64] {
+        &self.friction_demand
+    }
+
+    /// Smallest normal forces so far, per interface `[N]`.
+    pub fn min_normal_force(&self) -> &[f64] {
+        &self.min_normal_force
     }
 
     /// Records a stretch.
@@ -91,9 +149,11 @@ impl Recorder {
             self.record_row(problem, t, theta.to_vec(), omega.to_vec());
         }
         stretch.inside.raise_peaks(&mut self.peak_theta);
-        if problem.records_forces() {
-            stretch.inside.forces(problem, &mut |forces| self.record_forces(forces));
-        }
+        let Some(mut needs) = self.needs.take_if(|_| !stretch.is_coarse) else { return };
+        needs.begin(stretch.inside, stretch.end, &self.peak_theta);
+        stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, &mut needs));
+        needs.end(stretch.inside);
+        self.needs = Some(needs);
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -132,10 +192,11 @@ impl Recorder {
     }
 
     /// Records the extremes within a panel from its contact forces at start, middle and end: those of the parabolas through them.
-    fn record_forces(&mut self, forces: [&[ContactForce]; 3]) {
+    fn record_forces(&mut self, panel: &Panel, needs: &mut Needs) {
         for interface in 0..self.friction_demand.len() {
-            let [a, b, c] = forces.map(|forces| forces[interface]);
-            let least = -crest([a, b, c].map(|force| -force.normal));
+            let [a, b, c] = panel.forces.map(|forces| forces[interface]);
+            let normal = [a, b, c].map(|force| force.normal);
+            let least = -crest(normal.map(|normal| -normal));
             let demand = [a, b, c].map(|force| friction(&force));
             let is_finite = demand.iter().all(|demand| demand.is_finite());
             // Between the places the contact may part with a force along it.
@@ -143,6 +204,7 @@ impl Recorder {
             let most = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
             self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
             self.friction_demand[interface] = self.friction_demand[interface].max(most);
+            needs.add(interface, panel, &InPanel { demand, normal, largest_demand: most, least_normal: least });
         }
     }
 
@@ -213,6 +275,14 @@ impl Recorder {
                 self.record_row(problem, t, theta, omega);
             }
         }
+        let mut response = self.so_far(problem, last, status, modes);
+        response.overturned_block = block.map(|block| block + 1);
+        response.work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
+        response
+    }
+
+    /// The response of a run up to a state, without the rows that follow.
+    pub fn so_far(self, problem: &Problem, last: &State, status: StopReason, modes: &mut Modes) -> Response {
         let mut time_in_mode = BTreeMap::new();
         if problem.is_recorded() {
             let time = |mode: usize| self.times.get(mode).copied().unwrap_or(0.0);
@@ -225,12 +295,17 @@ impl Recorder {
                 time_in_mode.insert(ModeName::REST.to_string(), at_rest);
             }
         }
-        let mut work = modes.take_work();
-        work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
+        let end = match status {
+            StopReason::AtRest => problem.scene.options.t_end,
+            _ => last.t,
+        };
+        let separations = self.separations.iter().map(|separation| separation.t);
+        let validity = self.needs.map(|needs| needs.finish(status.overturns(), end, separations));
         Response {
             status,
             t_final: last.t,
-            overturned_block: block.map(|block| block + 1),
+            truncated: false,
+            overturned_block: None,
             samples: self.samples,
             events: self.events,
             impacts: self.impacts,
@@ -240,7 +315,8 @@ impl Recorder {
             impulse_friction_demand: self.impulse_friction_demand.to_vec(),
             min_normal_force: self.min_normal_force.to_vec(),
             separations: self.separations,
-            work,
+            validity,
+            work: modes.take_work(),
             used_generic: modes.used_generic(),
             sliding: None,
         }

@@ -8,7 +8,7 @@
 use super::error::SolveError;
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Ended, Flow, Inside, Over, Stretch};
+use super::stretch::{Ended, Flow, Inside, Over, Panel, Stretch};
 use crate::column::Column;
 use crate::friction::guards::Guard;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
@@ -95,21 +95,16 @@ impl Inside for Rest {
     /// Nothing moves.
     fn raise_peaks(&mut self, _: &mut [f64]) {}
 
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3])) {
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
         let (column, end, (mut t, first)) = (&problem.scene.column, self.until.0, self.since);
         for segment in &problem.ground[first..=self.last] {
             if t < self.held_until {
                 t = self.held_until.min(segment.end);
             }
             let until = if segment.end < end { segment.end } else { end };
-            let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - t);
-            let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
-            let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
-            for place in 0..=count {
-                let time = t + (until - t) * place as f64 / count as f64;
-                let forces = contact_forces(column, Ground::at(segment, time, column.gravity()));
-                note([&forces; 3]);
-            }
+            visit_forces(column, segment, [t, until], &mut |forces, times| {
+                note(&Panel { forces: [forces; 3], times: &|| times, weight: 1.0 });
+            });
             t = until;
         }
     }
@@ -118,6 +113,23 @@ impl Inside for Rest {
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
         (state.t, state.segment) = if self.is_final { self.since } else { self.until };
         state
+    }
+}
+
+/// Calls `note` with contact forces at rest at places of a span of a segment, its ends among them, and the times of the last place and of this one `[s]`.
+pub(crate) fn visit_forces(
+    column: &Column,
+    segment: &Segment,
+    [from, until]: [f64; 2],
+    note: &mut dyn FnMut(&[ContactForce], [f64; 2]),
+) {
+    let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - from);
+    let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
+    let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
+    for place in 0..=count {
+        let t = from + (until - from) * place as f64 / count as f64;
+        let last = if place == 0 { t } else { t - (until - from) / count as f64 };
+        note(&contact_forces(column, Ground::at(segment, t, column.gravity())), [last, t]);
     }
 }
 

@@ -1,21 +1,19 @@
 //! Runs of scenes: the loop, and what one run leaves for the next.
 
 use super::certainty::stands::Prospects;
+use super::cones::Unlimited;
 use super::error::SolveError;
+use super::fold::{Leaving, fold};
 use super::modes::Modes;
 use super::problem::{Problem, Skips};
 use super::recorder::Recorder;
-use super::sliding::{self, sticking};
-use super::stretch::Ended;
-use super::transition::{self, break_circle, transition};
+use super::sliding;
+use super::transition;
 use crate::friction::Friction;
 use crate::response::Response;
-use crate::scene::{Scene, Wanted};
+use crate::scene::Scene;
 use rocking_ground::TimelineCache;
 use std::ops::ControlFlow;
-
-/// Stretches between two calls of a progress function within a phase.
-const STRETCHES_BETWEEN_REPORTS: usize = 1024;
 
 /// Runs a scene.
 ///
@@ -107,6 +105,16 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
+        let mut response = self.response(scene, progress)?;
+        response.truncated = response.status.stands() && scene.excitation.moves_after(scene.options.t_end);
+        Ok(response)
+    }
+
+    fn response(
+        &mut self,
+        scene: &Scene,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Response, SolveError> {
         if let Some(friction) = &scene.friction {
             return self.run_with_friction(scene, friction, progress);
         }
@@ -116,96 +124,26 @@ impl Simulator {
         let lookahead = self.prospects.as_ref().map(Prospects::lookahead).unwrap_or_default();
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
         let problem = Problem::new(scene, &ground, self.prospects.as_ref(), self.skips);
-        run(&problem, &mut self.modes, progress)
+        let mut recorder = Recorder::new(&problem, &transition::initial(&problem), 0);
+        match fold(&problem, &mut self.modes, None, &mut recorder, &Unlimited, progress)? {
+            Leaving::Over(last, over) => Ok(recorder.finish(&problem, &last, over, &mut self.modes)),
+            Leaving::Beyond(_) => unreachable!("there are no limits"),
+        }
     }
-}
 
-impl Simulator {
-    /// A run with friction: that without, where no friction is used up and no contact pulls; otherwise one in which blocks slide and fly.
+    /// A run with friction: that without, as long as no friction is used up and no contact pulls; from there on blocks slide and fly.
     fn run_with_friction(
         &mut self,
         scene: &Scene,
         friction: &Friction,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
-        let coefficients = friction.per_interface(scene.column.len());
-        let mut sticking = Scene { friction: None, ..scene.clone() };
-        (sticking.options.wanted, sticking.options.record_forces) = (Wanted::Everything, true);
-        if scene.options.wanted != Wanted::Everything {
-            sticking.output_dt = None;
+        let sticking = sliding::sticking::without_sliding(scene);
+        if self.modes.prepare(&sticking, self.skips) {
+            self.prospects = None;
         }
-        // Blocks that are dropped or thrown do not begin on each other.
-        if scene.initial.x.is_empty() {
-            match self.run_valid(&sticking, progress) {
-                Ok(response) if sticking::stands(scene, &coefficients, &response) => {
-                    return Ok(sticking::reported(&scene.column, response));
-                }
-                Err(cancelled @ SolveError::Cancelled { .. }) => return Err(cancelled),
-                // What a column without sliding cannot do, one that slides may.
-                Ok(_) | Err(_) => {}
-            }
-        }
-        let lookahead = Default::default();
-        let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
+        let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, Default::default());
         let problem = Problem::new(scene, &ground, None, self.skips);
-        sliding::run(&problem, &coefficients, progress)
+        sliding::run(&problem, &friction.per_interface(scene.column.len()), sticking, &mut self.modes, progress)
     }
-}
-
-/// The fold: the pseudo-code of the crate's documentation, line by line.
-fn run(
-    problem: &Problem,
-    modes: &mut Modes,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Response, SolveError> {
-    modes.begin(problem);
-    let (mut initial, mut storage) = (transition::initial(problem), transition::initial(problem));
-    let mut recorder = Recorder::new(problem, &initial);
-    // Two states serve all events.
-    let (mut spare, mut after) = (&mut initial, &mut storage);
-    if let Some(first) = &transition::start(problem, spare)? {
-        after = first.after(spare, after);
-        recorder.transition(problem, spare, first, after);
-    }
-    let (mut mode, mut motion) = modes.enter(problem, after);
-    let mut stretches = 0;
-    loop {
-        let mut stretch = motion.next(problem)?;
-        recorder.read(problem, &mut stretch);
-        let Some(ended) = stretch.ended else {
-            stretches += 1;
-            if stretches % STRETCHES_BETWEEN_REPORTS == 0 {
-                report(progress, stretch.end)?;
-            }
-            continue;
-        };
-        let before = stretch.inside.end(after);
-        recorder.leave(problem, mode, before);
-        report(progress, before.t)?;
-        if let Ended::Over(over) = ended {
-            return Ok(recorder.finish(problem, before, over, modes));
-        }
-        // By reference: a transition is large, and `?` would copy it.
-        let next = transition(problem, before, ended, stretch.inside.closing());
-        let next = match &next {
-            Ok(next) => next,
-            Err(error) => return Err(error.clone()),
-        };
-        after = next.after(before, spare);
-        recorder.transition(problem, before, next, after);
-        spare = before;
-        if next.may_circle(after)
-            && let Some(forced) = break_circle(problem, after)?
-        {
-            let closed = forced.after(after, spare);
-            recorder.transition(problem, after, &forced, closed);
-            (spare, after) = (after, closed);
-        }
-        (mode, motion) = modes.enter(problem, after);
-    }
-}
-
-/// Reports the time; an error if the caller stops the run.
-fn report(progress: &mut dyn FnMut(f64) -> ControlFlow<()>, t: f64) -> Result<(), SolveError> {
-    if progress(t).is_break() { Err(SolveError::Cancelled { time: t }) } else { Ok(()) }
 }

@@ -12,8 +12,8 @@
 use super::error::SolveError;
 use super::phase::{Gap, Kind, Phase, StepEnd};
 use super::problem::Problem;
-use super::stretch::{Ended, Found, Over};
-use crate::mechanics::dynamics::{ContactForce, Interfaces};
+use super::stretch::{Ended, Found, Over, Panel};
+use crate::mechanics::dynamics::Interfaces;
 use crate::mechanics::integrator::Excursion;
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
@@ -290,12 +290,7 @@ impl Phase {
     }
 
     /// See [`Inside::forces`](super::stretch::Inside::forces). Forces at the end are kept for the next step.
-    pub(super) fn forces_in_step(
-        &mut self,
-        problem: &Problem,
-        step: StepEnd,
-        note: &mut dyn FnMut([&[ContactForce]; 3]),
-    ) {
+    pub(super) fn forces_in_step(&mut self, problem: &Problem, step: StepEnd, note: &mut dyn FnMut(&Panel)) {
         self.evaluate_start_forces(problem);
         self.evaluate_end_forces(problem, step.end);
         let last = self.forces.last.clone();
@@ -313,7 +308,8 @@ impl Phase {
                 end.copy_from_slice(&self.forces.last);
             }
             self.evaluate_forces_at_share(problem, step, at(panel as f64 + 0.5));
-            note([&start, &self.forces.last, &end]);
+            let times = || [panel as f64, panel as f64 + 1.0].map(|place| self.t + step.h * at(place));
+            note(&Panel { forces: [&start, &self.forces.last, &end], times: &times, weight: 1.0 });
             start = end;
         }
         self.forces.last.copy_from_slice(&last);

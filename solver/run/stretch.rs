@@ -65,8 +65,8 @@ pub(crate) trait Inside {
     /// Raises the largest angles so far, per block, to those in the stretch `[rad]`.
     fn raise_peaks(&mut self, peaks: &mut [f64]);
 
-    /// Calls `note` with contact forces at start, middle and end of panels so short that forces are parabolas over them.
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut([&[ContactForce]; 3]));
+    /// Calls `note` with the contact forces of panels so short that forces are parabolas over them.
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel));
 
     /// Visits finer stretches in place of a coarse one, as far as they are requested.
     fn refine(&mut self, _problem: &Problem, _request: Request, _visit: &mut dyn FnMut(&mut Stretch)) {}
@@ -78,6 +78,16 @@ pub(crate) trait Inside {
 
     /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
     fn end<'s>(&mut self, after: &'s mut State) -> &'s mut State;
+}
+
+/// Contact forces over a part of a stretch.
+pub(crate) struct Panel<'a> {
+    /// At start, middle and end.
+    pub forces: [&'a [ContactForce]; 3],
+    /// Times of start and end `[s]`; evaluated where somebody asks.
+    pub times: &'a dyn Fn() -> [f64; 2],
+    /// How often the motion passes the panel: a swing goes out and comes back.
+    pub weight: f64,
 }
 
 /// What a recorder requests of the inside of a multi-sample step.

@@ -6,13 +6,22 @@
 use super::phase::{Course, Kind, Phase, Swing};
 use super::problem::Problem;
 use super::step::PANELS_PER_TURN;
-use super::stretch::{Ended, Found, Over};
-use crate::mechanics::dynamics::ContactForce;
+use super::stretch::{Ended, Found, Over, Panel};
 use crate::mechanics::harmonics::OnTheVerge;
 use crate::mechanics::pendulum::Pendulum;
 use crate::numerics::guards::{first_crossing, polished};
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::Interface;
+
+/// A part of a swing from its start to an angle.
+#[derive(Clone, Copy)]
+struct Leg {
+    to: f64,
+    /// Whether the swing passes it after its crest.
+    is_back: bool,
+    /// How often it passes.
+    weight: f64,
+}
 
 /// How a swing ends, at which angle and rate beyond the balance, and when from its start `[s]`.
 struct End {
@@ -167,16 +176,19 @@ impl Phase {
     }
 
     /// Forces from the start of the swing to its crest, if it has turned, and to its end.
-    pub(super) fn forces_in_swing(
-        &mut self,
-        problem: &Problem,
-        swing: &Swing,
-        note: &mut dyn FnMut([&[ContactForce]; 3]),
-    ) {
+    pub(super) fn forces_in_swing(&mut self, problem: &Problem, swing: &Swing, note: &mut dyn FnMut(&Panel)) {
         let turn = if swing.has_turned() { swing.course.swing.turning_point() } else { None };
-        for to in [turn.unwrap_or(swing.course.start), swing.end[0]] {
-            self.forces_of_leg(problem, &swing.course, to, note);
-        }
+        let (start, end) = (swing.course.start, swing.end[0]);
+        let Some(turn) = turn else {
+            self.forces_of_leg(problem, &swing.course, Leg { to: end, is_back: false, weight: 1.0 }, note);
+            return;
+        };
+        // Back from the crest it passes the way out again, as far as it comes, and then what lies before the start.
+        let share_back = ((end - turn).abs() / (start - turn).abs()).min(1.0);
+        let comes_before = (end - turn).abs() > (start - turn).abs();
+        self.forces_of_leg(problem, &swing.course, Leg { to: turn, is_back: false, weight: 1.0 + share_back }, note);
+        let weight = if comes_before { 1.0 } else { 0.0 };
+        self.forces_of_leg(problem, &swing.course, Leg { to: end, is_back: true, weight }, note);
     }
 
     /// Forces between the start of a swing and an angle.
@@ -184,8 +196,8 @@ impl Phase {
         &mut self,
         problem: &Problem,
         course: &Course,
-        to: f64,
-        note: &mut dyn FnMut([&[ContactForce]; 3]),
+        Leg { to, is_back, weight }: Leg,
+        note: &mut dyn FnMut(&Panel),
     ) {
         let from = course.start;
         if from == to {
@@ -199,7 +211,13 @@ impl Phase {
             self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 0.5));
             let middle = self.forces.last.clone();
             self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 1.0));
-            note([&start, &middle, &self.forces.last]);
+            let moves_out = to > from && !is_back;
+            let time = |place: f64| {
+                let size = course.swing.rate_at(at(place)).unwrap_or(0.0);
+                self.t + course.swing.time_to(at(place), if moves_out { size } else { -size })
+            };
+            let times = || [panel as f64, panel as f64 + 1.0].map(time);
+            note(&Panel { forces: [&start, &middle, &self.forces.last], times: &times, weight });
             start.copy_from_slice(&self.forces.last);
         }
     }

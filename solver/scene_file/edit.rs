@@ -92,7 +92,12 @@ impl Table {
 }
 
 /// Keys of which a table takes one: where one is set, the others go.
-const ALTERNATIVES: [&[&str]; 5] = [
+const ALTERNATIVES: [&[&str]; 10] = [
+    &["half_width", "width", "diameter"],
+    &["bottom_half_width", "bottom_width", "bottom_diameter"],
+    &["top_half_width", "top_width", "top_diameter"],
+    &["half_height", "height"],
+    &["p", "R"],
     &["amplitude", "amplitude_g", "amplitude_uplift", "velocity"],
     &["omega", "frequency", "period", "omega_p"],
     &["scale", "pga", "pga_g", "pga_uplift", "pgv", "pgv_uplift", "pgd", "arias", "cav", "sa", "sa_g"],

@@ -13,5 +13,7 @@ pub use error::{SceneFileError, text};
 pub use reader::{Derived, MOST_BLOCKS, SceneFile};
 pub use setting::Setting;
 pub use table::Cause;
+#[doc(hidden)]
+pub use table::keys_asked_by;
 pub(crate) use template::Shaken;
 pub use template::Template;

@@ -8,7 +8,7 @@ use super::records::Records;
 use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Block, Column, ColumnError, Shape};
 use crate::friction::Friction;
-use crate::scene::{Initial, Method, Restitution, Scene, SceneError};
+use crate::scene::{Initial, LARGEST, Look, Method, OutputColumn, Restitution, Scene, SceneError};
 use serde::Serialize;
 use std::path::Path;
 
@@ -129,19 +129,25 @@ impl Reader<'_> {
                 root.wrong("gravity", format!("{gravity} is out of range"), "give m/s² above zero, or leave it out");
             return Err(own(wrong));
         }
-        let blocks = blocks(root, derived).map_err(own)?;
-        let column = Column::new(blocks, gravity)
-            .map_err(|error| own(root.wrong("block", error.to_string(), "correct the block")))?;
+        let (column, looks) = self.column(root, gravity, derived)?;
         let (column, initial) = initial(root, column).map_err(own)?;
         let mut scene = Scene::new(column);
-        scene.title = title;
+        (scene.title, scene.looks) = (title, looks);
         scene.initial = initial;
         scene.friction = friction(root).map_err(own)?;
         scene.restitution = restitution(root).map_err(own)?;
         scene.excitation = self.excitation(root, &scene.column)?;
-        solver(root, &mut scene).map_err(own)?;
+        if !solver(root, &mut scene).map_err(own)? {
+            derived.push(end_of(&scene));
+        }
         if let Some(mut output) = root.table("output").map_err(own)? {
             scene.output_dt = output.number("dt").map_err(own)?.map(|(value, _)| value);
+            for name in output.settings("columns").map_err(own)?.unwrap_or_default() {
+                let name = name.to_string();
+                let column = OutputColumn::parse(&name);
+                let wrong = || own(output.no_such("columns", "column", &name, &OutputColumn::NAMES));
+                scene.output_columns.push(column.ok_or_else(wrong)?);
+            }
             output.close().map_err(own)?;
         }
         scene.output_dt.get_or_insert(DEFAULT_OUTPUT_DT);
@@ -149,11 +155,92 @@ impl Reader<'_> {
     }
 }
 
+impl Reader<'_> {
+    /// The blocks, scaled to `[size]` where that is given.
+    fn column(
+        &self,
+        root: &mut Table,
+        gravity: f64,
+        derived: &mut Vec<Derived>,
+    ) -> Result<(Column, Vec<Look>), SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let size_table = root.table("size").map_err(own)?;
+        let (blocks, looks): (Vec<Block>, Vec<Look>) = blocks(root, derived).map_err(own)?.into_iter().unzip();
+        let of = |blocks: Vec<Block>| {
+            let column = Column::new(blocks, gravity);
+            column.map_err(|error| own(root.wrong("block", error.to_string(), "correct the block")))
+        };
+        let column = of(blocks)?;
+        let plain = looks.iter().all(|look| *look == Look::default());
+        let shapes: Vec<Shape> = looks.iter().map(|look| look.shape).collect();
+        let looks = if plain { Vec::new() } else { looks };
+        let Some(mut table) = size_table else { return Ok((column, looks)) };
+        let size = Size::read(&mut table).map_err(own)?;
+        // The slenderness first: widths against heights. All else follows from one factor of both.
+        let stretch = |column: &Column, factors: [f64; 2]| {
+            of(column.blocks().iter().zip(&shapes).map(|(block, shape)| stretched(block, *shape, factors)).collect())
+        };
+        let radius = column.stack(0).radius();
+        let wider = size.alpha.map_or(1.0, |alpha| libm::tan(alpha) / libm::tan(column.slenderness()));
+        let slender = stretch(&column, [wider, 1.0])?;
+        let whole = slender.stack(0);
+        let larger = match size.p {
+            Some(p) => (whole.frequency_parameter() / p).powi(2),
+            None => size.radius.unwrap_or(radius) / whole.radius(),
+        };
+        let scaled = stretch(&slender, [larger; 2])?;
+        // Masses and inertias that followed from the sizes that are given are none of the column.
+        derived.clear();
+        Ok((scaled, looks))
+    }
+}
+
+/// A block with its widths and heights multiplied. Masses grow with the side view; an inertia keeps its ratio to that of the homogeneous body.
+fn stretched(block: &Block, shape: Shape, [across, along]: [f64; 2]) -> Block {
+    let homogeneous = |block: &Block| {
+        Block::of_shape(shape, [block.bottom_half_width, block.top_half_width], block.half_height, block.mass).inertia
+    };
+    let mut scaled = Block {
+        bottom_half_width: across * block.bottom_half_width,
+        top_half_width: across * block.top_half_width,
+        half_height: along * block.half_height,
+        centroid_height: along * block.centroid_height,
+        mass: across * along * block.mass,
+        inertia: 0.0,
+    };
+    scaled.inertia = homogeneous(&scaled) * (block.inertia / homogeneous(block));
+    scaled
+}
+
+/// `[size]`: what the column as one body is scaled to.
+struct Size {
+    /// Slenderness `[rad]`.
+    alpha: Option<f64>,
+    /// Frequency parameter `[rad/s]`.
+    p: Option<f64>,
+    /// Distance of the centroid from the pivot `[m]`.
+    radius: Option<f64>,
+}
+
+impl Size {
+    fn read(table: &mut Table) -> Result<Size, Wrong> {
+        let (alpha, p, radius) = (table.positive("alpha")?, table.positive("p")?, table.positive("R")?);
+        if let Some(value) = alpha.filter(|alpha| *alpha >= std::f64::consts::FRAC_PI_2) {
+            return Err(table.wrong("alpha", format!("{value} rad is no slenderness"), "give an angle below pi/2 rad"));
+        }
+        if p.is_some() && radius.is_some() {
+            return Err(table.clash("R", "p"));
+        }
+        table.close()?;
+        Ok(Size { alpha, p, radius })
+    }
+}
+
 /// Interval of the rows of `response.csv` where a scene does not say `[s]`.
 const DEFAULT_OUTPUT_DT: f64 = 0.01;
 
 /// `[[block]]`, or `[column]` with equal blocks.
-fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wrong> {
+fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Look)>, Wrong> {
     let tables = root.tables("block")?;
     let column = root.table("column")?;
     match (tables, column) {
@@ -227,35 +314,54 @@ impl Amount {
     }
 }
 
+/// Half of a size that is given as a half or as a whole, by which key; `diameter` is of drums.
+fn half(table: &mut Table, keys: &[&'static str]) -> Result<Option<(&'static str, f64)>, Wrong> {
+    let mut found: Option<(&'static str, f64)> = None;
+    for key in keys {
+        let Some((value, _)) = table.number(key)? else { continue };
+        if let Some((other, _)) = found {
+            return Err(table.clash(key, other));
+        }
+        if value < 0.0 || (value == 0.0 && !key.starts_with("top")) {
+            let remedy = if key.starts_with("top") { "zero or above" } else { "above zero" };
+            return Err(table.wrong(
+                key,
+                format!("{value} is out of range"),
+                &format!("give a finite number {remedy}"),
+            ));
+        }
+        found = Some((key, if key.contains("half") { value } else { 0.5 * value }));
+    }
+    Ok(found)
+}
+
 /// Shape, sizes and material.
 fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
-    let shape = match table.text("shape")?.map(|(shape, _)| shape).as_deref() {
-        None | Some("prism") => Shape::Prism,
-        Some("drum") => Shape::Drum,
-        Some(other) => return Err(table.no_such("shape", "shape", other, &["prism", "drum"])),
+    let shape = table.text("shape")?.map(|(shape, _)| shape);
+    let both = half(table, &["half_width", "width", "diameter"])?;
+    let bottom = half(table, &["bottom_half_width", "bottom_width", "bottom_diameter"])?;
+    let top = half(table, &["top_half_width", "top_width", "top_diameter"])?;
+    let diameter = [both, bottom, top].into_iter().flatten().map(|(key, _)| key).find(|key| key.contains("diameter"));
+    let shape = match (shape.as_deref(), diameter) {
+        (Some("drum"), _) | (None, Some(_)) => Shape::Drum,
+        (Some("prism"), Some(key)) => {
+            return Err(table.wrong(key, "a prism has a width".into(), "give the width, or shape = \"drum\""));
+        }
+        (None | Some("prism"), None) => Shape::Prism,
+        (Some(other), _) => return Err(table.no_such("shape", "shape", other, &["prism", "drum"])),
     };
-    let both = table.positive("half_width")?;
-    let bottom = table.positive("bottom_half_width")?;
-    let top = table.number("top_half_width")?.map(|(value, _)| value);
-    if let Some(value) = top.filter(|value| *value < 0.0) {
-        return Err(table.wrong(
-            "top_half_width",
-            format!("{value} is out of range"),
-            "give a finite number, zero or above",
-        ));
-    }
-    if both.is_some() && bottom.is_some() {
-        return Err(table.clash("bottom_half_width", "half_width"));
+    if let (Some((other, _)), Some((key, _))) = (both, bottom) {
+        return Err(table.clash(key, other));
     }
     let half_widths = match (bottom.or(both), top.or(both)) {
-        (Some(bottom), Some(top)) => [bottom, top],
-        (None, None) => return Err(table.missing("half_width", "give it in m")),
+        (Some((_, bottom)), Some((_, top))) => [bottom, top],
+        (None, None) => return Err(table.missing("half_width", "give it in m, or `width`, or `diameter`")),
         (None, Some(_)) => return Err(table.missing("bottom_half_width", "give it in m, or half_width")),
         (Some(_), None) => return Err(table.missing("top_half_width", "give it in m, or half_width for both")),
     };
-    let half_height = match table.positive("half_height")? {
-        Some(value) => value,
-        None => return Err(table.missing("half_height", "give it in m")),
+    let half_height = match half(table, &["half_height", "height"])? {
+        Some((_, value)) => value,
+        None => return Err(table.missing("half_height", "give it in m, or `height`")),
     };
     let depth = table.positive("depth")?;
     if depth.is_some() && shape == Shape::Drum {
@@ -275,7 +381,8 @@ fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
 }
 
 /// A block of `[[block]]`.
-fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<Block, Wrong> {
+fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<(Block, Look), Wrong> {
+    let name = table.text("name")?.map(|(name, _)| name).unwrap_or_default();
     let Sizes { shape, half_widths, half_height, amount } = sizes(table)?;
     let mut derive = |key: String, value: f64, unit: &'static str, from: String| {
         derived.push(Derived { key, value, unit, from });
@@ -310,7 +417,7 @@ fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<Block, Wrong> 
     }
     check_range(table, &block)?;
     table.close()?;
-    Ok(block)
+    Ok((block, Look { name, shape }))
 }
 
 /// The homogeneous body from which inertia and centroid follow.
@@ -334,7 +441,7 @@ fn check_range(table: &Table, block: &Block) -> Result<(), Wrong> {
 }
 
 /// The blocks of `[column]`: equal heights, the sides of the whole straight.
-fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Vec<Block>, Wrong> {
+fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Look)>, Wrong> {
     if count == 1 {
         return Ok(vec![block(table, derived)?]);
     }
@@ -377,7 +484,7 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
         check_range(table, block)?;
     }
     table.close()?;
-    Ok(blocks)
+    Ok(blocks.into_iter().map(|block| (block, Look { name: String::new(), shape })).collect())
 }
 
 /// `friction = 0.7`, or `[friction]` with `static` and `kinetic`, each a number or a list.
@@ -450,8 +557,42 @@ fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {
     Ok(restitution)
 }
 
-fn solver(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
-    let Some(mut table) = root.table("solver")? else { return Ok(()) };
+/// What to do about a ground motion without end.
+const GIVE_AN_END: &str = "the ground motion has no end: give the end of the run in s";
+
+/// Lets a run end after a free swing, as its file gives no end. `false` for a motion without end. A motion out of range keeps the usual end: it is
+/// refused for its own numbers.
+pub(super) fn end_after_free_swing(scene: &mut Scene) -> bool {
+    let motions = [&scene.excitation.horizontal, &scene.excitation.vertical];
+    if motions.into_iter().flatten().any(|motion| motion.invalid(LARGEST).is_some()) {
+        return true;
+    }
+    let end = scene.end_of_free_swing();
+    scene.options.t_end = end.unwrap_or(scene.options.t_end);
+    end.is_some()
+}
+
+/// The end of a run that follows from the ground motion.
+fn end_of(scene: &Scene) -> Derived {
+    let still = scene.excitation.still_from().unwrap_or(0.0);
+    let from = match still {
+        0.0 => "a free swing of 20/p, at least 10 s, rounded up".into(),
+        still => format!("the ground rests from {still} s on, and a free swing of 20/p, at least 10 s; rounded up"),
+    };
+    Derived { key: "solver.t_end".into(), value: scene.options.t_end, unit: "s", from }
+}
+
+/// Reads the solver's options. `false` where they have no end of the run.
+fn solver(root: &mut Table, scene: &mut Scene) -> Result<bool, Wrong> {
+    let Some(mut table) = root.table("solver")? else {
+        let (place, key, problem) = (root.place(), "solver.t_end".into(), "it is missing".into());
+        let missing = Wrong { place, key, problem, remedy: GIVE_AN_END.into(), cause: Cause::Key };
+        return if end_after_free_swing(scene) { Ok(false) } else { Err(missing) };
+    };
+    let has_end = table.has("t_end");
+    if !has_end && !end_after_free_swing(scene) {
+        return Err(table.missing("t_end", GIVE_AN_END));
+    }
     let options = &mut scene.options;
     for (key, option) in [
         ("t_end", &mut options.t_end),
@@ -475,5 +616,6 @@ fn solver(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
             )
         })?;
     }
-    table.close()
+    table.close()?;
+    Ok(has_end)
 }

@@ -2,6 +2,8 @@
 
 use super::setting::Setting;
 use std::borrow::Cow;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
@@ -82,6 +84,20 @@ impl Value {
 
 /// Keys that a table is usually asked for.
 const USUAL_KEYS: usize = 16;
+
+thread_local! {
+    /// Keys that readers on this thread ask for, where somebody listens.
+    static ASKED: RefCell<Option<BTreeSet<String>>> = const { RefCell::new(None) };
+}
+
+/// What `read` returns, and the dotted keys for which it has asked tables that were read to their ends: what files may have, whether they have it or
+/// not. For the test that holds the reference of keys and the reader together.
+#[doc(hidden)]
+pub fn keys_asked_by<T>(read: impl FnOnce() -> T) -> (T, BTreeSet<String>) {
+    ASKED.set(Some(BTreeSet::new()));
+    let result = read();
+    (result, ASKED.take().unwrap_or_default())
+}
 
 /// A table under way of being read.
 #[derive(Clone, Debug)]
@@ -407,6 +423,11 @@ impl Table {
 
     /// Refuses keys that nobody asked for.
     pub fn close(&self) -> Result<(), Wrong> {
+        ASKED.with_borrow_mut(|asked| {
+            if let Some(asked) = asked {
+                asked.extend(self.asked.iter().map(|key| self.dotted(key)));
+            }
+        });
         let Some(unknown) = self.entries.iter().find(|entry| !self.has_asked(&entry.key)) else { return Ok(()) };
         let nearest = self.asked.iter().min_by_key(|known| strsim::levenshtein(known, &unknown.key));
         let remedy = match nearest.filter(|known| is_slip(known, &unknown.key)) {

@@ -2,7 +2,7 @@
 
 use super::error::{SceneFileError, text};
 use super::excitation::set_amplitude;
-use super::reader::Reader;
+use super::reader::{Reader, end_after_free_swing};
 use super::records::Records;
 use super::setting::Setting;
 use super::table::{Cause, Table, Wrong};
@@ -72,9 +72,10 @@ impl Template {
         self.reader().read(root).map(|read| read.scene)
     }
 
-    /// The template for one who changes its ground motion again and again.
-    pub(crate) fn shaken(&self) -> Shaken<'_> {
-        Shaken { template: self, root: self.root.apart(), amplitude: None }
+    /// The template for one who changes its ground motion again and again, and no other key but those of this list.
+    pub(crate) fn shaken<'k>(&self, mut others: impl Iterator<Item = &'k str>) -> Shaken<'_> {
+        let has_end = self.root.named("t_end").iter().any(|key| key == END) || others.any(|key| key == END);
+        Shaken { template: self, root: self.root.apart(), amplitude: None, has_end }
     }
 
     fn reader(&self) -> Reader<'_> {
@@ -97,7 +98,9 @@ impl Template {
         let table = match name {
             "title" | "gravity" | "friction" => return Some(key.into()),
             "blocks" | "half_width" | "bottom_half_width" | "top_half_width" | "half_height" | "centroid_height"
+            | "width" | "bottom_width" | "top_width" | "diameter" | "bottom_diameter" | "top_diameter" | "height"
             | "shape" | "depth" | "density" | "mass" | "inertia" => "column",
+            "alpha" | "p" | "R" => "size",
             "eta" | "factors" | "law" => "restitution",
             "static" | "kinetic" => "friction",
             "theta" | "slide" => "initial",
@@ -112,6 +115,9 @@ impl Template {
         }
     }
 }
+
+/// The key of the end of a run.
+const END: &str = "solver.t_end";
 
 /// Sets keys, under their dotted names.
 fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s Setting)>) -> Result<(), Wrong> {
@@ -132,6 +138,8 @@ pub(crate) struct Shaken<'t> {
     root: Table,
     /// An amplitude that the table does not have yet, under its dotted name.
     amplitude: Option<(&'t str, &'t Setting)>,
+    /// Whether the end of the run is given, and does not follow from the ground motion.
+    has_end: bool,
 }
 
 impl<'t> Shaken<'t> {
@@ -159,6 +167,10 @@ impl<'t> Shaken<'t> {
         self.go_to(settings)?;
         let reader = self.template.reader();
         scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
+        if !self.has_end && !end_after_free_swing(scene) {
+            // Read as a whole, the scene is refused with its remedy.
+            return reader.read(self.root.clone()).map(|_| ());
+        }
         scene.check().map_err(|errors| reader.refused(&self.root, &errors.faults()[0]))
     }
 

@@ -11,7 +11,7 @@ use crate::scene_file::reader::Reader;
 use crate::scene_file::records::Records;
 use crate::scene_file::table::{Table, Wrong};
 use crate::scene_file::{SceneFileError, Setting, text};
-use crate::sweep::file::{range, rounded};
+use crate::sweep::file::range;
 use rocking_ground::{Direction, Record, Synthetic, TextOptions, by_number, record_and_component};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -41,9 +41,6 @@ const DEFAULT_STATES: [LimitState; 4] = [
 /// Replicates beyond which a number is taken for a mistake.
 const MOST_REPLICATES: u64 = 1_000_000;
 
-/// Relative error of a value of a range: a few roundings.
-const ROUNDING_OF_STEPS: f64 = 8.0 * f64::EPSILON;
-
 impl IdaFile {
     /// Reads a study from a TOML file; scene and records are found relative to it.
     ///
@@ -67,11 +64,13 @@ impl IdaFile {
         let intensity = intensity(&mut root).map_err(own)?;
         let levels = values(&mut root, "levels", "give a list, or { from, to, steps }").map_err(own)?;
         let free_swing = root.number("free_swing").map_err(own)?.map_or(DEFAULT_FREE_SWING, |(value, _)| value);
+        let is_followed = root.flag("trust").map_err(own)?.unwrap_or(true);
         let records = records(&reader, &mut root, &scene.column)?;
         let (states, options) = fragility(&mut root, &scene).map_err(own)?;
         root.close().map_err(own)?;
         inputs.extend(kept.files());
         let ida = Ida::new(scene, records, intensity, levels).and_then(|ida| ida.with_free_swing(free_swing));
+        let ida = ida.map(|ida| ida.followed(is_followed));
         let ida = ida.map_err(|error| {
             let (key, remedy) = match &error {
                 IdaError::Level { .. } | IdaError::NoLevels => ("levels", "correct the levels"),
@@ -124,9 +123,8 @@ fn values(table: &mut Table, key: &'static str, remedy: &str) -> Result<Vec<f64>
     let Some(mut inner) = table.table(key)? else { return Ok(Vec::new()) };
     let settings = range(&mut inner)?;
     inner.close()?;
-    // A range of decimal steps has decimal values: 0.4, not 0.3999999999999999.
     let number = |setting: Setting| match setting {
-        Setting::Number(number) => Some(rounded(number, ROUNDING_OF_STEPS)),
+        Setting::Number(number) => Some(number),
         Setting::Text(_) => None,
     };
     Ok(settings.into_iter().filter_map(number).collect())

@@ -12,6 +12,7 @@ use crate::response::{EventKind, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, SceneErrors, Wanted};
 use crate::sweep::Fate;
+use crate::trust::{Follow, follow_run};
 use rayon::prelude::*;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Excitation, Motion, Record, RecordError};
@@ -36,6 +37,7 @@ pub struct Ida {
     intensity: Intensity,
     levels: Vec<f64>,
     free_swing: f64,
+    is_followed: bool,
     /// Factor of each record per unit of the level; its square for the Arias intensity.
     factors: Vec<f64>,
 }
@@ -106,6 +108,8 @@ pub struct IdaOutcome {
     pub peaks: Vec<f64>,
     /// Slide of each interface at the end `[m]`; empty without friction.
     pub residual_slides: Vec<f64>,
+    /// Time up to which the angles are known, of a run whose verdict is not determined `[s]`: peaks and gap are those until then.
+    pub horizon: Option<f64>,
 }
 
 /// A run of a study.
@@ -184,7 +188,7 @@ impl Ida {
             factor.map_err(|error| IdaError::Record { name: record.name.clone(), error })
         };
         let factors = records.iter().map(factor).collect::<Result<_, _>>()?;
-        Ok(Ida { scene, records, intensity, levels, free_swing: DEFAULT_FREE_SWING, factors })
+        Ok(Ida { scene, records, intensity, levels, free_swing: DEFAULT_FREE_SWING, is_followed: true, factors })
     }
 
     /// The study with another time after each record `[s]`; default 10.
@@ -196,6 +200,18 @@ impl Ida {
             return Err(IdaError::FreeSwing(free_swing));
         }
         Ok(Ida { free_swing, ..self })
+    }
+
+    /// The study with or without companions, which say of each run whether its verdict is determined ([`crate::trust`]); default with. They take ten
+    /// times as long as the runs.
+    #[must_use]
+    pub fn followed(self, is_followed: bool) -> Ida {
+        Ida { is_followed, ..self }
+    }
+
+    /// Whether companions say of each run whether its verdict is determined.
+    pub fn is_followed(&self) -> bool {
+        self.is_followed
     }
 
     /// Its scene.
@@ -285,7 +301,15 @@ impl Ida {
         let run = |scene: Scene| {
             scene.check()?;
             let response = simulator.run(&scene)?;
-            Ok(outcome(&scene, &response))
+            let mut found = outcome(&scene, &response);
+            if self.is_followed {
+                let trust = follow_run(&scene, &response, Follow::VERDICT)?;
+                // What the run itself says at its end is what it says: no motion follows from the laws of contact.
+                if !trust.determined && found.fate != Fate::Undetermined {
+                    found = open(&scene, response, trust.horizon);
+                }
+            }
+            Ok(found)
         };
         IdaRun { index, record, level, scale, result: self.scene_of(index).and_then(run) }
     }
@@ -306,7 +330,6 @@ impl Ida {
 
 fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
     let column = &scene.column;
-    let share = |(block, peak): (usize, &f64)| peak / column.stack(block).slenderness();
     let slides = response.sliding.as_ref().map(|report| report.residual_slide.clone());
     IdaOutcome {
         fate: Fate::of(response),
@@ -315,8 +338,27 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
         overturned_at: response.overturned_at(),
         first_uplift: first_uplift(response),
         largest_gap: largest_gap(column, response),
-        peaks: response.peak_theta.iter().enumerate().map(share).collect(),
+        peaks: response.peaks(column),
         residual_slides: slides.unwrap_or_default(),
+        horizon: None,
+    }
+}
+
+/// What is known of a run whose verdict is not determined: that up to the horizon `[s]`.
+fn open(scene: &Scene, mut response: Response, horizon: f64) -> IdaOutcome {
+    response.samples.retain(|row| row.t <= horizon);
+    response.events.retain(|event| event.t <= horizon);
+    let largest = |block: usize| response.samples.iter().map(|row| row.theta[block].abs()).fold(0.0, f64::max);
+    response.peak_theta = (0..scene.column.len()).map(largest).collect();
+    response.impacts = response.events.iter().filter(|event| event.kind.is_impact()).count();
+    let known = outcome(scene, &response);
+    IdaOutcome {
+        fate: Fate::NotDetermined,
+        block: None,
+        overturned_at: None,
+        residual_slides: Vec::new(),
+        horizon: Some(horizon),
+        ..known
     }
 }
 

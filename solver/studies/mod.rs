@@ -14,10 +14,12 @@ mod gap;
 mod ida;
 mod observation;
 pub mod probit;
+mod proportion;
 mod stripes;
 
 pub use file::IdaFile;
 pub use fragility::{Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout};
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
 pub use observation::{LimitState, NoLimitState, Observation};
+pub use proportion::Proportion;
 pub use stripes::{FRACTILES, Stripe, fractile, stripes};

@@ -27,9 +27,9 @@ impl Observation {
         matches!(self.fate, Some(Fate::Overturns | Fate::Collapses))
     }
 
-    /// Whether the run has an answer: it did not fail, and a motion followed from the laws of contact to its end.
+    /// Whether the run has an answer: it did not fail, a motion followed from the laws of contact to its end, and its verdict is determined.
     pub fn is_decided(&self) -> bool {
-        !matches!(self.fate, None | Some(Fate::Undetermined))
+        !matches!(self.fate, None | Some(Fate::Undetermined | Fate::NotDetermined))
     }
 
     /// Largest `|θ|/α` of all blocks, infinite where the column is lost; `None` for an undecided run.
@@ -65,7 +65,7 @@ pub enum LimitState {
 }
 
 impl LimitState {
-    /// Whether a run reached the state; `None` for a run that cannot tell: a failed one, and an undetermined one that had not reached it before.
+    /// Whether a run reached the state; `None` for a run that cannot tell: a failed one, and an undecided one that had not reached it before.
     pub fn is_reached(&self, run: &Observation) -> Option<bool> {
         let largest = |values: &[f64]| values.iter().map(|value| value.abs()).fold(0.0, f64::max);
         let reached = match *self {
@@ -84,7 +84,7 @@ impl LimitState {
                 run.is_lost() || run.is_decided() && largest(&run.residual_slides) > above
             }
         };
-        // What was reached before a run became undetermined was reached.
+        // What was reached before a run became undetermined, or lost what determines it, was reached.
         (reached || run.is_decided()).then_some(reached).filter(|_| run.fate.is_some())
     }
 }

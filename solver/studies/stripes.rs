@@ -22,9 +22,10 @@ pub struct Stripe {
 }
 
 impl Stripe {
-    /// Runs without an answer: failed, or undetermined.
+    /// Runs without an answer: failed, undetermined, or not determined.
     pub fn undecided(&self) -> usize {
-        let undetermined = Fate::ALL.iter().zip(self.fates).filter(|(fate, _)| **fate == Fate::Undetermined);
+        let is_open = |fate: Fate| matches!(fate, Fate::Undetermined | Fate::NotDetermined);
+        let undetermined = Fate::ALL.iter().zip(self.fates).filter(|(fate, _)| is_open(**fate));
         self.errors + undetermined.map(|(_, count)| count).sum::<usize>()
     }
 }

@@ -1,5 +1,6 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
+use super::distributed::{KINDS, Placed, distribution, sample, sampling};
 use super::points::{Ask, Axis, Combine, Sweep};
 use crate::scene_file::edit::exclude_each_other;
 use crate::scene_file::reader::Reader;
@@ -44,9 +45,7 @@ impl Sweep {
             (Some(_), Some(_)) => {
                 return Err(own(root.wrong("scene", "the base scene is given already".into(), "remove it")));
             }
-            (None, Some((name, _))) => {
-                Template::from_file(&file.parent().unwrap_or(Path::new("")).join(name))?
-            }
+            (None, Some((name, _))) => Template::from_file(&file.parent().unwrap_or(Path::new("")).join(name))?,
             (None, None) => return Err(own(root.missing("scene", "name the base scene: scene = \"base.toml\""))),
         };
         let combine = match root.text("combine").map_err(own)? {
@@ -56,10 +55,11 @@ impl Sweep {
         };
         let ask = match root.text("ask").map_err(own)? {
             None => Ask::default(),
-            Some((name, _)) => Ask::parse(&name).ok_or_else(|| {
-                own(root.no_such("ask", "question", &name, &["outcome", "overturns", "peaks", "slides"]))
-            })?,
+            Some((name, _)) => {
+                Ask::parse(&name).ok_or_else(|| own(root.no_such("ask", "question", &name, &Ask::NAMES)))?
+            }
         };
+        let sampling = sampling(&mut root).map_err(own)?;
         let Some(mut table) = root.table("axes").map_err(own)? else {
             return Err(own(root.missing("axes", "add [axes] with a line for each key that varies")));
         };
@@ -70,9 +70,10 @@ impl Sweep {
             return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
         }
         // Dotted keys of one table stand together in TOML, wherever they are in the file.
-        placed.sort_by_key(|(_, place)| place.start);
+        placed.sort_by_key(|(_, place, _)| place.start);
         distinct(&placed).map_err(own)?;
-        let (axes, places): (_, Vec<Place>) = placed.into_iter().unzip();
+        let combine = sample(&root, combine, sampling, &mut placed, &template).map_err(own)?;
+        let (axes, places): (_, Vec<Place>) = placed.into_iter().map(|(axis, place, _)| (axis, place)).unzip();
         let sweep = Sweep { template, axes, combine, ask };
         if ask == Ask::Slides && sweep.scene(0).is_ok_and(|scene| scene.friction.is_none()) {
             let problem =
@@ -84,7 +85,7 @@ impl Sweep {
             Combine::Paired if lengths.iter().any(|length| *length != lengths[0]) => {
                 Some((format!("the axes have {lengths:?} values"), "paired axes must be equally long"))
             }
-            Combine::Cartesian if product(&lengths).is_none_or(|points| points > MOST_POINTS) => {
+            Combine::Cartesian | Combine::Sampled(_) if too_many(&sweep) => {
                 Some(("there are more than 1e12 points".to_string(), "give the axes fewer values"))
             }
             _ => None,
@@ -93,8 +94,7 @@ impl Sweep {
             return Err(own(root.wrong("axes", problem, remedy)));
         }
         if let Some((key, problem, remedy)) = sweep.misfit() {
-            let is_own = |axis: &Axis| axis.key == key || axis.key.starts_with(&format!("{key}."));
-            let axis = sweep.axes.iter().position(is_own);
+            let axis = sweep.axes.iter().position(|axis| is_of_axis(&axis.key, &key));
             return Err(own(Wrong {
                 place: axis.map_or_else(|| root.find("axes"), |axis| places[axis].clone()),
                 problem: format!("`{key}` of {}: {problem}", sweep.template.file().display()),
@@ -103,7 +103,32 @@ impl Sweep {
                 cause: Cause::Key,
             }));
         }
+        if let Some((axis, problem)) = sweep.bad_sample() {
+            return Err(own(Wrong {
+                place: places[axis].clone(),
+                key: format!("axes.{}", sweep.axes[axis].key),
+                problem,
+                remedy: "cut the distribution off by `min` and `max`, or choose one without such values".into(),
+                cause: Cause::Value,
+            }));
+        }
         Ok(sweep)
+    }
+
+    /// A sampled axis whose smallest or largest value no scene takes, and why; every such sample would be a row with an error.
+    fn bad_sample(&self) -> Option<(usize, String)> {
+        let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { f64::NAN };
+        (self.grid().len()..self.axes.len()).find_map(|axis| {
+            let Axis { key, values } = &self.axes[axis];
+            let by_size = |a: &usize, b: &usize| number(&values[*a]).total_cmp(&number(&values[*b]));
+            let extremes = [(0..values.len()).min_by(by_size)?, (0..values.len()).max_by(by_size)?];
+            extremes.into_iter().find_map(|sample| match self.scene(sample).err()? {
+                SceneFileError::Scene { key: own, problem, .. } if is_of_axis(key, &own) => {
+                    Some((axis, format!("sample {sample} is {}: {problem}", values[sample])))
+                }
+                _ => None,
+            })
+        })
     }
 
     /// A key with which no scene goes, as far as a few of them tell, with problem and remedy: every row would say so.
@@ -114,17 +139,22 @@ impl Sweep {
         };
         let first = misfit(0)?;
         let has_same = |index: usize| misfit(index).is_some_and(|(key, ..)| key == first.0);
-        self.samples().into_iter().all(has_same).then_some(first)
+        self.some_points().into_iter().all(has_same).then_some(first)
     }
 
     /// The last point, and one for each kind of ground motion.
-    fn samples(&self) -> Vec<usize> {
+    fn some_points(&self) -> Vec<usize> {
         let (mut samples, mut stride) = (vec![self.len() - 1], 1);
-        for axis in self.axes.iter().rev() {
+        for (place, axis) in self.axes.iter().enumerate().rev() {
+            let is_sampled = place >= self.grid().len();
+            // Samples run fastest, all of their axes together.
+            if place + 1 == self.grid().len() {
+                stride = self.samples().unwrap_or(1);
+            }
             if axis.key.ends_with(".kind") {
                 samples.extend((0..axis.values.len()).map(|place| place * stride));
             }
-            if self.combine == Combine::Cartesian {
+            if self.combine != Combine::Paired && !is_sampled {
                 stride *= axis.values.len();
             }
         }
@@ -132,11 +162,21 @@ impl Sweep {
     }
 }
 
+/// Whether a fault of a key is one of an axis.
+fn is_of_axis(axis: &str, key: &str) -> bool {
+    axis == key || axis.starts_with(&format!("{key}."))
+}
+
+fn too_many(sweep: &Sweep) -> bool {
+    let lengths: Vec<usize> = sweep.grid().iter().map(|axis| axis.values.len()).chain(sweep.samples()).collect();
+    product(&lengths).is_none_or(|points| points > MOST_POINTS)
+}
+
 /// Whether no axis takes the place of another one.
-fn distinct(axes: &[(Axis, Place)]) -> Result<(), Wrong> {
-    for (index, (axis, place)) in axes.iter().enumerate() {
-        let is_other = |(other, _): &&(Axis, Place)| other.key == axis.key || exclude_each_other(&other.key, &axis.key);
-        let Some((other, _)) = axes[..index].iter().find(is_other) else { continue };
+fn distinct(axes: &[Placed]) -> Result<(), Wrong> {
+    for (index, (axis, place, _)) in axes.iter().enumerate() {
+        let is_other = |(other, ..): &&Placed| other.key == axis.key || exclude_each_other(&other.key, &axis.key);
+        let Some((other, ..)) = axes[..index].iter().find(is_other) else { continue };
         return Err(Wrong {
             place: place.clone(),
             key: format!("axes.{}", axis.key),
@@ -153,11 +193,11 @@ fn product(lengths: &[usize]) -> Option<usize> {
 }
 
 /// The axes of a table with their places, those of tables within under their dotted names.
-fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<(Axis, Place)>) -> Result<(), Wrong> {
+fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<Placed>) -> Result<(), Wrong> {
     for key in table.keys() {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         if let Some(values) = table.settings(&key)? {
-            axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
+            axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
@@ -165,9 +205,14 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
         if inner.keys().is_empty() && !template.has_table(&path) {
             return Err(no_values(table, &key));
         }
-        if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
+        if let Some(kind) = KINDS.into_iter().find(|kind| inner.has(kind)) {
+            let found = distribution(&mut inner, kind)?;
+            // Its values are drawn once all axes are known.
+            let own = axis(table, &key, &path, vec![found.quantile(0.5)], template)?;
+            axes.push((own, table.find(&key), Some(found)));
+        } else if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
             let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
-            axes.push((axis(table, &key, &path, values, template)?, table.find(&key)));
+            axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
         } else {
             read_axes(&mut inner, &path, template, axes)?;
         }
@@ -222,8 +267,7 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
         Setting::Number(match (share, is_log) {
             (0.0, _) => from,
             (1.0, _) => to,
-            // Whole numbers from end to end stay whole.
-            (_, false) => from + step as f64 * (to - from) / (steps - 1.0),
+            (_, false) => decimal(from + step as f64 * (to - from) / (steps - 1.0), from.abs().max(to.abs())),
             (share, true) => {
                 let [from, to] = [from, to].map(libm::log);
                 // Rounding of the logarithm is a relative error of the number.
@@ -234,8 +278,17 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     Ok((0..steps as usize).map(value).collect())
 }
 
+/// Roundings of a value between two ends, relative to the larger one.
+const ROUNDING_OF_STEPS: f64 = 4.0 * f64::EPSILON;
+
+/// A value between ends of this size: of decimal steps the decimal number, 1 and not 0.9999999999999999.
+fn decimal(value: f64, size: f64) -> f64 {
+    let error = ROUNDING_OF_STEPS * size;
+    if value.abs() <= error { 0.0 } else { rounded(value, error / value.abs()) }
+}
+
 /// The number of twelve digits that a number is but for a relative error: powers of ten between powers of ten, whole numbers.
-pub(crate) fn rounded(value: f64, error: f64) -> f64 {
+fn rounded(value: f64, error: f64) -> f64 {
     let short = format!("{value:.11e}").parse().unwrap_or(value);
     if (value - short).abs() <= error * value.abs() { short } else { value }
 }

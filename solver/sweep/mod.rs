@@ -3,4 +3,13 @@
 pub(crate) mod file;
 mod points;
 
-pub use points::{Ask, Axis, Combine, Fate, Outcome, PointError, Row, Sweep};
+mod distributed;
+
+mod distribution;
+
+mod sampling;
+
+mod copula;
+
+pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep};
+pub use sampling::SamplingMethod;

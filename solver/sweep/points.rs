@@ -6,10 +6,13 @@
 //! Within a thread they run one after another: sixteen side by side, with Taylor coefficients in lanes of eight, took longer, as events,
 //! contact and set-up stay scalar and lose their place in the cache.
 
+use crate::column::Column;
 use crate::response::{ModeName, Response, StopReason};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
+use crate::trust::{Follow, follow_run};
+use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
 
@@ -31,6 +34,9 @@ pub enum Combine {
     Cartesian,
     /// The first values together, then the second ones, and so on.
     Paired,
+    /// The last so many axes are samples, the first values of these together, then the second ones; each sample with each combination of the values of the
+    /// other axes. Samples run fastest.
+    Sampled(usize),
 }
 
 impl Combine {
@@ -57,9 +63,16 @@ pub enum Ask {
     Peaks,
     /// As [`Ask::Peaks`], and the slides at the end; of scenes with friction.
     Slides,
+    /// As [`Ask::Peaks`], and what contacts need; of scenes without friction.
+    Validity,
+    /// As [`Ask::Peaks`], and whether the verdict is determined: nine companions of each run say so ([`crate::trust`]), and take ten times as long.
+    Trust,
 }
 
 impl Ask {
+    /// Names in sweep files.
+    pub const NAMES: [&str; 6] = ["outcome", "overturns", "peaks", "slides", "validity", "trust"];
+
     /// The question of this name.
     pub fn parse(name: &str) -> Option<Ask> {
         match name {
@@ -67,13 +80,15 @@ impl Ask {
             "overturns" => Some(Ask::Overturns),
             "peaks" => Some(Ask::Peaks),
             "slides" => Some(Ask::Slides),
+            "validity" => Some(Ask::Validity),
+            "trust" => Some(Ask::Trust),
             _ => None,
         }
     }
 
     /// Whether runs go on to their end, and largest angles are asked for.
     pub fn is_of_peaks(self) -> bool {
-        matches!(self, Ask::Peaks | Ask::Slides)
+        matches!(self, Ask::Peaks | Ask::Slides | Ask::Validity | Ask::Trust)
     }
 }
 
@@ -106,12 +121,21 @@ pub enum Fate {
     Collapses,
     /// No motion follows from the laws of contact with friction.
     Undetermined,
+    /// Runs that differ by less than anybody can know do not agree on what becomes of it ([`crate::trust`]); of studies only.
+    NotDetermined,
 }
 
 impl Fate {
     /// All of them.
-    pub const ALL: [Fate; 6] =
-        [Fate::NoUplift, Fate::Slides, Fate::Rocks, Fate::Overturns, Fate::Collapses, Fate::Undetermined];
+    pub const ALL: [Fate; 7] = [
+        Fate::NoUplift,
+        Fate::Slides,
+        Fate::Rocks,
+        Fate::Overturns,
+        Fate::Collapses,
+        Fate::Undetermined,
+        Fate::NotDetermined,
+    ];
 
     /// What became of the column of a run.
     pub fn of(response: &Response) -> Fate {
@@ -126,7 +150,7 @@ impl Fate {
         }
     }
 
-    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`.
+    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
     pub fn name(self) -> &'static str {
         match self {
             Fate::NoUplift => "no-uplift",
@@ -135,6 +159,7 @@ impl Fate {
             Fate::Slides => "slides",
             Fate::Collapses => "collapses",
             Fate::Undetermined => "undetermined",
+            Fate::NotDetermined => "not-determined",
         }
     }
 }
@@ -152,12 +177,46 @@ pub struct Outcome {
     pub block: Option<usize>,
     /// When the column overturned, if that is asked for `[s]`.
     pub overturned_at: Option<f64>,
+    /// Whether the ground moves on after `t_end`: a column that stands does so up to then.
+    pub truncated: bool,
     /// Largest angle of each block over the slenderness of the stack that begins with it, base first; only if peaks are asked for.
     pub peaks: Vec<f64>,
     /// Label of the mode at the end, `rest` where nothing moves; only if peaks are asked for.
     pub last_mode: Option<String>,
     /// Slides at the end, base first `[m]`; only if they are asked for.
     pub residual_slides: Vec<f64>,
+    /// What contacts need, up to the point of no return; only if that is asked for, and nothing slid.
+    pub needs: Option<Needs>,
+    /// Whether the verdict is determined; only if that is asked for.
+    pub determined: Option<bool>,
+}
+
+/// What the contacts of a run need, all of them together, up to the point of no return ([`crate::validity`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Needs {
+    /// Whether no contact parts or pulls, and some coefficient of friction is enough.
+    pub valid: bool,
+    /// Largest friction demand, dimensionless.
+    pub mu_demand: f64,
+    /// Smallest normal force over the weight above its interface, dimensionless.
+    pub min_normal: f64,
+    /// Number of separations.
+    pub separations: usize,
+}
+
+impl Needs {
+    fn of(column: &Column, validity: &Validity) -> Needs {
+        let share = |(interface, contact): (usize, &ContactNeeds)| {
+            contact.min_normal_force.value / (column.mass_above(interface) * column.gravity())
+        };
+        Needs {
+            valid: validity.holds(),
+            mu_demand: validity.largest_demand(),
+            min_normal: validity.contacts.iter().enumerate().map(share).fold(f64::INFINITY, f64::min),
+            separations: validity.separations,
+        }
+    }
 }
 
 /// Why a point has no result.
@@ -211,7 +270,7 @@ impl<'s> Worker<'s> {
         Worker {
             sweep,
             simulator: Simulator::new(),
-            shaken: sweep.template.shaken(),
+            shaken: sweep.template.shaken(sweep.axes.iter().map(|axis| axis.key.as_str())),
             scene: None,
             settings: Vec::new(),
             last_settings: Vec::new(),
@@ -252,18 +311,38 @@ impl<'s> Worker<'s> {
         };
         // Read from a file, it is valid.
         let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
-        Ok(self.sweep.outcome(scene, &response))
+        let mut outcome = self.sweep.outcome(scene, &response);
+        if self.sweep.ask == Ask::Trust {
+            outcome.determined = Some(follow_run(scene, &response, Follow::VERDICT)?.determined);
+        }
+        Ok(outcome)
     }
 }
 
 impl Sweep {
     /// Number of points.
     pub fn len(&self) -> usize {
-        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        let lengths = |axes: &[Axis]| axes.iter().map(|axis| axis.values.len()).collect::<Vec<_>>();
         match self.combine {
-            Combine::Cartesian => lengths.product(),
-            Combine::Paired => lengths.min().unwrap_or(0),
+            Combine::Paired => lengths(&self.axes).into_iter().min().unwrap_or(0),
+            _ => lengths(self.grid()).into_iter().product::<usize>() * self.samples().unwrap_or(1),
         }
+    }
+
+    /// The axes that are not sampled.
+    pub fn grid(&self) -> &[Axis] {
+        self.parts().0
+    }
+
+    /// Number of samples for each combination of the other axes; `None` for a sweep without distributions.
+    pub fn samples(&self) -> Option<usize> {
+        self.parts().1.iter().map(|axis| axis.values.len()).min()
+    }
+
+    /// The axes that are not sampled, and those that are.
+    fn parts(&self) -> (&[Axis], &[Axis]) {
+        let sampled = if let Combine::Sampled(count) = self.combine { count } else { 0 };
+        self.axes.split_at(self.axes.len().saturating_sub(sampled))
     }
 
     /// Whether there is no point.
@@ -280,15 +359,18 @@ impl Sweep {
 
     /// The same, in place of what was there.
     fn put_settings<'s>(&'s self, index: usize, settings: &mut Vec<&'s Setting>) {
-        let mut rest = index;
         settings.clear();
-        settings.extend(self.axes.iter().rev().map(|axis| match self.combine {
-            Combine::Paired => &axis.values[index],
-            Combine::Cartesian => {
-                let value = &axis.values[rest % axis.values.len()];
-                rest /= axis.values.len();
-                value
-            }
+        if self.combine == Combine::Paired {
+            settings.extend(self.axes.iter().map(|axis| &axis.values[index]));
+            return;
+        }
+        let ((grid, sampled), samples) = (self.parts(), self.samples().unwrap_or(1));
+        let (mut rest, sample) = (index / samples, index % samples);
+        settings.extend(sampled.iter().rev().map(|axis| &axis.values[sample]));
+        settings.extend(grid.iter().rev().map(|axis| {
+            let value = &axis.values[rest % axis.values.len()];
+            rest /= axis.values.len();
+            value
         }));
         settings.reverse();
     }
@@ -301,12 +383,12 @@ impl Sweep {
         let keys = self.axes.iter().map(|axis| axis.key.as_str());
         let mut scene = self.template.with(keys.zip(self.settings(index)))?;
         scene.output_dt = None;
-        scene.options.record_forces = false;
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,
-            Ask::Peaks | Ask::Slides => Wanted::Everything,
+            Ask::Peaks | Ask::Slides | Ask::Validity | Ask::Trust => Wanted::Everything,
         };
+        scene.options.record_forces = self.ask == Ask::Validity;
         Ok(scene)
     }
 
@@ -328,19 +410,24 @@ impl Sweep {
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
         let with_peaks = self.ask.is_of_peaks();
-        let share = |(block, peak): (usize, &f64)| peak / scene.column.stack(block).slenderness();
         let last_mode = || response.events.last().map_or(ModeName::REST, |event| event.mode).to_string();
         Outcome {
             fate: Fate::of(response),
             impacts: response.impacts,
             block: response.overturned_block.or_else(|| response.collapsed_block()),
             overturned_at: response.overturned_at().filter(|_| self.ask != Ask::Overturns),
-            peaks: if with_peaks { response.peak_theta.iter().enumerate().map(share).collect() } else { Vec::new() },
+            truncated: response.truncated,
+            peaks: if with_peaks { response.peaks(&scene.column) } else { Vec::new() },
             last_mode: with_peaks.then(last_mode),
+            needs: match &response.validity {
+                Some(validity) if self.ask == Ask::Validity => Some(Needs::of(&scene.column, validity)),
+                _ => None,
+            },
             residual_slides: match &response.sliding {
                 Some(report) if self.ask == Ask::Slides => report.residual_slide.clone(),
                 _ => Vec::new(),
             },
+            determined: None,
         }
     }
 }

@@ -14,7 +14,7 @@ import sys
 import time
 
 PROGRAMS = {}
-for name in ("heyoka", "scipy"):
+for name in ("heyoka", "scipy", "mujoco"):
     try:
         PROGRAMS[name] = importlib.import_module(name + "_peer")
     except ImportError:

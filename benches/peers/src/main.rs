@@ -46,6 +46,6 @@ fn main() -> std::io::Result<()> {
     points.extend(scenes::record::run(&python));
     points.extend(scenes::column::run());
     points.extend(scenes::spectrum::run());
-    points.extend(scenes::friction::run());
+    points.extend(scenes::friction::run(&python));
     report::write(&points)
 }

@@ -6,9 +6,9 @@ use crate::ground;
 use crate::number::{coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
-use rocking::scene_file::{Derived, SceneFile};
+use rocking::scene_file::{Derived, SceneFile, Setting};
 use rocking::studies::{IdaFile, StudyRecord};
-use rocking::sweep::{Axis, Combine};
+use rocking::sweep::{Axis, Combine, Sweep};
 use rocking::{Block, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
@@ -98,6 +98,34 @@ struct SweepFindings {
     combine: &'static str,
     points: usize,
     axes: Vec<AxisFindings>,
+    /// Columns of the table.
+    columns: Vec<String>,
+    /// Number of points whose scenes were read: all, or evenly spread ones, the first and the last among them.
+    read: usize,
+    /// Number of these that are refused, which would be rows with errors, and the first reason.
+    refused: usize,
+    first_refusal: Option<String>,
+    /// Number of these whose ground motion goes on after `solver.t_end`.
+    cut: usize,
+}
+
+/// Points whose scenes are read before a sweep runs: reading takes some 10 µs each, and records are read once.
+const POINTS_READ: usize = 1000;
+
+/// Reads the scenes of points of a sweep, and runs none.
+fn dry_run(sweep: &Sweep, findings: &mut SweepFindings) {
+    findings.read = sweep.len().min(POINTS_READ);
+    let last = (findings.read.max(2) - 1) as u128;
+    for sample in 0..findings.read {
+        let index = ((sweep.len() - 1) as u128 * sample as u128 / last) as usize;
+        match sweep.scene(index) {
+            Ok(scene) => findings.cut += usize::from(scene.excitation.moves_after(scene.options.t_end)),
+            Err(error) => {
+                findings.refused += 1;
+                findings.first_refusal.get_or_insert_with(|| format!("point {index}: {error}"));
+            }
+        }
+    }
 }
 
 /// An axis: its key, number of values, and the first and the last of them.
@@ -111,24 +139,55 @@ struct AxisFindings {
 
 fn check_sweep(path: &Path, as_json: bool) -> Result<(), Failure> {
     let sweep = sweep::read(path)?;
-    let axis = |axis: &Axis| {
+    let axis = |(place, axis): (usize, &Axis)| {
+        let mut values: Vec<&Setting> = axis.values.iter().collect();
+        // Samples have no order of their own.
+        if place >= sweep.grid().len() {
+            let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { 0.0 };
+            values.sort_by(|a, b| number(a).total_cmp(&number(b)));
+        }
         let [from, to] =
-            [axis.values.first(), axis.values.last()].map(|value| value.map_or_else(String::new, ToString::to_string));
+            [values.first(), values.last()].map(|value| value.map_or_else(String::new, ToString::to_string));
         AxisFindings { key: axis.key.clone(), values: axis.values.len(), from, to }
     };
-    let findings = SweepFindings {
+    let mut findings = SweepFindings {
         scene: sweep.template.file().into(),
-        combine: if sweep.combine == Combine::Paired { "paired" } else { "cartesian" },
+        combine: match sweep.combine {
+            Combine::Paired => "paired",
+            Combine::Sampled(_) => "samples of the distributed axes, with each combination of the others",
+            _ => "cartesian",
+        },
         points: sweep.len(),
-        axes: sweep.axes.iter().map(axis).collect(),
+        axes: sweep.axes.iter().enumerate().map(axis).collect(),
+        columns: sweep::columns(&sweep)?.into_iter().map(|column| column.name).collect(),
+        read: 0,
+        refused: 0,
+        first_refusal: None,
+        cut: 0,
     };
+    dry_run(&sweep, &mut findings);
     if as_json {
         return json(&findings);
     }
-    let SweepFindings { scene, combine, points, axes } = findings;
+    let SweepFindings { scene, combine, points, axes, columns, read, refused, first_refusal, cut } = findings;
     let mut text = format!("{}: a valid sweep of {points} point(s), {combine}\n", shown(path));
     for AxisFindings { key, values, from, to } in axes {
         let _ = writeln!(text, "  {key}: {values} value(s), from {} to {}", printable(&from), printable(&to));
+    }
+    let _ = writeln!(text, "  columns of the table: {}", printable(&columns.join(", ")));
+    let which = if read == points { "all points".into() } else { format!("{read} points, evenly spread,") };
+    let _ = match first_refusal {
+        None => writeln!(text, "  scenes of {which} were read, and are valid"),
+        Some(first) => {
+            writeln!(
+                text,
+                "  scenes of {which} were read, and {refused} refused: they would be rows with errors; {}",
+                printable(&first)
+            )
+        }
+    };
+    if cut > 0 {
+        let _ = writeln!(text, "  the ground motion of {cut} of them goes on after solver.t_end, which cuts it");
     }
     let _ = writeln!(text, "its base scene {} is valid; run it with `rocking sweep {}`", shown(&scene), shown(path));
     print(&text)

@@ -3,7 +3,7 @@
 use crate::arguments::{self, Layout};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::OUTCOME;
+use crate::commands::sweep::{NOT_DETERMINED, OUTCOME, TRUST};
 use crate::error::{Failure, at};
 use crate::table::{Format, open};
 use crate::terminal::{json, print};
@@ -114,7 +114,7 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
         Some(record) => vec![record],
         None => (0..names.len()).filter(|place| ["file", "seed"].contains(&last(&names[*place]).as_str())).collect(),
     };
-    let (uplift, error) = (column("first_uplift"), column("error"));
+    let (uplift, error, trust) = (column("first_uplift"), column("error"), column(TRUST));
     let numbered = |prefix: &str| -> Vec<usize> {
         let is_of = |name: &String| name.strip_prefix(prefix).is_some_and(|block| block.parse::<usize>().is_ok());
         (0..names.len()).filter(|place| is_of(&names[*place])).collect()
@@ -137,6 +137,8 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
         if let (None, Some(error)) = (fate, error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
+        let open = trust.is_some_and(|trust| &row[trust] == NOT_DETERMINED);
+        let fate = if open { Some(Fate::NotDetermined) } else { fate };
         let numbers = |places: &[usize]| -> Result<Vec<f64>, Failure> {
             let filled = places.iter().filter(|place| !row[**place].is_empty());
             filled.map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
@@ -147,9 +149,10 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
             fate,
             has_uplift: match uplift {
                 Some(uplift) => !row[uplift].is_empty(),
-                None => matches!(fate, Some(Fate::Rocks | Fate::Overturns)),
+                None => matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined)),
             },
-            peaks: numbers(&peaks)?,
+            // Peaks of a run that is not determined are those of another run as well as its own.
+            peaks: if open { Vec::new() } else { numbers(&peaks)? },
             residual_slides: numbers(&slides)?,
         });
     }

@@ -3,6 +3,7 @@
 //! A table holds its points and not how many the sweep has. That the last ones are missing is therefore seen only if the sweep is
 //! given as well. Shards of different sweeps differ in their columns, or in the digests beside them.
 
+use crate::commands::probability;
 use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, read, share};
@@ -28,7 +29,9 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let wanted = sweep.map(Wanted::of).transpose()?;
     let mut inputs = shards.to_vec();
     inputs.extend(wanted.iter().flat_map(|wanted| inputs_of(wanted.file, &wanted.sweep)));
-    output::check(&[out.into()], &inputs)?;
+    let is_sampled = wanted.as_ref().is_some_and(|wanted| wanted.sweep.samples().is_some());
+    let outputs: Vec<PathBuf> = [out.into()].into_iter().chain(is_sampled.then(|| probability::table(out))).collect();
+    output::check(&outputs, &inputs)?;
     let mut tables = Vec::new();
     for path in shards {
         if Format::of(path)? != format {
@@ -52,13 +55,17 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     for path in shards {
         check_digest(path, &shards[0], wanted.as_ref())?;
     }
-    let told = match wanted {
+    let told = match &wanted {
         Some(wanted) => format!("all points of {}", shown(wanted.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
     share(&merged).map_err(failed)?;
     merged.persist(target).map_err(|error| failed(error.error))?;
-    print(&format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out)))
+    let mut told = format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out));
+    if let Some(Wanted { sweep, .. }) = &wanted {
+        told.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);
+    }
+    print(&told)
 }
 
 /// The sweep that the tables must make up.

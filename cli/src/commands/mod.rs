@@ -5,9 +5,11 @@ mod fragility;
 mod ida;
 mod init;
 mod inputs;
+mod keys;
 mod merge;
 mod modes;
 mod plot;
+mod probability;
 mod record;
 mod records;
 mod report;
@@ -16,6 +18,7 @@ mod shell;
 mod spectrum;
 mod sweep;
 mod thresholds;
+mod trust;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;
@@ -59,6 +62,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Ida(asked) => ida::ida(&asked),
         Command::Fragility(asked) => fragility::fragility(&asked),
         Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
+        Command::Keys { file, schema } => keys::keys(file, schema),
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),
     }

@@ -1,6 +1,7 @@
 //! `rocking run`: a scene in, its response out.
 
 use crate::arguments::{Dynamics, Picture, Run};
+use crate::commands::trust::Followed;
 use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
 use crate::number::fixed;
@@ -9,7 +10,8 @@ use crate::plot::NAMES;
 use crate::progress::Progress;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
-use rocking::run_folder::{Folder, Results, Run as Finished, SceneText};
+use rocking::run_folder::{COMPANIONS, Folder, Results, Run as Finished, SceneText};
+use rocking::sweep::Fate;
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -25,21 +27,27 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     }
     let folder = Folder::create(out)?;
     let bar = Progress::of_run(scene.options.t_end, asked.quiet);
+    let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| {
         bar.reached_time(t);
         ControlFlow::Continue(())
     })
-    .map_err(|error| Failure::Solve { scene: path.clone(), out: out.clone(), error })?;
+    .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
+    let followed = Followed::of(asked, &scene, &response, seconds).map_err(failed)?;
     bar.finish();
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
-    finished.outdated = NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]).collect();
+    finished.trust = followed.trust();
+    finished.outdated.extend(NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]));
     finished.outdated.push(report::NAME.into());
     folder.write(&finished)?;
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
+    if out.join(COMPANIONS).is_file() {
+        written.push(COMPANIONS.into());
+    }
     if asked.plots || asked.report {
         // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
         let results = Results::read(out)?;
@@ -58,29 +66,37 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if asked.json {
         return json_text(&folder.summary()?);
     }
-    print(&format!("{}wrote {} to {}\n", account(&scene, &response), written.join(", "), shown(out)))
+    print(&format!("{}wrote {} to {}\n", account(&scene, &response, &followed), written.join(", "), shown(out)))
 }
 
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
 const MODES_PRINTED: usize = 8;
 
 /// A few lines on what happened.
-fn account(scene: &Scene, response: &Response) -> String {
-    let outcome = match (response.status, response.overturned_block) {
-        (StopReason::Overturned, Some(block)) => format!("overturned at t = {:.4} s (block {block})", response.t_final),
-        (StopReason::Falls, _) => format!("overturns, certain from t = {:.4} s on", response.t_final),
-        (StopReason::AtRest, _) => format!("stands, at rest from t = {:.4} s on", response.t_final),
-        (StopReason::Collapsed, _) => format!(
-            "collapsed at t = {:.4} s ({} lost its support)",
-            response.t_final,
+fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
+    // The words of `outcome` in tables and in summary.json.
+    let fate = Fate::of(response).name().replace('-', " ");
+    let t = response.t_final;
+    let outcome = match response.status {
+        StopReason::Overturned => {
+            let block = response.overturned_block.map_or(String::new(), |block| format!(" (block {block})"));
+            format!("{fate} at t = {t:.4} s{block}")
+        }
+        StopReason::Falls => format!("{fate}, certain from t = {t:.4} s on"),
+        StopReason::AtRest | StopReason::EndOfTime if response.truncated => format!(
+            "{fate}; not overturned up to t = {} s, where the run ends and the ground still moves",
+            scene.options.t_end
+        ),
+        StopReason::AtRest if response.events.is_empty() => format!("{fate}, stands at rest"),
+        StopReason::AtRest => format!("{fate} and stands, at rest from t = {t:.4} s on"),
+        StopReason::Collapsed => format!(
+            "{fate} at t = {t:.4} s ({} lost its support)",
             response.collapsed_block().map_or("a block".into(), |block| format!("block {block}"))
         ),
-        (StopReason::Undetermined, _) => {
-            format!("undetermined from t = {:.4} s on: no motion follows from the laws of contact", response.t_final)
-        }
-        _ => format!("stands at t = {:.4} s, still rocking", response.t_final),
+        StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
+        _ => format!("{fate} and stands at t = {t:.4} s, still rocking"),
     };
-    let peaks: Vec<String> = response.peak_theta.iter().map(|angle| format!("{angle:.5}")).collect();
+    let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
     let modes = response.modes_by_time();
     let (told, others) = modes.split_at(modes.len().min(MODES_PRINTED));
     let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
@@ -92,8 +108,10 @@ fn account(scene: &Scene, response: &Response) -> String {
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", printable(&scene.title));
     }
-    let _ = writeln!(text, "{outcome}; {} impact(s)", response.impacts);
-    let _ = writeln!(text, "largest angles, base first: {} rad", peaks.join(", "));
+    let _ = writeln!(text, "{}{outcome}; {} impact(s)", followed.lead(), response.impacts);
+    text.push_str(&followed.line());
+    let (peaks, angles) = (list(&response.peaks(&scene.column)), list(&response.peak_theta));
+    let _ = writeln!(text, "largest |θ|/α, base first: {peaks} (|θ|: {angles} rad)");
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
     if let Some(report) = response.motion_at_contacts() {
         let slides: Vec<String> = report.residual_slide.iter().map(|slide| fixed(100.0 * slide, 3)).collect();

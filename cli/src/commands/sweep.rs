@@ -4,6 +4,7 @@
 //! whole sweep in a file beside its table, by which `rocking merge` recognises shards of another sweep.
 
 use crate::arguments;
+use crate::commands::probability::{self, Lost};
 use crate::commands::{inputs, spectrum};
 use crate::error::{Failure, at};
 use crate::output;
@@ -33,6 +34,9 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
     let mut outputs = vec![out.clone()];
     outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    // Probabilities are those of whole tables.
+    let is_sampled = sweep.samples().is_some() && asked.shard.is_none();
+    outputs.extend(is_sampled.then(|| probability::table(&out)));
     output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
@@ -47,16 +51,19 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
     table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
-        sweep.lines(batch, |row| cells(&row, sweep.ask, columns.len()))
+        sweep.lines(batch, |row| with_trust(&row, sweep.ask, columns.len()))
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
+    let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
+    let probabilities = probability::write(&sweep, &lost, &out)?;
     if asked.json {
-        json(&tally)?;
+        json(&Counts { tally: &tally, lost })?;
     } else if !asked.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-        print(&format!("{tally}wrote {} row(s){resumed} to {}\n{drawn}", range.len(), shown(&out)))?;
+        let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
+        print(&format!("{tally}{wrote}{probabilities}{drawn}"))?;
     }
     match first_error {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
@@ -113,11 +120,13 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     sweep.template.records().into_iter().chain(of_axes).collect()
 }
 
-/// The `outcome` column of a table.
-pub const OUTCOME: &str = "outcome";
+pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
+
+/// The column that says whether the run was cut: the ground moves on after it.
+pub const TRUNCATED: &str = "truncated";
 
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
@@ -145,13 +154,37 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
         if sweep.ask == Ask::Slides {
             columns.extend(per_block("residual_slide"));
         }
+        if sweep.ask == Ask::Validity {
+            columns.push(Column::sparse("valid", Kind::Text));
+            columns.push(Column::sparse("mu_demand", Kind::Number));
+            columns.push(Column::sparse("min_normal", Kind::Number));
+            columns.push(Column::sparse("separations", Kind::Whole));
+        }
+        if sweep.ask == Ask::Trust {
+            columns.push(Column::sparse(TRUST, Kind::Text));
+        }
     }
+    columns.push(Column::sparse(TRUNCATED, Kind::Text));
     columns.push(Column::sparse("error", Kind::Text));
     Ok(columns)
 }
 
-/// Columns of every table besides its axes: index, outcome, impacts, block, time, error.
-const FIXED: usize = 6;
+/// Columns of every table besides its axes: index, outcome, impacts, block, time, truncated, error.
+const FIXED: usize = 7;
+
+/// Columns of `ask = "validity"` besides peaks and mode.
+const OF_VALIDITY: usize = 4;
+
+/// A row as so many cells, that of trust before those of the cut and the error.
+fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
+    if ask != Ask::Trust {
+        return cells(row, ask, columns);
+    }
+    let cells = cells(row, ask, columns - 1);
+    let word = row.result.as_ref().ok().and_then(|outcome| outcome.determined);
+    let word = word.map_or("", |determined| if determined { "determined" } else { NOT_DETERMINED });
+    cells.iter().take(columns - 3).chain([word]).chain(cells.iter().skip(columns - 3)).collect()
+}
 
 /// A row as so many cells.
 fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
@@ -173,13 +206,23 @@ fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
             cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
             if let Some(mode) = &outcome.last_mode {
                 // Columns of fewer blocks than the largest have blank peaks and slides.
-                let blocks =
-                    if ask == Ask::Slides { (columns - FIXED - axes - 1) / 2 } else { columns - FIXED - axes - 1 };
+                let blocks = match (ask, columns - FIXED - axes - 1) {
+                    (Ask::Slides, others) => others / 2,
+                    (Ask::Validity, others) => others - OF_VALIDITY,
+                    (_, others) => others,
+                };
                 cells.resize(before_peaks + blocks, String::new());
                 cells.push(mode.clone());
                 cells.extend(outcome.residual_slides.iter().map(|slide| format!("{slide:?}")));
-                cells.resize(columns - 1, String::new());
+                if let Some(needs) = outcome.needs {
+                    cells.push(needs.valid.to_string());
+                    cells.push(format!("{:?}", needs.mu_demand));
+                    cells.push(format!("{:?}", needs.min_normal));
+                    cells.push(needs.separations.to_string());
+                }
             }
+            cells.resize(columns - 2, String::new());
+            cells.push(outcome.truncated.to_string());
             cells.push(String::new());
         }
         Err(error) => {
@@ -244,6 +287,16 @@ impl std::fmt::Display for Fnv {
     }
 }
 
+/// A sweep as JSON.
+#[derive(Serialize)]
+struct Counts<'a> {
+    #[serde(flatten)]
+    tally: &'a Tally,
+    /// Probabilities of a sweep over distributions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    lost: Vec<Lost>,
+}
+
 /// Number of rows by outcome.
 #[derive(Debug, Default, Serialize)]
 struct Tally {
@@ -255,6 +308,8 @@ struct Tally {
     collapses: usize,
     undetermined: usize,
     errors: usize,
+    /// Rows whose ground motion goes on after the run, and that did not overturn before; counted above by outcome.
+    truncated: usize,
 }
 
 impl Tally {
@@ -262,9 +317,12 @@ impl Tally {
     fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
         let (mut tally, mut first_error) = (Tally::default(), None);
         let mut reader = csv::Reader::from_path(path)?;
-        let outcome = reader.headers()?.iter().position(|name| name == OUTCOME);
+        let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
+        let [outcome, truncated] = [OUTCOME, TRUNCATED].map(|name| reader.headers().map(|own| place(own, name)));
+        let (outcome, truncated) = (outcome?, truncated?);
         for row in reader.records() {
             let row = row?;
+            tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
             *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
                 name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
                 name if name == Fate::Rocks.name() => &mut tally.rocks,
@@ -293,6 +351,14 @@ impl std::fmt::Display for Tally {
                 write!(f, ", {name} {count}")?;
             }
         }
-        writeln!(f, ", errors {errors}")
+        writeln!(f, ", errors {errors}")?;
+        if self.truncated > 0 {
+            writeln!(
+                f,
+                "the ground still moves at the end of {} run(s), where solver.t_end cuts them",
+                self.truncated
+            )?;
+        }
+        Ok(())
     }
 }

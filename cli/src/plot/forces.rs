@@ -50,22 +50,23 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     }
     mark_ending(&mut sheet, motion, &normal, Anchor::Start);
 
-    let [_, needed] = span(response.friction_demand.iter().copied().chain(demands(&contacts)));
+    let [_, needed] = span(response.counted_forces().0.into_iter().chain(demands(&contacts)));
     let most = LARGEST_DEMAND.max(motion.results.available_friction().map_or(0.0, |friction| friction * 4.0 / 3.0));
     let least = motion.results.available_friction().unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
     let friction = Panel::wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
     sheet.label_upwards(&friction);
+    // Below the curves: a peak that reaches it is seen.
+    if let Some(available) = motion.results.available_friction() {
+        sheet.level(&friction, available, &AVAILABLE);
+    }
     for (interface, contact) in contacts.iter().enumerate() {
         let runs = contact.demand.iter().map(|run| {
             let placed: Vec<Point> = run.iter().map(|point| friction.place(*point)).collect();
             curve::straighten(&curve::thin_along_x(&placed))
         });
         sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
-    }
-    if let Some(available) = motion.results.available_friction() {
-        sheet.level(&friction, available, &AVAILABLE);
     }
     let below = sheet.label_below(&friction);
     sheet.height = largest_demands(&mut sheet, motion, &friction, below) + 8.0;
@@ -78,10 +79,14 @@ fn contacts(motion: &DrawnRun) -> Vec<Contact> {
         (0..column.len()).map(|interface| column.mass_above(interface) * column.gravity()).collect();
     let empty = || Contact { normal: Vec::new(), demand: vec![Vec::new()] };
     let mut contacts: Vec<Contact> = weights.iter().map(|_| empty()).collect();
+    let until = counted_until(motion).unwrap_or(f64::INFINITY);
     let upright = if motion.overturned() { motion.samples.len() - 1 } else { motion.samples.len() };
     for sample in &motion.samples[..upright.max(1)] {
         for ((contact, force), weight) in contacts.iter_mut().zip(sample.contact_forces(column)).zip(&weights) {
             contact.normal.push([sample.t, force.normal / weight]);
+            if sample.t > until {
+                continue;
+            }
             if force.normal > 0.0 {
                 let demand = force.tangential.abs() / force.normal;
                 contact.demand.last_mut().expect("there is a first").push([sample.t, demand]);
@@ -92,6 +97,11 @@ fn contacts(motion: &DrawnRun) -> Vec<Contact> {
     }
     contacts.iter_mut().for_each(|contact| contact.demand.retain(|run| !run.is_empty()));
     contacts
+}
+
+/// The point of no return of a run that overturns, up to which friction demand counts `[s]`.
+fn counted_until(motion: &DrawnRun) -> Option<f64> {
+    motion.results.response.validity.as_ref().filter(|_| motion.overturned()).map(|validity| validity.until)
 }
 
 fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
@@ -108,10 +118,12 @@ fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64
     });
     // Below the panel and not along its line: there the name would lie on the curves.
     let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
-    if !response.friction_demand.is_empty() {
-        entries.push((Key::None, "Largest demand of the whole run (◂):".to_string()));
+    let (largest, _) = response.counted_forces();
+    if !largest.is_empty() {
+        let which = if counted_until(motion).is_some() { "up to the point of no return" } else { "of the whole run" };
+        entries.push((Key::None, format!("Largest demand {which} (◂):")));
     }
-    for (interface, demand) in response.friction_demand.iter().enumerate() {
+    for (interface, demand) in largest.iter().enumerate() {
         let what = if demand.is_finite() { brief(*demand) } else { "no friction is enough".into() };
         entries.push((Key::Line(style::line(interface)), what));
         if panel.reaches(*demand) {
@@ -134,10 +146,12 @@ fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
         Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
         None => caption.push_str("; the scene names no friction coefficient."),
     }
-    let beyond = demands(contacts)
-        .chain(motion.results.response.friction_demand.iter().copied().filter(|demand| demand.is_finite()));
+    let beyond = demands(contacts).chain(response.counted_forces().0.into_iter().filter(|demand| demand.is_finite()));
     if beyond.into_iter().any(|demand| !panel.reaches(demand)) {
         caption.push_str(" Larger demands leave the panel.");
+    }
+    if counted_until(motion).is_some() {
+        caption.push_str(" Friction demand is shown up to the point of no return.");
     }
     if contacts.iter().flat_map(|contact| &contact.normal).any(|point| point[1] <= 0.0) {
         caption.push_str(match &response.sliding {

@@ -65,7 +65,11 @@ pub fn fragility(label: &str, states: &[Fragility]) -> Figure {
             Fit::Lognormal { .. } => state.state.to_string(),
             _ => format!("{} (no curve)", state.state),
         };
-        entries.push((Key::Line(stroke), name));
+        let undecided = match state.undecided() {
+            0 => String::new(),
+            count => format!(", {count} undecided run(s) left out"),
+        };
+        entries.push((Key::Line(stroke), name + &undecided));
     }
     let below = sheet.label_below(&panel);
     sheet.height = sheet.legend(below + 4.0, &entries) + 8.0;

@@ -54,12 +54,20 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe]) -> Figure {
     let mut entries = vec![(Key::Line(RECORD), format!("{} record(s)", by_record.len()))];
     let names = FRACTILES.map(|share| format!("{:.0} %", 100.0 * share));
     entries.extend(FRACTILE_LINES.iter().zip(names).map(|(stroke, name)| (Key::Line(stroke.clone()), name)));
+    let undecided: usize = stripes.iter().map(Stripe::undecided).sum();
+    if undecided > 0 {
+        entries.push((Key::None, format!("{undecided} of {} runs undecided, left out", runs.len())));
+    }
     let below = sheet.label_below(&panel);
     sheet.height = sheet.legend(below + 4.0, &entries) + 8.0;
     let lost = runs.iter().filter(|run| run.is_lost()).count();
+    let left_out = match undecided {
+        0 => String::new(),
+        count => format!(" {count} of them are undecided and left out: failed, or their verdict is not determined."),
+    };
     let caption = format!(
         "{} records at {} levels of {label}: the largest |θ|/α of each run with its 16, 50 and 84 % fractiles per level. A curve \
-         reaches the right edge where the column is lost, and comes back where it stands again; {lost} of {} runs are lost, counted per level on the right.",
+         reaches the right edge where the column is lost, and comes back where it stands again; {lost} of {} runs are lost, counted per level on the right.{left_out}",
         by_record.len(),
         stripes.len(),
         runs.len()

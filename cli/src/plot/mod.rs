@@ -12,6 +12,7 @@
 //! byte, whenever it is made of them.
 
 mod axis;
+mod band;
 mod curve;
 mod drawn_run;
 mod energy;

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, subscript};
 use super::curve::{self, Frame, Ink, Point};
-use super::drawn_run::{DrawnRun, FALL};
+use super::drawn_run::{DrawnRun, FALL, Knot};
 use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
 use super::style::{self, Stroke};
 
@@ -26,7 +26,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
 
     let slenderness = motion.slenderness();
     let limit = |block: usize| if motion.overturned() { FALL * slenderness[block] } else { f64::INFINITY };
-    let seen = || motion.knots.iter().flat_map(|knot| (0..blocks).map(move |block| (knot, block)));
+    let seen = || before_the_fall(motion).flat_map(|knot| (0..blocks).map(move |block| (knot, block)));
     let seen = || seen().filter(|(knot, block)| knot.theta[*block].abs() <= limit(*block));
     let angles = seen().map(|(knot, block)| knot.theta[block]);
     let rates = seen().flat_map(|(knot, block)| {
@@ -60,9 +60,15 @@ pub fn draw(motion: &DrawnRun) -> Figure {
         if blocks > 1 { " All panels have the same axes." } else { "" }
     );
     if motion.overturned() {
-        caption.push_str(" Curves leave the panel where the column falls.");
+        caption.push_str(" Curves end where the column falls.");
     }
     Figure::new("phase-portrait", caption, sheet)
+}
+
+/// Rows and events before the fall.
+fn before_the_fall<'m>(motion: &'m DrawnRun) -> impl Iterator<Item = &'m Knot<'m>> {
+    let falls_at = motion.falls_at().unwrap_or(f64::INFINITY);
+    motion.knots.iter().take_while(move |knot| knot.t <= falls_at)
 }
 
 fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
@@ -75,7 +81,7 @@ fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
     }
     let mut runs: Vec<Vec<Point>> = vec![Vec::new()];
     let mut jumps = Vec::new();
-    for knot in &motion.knots {
+    for knot in before_the_fall(motion) {
         let at = |omega: &[f64]| panel.place([knot.theta[block], omega[block]]);
         let before = at(knot.before.0);
         runs.last_mut().expect("there is a first").push(before);

@@ -1,6 +1,7 @@
 //! Angles over time: the ground acceleration above, impacts as ticks and modes as a band below.
 
 use super::axis::{Axis, brief, span, subscript};
+use super::band;
 use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL, Stretch, over_time};
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
@@ -86,11 +87,12 @@ fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
         .map(|(block, alpha)| motion.knots.iter().map(|knot| [knot.t, knot.theta[block] / alpha]).collect())
         .collect();
     let limit = if motion.overturned() { FALL } else { f64::INFINITY };
-    let values = curves.iter().flatten().map(|point| point[1].clamp(-limit, limit));
+    let values = curves.iter().flatten().map(|point| point[1].clamp(-limit, limit)).chain(band::values(motion));
     let label = if curves.len() == 1 { "Angle θ/α" } else { "Angles θᵢ/αᵢ" };
     let panel = Panel::wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 4)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
+    band::draw(sheet, motion, &panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     [-1.0, 1.0].into_iter().for_each(|bound| sheet.level(&panel, bound, &style::REFERENCE));
     for (block, points) in curves.iter().enumerate() {
@@ -274,6 +276,7 @@ fn caption(motion: &DrawnRun) -> String {
             _ => format!(" The column {words} at t = {t:.4} s."),
         });
     }
+    caption.push_str(&band::caption(motion));
     if motion.results.response.events.is_empty() {
         caption.push_str(" Nothing sets the column in motion.");
     } else {

@@ -11,6 +11,7 @@ use crate::report::html::script;
 use crate::report::outcome::{changed, closed};
 use rocking::Event;
 use rocking::Record;
+use rocking::column::Shape;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
 use rocking::{Block, Column, EventKind, StopReason};
@@ -198,6 +199,7 @@ pub fn json(results: &Results) -> String {
     let contact: Vec<[f64; 3]> = blocks.clone().map(contact).collect();
     let size = |block: &Block| [block.bottom_half_width, block.top_half_width, block.half_height];
     let sizes: Vec<[f64; 3]> = column.blocks().iter().map(size).collect();
+    let round: Vec<bool> = blocks.clone().map(|block| results.shape(block) == Shape::Drum).collect();
     let patterns: Vec<_> = patterns
         .iter()
         .map(|pattern| {
@@ -220,7 +222,7 @@ pub fn json(results: &Results) -> String {
         .map(|event| json!({ "t": event.t, "kind": event.kind, "at": interfaces(event), "mode": event.mode }))
         .collect();
     let head = json!({
-        "blocks": sizes, "contact": contact, "gravity": column.gravity(), "fills": fills,
+        "blocks": sizes, "round": round, "contact": contact, "gravity": column.gravity(), "fills": fills,
         "patterns": patterns, "events": events, "angles": largest_shown(results),
     });
     let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));

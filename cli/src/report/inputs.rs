@@ -45,7 +45,7 @@ fn blocks(results: &Results) -> String {
         let _ = writeln!(
             rows,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
-            index + 1,
+            escape(&results.block_name(index)),
             widths(block, 5),
             significant(2.0 * block.half_height, 5),
             significant(block.mass, 5),

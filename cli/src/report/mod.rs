@@ -5,6 +5,7 @@
 //! All that the page says of a run stands in [`Results`]; no motion is computed here.
 
 mod outcome;
+mod trust;
 mod validity;
 
 mod inputs;
@@ -35,7 +36,7 @@ pub fn page(results: &Results) -> String {
         ("impacts", outcome::impacts(results)),
         ("modes", outcome::modes(results)),
         ("validity", validity::details(results)),
-        ("readout", readout(results.column.len())),
+        ("readout", readout(results)),
         ("player-notes", frames::notes(results)),
         ("figures", section_of(&figures)),
         ("inputs", inputs::inputs(results)),
@@ -56,14 +57,15 @@ const PLAYER: [&str; 4] = [
 ];
 
 /// Fields in which the player writes each block's angle, top block first.
-fn readout(blocks: usize) -> String {
-    let row = |block| {
+fn readout(results: &Results) -> String {
+    let row = |block: usize| {
+        let name = escape(&results.block_name(block - 1));
         format!(
             "<li><svg class=\"swatch\" viewBox=\"0 0 22 10\" aria-hidden=\"true\"><path d=\"M1 5H21\"/></svg>\
-             <span>block {block}</span> <output data-block=\"{block}\"></output></li>\n"
+             <span>block {name}</span> <output data-block=\"{block}\"></output></li>\n"
         )
     };
-    (1..=blocks).rev().map(row).collect()
+    (1..=results.column.len()).rev().map(row).collect()
 }
 
 /// The section of the figures, `(name, caption, svg)` each; nothing where there are none.

@@ -2,6 +2,7 @@
 
 use crate::number::{degrees, percent, significant};
 use crate::plot::modes::sketch;
+use crate::report::trust;
 use crate::text::escape;
 use rocking::Event;
 use rocking::pattern::{ModeLabel, Pattern};
@@ -18,10 +19,17 @@ pub fn sentence(results: &Results) -> String {
         StopReason::Overturned => {
             let first = response.overturned_block.map_or(String::new(), |block| match results.column.len() {
                 1 => String::new(),
-                _ => format!(", block {block} first"),
+                _ => format!(", block {} first", escape(&results.block_name(block - 1))),
             });
             ("overturned", format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."))
         }
+        StopReason::AtRest | StopReason::EndOfTime if response.truncated => (
+            "rocking",
+            format!(
+                "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends; the ground still \
+                 moves then, and what it does later is not known."
+            ),
+        ),
         StopReason::AtRest if results.response.events.is_empty() && response.t_final == 0.0 => {
             ("stands", format!("The column <strong>stands</strong>: nothing starts it in {end}&nbsp;s."))
         }
@@ -58,6 +66,7 @@ pub fn sentence(results: &Results) -> String {
             ),
         ),
     };
+    let (class, words) = trust::qualified(results, class, words);
     // Told apart by shape, not by colour alone.
     let sign = match class {
         "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
@@ -66,7 +75,8 @@ pub fn sentence(results: &Results) -> String {
         _ => "<path d=\"M4 12c3-6 5-6 8 0s5 6 8 0\"/>",
     };
     format!(
-        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}",
+        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}{}",
+        trust::paragraph(results),
         places(results)
     )
 }
@@ -177,7 +187,7 @@ pub fn peaks(results: &Results) -> String {
         let _ = writeln!(
             rows,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td class=\"share\">{}<span>{}</span></td></tr>",
-            block + 1,
+            escape(&results.block_name(block)),
             significant(peak, 5),
             degrees(peak),
             significant(slenderness, 4),

@@ -1,10 +1,11 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations; with friction, what slid and flew, and
 //! whether the energy balance closes.
 
-use crate::number::{coefficients, fixed, percent, significant};
+use crate::number::{coefficients, degrees, fixed, percent, significant};
 use crate::text::escape;
 use rocking::run_folder::Results;
-use rocking::{ContactTimes, SlidingReport, StopReason};
+use rocking::validity::{COEFFICIENTS, ContactNeeds, Extreme};
+use rocking::{ContactTimes, SlidingReport, StopReason, Validity};
 use std::fmt::Write as _;
 
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
@@ -29,7 +30,7 @@ enum Verdict {
 
 /// The interface, from 0, that needs most friction, with its demand; infinite where none is enough.
 fn largest_demand(results: &Results) -> Option<(usize, f64)> {
-    results.response.friction_demand.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+    results.response.counted_forces().0.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Relative error of the energy balance above which a run is not trusted.
@@ -105,15 +106,19 @@ fn judge(results: &Results) -> Verdict {
         return judge_sliding(results, report);
     }
     let mut reasons = Vec::new();
-    if let Some(first) = response.separations.first() {
-        let count = response.separations.len();
+    let (count, first) = match &response.validity {
+        Some(validity) => (validity.separations, validity.first_separation),
+        None => (response.separations.len(), response.separations.first().map(|first| first.t)),
+    };
+    if let Some(first) = first {
         let times = if count == 1 { "once".into() } else { format!("{count} times, first") };
         reasons.push(format!(
             "a block would leave its contact ({times} at t = {} s); what comes after is not reliable",
-            significant(first.t, 5)
+            significant(first, 5)
         ));
     }
-    let forces = response.min_normal_force.iter().enumerate();
+    let (friction_demand, min_normal_force) = response.counted_forces();
+    let forces = min_normal_force.iter().enumerate();
     let parted: Vec<usize> = forces.filter(|(_, force)| **force < 0.0).map(|(at, _)| at).collect();
     if !parted.is_empty() {
         reasons.push(format!("{} would have to pull: the blocks would part", named(&parted)));
@@ -121,7 +126,7 @@ fn judge(results: &Results) -> Verdict {
     let Some((worst, demand)) = largest_demand(results) else {
         return if reasons.is_empty() { Verdict::Unknown } else { Verdict::Fails(reasons) };
     };
-    let demands = response.friction_demand.iter().copied().enumerate();
+    let demands = friction_demand.iter().copied().enumerate();
     let beyond = |available: f64| demands.clone().filter(|(_, demand)| *demand > available).map(|(at, _)| at).collect();
     if demand.is_infinite() {
         let limitless: Vec<usize> = beyond(f64::MAX);
@@ -197,25 +202,43 @@ pub fn verdict(results: &Results) -> String {
     )
 }
 
+/// An extreme with its time and angle, in a cell.
+fn at(value: String, extreme: Option<&Extreme>) -> String {
+    match extreme {
+        Some(extreme) => format!(
+            "{value} <span class=\"note\">at {}&nbsp;s, θ&nbsp;=&nbsp;{}</span>",
+            significant(extreme.t, 4),
+            degrees(extreme.theta).replace('-', "\u{2212}")
+        ),
+        None => value,
+    }
+}
+
 /// Demands and forces per interface, the top one first, and what they mean.
 pub fn details(results: &Results) -> String {
     let (response, column) = (&results.response, &results.column);
+    let (demands, forces) = response.counted_forces();
+    let contacts = response.validity.as_ref().map(|validity| &validity.contacts);
     let mut rows = String::new();
-    for interface in (0..column.len().min(response.friction_demand.len()).min(response.min_normal_force.len())).rev() {
+    for interface in (0..column.len().min(demands.len()).min(forces.len())).rev() {
         let weight = column.mass_above(interface) * column.gravity();
-        let demand = response.friction_demand[interface];
-        let force = response.min_normal_force[interface];
+        let (demand, force) = (demands[interface], forces[interface]);
+        let own = contacts.and_then(|contacts| contacts.get(interface));
         // Where friction is modelled, none is beyond it.
         let slides =
             response.sliding.is_none() && results.available_friction().is_some_and(|friction| demand > friction);
         let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
-        let share = known(format!("{} <span class=\"note\">{}</span>", significant(force, 4), percent(force / weight)));
+        let share = known(format!("{} ({} of the weight)", significant(force, 4), percent(force / weight)));
         let _ = writeln!(
             rows,
-            "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{share}</td><td>{}</td></tr>",
+            "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>",
             if slides { " class=\"beyond\"" } else { "" },
             interface + 1,
-            if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() },
+            at(
+                if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() },
+                own.map(|own| &own.friction_demand)
+            ),
+            at(share, own.map(|own| &own.min_normal_force)),
             significant(weight, 4),
         );
     }
@@ -226,23 +249,30 @@ pub fn details(results: &Results) -> String {
         });
         let _ = write!(
             text,
-            "<div class=\"wide\"><table>\n<caption>Per interface, the top one first; interface 1 is under block 1. Friction: {available}.</caption>\n\
+            "<div class=\"wide\"><table class=\"needs\">\n<caption>Per interface, the top one first; interface 1 is under block 1, θ is the angle of the block \
+             above. Friction: {available}.</caption>\n\
              <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">largest friction demand |T|/N</th>\
-             <th scope=\"col\">smallest normal force [N], share of weight</th><th scope=\"col\">weight above [N]</th></tr></thead>\n\
+             <th scope=\"col\">smallest normal force [N]</th><th scope=\"col\">weight above [N]</th></tr></thead>\n\
              <tbody>\n{rows}</tbody></table></div>\n"
         );
+    }
+    if let Some(validity) = &response.validity {
+        text.push_str(&durations(validity));
     }
     match &response.sliding {
         Some(report) => text.push_str(&slides(report)),
         None => text.push_str(
             "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
-             interface needs so as not to slide; a normal force that falls to zero is a block about to lift off. Peaks that last a \
-             few milliseconds count in full.</p>\n",
+             interface needs so as not to slide; a normal force that falls to zero is a block about to lift off.</p>\n",
         ),
     }
-    if response.sliding.is_none() && response.overturned_at().is_some() {
-        text.push_str(
-            "<p>The column falls in this run, and the fall is included: its friction demand grows with the lean.</p>\n",
+    if let (Some(validity), Some(fallen), None) = (&response.validity, response.overturned_at(), &response.sliding) {
+        let _ = writeln!(
+            text,
+            "<p>The column overturns at t = {} s. Contacts count up to the point of no return, t = {} s: from then on some block is past its \
+             balance, and falls. What its contacts would need in the fall does not change the outcome.</p>",
+            significant(fallen, 5),
+            significant(validity.until, 5)
         );
     }
     if response.sliding.is_none() {
@@ -259,9 +289,36 @@ pub fn details(results: &Results) -> String {
     text
 }
 
+/// How long contacts need more than some coefficients of friction, and how long they pull; nothing where they need less than the least of them.
+fn durations(validity: &Validity) -> String {
+    let is_told = |needs: &ContactNeeds| needs.tension.time > 0.0 || needs.above.iter().any(|above| above.time > 0.0);
+    if !validity.contacts.iter().any(is_told) {
+        return String::new();
+    }
+    let cell = |time: f64, share: f64| match time {
+        0.0 => "<td>0</td>".to_string(),
+        time => format!("<td>{} <span class=\"note\">{}</span></td>", significant(time, 3), percent(share)),
+    };
+    let mut rows = String::new();
+    for (interface, needs) in validity.contacts.iter().enumerate().rev() {
+        let above: String = needs.above.iter().map(|above| cell(above.time, above.share)).collect();
+        let tension = cell(needs.tension.time, needs.tension.share);
+        let _ = writeln!(rows, "<tr><th scope=\"row\">{}</th>{above}{tension}</tr>", interface + 1);
+    }
+    let heads: String = COEFFICIENTS.iter().map(|level| format!("<th scope=\"col\">|T|/N &gt; {level}</th>")).collect();
+    format!(
+        "<div class=\"wide\"><table>\n<caption>Time in s in which an interface needs more than these coefficients of friction, or would pull, and its \
+         share of the {} s that count.</caption>\n<thead><tr><th scope=\"col\">interface</th>{heads}<th scope=\"col\">N &lt; 0</th></tr></thead>\n\
+         <tbody>\n{rows}</tbody></table></div>\n",
+        significant(validity.until, 5)
+    )
+}
+
 /// Contact problems without admissible pattern.
 fn separations(results: &Results) -> String {
-    let instants: Vec<f64> = results.response.separations.iter().map(|one| one.t).collect();
+    let until = results.response.validity.as_ref().map_or(f64::INFINITY, |validity| validity.until);
+    let instants = results.response.separations.iter().map(|one| one.t);
+    let instants: Vec<f64> = instants.filter(|t| *t <= until).collect();
     match instants.len() {
         0 => "<p>Separations: none.</p>\n".into(),
         count => format!(

@@ -2,6 +2,13 @@
 
 use csv::StringRecord;
 
+/// Heading of the column of outcomes.
+pub const OUTCOME: &str = "outcome";
+
+/// Heading of the column that says whether the verdict is determined, and what it says where it is not.
+pub const TRUST: &str = "trust";
+pub const NOT_DETERMINED: &str = "not-determined";
+
 /// The type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

@@ -2,6 +2,7 @@
 
 use super::contacts::carried;
 use super::transition::Instant;
+use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Motion, Rates};
 use crate::friction::contact::{Question, Touch, centre};
 use crate::friction::gaps::{self, Corner};
@@ -9,9 +10,6 @@ use crate::friction::joint::{Configuration, Face, Joint, Slip, difference, face}
 use crate::friction::rows::{Answer, Rows};
 use crate::friction::search::{Search, Solution};
 use crate::response::{EventKind, Impulse, StopReason};
-
-/// Share of a block's size by which a corner that lands may be below the face: what the search for the landing leaves is far less.
-const SIDE_SHARE: f64 = 1e-8;
 
 impl Instant<'_> {
     /// An interface whose gap of angles has closed.
@@ -39,7 +37,7 @@ impl Instant<'_> {
         let Corner { interface, side, .. } = corner;
         let chain = Chain::new(self.column(), &self.now);
         let [_, above] = gaps::gap(&chain, corner);
-        if above < -SIDE_SHARE * self.resolution.size {
+        if above < -DEPTH_SHARE * self.resolution.size {
             // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
             let before = self.now.clone();
             self.change(EventKind::Collapsed, vec![interface], &before, None);

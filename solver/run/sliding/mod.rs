@@ -1,12 +1,12 @@
 //! Runs in which blocks slide and fly (docs/book/model.md, section 18): the same fold as that of rocking, over the states of `friction/`.
 //!
 //! ```text
-//! a run without sliding; if its friction holds, it stands          sticking.rs
-//! x⁺  <- the start                                                 transition.rs
+//! x⁻  <- the run without sliding, as far as friction holds         sticking.rs
 //! loop
-//!     x⁻  <- x⁺ at rest, or stepped until a guard falls to zero    mover.rs, step.rs
-//!            rows, peaks, forces, work on the way                  recorder.rs
 //!     x⁺  <- impact or acceleration, searched for                  transition.rs, impact.rs, contacts.rs, friction/search.rs
+//!     x⁻  <- everything sticks: without sliding, as above          sticking.rs
+//!            otherwise at rest, or steps until a guard is zero     mover.rs, step.rs
+//!            rows, peaks, forces, work on the way                  recorder.rs
 //! ```
 //!
 //! A scene without friction does not come here.
@@ -22,14 +22,16 @@ pub(super) mod sticking;
 mod transition;
 
 use super::error::SolveError;
+use super::modes::Modes;
 use super::problem::Problem;
 use crate::friction::contact::Coefficients;
 use crate::response::{Response, StopReason};
+use crate::scene::Scene;
 use mover::Mover;
 use recorder::Recorder;
-use state::State;
-use std::ops::ControlFlow;
-use transition::{Transition, start, transition};
+use state::{Ended, State};
+use sticking::{Progress, Sticking, Stuck};
+use transition::{start, transition};
 
 /// Events that follow each other within this share of the time, or of a second, count as one instant.
 const AT_ONCE: f64 = 1e-12;
@@ -37,17 +39,33 @@ const AT_ONCE: f64 = 1e-12;
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
 const EVENTS_AT_ONCE: usize = 16;
 
-/// Runs a scene in which friction is used up.
+/// Runs a scene with friction. `sticking` is the scene without, `modes` are the motions of its column.
+///
+/// # Errors
+/// [`SolveError`]
 pub(super) fn run(
     problem: &Problem,
     friction: &Coefficients,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    sticking: Scene,
+    modes: &mut Modes,
+    progress: &mut Progress,
 ) -> Result<Response, SolveError> {
-    let mut mover = Mover::new(problem, friction);
+    let (mut sticking, mut mover) = (Sticking::new(problem, friction, sticking), Mover::new(problem, friction));
     let mut at = State::initial(problem);
     let mut recorder = Recorder::new(problem, friction, &at);
+    // Blocks that are dropped or thrown do not begin on each other.
+    let is_placed = !problem.scene.initial.x.is_empty();
+    let stuck = if is_placed { Stuck::Nowhere } else { sticking.begin(modes, progress)? };
+    let mut next = match stuck {
+        Stuck::Throughout(response) => return Ok(*response),
+        Stuck::Nowhere => start(problem, friction, &at),
+        Stuck::Part(part) => {
+            recorder.append(&at, &part);
+            at = part.until;
+            transition(problem, friction, &at, part.ended)
+        }
+    };
     let mut crowd = Crowd::default();
-    let mut next: Transition = start(problem, friction, &at);
     loop {
         recorder.transition(at.t, &next);
         let stop = next.stop.or_else(|| crowd.is_stuck(&at).then_some((StopReason::Undetermined, None)));
@@ -55,15 +73,26 @@ pub(super) fn run(
         if let Some((reason, place)) = stop {
             return Ok(recorder.finish(at, reason, place, mover.work));
         }
-        let (until, ended) = mover.pass(&at, &mut recorder)?;
-        recorder.leave(&at, &until);
+        let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
+            Some(part) => {
+                recorder.append(&at, &part);
+                (part.until, part.ended)
+            }
+            None => {
+                let (mut until, ended) = mover.pass(&at, &mut recorder)?;
+                recorder.leave(&at, &until);
+                if ended == Ended::Rest {
+                    // A column that stays at rest has been so since the rest began.
+                    until.t = at.t;
+                }
+                (until, ended)
+            }
+        };
         if progress(until.t).is_break() {
             return Err(SolveError::Cancelled { time: until.t });
         }
         if let Some((reason, place)) = ended.over() {
-            // A column that stays at rest has been so since the rest began.
-            let t = if reason == StopReason::AtRest { at.t } else { until.t };
-            return Ok(recorder.finish(State { t, ..until }, reason, place, mover.work));
+            return Ok(recorder.finish(until, reason, place, mover.work));
         }
         next = transition(problem, friction, &until, ended);
         at = until;

@@ -115,7 +115,7 @@ impl<'p> Mover<'p> {
             let start = starts(segment, (from.t + self.vain).max(t));
             let until = start.map_or(ground[segment].end, |(start, _)| start);
             rest.smooth.segment = &ground[segment];
-            recorder.read(segment, [t, until], &mut rest);
+            recorder.rest(&column, segment, [t, until], &mut rest);
             t = until;
             if let Some((start, guard)) = start {
                 self.started = start;

@@ -3,11 +3,13 @@
 use super::contacts::{lowest_gap, slide};
 use super::smooth::{Moment, Smooth};
 use super::state::State;
+use super::sticking::Part;
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact::Coefficients;
 use crate::friction::joint::{Configuration, Joint, Slip};
+use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{
@@ -16,6 +18,7 @@ use crate::response::{
 };
 use crate::run::problem::Problem;
 use crate::run::recorder::NEGLIGIBLE_IMPULSE;
+use crate::run::rest;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
 use std::collections::BTreeMap;
@@ -56,6 +59,7 @@ pub struct Recorder<'p> {
     report: SlidingReport,
     /// Relative to the ground `[J]`.
     energy_at_start: f64,
+    pub work: Work,
 }
 
 impl<'p> Recorder<'p> {
@@ -84,6 +88,7 @@ impl<'p> Recorder<'p> {
                 ..SlidingReport::default()
             },
             energy_at_start: energy(&problem.scene.column, &start.configuration),
+            work: Work::default(),
         }
     }
 
@@ -112,6 +117,9 @@ impl<'p> Recorder<'p> {
         if let Some((impulses, _)) = impact {
             self.impacts += 1;
             self.impulses(impulses);
+        }
+        if !self.problem.is_recorded() {
+            return;
         }
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
         let place = Chain::new(self.column(), after).centroid;
@@ -147,6 +155,60 @@ impl<'p> Recorder<'p> {
         }
     }
 
+    /// Number of rows so far.
+    pub fn rows(&self) -> usize {
+        self.samples.len()
+    }
+
+    /// Records a part in which everything sticks. Its ground's work is what the change of energy leaves, impacts apart.
+    pub fn append(&mut self, from: &State, part: &Part) {
+        let Part { response, column, until, .. } = part;
+        self.work.add(&response.work);
+        if !self.problem.is_recorded() {
+            self.impacts += response.impacts;
+            return;
+        }
+        let sticking =
+            |pattern: &Pattern, theta: &[f64], omega: &[f64]| Configuration::sticking(column, pattern, theta, omega);
+        for sample in &response.samples {
+            let moment = self.moment(sample.t, sticking(&sample.pattern, &sample.theta, &sample.omega));
+            self.row(sample.t, &moment);
+        }
+        let mut lost = 0.0;
+        for event in &response.events {
+            let before = sticking(&event.before, &event.theta, &event.omega_before);
+            let after = sticking(&event.after, &event.theta, &event.omega_after);
+            lost += energy(column, &before) - energy(column, &after);
+            let numbers = if event.interfaces.is_empty() { event.interface.as_slice() } else { &event.interfaces[..] };
+            let impact = event.energy_lost.map(|share| (event.impulses.to_vec(), share));
+            let interfaces = numbers.iter().map(|number| number - 1).collect();
+            self.change(event.t, &Change { kind: event.kind, interfaces, before, after, impact });
+        }
+        self.report.impact_losses += lost;
+        self.report.ground_work += lost + energy(column, &until.configuration) - energy(column, &from.configuration);
+        let raise = |all: &mut [f64], own: &[f64]| all.iter_mut().zip(own).for_each(|(all, own)| *all = all.max(*own));
+        raise(&mut self.peak_theta, &response.peak_theta);
+        raise(&mut self.friction_demand, &response.friction_demand);
+        for (all, own) in self.min_normal_force.iter_mut().zip(&response.min_normal_force) {
+            *all = all.min(*own);
+        }
+        for (mode, time) in &response.time_in_mode {
+            *self.time_in_mode.entry(mode.clone()).or_insert(0.0) += time;
+            self.report.times.iter_mut().for_each(|times| times.sticking += time);
+        }
+    }
+
+    /// A moment of a column in which everything sticks, with its accelerations and forces.
+    fn moment(&mut self, t: f64, configuration: Configuration) -> Moment<'p> {
+        let segment = self.segment_of_row(t);
+        let from = State { t, segment: 0, configuration };
+        let mut smooth = Smooth::new(self.problem, self.friction, &from);
+        smooth.segment = segment;
+        let mut moment = smooth.moment(from.configuration);
+        smooth.answer(t, &mut moment);
+        moment
+    }
+
     /// Records that the states of a stretch are left.
     pub fn leave(&mut self, from: &State, until: &State) {
         let span = until.t - from.t;
@@ -163,6 +225,28 @@ impl<'p> Recorder<'p> {
                 None => times.free += span,
             }
             peak_slide[interface] = peak_slide[interface].max(end.slide[interface].abs());
+        }
+    }
+
+    /// Records rows and forces of a span at rest, of the column with its slides: nothing moves, and nothing does work.
+    pub fn rest(&mut self, column: &Column, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
+        if !self.problem.is_recorded() {
+            return;
+        }
+        while let Some(t) = self.next_row().filter(|t| *t < until) {
+            self.row(t, inside.moment(t.max(from), true));
+        }
+        rest::visit_forces(column, &self.problem.ground[segment], [from, until], &mut |forces, _| {
+            forces.iter().enumerate().for_each(|(interface, contact)| self.contact(interface, contact));
+        });
+    }
+
+    /// Records the force of a contact.
+    fn contact(&mut self, interface: usize, contact: &ContactForce) {
+        self.min_normal_force[interface] = self.min_normal_force[interface].min(contact.normal);
+        if contact.normal > 0.0 {
+            let demand = contact.tangential.abs() / contact.normal;
+            self.friction_demand[interface] = self.friction_demand[interface].max(demand);
         }
     }
 
@@ -213,7 +297,7 @@ impl<'p> Recorder<'p> {
 
     /// Records the forces at a moment, and their work over a part of the step `[s]`.
     fn forces_and_work(&mut self, segment: usize, t: f64, part: f64, moment: &Moment) {
-        let Moment { configuration: now, chain, answer } = moment;
+        let (Moment { configuration: now, answer, .. }, chain) = (moment, moment.chain());
         let motion = chain.motion(&Rates::of(now));
         let [ax, ay] = self.problem.ground[segment].accelerations(t);
         for (block, v) in self.column().blocks().iter().zip(&motion.linear) {
@@ -225,11 +309,7 @@ impl<'p> Recorder<'p> {
                 continue;
             }
             self.report.friction_work += part * contact.tangential * now.slide_rate[interface];
-            self.min_normal_force[interface] = self.min_normal_force[interface].min(contact.normal);
-            if contact.normal > 0.0 {
-                let demand = contact.tangential.abs() / contact.normal;
-                self.friction_demand[interface] = self.friction_demand[interface].max(demand);
-            }
+            self.contact(interface, contact);
         }
     }
 
@@ -251,7 +331,7 @@ impl<'p> Recorder<'p> {
     }
 
     fn row(&mut self, t: f64, moment: &Moment) {
-        let Moment { configuration: now, chain, answer } = moment;
+        let (Moment { configuration: now, answer, .. }, chain) = (moment, moment.chain());
         let segment = self.segment_of_row(t);
         let Segment { horizontal, vertical, .. } = segment;
         let gap = |interface: usize| match now.joints[interface] {
@@ -278,7 +358,8 @@ impl<'p> Recorder<'p> {
     }
 
     /// The response of a run that ends in a state, with the block or interface (from zero) that ended it.
-    pub fn finish(mut self, end: State, status: StopReason, place: Option<usize>, work: Work) -> Response {
+    pub fn finish(mut self, end: State, status: StopReason, place: Option<usize>, steps: Work) -> Response {
+        self.work.add(&steps);
         let mut smooth = Smooth::new(self.problem, self.friction, &end);
         let mut moment = smooth.moment(end.configuration);
         // A run that ends as it begins has one row all the same.
@@ -293,13 +374,14 @@ impl<'p> Recorder<'p> {
                 self.row(t, &moment);
             }
         }
-        let Moment { configuration: now, chain, .. } = &moment;
+        let (now, chain) = (&moment.configuration, moment.chain());
         self.report.residual_slide = (0..now.theta.len()).map(|interface| slide(chain, now, interface)).collect();
         self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
         let recorded = |list: Vec<f64>| if self.problem.is_recorded() { list } else { Vec::new() };
         Response {
             status,
             t_final: end.t,
+            truncated: false,
             overturned_block: (status == StopReason::Overturned).then_some(place).flatten().map(|block| block + 1),
             samples: self.samples,
             events: self.events,
@@ -310,7 +392,8 @@ impl<'p> Recorder<'p> {
             impulse_friction_demand: recorded(self.impulse_friction_demand),
             min_normal_force: recorded(self.min_normal_force),
             separations: Vec::new(),
-            work,
+            validity: None,
+            work: self.work,
             used_generic: false,
             sliding: Some(self.report),
         }

@@ -13,6 +13,7 @@ use crate::numerics::per_block::PerBlock;
 use crate::run::problem::Problem;
 use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
+use std::cell::OnceCell;
 
 /// Right-hand side of a set of states.
 pub struct Smooth<'p> {
@@ -80,18 +81,18 @@ impl<'p> Smooth<'p> {
         }
     }
 
-    /// A moment of the motion, with its geometry.
+    /// A moment of the motion.
     pub fn moment(&self, configuration: Configuration) -> Moment<'p> {
-        let chain = Chain::new(self.column, &configuration);
-        Moment { configuration, chain, answer: None }
+        Moment { column: self.column, configuration, chain: OnceCell::new(), answer: None }
     }
 
     /// Evaluates accelerations and forces of a moment at a time; none where the rows do not determine them.
     pub fn answer<'m>(&mut self, t: f64, moment: &'m mut Moment<'p>) -> &'m Answer {
         let blocks = self.column.len();
-        moment.answer.get_or_insert_with(|| {
-            self.solved(t, &moment.configuration, &moment.chain).unwrap_or_else(|| Answer::none(blocks))
-        })
+        if moment.answer.is_none() {
+            moment.answer = self.solved(t, &moment.configuration, moment.chain());
+        }
+        moment.answer.get_or_insert_with(|| Answer::none(blocks))
     }
 
     fn solved(&mut self, t: f64, now: &Configuration, chain: &Chain) -> Option<Answer> {
@@ -108,10 +109,19 @@ impl<'p> Smooth<'p> {
 
 /// The column at one time inside a stretch.
 pub struct Moment<'p> {
+    column: &'p Column,
     pub configuration: Configuration,
-    pub chain: Chain<'p>,
+    /// Geometry, once it has been asked for.
+    chain: OnceCell<Chain<'p>>,
     /// Accelerations and forces, once they have been evaluated.
     pub answer: Option<Answer>,
+}
+
+impl<'p> Moment<'p> {
+    /// The geometry.
+    pub fn chain(&self) -> &Chain<'p> {
+        self.chain.get_or_init(|| Chain::new(self.column, &self.configuration))
+    }
 }
 
 impl System for Smooth<'_> {

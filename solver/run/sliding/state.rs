@@ -1,7 +1,7 @@
 //! Where a run with friction is, and why a stretch of it ended.
 
 use crate::friction::guards::Guard;
-use crate::friction::joint::{Configuration, Joint};
+use crate::friction::joint::Configuration;
 use crate::response::StopReason;
 use crate::run::problem::Problem;
 use crate::run::transition;
@@ -49,27 +49,10 @@ impl State {
         let start = transition::initial(problem);
         let column = &problem.scene.column;
         let mut configuration = Configuration::sticking(column, &start.pattern, &start.theta, &start.omega);
-        if !problem.scene.initial.x.is_empty() {
-            place(problem, &mut configuration);
+        let Initial { x, y, vx, vy, .. } = &problem.scene.initial;
+        if !x.is_empty() {
+            configuration.place(column, [x, y], [vx, vy]);
         }
         State { t: 0.0, segment: 0, configuration }
-    }
-}
-
-/// Places blocks as a scene gives their centroids, every interface free; what touches is found where the run begins.
-fn place(problem: &Problem, configuration: &mut Configuration) {
-    let Initial { x, y, vx, vy, .. } = &problem.scene.initial;
-    let (mut top, mut top_rate) = ([0.0, 0.0], [0.0, 0.0]);
-    for (i, block) in problem.scene.column.blocks().iter().enumerate() {
-        let ((sin, cos), rate) = (libm::sincos(configuration.theta[i]), configuration.omega[i]);
-        // A point of the axis at this height above the centroid, and its velocity.
-        let point = |height: f64| [x[i] + height * sin, y[i] + height * cos];
-        let velocity = |height: f64| [vx[i] + rate * height * cos, vy[i] - rate * height * sin];
-        let (foot, foot_rate) = (point(-block.centroid_height), velocity(-block.centroid_height));
-        configuration.joints[i] = Joint::Free;
-        configuration.apart[i] = [foot[0] - top[0], foot[1] - top[1]];
-        configuration.apart_rate[i] = [foot_rate[0] - top_rate[0], foot_rate[1] - top_rate[1]];
-        let above = 2.0 * block.half_height - block.centroid_height;
-        (top, top_rate) = (point(above), velocity(above));
     }
 }

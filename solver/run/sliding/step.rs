@@ -2,8 +2,9 @@
 
 use super::recorder::Inside;
 use super::smooth::{Moment, Smooth};
+use crate::friction::chain::Pose;
 use crate::friction::gaps::{self, Corner};
-use crate::friction::guards::{self, Guard, Limits};
+use crate::friction::guards::{self, Guard};
 use crate::friction::joint::Configuration;
 use crate::friction::search::force_slack;
 use crate::mechanics::dynamics::Ground;
@@ -29,11 +30,11 @@ pub struct Step<'s, 'p> {
     interpolant: &'s Interpolant<Vec<f64>>,
     t: f64,
     h: f64,
-    /// Places and what they were evaluated to.
-    known: Vec<(f64, Moment<'p>)>,
-    /// Storage of a state, and of its configuration.
+    /// Places, and what was evaluated there.
+    places: Vec<f64>,
+    moments: Vec<Moment<'p>>,
+    /// Storage of a state.
     state: Vec<f64>,
-    storage: Configuration,
     overturn_angle: f64,
     stick_angle: f64,
 }
@@ -47,9 +48,9 @@ impl<'s, 'p> Step<'s, 'p> {
         options: &SolveOptions,
     ) -> Step<'s, 'p> {
         let &SolveOptions { overturn_angle, stick_angle, .. } = options;
-        let (state, storage) = (vec![0.0; 2 * smooth.dof()], smooth.base.clone());
-        let known = Vec::with_capacity(USUAL_MOMENTS);
-        Step { smooth, interpolant, t, h, known, state, storage, overturn_angle, stick_angle }
+        let state = vec![0.0; 2 * smooth.dof()];
+        let (places, moments) = (Vec::with_capacity(USUAL_MOMENTS), Vec::with_capacity(USUAL_MOMENTS));
+        Step { smooth, interpolant, t, h, places, moments, state, overturn_angle, stick_angle }
     }
 
     /// The configuration at a place of the step, 0 to 1.
@@ -59,15 +60,16 @@ impl<'s, 'p> Step<'s, 'p> {
 
     /// The moment at a place of the step, 0 to 1, with accelerations and forces where they are needed.
     fn at(&mut self, s: f64, needs_forces: bool) -> &Moment<'p> {
-        let index = match self.known.iter().position(|(place, _)| *place == s) {
+        let index = match self.places.iter().position(|place| *place == s) {
             Some(index) => index,
             None => {
                 self.interpolant.evaluate(s, &mut self.state);
-                self.known.push((s, self.smooth.moment(self.smooth.configuration(&self.state))));
-                self.known.len() - 1
+                self.places.push(s);
+                self.moments.push(self.smooth.moment(self.smooth.configuration(&self.state)));
+                self.places.len() - 1
             }
         };
-        let moment = &mut self.known[index].1;
+        let moment = &mut self.moments[index];
         if needs_forces {
             self.smooth.answer(self.t + s * self.h, moment);
         }
@@ -75,20 +77,16 @@ impl<'s, 'p> Step<'s, 'p> {
     }
 
     fn value(&mut self, guard: Guard, s: f64) -> f64 {
-        if guard.is_plain() {
-            self.interpolant.evaluate(s, &mut self.state);
-            self.smooth.write(&self.state, &mut self.storage);
-            return guards::plain_value(guard, self.smooth.column, &self.storage, self.overturn_angle);
-        }
         let Smooth { column, friction, gravity, segment, .. } = *self.smooth;
-        let (t, overturn_angle) = (self.t + s * self.h, self.overturn_angle);
-        let moment = self.at(s, guard.needs_forces());
-        let slack = match guard.needs_forces() {
-            true => force_slack(column, &moment.configuration, Ground::at(segment, t, gravity)),
-            false => 0.0,
-        };
-        let limits = Limits { friction, overturn_angle, slack };
-        guards::value(guard, &moment.chain, &moment.configuration, moment.answer.as_ref(), limits)
+        if !guard.needs_forces() {
+            let overturn_angle = self.overturn_angle;
+            return guards::value(guard, column, &self.at(s, false).configuration, overturn_angle);
+        }
+        let ground = Ground::at(segment, self.t + s * self.h, gravity);
+        let Moment { configuration, answer, .. } = self.at(s, true);
+        let slack = force_slack(column, configuration, ground);
+        let value = |answer| guards::value_of_forces(guard, column, configuration, answer, &friction.fixed, slack);
+        answer.as_ref().map_or(slack, value)
     }
 
     /// The first guard that falls to zero, and where.
@@ -111,7 +109,11 @@ impl<'s, 'p> Step<'s, 'p> {
     /// comes from above is followed by its height alone.
     fn landing(&mut self, corner: Corner, limit: f64) -> Option<f64> {
         let guard = Guard::Land(corner);
-        let gap = |step: &mut Self, s: f64| gaps::gap(&step.at(s, false).chain, corner);
+        let column = self.smooth.column;
+        let gap = |step: &mut Self, s: f64| {
+            let now = &step.at(s, false).configuration;
+            gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner)
+        };
         if gap(self, 0.0)[1] >= -self.noise(guard) {
             let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
@@ -157,11 +159,7 @@ impl<'s, 'p> Step<'s, 'p> {
         let size = self.smooth.column.size();
         let least = LOW_SHARE * self.stick_angle;
         match guard {
-            Guard::Close(_) => {
-                let largest = |c: &Configuration| c.theta.iter().fold(0.0f64, |most, angle| most.max(angle.abs()));
-                let angle = self.known.first().map_or(1.0, |(_, moment)| largest(&moment.configuration));
-                (START_ROUNDING * angle).max(least)
-            }
+            Guard::Close(_) => START_ROUNDING.max(least),
             Guard::Stop(_) => {
                 let speed = (size * self.smooth.gravity).sqrt();
                 speed * START_ROUNDING.max(LOW_SHARE * self.stick_angle.sqrt())

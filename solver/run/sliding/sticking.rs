@@ -1,64 +1,167 @@
-//! Whether a run without sliding is the run with friction: where no friction is used up and no contact pulls, it is, to the last bit.
+//! Parts of a run in which everything sticks: the fold without sliding, on the column with the slides that it has, as far as friction holds.
+//!
+//! A run whose friction is never used up is one such part, and equals the run without friction to the last bit.
 
-use crate::column::{Block, Column};
+use super::state::{Ended, State};
+use crate::column::Column;
 use crate::friction::contact::Coefficients;
-use crate::response::{ContactTimes, Response, SlidingReport};
-use crate::run::recorder::NEGLIGIBLE_IMPULSE;
-use crate::scene::Scene;
+use crate::friction::guards::Guard;
+use crate::friction::joint::{Configuration, Joint, Slip};
+use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
+use crate::run::cones::Cones;
+use crate::run::error::SolveError;
+use crate::run::fold::{Leaving, Place, fold};
+use crate::run::modes::Modes;
+use crate::run::problem::Problem;
+use crate::run::stretch::{self, Over};
+use crate::run::{recorder, state, transition};
+use crate::scene::{Scene, Wanted};
+use std::ops::ControlFlow;
 
-/// Share of a width by which a lower face is taken to be narrower than the block on it.
-const WIDTH_ROUNDING: f64 = 1e-12;
+/// Reports the time `[s]`; a break cancels the run.
+pub type Progress<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
-/// Whether the friction of the contacts holds all that a run without sliding transmitted, and no contact pulled.
-pub fn stands(scene: &Scene, friction: &Coefficients, response: &Response) -> bool {
-    let column = &scene.column;
-    let impulse_demands = impulse_demands(scene, response);
-    let is_pressed = response.separations.is_empty() && response.min_normal_force.iter().all(|least| *least >= 0.0);
-    let holds = |interface: usize| {
-        let turn = turn_of_the_face(column, response, interface);
-        let within = |demand: f64, most: f64| match turn > 0.0 {
-            true => libm::atan(demand) + turn <= libm::atan(most),
-            false => demand <= most,
-        };
-        within(response.friction_demand[interface], friction.fixed[interface])
-            && within(impulse_demands[interface], friction.kinetic[interface])
-    };
-    is_pressed && (0..column.len()).all(holds)
+/// How far everything sticks.
+pub enum Stuck {
+    /// From the start of the run to its end.
+    Throughout(Box<Response>),
+    /// In this part.
+    Part(Box<Part>),
+    /// Something slides at once.
+    Nowhere,
 }
 
-/// Largest `|P_T| / P_N` per interface of impacts that are none of those that end a chatter: what moves slower than the last hop does is at rest.
-fn impulse_demands(scene: &Scene, response: &Response) -> Vec<f64> {
-    let smallest = |size: f64, block: &Block| size.min(block.half_height.hypot(block.half_width()));
-    let size = scene.column.blocks().iter().fold(f64::INFINITY, smallest);
-    let last_rate = (2.0 * scene.column.gravity() / size * scene.options.stick_angle).sqrt();
-    let mut demands = vec![0.0f64; scene.column.len()];
-    for event in &response.events {
-        if event.omega_before.iter().all(|rate| rate.abs() <= last_rate) {
-            continue;
-        }
-        let largest = event.impulses.iter().fold(0.0f64, |most, own| most.max(own.normal.abs() + own.tangential.abs()));
-        for (demand, own) in demands.iter_mut().zip(&event.impulses) {
-            if own.normal > NEGLIGIBLE_IMPULSE * largest {
-                *demand = demand.max(own.tangential.abs() / own.normal);
-            } else if own.normal < -NEGLIGIBLE_IMPULSE * largest {
-                *demand = f64::INFINITY;
-            }
-        }
+/// A part of a run in which everything sticks.
+pub struct Part {
+    /// Rows, events, peaks, forces and times.
+    pub response: Response,
+    /// The column with its slides in this part.
+    pub column: Column,
+    pub until: State,
+    pub ended: Ended,
+}
+
+/// What passes time where everything sticks.
+pub struct Sticking<'p> {
+    problem: &'p Problem<'p>,
+    friction: &'p Coefficients,
+    /// The scene without friction, of the column with its present slides.
+    scene: Scene,
+    /// Motions of displaced columns.
+    modes: Modes,
+}
+
+/// The scene of a run in which nothing slides: its forces are recorded, as they say how long it holds.
+pub fn without_sliding(scene: &Scene) -> Scene {
+    let mut sticking = Scene { friction: None, ..scene.clone() };
+    (sticking.options.wanted, sticking.options.record_forces) = (Wanted::Everything, true);
+    if scene.options.wanted != Wanted::Everything {
+        sticking.output_dt = None;
     }
-    demands
+    sticking
 }
 
-/// Bound of the angle between the lower face of an interface, in whose axes the demands are, and the face that carries it: zero unless a corner
-/// of the lower block may carry the upper face `[rad]`.
-fn turn_of_the_face(column: &Column, response: &Response, interface: usize) -> f64 {
-    let Some(below) = interface.checked_sub(1) else { return 0.0 };
-    let reach = column.blocks()[interface].bottom_half_width + column.slides()[interface].abs();
-    let is_wider = reach > column.blocks()[below].top_half_width * (1.0 + WIDTH_ROUNDING);
-    if is_wider { response.peak_theta[interface] + response.peak_theta[below] } else { 0.0 }
+impl<'p> Sticking<'p> {
+    /// For a run with friction; `scene` is that [`without_sliding`].
+    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, scene: Scene) -> Sticking<'p> {
+        Sticking { problem, friction, scene, modes: Modes::default() }
+    }
+
+    /// The run from its start on, with the modes of its column.
+    ///
+    /// # Errors
+    /// [`SolveError::Cancelled`]
+    pub fn begin(&self, modes: &mut Modes, progress: &mut Progress) -> Result<Stuck, SolveError> {
+        self.fold(modes, None, 0, progress)
+    }
+
+    /// The part of a run that begins with a state, after so many rows; none if something slides, flies, or is about to.
+    ///
+    /// # Errors
+    /// [`SolveError::Cancelled`]
+    pub fn pass(
+        &mut self,
+        from: &State,
+        rows: usize,
+        progress: &mut Progress,
+    ) -> Result<Option<Box<Part>>, SolveError> {
+        let Configuration { joints, theta, omega, slide, .. } = &from.configuration;
+        // A column that stands still waits for what makes it slide, too.
+        if joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks)) && omega.iter().all(|rate| *rate == 0.0) {
+            return Ok(None);
+        }
+        if self.scene.column.slides() != &slide[..] {
+            let Ok(column) = self.scene.column.clone().displaced(slide.to_vec()) else { return Ok(None) };
+            self.scene.column = column;
+        }
+        let pattern = from.configuration.pattern();
+        if Configuration::sticking(&self.scene.column, &pattern, theta, omega).joints != *joints {
+            return Ok(None);
+        }
+        let (theta, omega) = (theta.clone(), omega.clone());
+        let at_rest = state::State::at_rest(joints.len());
+        let start = state::State { t: from.t, segment: from.segment, theta, omega, pattern, ..at_rest };
+        let mut modes = std::mem::take(&mut self.modes);
+        modes.prepare(&self.scene, self.problem.skips);
+        let folded = self.fold(&mut modes, Some(start), rows, progress);
+        self.modes = modes;
+        Ok(match folded? {
+            Stuck::Part(part) => Some(part),
+            Stuck::Throughout(_) | Stuck::Nowhere => None,
+        })
+    }
+
+    fn fold(
+        &self,
+        modes: &mut Modes,
+        from: Option<state::State>,
+        rows: usize,
+        progress: &mut Progress,
+    ) -> Result<Stuck, SolveError> {
+        let mut problem = Problem::new(&self.scene, self.problem.ground, None, self.problem.skips);
+        problem.kappa.clone_from(&self.problem.kappa);
+        let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
+        let is_beginning = from.is_none();
+        let start = from.clone().unwrap_or_else(|| transition::initial(&problem));
+        let mut recorder = recorder::Recorder::new(&problem, &start, rows);
+        let leaving = fold(&problem, modes, from, &mut recorder, &cones, progress)?;
+        let (last, ended, status) = match leaving {
+            Leaving::Over(last, over) if is_beginning => {
+                let response = recorder.finish(&problem, &last, over, modes);
+                return Ok(Stuck::Throughout(Box::new(reported(&self.scene.column, response))));
+            }
+            Leaving::Over(last, over) => {
+                let (ended, status) = match over {
+                    Over::Overturned(block) | Over::Falls(block) => {
+                        (Ended::Guard(Guard::Overturn(block)), StopReason::Overturned)
+                    }
+                    Over::AtRest | Over::Stands => (Ended::Rest, StopReason::AtRest),
+                    Over::EndOfTime => (Ended::Time, StopReason::EndOfTime),
+                };
+                (last, ended, status)
+            }
+            Leaving::Beyond(Place::Start) => return Ok(Stuck::Nowhere),
+            Leaving::Beyond(Place::Phase(last)) => (last, Ended::Jump, StopReason::EndOfTime),
+            Leaving::Beyond(Place::Event(last, why, closing)) => {
+                let ended = match why {
+                    stretch::Ended::Closing => {
+                        closing.first().map_or(Ended::Jump, |interface| Ended::Guard(Guard::Close(*interface)))
+                    }
+                    stretch::Ended::Opening(interface, side) => Ended::Guard(Guard::Tip(interface, side.sign())),
+                    stretch::Ended::Jump | stretch::Ended::Over(_) => Ended::Jump,
+                };
+                (last, ended, StopReason::EndOfTime)
+            }
+        };
+        let configuration = Configuration::sticking(&self.scene.column, &last.pattern, &last.theta, &last.omega);
+        let until = State { t: last.t, segment: last.segment, configuration };
+        let response = recorder.so_far(&problem, &last, status, modes);
+        Ok(Stuck::Part(Box::new(Part { response, column: self.scene.column.clone(), until, ended })))
+    }
 }
 
 /// The response of a run in which nothing slid, with the report of slides that a scene with friction asks for.
-pub fn reported(column: &Column, mut response: Response) -> Response {
+fn reported(column: &Column, mut response: Response) -> Response {
     let slides = column.slides().to_vec();
     let time = response.time_in_mode.values().sum();
     for sample in &mut response.samples {

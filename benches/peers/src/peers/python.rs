@@ -21,7 +21,8 @@ struct Line {
 }
 
 /// Names in the script and here, with who drives the program and its method.
-const PROGRAMS: [(&str, &str, &str); 2] = [("heyoka", "heyoka (Python)", "taylor"), ("scipy", "SciPy", "dop853")];
+const PROGRAMS: [(&str, &str, &str); 3] =
+    [("heyoka", "heyoka (Python)", "taylor"), ("scipy", "SciPy", "dop853"), ("mujoco", "MuJoCo (Python)", "steps")];
 
 impl Python {
     /// Starts it; says which peers it lacks.
@@ -54,10 +55,15 @@ impl Python {
         asked.map(|_| answer.trim().to_string()).unwrap_or_default()
     }
 
+    /// Whether a program is there.
+    pub fn has(&self, program: &str) -> bool {
+        self.programs.iter().any(|own| own == program)
+    }
+
     /// A program on a scene that the script knows, at several tolerances; none if it is absent. What stands after the scene's
     /// name is told to the script as it is.
     pub fn contenders<'p>(&'p self, program: &str, scene: &str, tolerances: &[f64]) -> Vec<Contender<'p>> {
-        let known = PROGRAMS.iter().find(|(name, ..)| *name == program && self.programs.iter().any(|own| own == name));
+        let known = PROGRAMS.iter().find(|(name, ..)| *name == program && self.has(name));
         let Some(&(name, told, method)) = known else { return Vec::new() };
         let contender = |&rtol: &f64| {
             let run = format!("{name} {rtol:e} {scene}");

@@ -1,17 +1,20 @@
 //! Three drums that slide: the paper's column under its pulse of 3 αg with μ = 0.5 and plastic impacts, 4 s.
 //!
-//! The peer is time stepping after Moreau and Jean ([`crate::peers::moreau_jean`]), in plain Rust, without events. Compared are the places `[m]` and
+//! The peers are time stepping after Moreau and Jean ([`crate::peers::moreau_jean`]), in plain Rust, without events, and MuJoCo, driven from Python. Compared are the places `[m]` and
 //! angles `[rad]` of the three drums at the end. Where a landing lies within a step is chance, so that errors of single steps scatter: several are run, and
 //! the fastest that errs no more than a level counts.
 //!
 //! The reference is ours at rtol 1e-13; it agrees with an independent program within that program's error, 3.6e-7 m (`tests/validation_friction.rs`).
-//! The peer's error stops falling at some 5e-5, where its contact problems are solved to no more: it does not reach 1e-6. What is printed there is the time that
-//! first order would take from its smallest step, and is marked so.
+//! Moreau and Jean's error stops falling at some 5e-5, where the contact problems are solved to no more: it does not reach 1e-6. What is printed there is the
+//! time that first order would take from its smallest step, and is marked so. MuJoCo's contacts give, so that its error scatters between 5e-3 and 1e-1 whatever
+//! the step: it reaches neither level.
 //!
-//! What biases it: the peer's contact problem is solved to 1e-9, and it allocates; ours records events with impulses.
+//! What biases it: Moreau and Jean's contact problem is solved to 1e-9, and the stepper allocates; ours records events with impulses. MuJoCo's boxes and planes are
+//! three-dimensional, with four contacts a face, and each step is a call from Python, which costs it a microsecond or two.
 
 use super::PAPER;
 use crate::peers::moreau_jean::{Motion as Start, Pile, Solid, Stepper};
+use crate::peers::python::{Python, numbers};
 use crate::report::reading;
 use rocking::{Column, Friction, Motion, Response, Scene, Simulator, simulate};
 use std::hint::black_box;
@@ -29,7 +32,10 @@ const HALF_HEIGHT: f64 = 1.5566366369849045;
 const TOLERANCES: [f64; 9] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
 const STEPS: [f64; 10] = [4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6];
 
-/// Errors at which both are compared.
+/// Steps of MuJoCo `[s]`.
+const MUJOCO_STEPS: [f64; 6] = [2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5];
+
+/// Errors at which ours and Moreau and Jean's are compared.
 const LEVELS: [f64; 2] = [1e-3, 1e-6];
 
 struct Point {
@@ -101,15 +107,29 @@ fn peers(step: f64, exact: &[[f64; 3]]) -> Point {
     Point { setting: step, error: off(&stepper.motion.place, exact), time }
 }
 
+fn mujoco(python: &Python, step: f64, exact: &[[f64; 3]]) -> Point {
+    let [.., amplitude, omega] = PAPER;
+    let half_height = HALF_HEIGHT / BLOCKS as f64;
+    let scene = format!("drums {BLOCKS} {HALF_WIDTH} {half_height} 2700 9.81 {FRICTION} {amplitude} {omega} {T_END}");
+    let run = format!("mujoco {step:e} {scene}");
+    let answer = numbers(&python.ask(&format!("answer {run}")));
+    let places: Vec<[f64; 3]> = answer.chunks_exact(3).map(|place| [place[0], place[1], place[2]]).collect();
+    let error = if places.len() == exact.len() { off(&places, exact) } else { f64::NAN };
+    let time = numbers(&python.ask(&format!("time 1 {run}"))).first().copied().unwrap_or(f64::NAN);
+    Point { setting: step, error, time }
+}
+
 /// Prints the table and returns its rows for the file of record.
-pub fn run() -> Vec<crate::contest::Point> {
+pub fn run(python: &Python) -> Vec<crate::contest::Point> {
     let mut tight = scene(1e-13);
     tight.output_dt = Some(T_END);
     let exact = answer(&simulate(&tight).expect("it runs"));
     let own: Vec<Point> = TOLERANCES.iter().map(|rtol| ours(*rtol, &exact)).collect();
     let other: Vec<Point> = STEPS.iter().map(|step| peers(*step, &exact)).collect();
+    let steps: &[f64] = if python.has("mujoco") { &MUJOCO_STEPS } else { &[] };
+    let soft: Vec<Point> = steps.iter().map(|step| mujoco(python, *step, &exact)).collect();
     println!("\nthree drums that slide");
-    for (name, points) in [("rocking", &own), ("Moreau-Jean", &other)] {
+    for (name, points) in [("rocking", &own), ("Moreau-Jean", &other), ("MuJoCo", &soft)] {
         for Point { setting, error, time } in points {
             println!("{name:<14} {setting:>8.0e}   error {error:>8.1e}   {}", reading(*time));
         }
@@ -135,5 +155,6 @@ pub fn run() -> Vec<crate::contest::Point> {
         time,
     };
     let own = own.into_iter().map(|point| row(crate::contest::OURS, "dop853", point));
-    own.chain(other.into_iter().map(|point| row("Moreau-Jean by hand", "steps", point))).collect()
+    let other = other.into_iter().map(|point| row("Moreau-Jean by hand", "steps", point));
+    own.chain(other).chain(soft.into_iter().map(|point| row("MuJoCo (Python)", "steps", point))).collect()
 }

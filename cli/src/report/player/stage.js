@@ -117,7 +117,7 @@ function drawStage(state) {
 
   const { signs, link } = state.pattern;
   const blocks = outlines(enlarged(state.theta, factor), signs, state.joints);
-  blocks.forEach((block, i) => drawDrum(c, block.corners.map(([u, v]) => [x(u), y(v)]), run.fills[link[i]], i + 1));
+  blocks.forEach((block, i) => drawBlock(c, block.corners.map(([u, v]) => [x(u), y(v)]), run.fills[link[i]], i + 1, run.round[i]));
   // Closed interfaces between blocks: the line between the two gives way to dashes.
   blocks.forEach((block, i) => {
     if (block.pivot || i === 0) return;
@@ -151,8 +151,8 @@ function drawStage(state) {
   drawScaleBar(c, width, height);
 }
 
-// A drum: outline, shade of a cylinder, flutes, number.
-function drawDrum(c, corners, fill, number) {
+// A block: outline, number; of a drum the shade of a cylinder and flutes, of a prism a flat face with a bevel.
+function drawBlock(c, corners, fill, number, round) {
   const [a, b, d, e] = corners;
   const outline = () => {
     c.beginPath();
@@ -162,22 +162,9 @@ function drawDrum(c, corners, fill, number) {
   outline();
   c.fillStyle = fill;
   c.fill();
-  const shade = c.createLinearGradient(a[0], a[1], b[0], b[1]);
-  [[0, .26], [.18, .06], [.42, 0], [.7, .05], [1, .3]].forEach(([at, dark]) => shade.addColorStop(at, `rgba(20,20,30,${dark})`));
-  c.fillStyle = shade;
-  c.fill();
   const width = Math.hypot(b[0] - a[0], b[1] - a[1]), height = Math.hypot(e[0] - a[0], e[1] - a[1]);
-  if (width > 36) {
-    c.strokeStyle = "rgba(20,20,30,.14)";
-    c.lineWidth = 1;
-    c.beginPath();
-    for (let flute = 1; flute < 8; flute++) {
-      const share = 0.5 - 0.5 * Math.cos(Math.PI * flute / 8);
-      c.moveTo(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
-      c.lineTo(e[0] + share * (d[0] - e[0]), e[1] + share * (d[1] - e[1]));
-    }
-    c.stroke();
-  }
+  if (round) drawRoundness(c, corners, width);
+  else drawBevel(c, corners, Math.min(5, 0.12 * width, 0.12 * height));
   outline();
   c.strokeStyle = "#222";
   c.lineWidth = 1.5;
@@ -194,6 +181,39 @@ function drawDrum(c, corners, fill, number) {
     c.fillStyle = "#222";
     c.fillText(number, mx, my + .5);
   }
+}
+
+// The face of a prism: a line within its edge.
+function drawBevel(c, corners, depth) {
+  const middle = [0, 1].map(axis => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length);
+  c.strokeStyle = "rgba(20,20,30,.2)";
+  c.lineWidth = 1;
+  c.beginPath();
+  corners.forEach(([x, y], i) => {
+    const away = Math.hypot(x - middle[0], y - middle[1]) || 1, share = Math.max(0, 1 - depth * Math.SQRT2 / away);
+    const at = [middle[0] + share * (x - middle[0]), middle[1] + share * (y - middle[1])];
+    i ? c.lineTo(...at) : c.moveTo(...at);
+  });
+  c.closePath();
+  c.stroke();
+}
+
+// Shade of a cylinder, and flutes; within the outline.
+function drawRoundness(c, [a, b, d, e], width) {
+  const shade = c.createLinearGradient(a[0], a[1], b[0], b[1]);
+  [[0, .26], [.18, .06], [.42, 0], [.7, .05], [1, .3]].forEach(([at, dark]) => shade.addColorStop(at, `rgba(20,20,30,${dark})`));
+  c.fillStyle = shade;
+  c.fill();
+  if (width <= 36) return;
+  c.strokeStyle = "rgba(20,20,30,.14)";
+  c.lineWidth = 1;
+  c.beginPath();
+  for (let flute = 1; flute < 8; flute++) {
+    const share = 0.5 - 0.5 * Math.cos(Math.PI * flute / 8);
+    c.moveTo(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
+    c.lineTo(e[0] + share * (d[0] - e[0]), e[1] + share * (d[1] - e[1]));
+  }
+  c.stroke();
 }
 
 // How long an impact is seen, in seconds of the viewer.

@@ -1,7 +1,7 @@
 // Plays a run: the column on a canvas, its curves on another, and the controls.
 //
 // What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
-//   blocks [[half-widths of base and top, half-height]] m; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
+//   blocks [[half-widths of base and top, half-height]] m; round [whether a drum]; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
 //   angles rad, the largest that the curves show, null for all
 //   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0, mode after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index

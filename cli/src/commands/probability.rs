@@ -1,0 +1,115 @@
+//! The probability that the column is lost, of a sweep over distributions: a line and a row for each combination of the other axes.
+
+use crate::commands::spectrum::beside;
+use crate::error::{Failure, at};
+use crate::output;
+use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
+use crate::table::open;
+use crate::text::shown;
+use rocking::studies::Proportion;
+use rocking::sweep::{Fate, Sweep};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Confidence of the intervals.
+const CONFIDENCE: f64 = 0.95;
+
+/// Combinations that are printed; all are in the table.
+const PRINTED: usize = 10;
+
+/// The probability that the column overturns or collapses, at one combination of the axes that are no distributions.
+#[derive(Serialize)]
+pub struct Lost {
+    /// Keys and values of these axes.
+    pub at: Vec<(String, String)>,
+    #[serde(flatten)]
+    pub found: Proportion,
+    /// Samples that failed, are undetermined or not determined: left out.
+    pub undecided: usize,
+}
+
+/// The table of probabilities beside that of a sweep.
+pub fn table(out: &Path) -> PathBuf {
+    beside(&out.with_extension("csv"), "probability")
+}
+
+/// Counts the finished table of a sweep; nothing for one without distributions.
+pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
+    let Some(samples) = sweep.samples() else { return Ok(Vec::new()) };
+    let found = open(out).map_err(at(Failure::Study, out))?;
+    let column = |name: &str| found.header.iter().position(|own| own == name);
+    let (outcome, trust) = (column(OUTCOME), column(TRUST));
+    let mut counts = vec![[0usize; 2]; sweep.len() / samples];
+    let mut undecided = vec![0; counts.len()];
+    for (place, row) in found.rows.enumerate() {
+        let row = row.map_err(at(Failure::Study, out))?;
+        let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
+        let fate = Fate::ALL.into_iter().find(|fate| fate.name() == cell(outcome));
+        let Some(count) = counts.get_mut(place / samples) else { break };
+        match fate {
+            None | Some(Fate::Undetermined) => undecided[place / samples] += 1,
+            _ if cell(trust) == NOT_DETERMINED => undecided[place / samples] += 1,
+            Some(fate) => {
+                count[0] += usize::from(matches!(fate, Fate::Overturns | Fate::Collapses));
+                count[1] += 1;
+            }
+        }
+    }
+    let lost = counts.into_iter().zip(undecided).enumerate().map(|(place, ([lost, runs], undecided))| {
+        let settings = sweep.settings(place * samples);
+        let at = sweep.grid().iter().zip(settings).map(|(axis, setting)| (axis.key.clone(), setting.to_string()));
+        Lost { at: at.collect(), found: Proportion::of(lost, runs, CONFIDENCE), undecided }
+    });
+    Ok(lost.collect())
+}
+
+/// Writes the table; returns what is printed.
+pub fn write(sweep: &Sweep, lost: &[Lost], out: &Path) -> Result<String, Failure> {
+    if lost.is_empty() {
+        return Ok(String::new());
+    }
+    let path = table(out);
+    let failed = |error: csv::Error| Failure::File(path.clone(), error.to_string());
+    let mut rows = csv::Writer::from_writer(Vec::new());
+    let keys = sweep.grid().iter().map(|axis| axis.key.as_str());
+    rows.write_record(keys.chain(["runs", "lost", "undecided", "probability", "low", "high"])).map_err(failed)?;
+    for Lost { at, found, undecided } in lost {
+        let own = [
+            found.runs.to_string(),
+            found.reached.to_string(),
+            undecided.to_string(),
+            found.probability.map_or(String::new(), |share| format!("{share:?}")),
+            format!("{:?}", found.interval[0]),
+            format!("{:?}", found.interval[1]),
+        ];
+        rows.write_record(at.iter().map(|(_, value)| value.clone()).chain(own)).map_err(failed)?;
+    }
+    let bytes = rows.into_inner().map_err(|error| failed(csv::Error::from(error.into_error())))?;
+    output::file(&path, bytes)?;
+    let mut told: String = lost.iter().take(PRINTED).map(|lost| lost.line()).collect();
+    if lost.len() > PRINTED {
+        let _ = writeln!(told, "and {} more combinations", lost.len() - PRINTED);
+    }
+    let _ = writeln!(told, "wrote {}", shown(&path));
+    Ok(told)
+}
+
+impl Lost {
+    fn line(&self) -> String {
+        let at: String = self.at.iter().map(|(key, value)| format!("{key} = {value}: ")).collect();
+        let Proportion { reached, runs, interval: [low, high], .. } = self.found;
+        let mut line = match self.found.probability {
+            Some(share) => format!(
+                "{at}lost with probability {share:.4} ({reached} of {runs}; {:.0} % confidence: {low:.4} to {high:.4})",
+                100.0 * CONFIDENCE
+            ),
+            None => format!("{at}no sample has an answer"),
+        };
+        if self.undecided > 0 {
+            let _ = write!(line, "; {} undecided, left out", self.undecided);
+        }
+        line.push('\n');
+        line
+    }
+}

@@ -1,0 +1,181 @@
+//! The reference of a kind of file as text, from its schema: a heading per table, a line per key.
+
+use super::kind::Kind;
+use serde_json::{Map, Value};
+use std::fmt::Write as _;
+
+/// A table of a file.
+struct Table {
+    /// As it is written, such as `[solver]`, `[[block]]`.
+    heading: String,
+    /// What stands in it.
+    keys: Vec<Key>,
+}
+
+/// A key with what is to be known of it.
+struct Key {
+    name: String,
+    kind: String,
+    unit: String,
+    default: String,
+    meaning: String,
+}
+
+/// The reference of a kind of file.
+pub fn list(kind: Kind) -> String {
+    let schema = kind.schema().to_value();
+    let mut tables = Vec::new();
+    collect(&Schema { root: &schema }, &schema, "", &mut tables);
+    let mut text = String::new();
+    for Table { heading, keys } in tables {
+        let _ = writeln!(text, "{heading}");
+        let column = |text: fn(&Key) -> &String| keys.iter().map(|key| text(key).chars().count()).max().unwrap_or(0);
+        let [name, kind, unit] = [column(|key| &key.name), column(|key| &key.kind), column(|key| &key.unit)];
+        for key in &keys {
+            let _ = writeln!(
+                text,
+                "  {:name$}  {:kind$}  {:unit$}  {}; default: {}",
+                key.name, key.kind, key.unit, key.meaning, key.default
+            );
+        }
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
+}
+
+/// A schema whose definitions are found by their references.
+struct Schema<'s> {
+    root: &'s Value,
+}
+
+impl<'s> Schema<'s> {
+    /// What a value stands for: the definition that it refers to.
+    fn resolved(&self, value: &'s Value) -> &'s Value {
+        let reference = value.get("$ref").and_then(Value::as_str).and_then(|reference| reference.strip_prefix('#'));
+        reference.and_then(|pointer| self.root.pointer(pointer)).unwrap_or(value)
+    }
+
+    /// The alternatives of a value, itself where there are none; that a key may be absent is none.
+    fn alternatives(&self, value: &'s Value) -> Vec<&'s Value> {
+        let value = self.resolved(value);
+        let parts = ["anyOf", "oneOf"].iter().find_map(|key| value.get(*key)).and_then(Value::as_array);
+        match parts {
+            Some(parts) => {
+                parts.iter().filter(|part| !is_null(part)).flat_map(|part| self.alternatives(part)).collect()
+            }
+            None => vec![value],
+        }
+    }
+
+    /// The keys of a table, if a value is one, or a list of them.
+    fn table(&self, value: &'s Value) -> Option<(&'s Map<String, Value>, bool)> {
+        let of = |value: &'s Value| value.get("properties").and_then(Value::as_object);
+        self.alternatives(value).into_iter().find_map(|part| {
+            let item = || part.get("items").and_then(|item| of(self.resolved(item)));
+            of(part).map(|keys| (keys, false)).or_else(|| item().map(|keys| (keys, true)))
+        })
+    }
+
+    /// The type of a value in words.
+    fn kind(&self, value: &'s Value, bounds: &Value) -> String {
+        let mut kinds: Vec<String> = Vec::new();
+        for part in self.alternatives(value) {
+            let names = part.get("enum").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
+            let names = names.iter().chain(part.get("const")).filter_map(Value::as_str);
+            let names: Vec<String> = names.map(ToString::to_string).collect();
+            let kind = match part.get("type").map(types).unwrap_or_default().first().copied() {
+                _ if !names.is_empty() => names.join(" | "),
+                Some("number") => bounded("number", bounds),
+                Some("integer") => bounded("whole number", bounds),
+                Some("boolean") => "true or false".into(),
+                Some("array") => match part.get("items").map(|item| self.kind(item, &Value::Null)).as_deref() {
+                    Some("number") => "list of numbers".into(),
+                    Some("text") => "list of texts".into(),
+                    Some("table") => "tables".into(),
+                    _ => "list".into(),
+                },
+                Some("object") => "table".into(),
+                _ => "text".into(),
+            };
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+            }
+        }
+        let is_choice = kinds.len() > 3 || kinds.iter().all(|kind| kind.contains(" | "));
+        kinds.join(if is_choice { " | " } else { " or " })
+    }
+}
+
+fn is_null(part: &Value) -> bool {
+    part.get("type").and_then(Value::as_str) == Some("null")
+}
+
+/// The types of a value, `null` left out.
+fn types(value: &Value) -> Vec<&str> {
+    let one = value.as_str().into_iter();
+    one.chain(value.as_array().into_iter().flatten().filter_map(Value::as_str)).filter(|name| *name != "null").collect()
+}
+
+/// A kind of number with its bounds.
+fn bounded(kind: &str, bounds: &Value) -> String {
+    let of =
+        |key: &str, sign: &str| bounds.get(key).and_then(Value::as_f64).map(|bound| format!("{sign} {}", brief(bound)));
+    let bounds = [("minimum", "≥"), ("exclusiveMinimum", ">"), ("maximum", "≤"), ("exclusiveMaximum", "<")];
+    let told: Vec<String> = bounds.into_iter().filter_map(|(key, sign)| of(key, sign)).collect();
+    // Of a whole number without a sign, zero is no bound.
+    if told.is_empty() || (kind == "whole number" && told == ["≥ 0"]) {
+        return kind.into();
+    }
+    format!("{kind} {}", told.join(", "))
+}
+
+/// A bound with few digits.
+fn brief(bound: f64) -> String {
+    match bound {
+        bound if bound == std::f64::consts::PI => "pi".into(),
+        bound if bound == std::f64::consts::FRAC_PI_2 => "pi/2".into(),
+        bound if bound != 0.0 && (bound.abs() < 1e-3 || bound.abs() >= 1e5) => format!("{bound:e}"),
+        bound => bound.to_string(),
+    }
+}
+
+/// Collects a table and those within it.
+fn collect<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut Vec<Table>) {
+    let Some((properties, is_list)) = schema.table(value) else { return };
+    let owner = schema.alternatives(value).into_iter().find(|part| part.get("properties").is_some()).unwrap_or(value);
+    let owner = if is_list {
+        let items = schema.alternatives(value).into_iter().find_map(|part| part.get("items"));
+        items.map_or(owner, |items| schema.resolved(items))
+    } else {
+        owner
+    };
+    let required = owner.get("required").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
+    let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_string();
+    let key = |(name, own): (&String, &'s Value)| Key {
+        name: name.clone(),
+        kind: schema.kind(own, own),
+        unit: text(own, "x-unit"),
+        default: match text(own, "x-default") {
+            _ if required.iter().any(|required| required.as_str() == Some(name)) => "required".into(),
+            default if default.is_empty() => "see below".into(),
+            default => default,
+        },
+        meaning: text(own, "description").split_whitespace().collect::<Vec<_>>().join(" "),
+    };
+    let heading = match (path, is_list) {
+        ("", _) => "top level".into(),
+        (path, true) => format!("[[{path}]]"),
+        (path, false) => format!("[{path}]"),
+    };
+    tables.push(Table { heading, keys: properties.iter().map(key).collect() });
+    for (name, own) in properties {
+        // Both components have the same keys, and terms of a sum have those of a component.
+        let is_told = name == "term" || name == "vertical" || path.is_empty() && name == "scene";
+        if !is_told {
+            let below = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+            collect(schema, own, &below, tables);
+        }
+    }
+}

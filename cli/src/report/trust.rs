@@ -1,0 +1,35 @@
+//! How far the run can be trusted, in the sentence of the outcome and a paragraph below it.
+
+use crate::text::escape;
+use rocking::run_folder::Results;
+use rocking::trust::Verdict;
+use std::fmt::Write as _;
+
+/// Whether companions say that the verdict is not determined. A run that ends undetermined says so itself.
+fn is_open(results: &Results) -> bool {
+    results.trust.as_ref().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined)
+}
+
+/// Class and words of the outcome, as far as they are determined.
+pub fn qualified(results: &Results, class: &'static str, words: String) -> (&'static str, String) {
+    if !is_open(results) {
+        return (class, words);
+    }
+    let plain = words.replace("<strong>", "").replace("</strong>", "").replacen("The column", "the column", 1);
+    ("undetermined", format!("The verdict is <strong>not determined</strong>. In this run {plain}"))
+}
+
+/// What the companions say; nothing for a run without.
+pub fn paragraph(results: &Results) -> String {
+    let Some(trust) = &results.trust else { return String::new() };
+    let mut text = format!("<p>Trust: {}.", escape(&trust.sentence()));
+    if is_open(results) {
+        let _ = write!(
+            text,
+            " Companions are the same scene at a tighter tolerance, and with excitation and sizes changed by 1e-9 and 1e-6: what they do not agree \
+             on does not follow from the scene."
+        );
+    }
+    text.push_str("</p>\n");
+    text
+}

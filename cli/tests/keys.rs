@@ -1,0 +1,197 @@
+//! The reference of keys has what the reader takes, and nothing else.
+
+mod common;
+
+use common::succeeds;
+use rocking::scene_file::keys_asked_by;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// The dotted keys of a schema, without places in lists; tables within a term of a sum are those of a component.
+fn keys_of(schema: &Value) -> BTreeSet<String> {
+    keys_within(schema, schema)
+}
+
+/// The same of a part of a schema.
+fn keys_within(schema: &Value, part: &Value) -> BTreeSet<String> {
+    fn walk(root: &Value, value: &Value, path: &str, keys: &mut BTreeSet<String>) {
+        if let Some(reference) = value.get("$ref").and_then(Value::as_str) {
+            return walk(root, root.pointer(reference.trim_start_matches('#')).expect("a definition"), path, keys);
+        }
+        for part in ["anyOf", "oneOf"]
+            .iter()
+            .filter_map(|key| value.get(*key))
+            .flat_map(|parts| parts.as_array().expect("a list"))
+        {
+            walk(root, part, path, keys);
+        }
+        if let Some(items) = value.get("items") {
+            walk(root, items, path, keys);
+        }
+        for (name, own) in value.get("properties").and_then(Value::as_object).into_iter().flatten() {
+            let below = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+            if keys.insert(below.clone()) && name != "term" {
+                walk(root, own, &below, keys);
+            }
+        }
+    }
+    let mut keys = BTreeSet::new();
+    walk(schema, part, "", &mut keys);
+    keys
+}
+
+fn schema(kind: &str) -> Value {
+    serde_json::from_str(&succeeds(Path::new("."), &["keys", kind, "--schema"])).expect("JSON")
+}
+
+/// A key as the schema has it: no places in lists.
+fn plain(key: &str) -> String {
+    let parts = key.split('.').map(|part| part.split('[').next().unwrap_or_default());
+    let plain = parts.collect::<Vec<_>>().join(".");
+    plain.replace(".term.", ".")
+}
+
+const COLUMN: &str = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n";
+
+/// Scenes that lead the reader everywhere.
+fn scenes() -> Vec<String> {
+    let wave = "amplitude = 1\nomega = 3\n";
+    let kinds = [
+        ("sine-pulse", wave),
+        ("cosine-pulse", wave),
+        ("half-sine", wave),
+        ("type-c", "amplitude = 1\nomega = 3\ncycles = 2\n"),
+        ("ricker", wave),
+        ("antisymmetric-ricker", wave),
+        ("mavroeidis-papageorgiou", "velocity = 1\nomega = 3\ngamma = 2\n"),
+        ("gabor", "velocity = 1\nomega = 3\ngamma = 2\n"),
+        ("rectangular", "amplitude = 1\nduration = 1\n"),
+        ("double-rectangular", "amplitude = 1\nduration = 1\n"),
+        ("harmonic", "amplitude = 1\nomega = 3\nduration = 2\n"),
+        ("synthetic", "pga = 1\n"),
+        ("record", "accel = [0, 1, 0]\ndt = 0.1\n"),
+    ];
+    let mut scenes = vec![format!(
+        "{COLUMN}[size]\nalpha = 0.2\n[friction]\nstatic = 0.5\n[restitution]\neta = 0.9\n[initial]\ntheta = [0.1]\n[solver]\nt_end = 1\n[output]\ndt = 0.1\n"
+    )];
+    scenes.push("friction = 0.5\n[[block]]\nwidth = 0.8\nheight = 1\n[[block]]\ndiameter = 0.8\nheight = 1\n".into());
+    for (kind, keys) in kinds {
+        for component in ["horizontal", "vertical"] {
+            scenes.push(format!("{COLUMN}[excitation.{component}]\nkind = \"{kind}\"\n{keys}"));
+            scenes.push(format!(
+                "{COLUMN}[excitation.{component}]\nkind = \"sum\"\n[[excitation.{component}.term]]\nkind = \"{kind}\"\n{keys}"
+            ));
+        }
+    }
+    scenes
+}
+
+fn assert_same(kind: &str, asked: &BTreeSet<String>) {
+    let known = keys_of(&schema(kind));
+    let unknown: Vec<&String> = asked.difference(&known).collect();
+    assert!(unknown.is_empty(), "the reader takes these keys, and cli/src/keys/ does not know them: {unknown:?}");
+    let unread: Vec<&String> = known.difference(asked).collect();
+    assert!(unread.is_empty(), "cli/src/keys/ has these keys, and no reader asks for them: {unread:?}");
+    assert!(known.len() > 10, "{known:?}");
+}
+
+#[test]
+fn the_schema_of_scenes_has_the_keys_that_the_reader_takes() {
+    let mut asked = BTreeSet::new();
+    for scene in scenes() {
+        let (read, keys) = keys_asked_by(|| rocking::Scene::from_toml(&scene, "s.toml".as_ref()).map_err(Box::new));
+        read.unwrap_or_else(|error| panic!("{error}\n{scene}"));
+        asked.extend(keys.iter().map(|key| plain(key)));
+    }
+    assert_same("scene", &asked);
+}
+
+#[test]
+fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    write("s.toml", &format!("{COLUMN}[excitation.horizontal]\nkind = \"ricker\"\namplitude = 1\nperiod = 1\n"));
+    write(
+        "sweep.toml",
+        "scene = \"s.toml\"\n[axes]\namplitude = { from = 1, to = 2 }\nrtol = { from = 1e-9, to = 1e-6, steps = 3, scale = \"log\" }\n",
+    );
+    let (read, mut asked) =
+        keys_asked_by(|| rocking::Sweep::from_file(&folder.path().join("sweep.toml")).map_err(Box::new));
+    read.expect("valid");
+    write(
+        "sampled.toml",
+        "scene = \"s.toml\"\n[axes]\neta = { normal = [0.9, 0.01] }\namplitude = { lognormal = [1, 0.2] }\nrtol = { uniform = [1e-9, 1e-8] }\n\
+        gravity = { discrete = [9.8, 9.9] }\n[sampling]\nsamples = 4\ncorrelations = [{ axes = [\"eta\", \"amplitude\"], value = 0.5 }]\n",
+    );
+    let (read, sampled) =
+        keys_asked_by(|| rocking::Sweep::from_file(&folder.path().join("sampled.toml")).map_err(Box::new));
+    read.expect("valid");
+    // Of the keys of the base scene, which is read as well, none is of the sweep; those of a range stand below any axis.
+    asked.retain(|key| {
+        ["scene", "combine", "ask", "axes", "sampling"].contains(&key.as_str()) || key.starts_with("axes.")
+    });
+    let ranges: BTreeSet<String> =
+        asked.iter().filter_map(|key| key.strip_prefix("axes.amplitude.")).map(String::from).collect();
+    let own = schema("sweep");
+    let definition = |name: &str| keys_within(&own, &own["$defs"][name]);
+    assert_eq!(ranges, definition("Range"));
+    assert_eq!(definition("Folder"), BTreeSet::from(["folder".to_string()]));
+    let top = |keys: &BTreeSet<String>| keys.iter().filter(|key| !key.contains('.')).cloned().collect::<BTreeSet<_>>();
+    let within = |keys: &BTreeSet<String>, above: &str| {
+        keys.iter().filter_map(|key| plain(key).strip_prefix(above).map(String::from)).collect::<BTreeSet<String>>()
+    };
+    let distribution: BTreeSet<String> = ["eta", "amplitude", "rtol", "gravity"]
+        .iter()
+        .flat_map(|axis| within(&sampled, &format!("axes.{axis}.")))
+        .collect();
+    assert_eq!(distribution, definition("Distribution"));
+    assert_eq!(within(&sampled, "sampling."), definition("Sampling"));
+    let properties = own["properties"].as_object().expect("keys").keys().cloned().collect::<BTreeSet<_>>();
+    assert_eq!(top(&asked), properties);
+
+    write(
+        "study.toml",
+        "scene = \"s.toml\"\nmeasure = \"sa\"\nsa_period = 1\nlevels = { from = 1, to = 2 }\n[records.synthetic]\nseeds = { from = 1, to = 2 }\n\
+        [fragility]\nstates = [\"uplift\"]\n",
+    );
+    let (read, asked) =
+        keys_asked_by(|| rocking::studies::IdaFile::from_file(&folder.path().join("study.toml")).map_err(Box::new));
+    read.expect("valid");
+    let known = keys_of(&schema("study"));
+    let of_study = |key: &String| {
+        let top = key.split('.').next().unwrap_or_default();
+        ["scene", "measure", "sa_period", "sa_damping", "levels", "free_swing", "records", "fragility"].contains(&top)
+            && !key.starts_with("scene.")
+    };
+    // Refused with its remedy, and so asked for.
+    let known: BTreeSet<String> = known.into_iter().filter(of_study).collect();
+    let mut asked: BTreeSet<String> = asked.into_iter().filter(of_study).collect();
+    asked.remove("records.synthetic.seed");
+    assert_eq!(asked, known);
+}
+
+#[test]
+fn the_list_has_units_and_defaults() {
+    let text = succeeds(Path::new("."), &["keys", "scene"]);
+    for line in ["[solver]", "[[block]]", "[excitation.horizontal]"] {
+        assert!(text.lines().any(|own| own == line), "{line}: {text}");
+    }
+    let line = |key: &str| {
+        text.lines()
+            .find(|line| line.trim_start().starts_with(&format!("{key} ")))
+            .unwrap_or_else(|| panic!("{key}: {text}"))
+    };
+    assert!(
+        line("stick_angle").contains("number ≥ 1e-20, ≤ 0.01")
+            && line("stick_angle").contains("rad")
+            && line("stick_angle").ends_with("default: 1e-9"),
+        "{}",
+        line("stick_angle")
+    );
+    assert!(line("shape").contains("prism | drum"), "{}", line("shape"));
+    assert!(line("blocks").ends_with("default: required"), "{}", line("blocks"));
+    assert!(line("accel").contains("list of numbers"));
+    let all = succeeds(Path::new("."), &["keys"]);
+    assert!(all.contains("Study files") && all.contains("Sweep files") && all.contains("[fragility]"), "{all}");
+}

@@ -1,0 +1,102 @@
+//! How far a run without sliding holds: everywhere, or as long as its forces stay within the cones of friction and no contact pulls.
+
+use super::recorder::{NEGLIGIBLE_IMPULSE, Recorder};
+use super::state::State;
+use super::transition::Transition;
+use crate::column::{Block, Column};
+use crate::friction::contact::Coefficients;
+
+/// Share of a width by which a lower face is taken to be narrower than the block on it.
+const WIDTH_ROUNDING: f64 = 1e-12;
+
+/// What contacts without sliding may ask for.
+pub(crate) trait Limits {
+    /// Whether there are any.
+    const ARE_THERE: bool;
+
+    /// Whether all forces recorded so far are within them.
+    fn hold(&self, record: &Recorder) -> bool;
+
+    /// Whether a transition and its impulses are within them.
+    fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool;
+}
+
+/// Contacts transmit whatever holds the blocks together.
+pub(crate) struct Unlimited;
+
+impl Limits for Unlimited {
+    const ARE_THERE: bool = false;
+
+    fn hold(&self, _: &Recorder) -> bool {
+        true
+    }
+
+    fn admit(&self, _: &State, _: &Transition, _: &Recorder) -> bool {
+        true
+    }
+}
+
+/// The cones of friction of a column's interfaces.
+pub(crate) struct Cones<'a> {
+    friction: &'a Coefficients,
+    /// Per interface, whether a corner of the lower block may carry the upper face.
+    may_be_below: Vec<bool>,
+    /// Rate up to which a block is about to come to rest `[rad/s]`: what moves slower than the last hop does is at rest.
+    last_rate: f64,
+}
+
+impl<'a> Cones<'a> {
+    /// Those of a column with the slides that it has; hops up to `stick_angle` `[rad]` are none.
+    pub fn new(column: &Column, friction: &'a Coefficients, stick_angle: f64) -> Cones<'a> {
+        let smallest = |size: f64, block: &Block| size.min(block.half_height.hypot(block.half_width()));
+        let size = column.blocks().iter().fold(f64::INFINITY, smallest);
+        let may_be_below = |interface: usize| {
+            let reach = column.blocks()[interface].bottom_half_width + column.slides()[interface].abs();
+            let below = interface.checked_sub(1).map(|below| column.blocks()[below].top_half_width);
+            below.is_some_and(|below| reach > below * (1.0 + WIDTH_ROUNDING))
+        };
+        Cones {
+            friction,
+            may_be_below: (0..column.len()).map(may_be_below).collect(),
+            last_rate: (2.0 * column.gravity() / size * stick_angle).sqrt(),
+        }
+    }
+
+    /// Whether a demand `|T| / N` in the axes of the lower face is within a coefficient. The face that carries the contact may be turned from that face by
+    /// the relative angle, which the largest angles so far bound.
+    fn is_within(&self, interface: usize, demand: f64, coefficient: f64, peaks: &[f64]) -> bool {
+        match interface.checked_sub(1).filter(|_| self.may_be_below[interface]) {
+            Some(below) => libm::atan(demand) + peaks[interface] + peaks[below] <= libm::atan(coefficient),
+            None => demand <= coefficient,
+        }
+    }
+}
+
+impl Limits for Cones<'_> {
+    const ARE_THERE: bool = true;
+
+    fn hold(&self, record: &Recorder) -> bool {
+        let peaks = record.peak_theta();
+        let demands = record.friction_demand().iter().zip(&self.friction.fixed).enumerate();
+        record.min_normal_force().iter().all(|least| *least >= 0.0)
+            && demands.into_iter().all(|(interface, (demand, most))| self.is_within(interface, *demand, *most, peaks))
+    }
+
+    fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool {
+        let decision = &transition.decision;
+        if decision.separation {
+            return false;
+        }
+        if before.omega.iter().all(|rate| rate.abs() <= self.last_rate) {
+            return true;
+        }
+        let sizes = decision.impulses.iter().map(|own| own.normal.abs() + own.tangential.abs());
+        let least = NEGLIGIBLE_IMPULSE * sizes.fold(0.0f64, f64::max);
+        let peaks = record.peak_theta();
+        decision.impulses.iter().enumerate().all(|(interface, own)| {
+            let demand = || own.tangential.abs() / own.normal;
+            own.normal >= -least
+                && (own.normal <= least || self.is_within(interface, demand(), self.friction.kinetic[interface], peaks))
+        })
+    }
+}

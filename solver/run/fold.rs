@@ -1,0 +1,158 @@
+//! The fold: the pseudo-code of the crate's documentation, line by line.
+//!
+//! Where friction is limited, the fold goes on as long as its forces are within the cones ([`super::cones`]), and is broken off where they are not.
+
+use super::cones::Limits;
+use super::error::SolveError;
+use super::modes::Modes;
+use super::problem::Problem;
+use super::recorder::{Mark, Recorder};
+use super::state::State;
+use super::stretch::{Ended, Over};
+use super::transition::{self, break_circle, transition};
+use crate::numerics::per_block::PerBlock;
+use std::ops::ControlFlow;
+
+/// Stretches between two calls of a progress function within a phase.
+const STRETCHES_BETWEEN_REPORTS: usize = 1024;
+
+/// Why a fold is left.
+pub(crate) enum Leaving {
+    /// The run is over, in this state.
+    Over(State, Over),
+    /// What follows is beyond the limits.
+    Beyond(Place),
+}
+
+/// Where what follows is beyond the limits. What is recorded reaches up to there.
+pub(crate) enum Place {
+    /// The start.
+    Start,
+    /// An event: `x⁻`, why the stretch before it ended, and the interfaces (from zero) that close.
+    Event(State, Ended, PerBlock<usize>),
+    /// Between two stretches of a phase.
+    Phase(State),
+}
+
+/// The event that began a phase.
+struct Event {
+    ended: Ended,
+    closing: PerBlock<usize>,
+    /// The record before it.
+    mark: Mark,
+}
+
+/// Runs a problem from its beginning, or from a state on whose motion is decided, as far as the limits reach.
+///
+/// # Errors
+/// [`SolveError`]; with limits only that of a cancelled run, as other errors say where a run without sliding is at its end.
+pub(crate) fn fold<L: Limits>(
+    problem: &Problem,
+    modes: &mut Modes,
+    from: Option<State>,
+    recorder: &mut Recorder,
+    limits: &L,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Leaving, SolveError> {
+    modes.begin(problem);
+    let is_given = from.is_some();
+    let mut initial = from.unwrap_or_else(|| transition::initial(problem));
+    let mut storage = initial.clone();
+    // Two states serve all events.
+    let (mut spare, mut after) = (&mut initial, &mut storage);
+    if !is_given {
+        match transition::start(problem, spare) {
+            Ok(None) => {}
+            Ok(Some(first)) => {
+                after = first.after(spare, after);
+                recorder.transition(problem, spare, &first, after);
+            }
+            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(Place::Start)),
+            Err(error) => return Err(error),
+        }
+    }
+    // Of a fold with limits.
+    let mut event: Option<Event> = None;
+    let (mut mode, mut motion) = modes.enter(problem, after);
+    // The end of the stretch before, within a phase.
+    let mut reached: Option<f64> = None;
+    let mut stretches = 0;
+    loop {
+        let mark = L::ARE_THERE.then(|| recorder.mark());
+        let mut stretch = match motion.next(problem) {
+            Ok(stretch) => stretch,
+            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(before_phase(recorder, event, spare))),
+            Err(error) => return Err(error),
+        };
+        recorder.read(problem, &mut stretch);
+        if let Some(mark) = mark.filter(|_| !limits.hold(recorder)) {
+            let Some(t) = reached else { return Ok(Leaving::Beyond(before_phase(recorder, event, spare))) };
+            recorder.undo(mark);
+            let (theta, omega) = stretch.inside.state_at(t);
+            let begun = |segment: &usize| problem.ground[*segment].end > t;
+            let segment = (after.segment..problem.ground.len()).find(begun).unwrap_or(after.segment);
+            let now = State { t, segment, theta, omega, ..after.clone() };
+            recorder.leave(problem, mode, &now);
+            return Ok(Leaving::Beyond(Place::Phase(now)));
+        }
+        let Some(ended) = stretch.ended else {
+            reached = Some(stretch.end);
+            stretches += 1;
+            if stretches % STRETCHES_BETWEEN_REPORTS == 0 {
+                report(progress, stretch.end)?;
+            }
+            continue;
+        };
+        let before = stretch.inside.end(after);
+        recorder.leave(problem, mode, before);
+        report(progress, before.t)?;
+        if let Ended::Over(over) = ended {
+            return Ok(Leaving::Over(before.clone(), over));
+        }
+        let closing = stretch.inside.closing();
+        // By reference: a transition is large, and `?` would copy it.
+        let next = transition(problem, before, ended, closing);
+        let next = match &next {
+            Ok(next) if limits.admit(before, next, recorder) => next,
+            Err(error) if !L::ARE_THERE => return Err(error.clone()),
+            Ok(_) | Err(_) => {
+                let place = Place::Event(before.clone(), ended, PerBlock::from_slice(closing));
+                return Ok(Leaving::Beyond(place));
+            }
+        };
+        if L::ARE_THERE {
+            event = Some(Event { ended, closing: PerBlock::from_slice(closing), mark: recorder.mark() });
+        }
+        after = next.after(before, spare);
+        recorder.transition(problem, before, next, after);
+        spare = before;
+        if L::ARE_THERE && next.may_circle(after) {
+            return Ok(Leaving::Beyond(before_phase(recorder, event, spare)));
+        }
+        if next.may_circle(after)
+            && let Some(forced) = break_circle(problem, after)?
+        {
+            let closed = forced.after(after, spare);
+            recorder.transition(problem, after, &forced, closed);
+            (spare, after) = (after, closed);
+        }
+        (mode, motion) = modes.enter(problem, after);
+        reached = None;
+    }
+}
+
+/// The place before the event that began a phase, or the start.
+fn before_phase(recorder: &mut Recorder, event: Option<Event>, before: &State) -> Place {
+    match event {
+        None => Place::Start,
+        Some(Event { ended, closing, mark }) => {
+            recorder.undo(mark);
+            Place::Event(before.clone(), ended, closing)
+        }
+    }
+}
+
+/// Reports the time; an error if the caller stops the run.
+fn report(progress: &mut dyn FnMut(f64) -> ControlFlow<()>, t: f64) -> Result<(), SolveError> {
+    if progress(t).is_break() { Err(SolveError::Cancelled { time: t }) } else { Ok(()) }
+}

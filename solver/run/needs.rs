@@ -1,0 +1,278 @@
+//! The account of what contacts need: extremes with time and angle, and how long (`crate::validity`).
+//!
+//! What comes after a block has passed its balance is kept apart. It joins the account if a block comes back, and is dropped if the column
+//! overturns.
+
+use super::stretch::{Inside, Panel};
+use crate::column::Column;
+use crate::numerics::per_block::PerBlock;
+use crate::validity::{COEFFICIENTS, ContactNeeds, Exceedance, Extreme, Span, Validity};
+
+/// Rounds of bisection for the time at which a block passes its balance: the width of a stretch falls below the resolution of doubles.
+const ROUNDS: usize = 60;
+
+/// What all contacts have needed so far.
+pub(crate) struct Needs {
+    /// Slenderness of the stack from each block on, its balance `[rad]`.
+    balances: PerBlock<f64>,
+    /// End of the last stretch `[s]`.
+    last_end: f64,
+    /// Time from which on some block has been past its balance, and none has come back `[s]`; infinite where none is past it.
+    beyond: f64,
+    /// Whether each block was past its balance at the end of the last stretch.
+    is_past: PerBlock<bool>,
+    /// Whether the time of the present stretch matters: some block has been near its balance.
+    is_near: bool,
+    counted: Vec<Account>,
+    /// Of the time after `beyond`.
+    apart: Vec<Account>,
+    /// Whether some extreme of the present stretch has no angle yet.
+    is_fresh: bool,
+}
+
+/// What one contact has needed so far.
+#[derive(Clone, Copy)]
+struct Account {
+    demand: Found,
+    normal: Found,
+    tension: f64,
+    above: [f64; COEFFICIENTS.len()],
+}
+
+/// An extreme: value, time, angle; an angle that is not a number is still to be found.
+#[derive(Clone, Copy)]
+struct Found {
+    value: f64,
+    t: f64,
+    theta: f64,
+}
+
+/// What a contact needs within a panel: friction demands and normal forces at start, middle and end, and their extremes between.
+pub(crate) struct InPanel {
+    pub demand: [f64; 3],
+    pub normal: [f64; 3],
+    pub largest_demand: f64,
+    pub least_normal: f64,
+}
+
+impl Account {
+    const NEW: Account = Account {
+        demand: Found { value: 0.0, t: 0.0, theta: 0.0 },
+        normal: Found { value: f64::INFINITY, t: 0.0, theta: 0.0 },
+        tension: 0.0,
+        above: [0.0; COEFFICIENTS.len()],
+    };
+
+    /// Whether the contact needs nothing in a panel that is not in the account.
+    fn knows(&self, own: &InPanel) -> bool {
+        own.largest_demand <= self.demand.value.min(COEFFICIENTS[0])
+            && own.least_normal >= self.normal.value
+            && own.least_normal >= 0.0
+    }
+
+    /// Adds a panel between two times `[s]` that stands for so many seconds of the run; returns whether an extreme is new.
+    fn add(&mut self, own: &InPanel, times: [f64; 2], seconds: f64) -> bool {
+        let (is_higher, is_lower) = (own.largest_demand > self.demand.value, own.least_normal < self.normal.value);
+        let least_at = place(own.normal.map(|normal| -normal), times);
+        if is_higher {
+            let t = if own.largest_demand.is_finite() { place(own.demand, times) } else { least_at };
+            self.demand = Found { value: own.largest_demand, t, theta: f64::NAN };
+        }
+        if is_lower {
+            self.normal = Found { value: own.least_normal, t: least_at, theta: f64::NAN };
+        }
+        self.tension += seconds * share_above(own.normal.map(|normal| -normal), 0.0);
+        for (time, level) in self.above.iter_mut().zip(COEFFICIENTS) {
+            *time += seconds * share_above(own.demand, level);
+        }
+        is_higher || is_lower
+    }
+
+    /// Adds what was kept apart.
+    fn join(&mut self, other: &Account) {
+        if other.demand.value > self.demand.value {
+            self.demand = other.demand;
+        }
+        if other.normal.value < self.normal.value {
+            self.normal = other.normal;
+        }
+        self.tension += other.tension;
+        self.above.iter_mut().zip(other.above).for_each(|(time, own)| *time += own);
+    }
+}
+
+impl Needs {
+    /// The account of a run that begins at a time `[s]` with these angles `[rad]`.
+    pub fn new(column: &Column, start: f64, theta: &[f64]) -> Needs {
+        let blocks = theta.len();
+        let mut balances = PerBlock::filled(0.0, blocks);
+        balances.iter_mut().enumerate().for_each(|(block, own)| *own = column.stack(block).slenderness());
+        let is_beyond = is_beyond(theta, &balances);
+        let mut is_past = PerBlock::filled(false, blocks);
+        let both = theta.iter().zip(&balances);
+        is_past.iter_mut().zip(both).for_each(|(is_past, (theta, balance))| *is_past = theta.abs() > *balance);
+        Needs {
+            balances,
+            last_end: start,
+            beyond: if is_beyond { start } else { f64::INFINITY },
+            is_past,
+            is_near: is_beyond,
+            counted: vec![Account::NEW; blocks],
+            apart: vec![Account::NEW; blocks],
+            is_fresh: false,
+        }
+    }
+
+    /// Begins a stretch up to a time `[s]`, with the largest angles so far, its own among them `[rad]`.
+    pub fn begin(&mut self, inside: &mut dyn Inside, end: f64, peaks: &[f64]) {
+        self.is_near = is_beyond(peaks, &self.balances);
+        if self.is_near {
+            let theta = inside.state_at(end).0;
+            let mut is_any_beyond = false;
+            let mut has_returned = false;
+            for ((is_past, theta), balance) in self.is_past.iter_mut().zip(&theta).zip(&self.balances) {
+                let was_past = std::mem::replace(is_past, theta.abs() > *balance);
+                has_returned |= was_past && !*is_past;
+                is_any_beyond |= *is_past;
+            }
+            if has_returned {
+                self.come_back();
+                self.beyond = if is_any_beyond { end } else { f64::INFINITY };
+            } else if is_any_beyond && !self.beyond.is_finite() {
+                let (mut short, mut long) = (self.last_end, end);
+                for _ in 0..ROUNDS {
+                    let middle = 0.5 * (short + long);
+                    let is_long = is_beyond(&inside.state_at(middle).0, &self.balances);
+                    *(if is_long { &mut long } else { &mut short }) = middle;
+                }
+                self.beyond = long;
+            }
+        }
+        self.last_end = end;
+    }
+
+    /// A block is back: what was kept apart counts.
+    fn come_back(&mut self) {
+        self.beyond = f64::INFINITY;
+        for (counted, apart) in self.counted.iter_mut().zip(&mut self.apart) {
+            counted.join(apart);
+            *apart = Account::NEW;
+        }
+    }
+
+    /// Adds what a contact (from zero) needs in a panel.
+    pub fn add(&mut self, interface: usize, panel: &Panel, own: &InPanel) {
+        let counted = &mut self.counted[interface];
+        if !self.beyond.is_finite() {
+            if !counted.knows(own) {
+                let times = (panel.times)();
+                self.is_fresh |= counted.add(own, times, panel.weight * (times[1] - times[0]));
+            }
+            return;
+        }
+        let times = (panel.times)();
+        let seconds = panel.weight * (times[1] - times[0]);
+        if times[1] <= self.beyond {
+            self.is_fresh |= counted.add(own, times, seconds);
+            return;
+        }
+        if times[0] < self.beyond {
+            // Of the panel in which a block passes its balance the start is known to count.
+            let ([demand, ..], [normal, ..]) = (own.demand, own.normal);
+            let start =
+                InPanel { demand: [demand; 3], normal: [normal; 3], largest_demand: demand, least_normal: normal };
+            self.is_fresh |= counted.add(&start, [times[0]; 2], 0.0);
+        }
+        self.is_fresh |= self.apart[interface].add(own, times, seconds);
+    }
+
+    /// Ends a stretch: gives its extremes their angles.
+    pub fn end(&mut self, inside: &mut dyn Inside) {
+        if !std::mem::take(&mut self.is_fresh) {
+            return;
+        }
+        let mut known = (f64::NAN, PerBlock::new());
+        for account in [&mut self.counted, &mut self.apart] {
+            for (interface, Account { demand, normal, .. }) in account.iter_mut().enumerate() {
+                for found in [demand, normal].into_iter().filter(|found| found.theta.is_nan()) {
+                    if known.0 != found.t {
+                        known = (found.t, inside.state_at(found.t).0);
+                    }
+                    found.theta = known.1[interface];
+                }
+            }
+        }
+    }
+
+    /// What the contacts of a run need that has overturned or not, up to its end `[s]`, with the times of its separations.
+    pub fn finish(mut self, overturned: bool, end: f64, separations: impl Iterator<Item = f64>) -> Validity {
+        let until = if overturned { self.beyond.min(end) } else { end };
+        if !overturned {
+            self.come_back();
+        }
+        let share = |time: f64| if until > 0.0 { time / until } else { 0.0 };
+        let extreme = |found: &Found| Extreme { value: found.value, t: found.t, theta: found.theta };
+        let contact = |account: &Account| ContactNeeds {
+            friction_demand: extreme(&account.demand),
+            min_normal_force: extreme(&account.normal),
+            tension: Span { time: account.tension, share: share(account.tension) },
+            above: COEFFICIENTS
+                .into_iter()
+                .zip(account.above)
+                .map(|(coefficient, time)| Exceedance { coefficient, time, share: share(time) })
+                .collect(),
+        };
+        let separations: Vec<f64> = separations.filter(|t| *t <= until).collect();
+        Validity {
+            until,
+            contacts: self.counted.iter().map(contact).collect(),
+            separations: separations.len(),
+            first_separation: separations.first().copied(),
+        }
+    }
+}
+
+/// Whether some block is past its balance.
+fn is_beyond(theta: &[f64], balances: &[f64]) -> bool {
+    theta.iter().zip(balances).any(|(theta, balance)| theta.abs() > *balance)
+}
+
+/// Where a quantity with these values at start, middle and end is largest `[s]`: the crest of the parabola through them, or an end.
+fn place([a, b, c]: [f64; 3], [from, until]: [f64; 2]) -> f64 {
+    let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
+    let middle = 0.5 * (from + until);
+    match () {
+        () if bend < 0.0 && slope.abs() < -bend => middle - 0.5 * (until - from) * slope / bend,
+        () if c >= a && c >= b => until,
+        () if a >= b => from,
+        () => middle,
+    }
+}
+
+/// Share of a panel in which a quantity with these values at start, middle and end is above a level, linear between them.
+fn share_above([a, b, c]: [f64; 3], level: f64) -> f64 {
+    let half = |a: f64, b: f64| match (a > level, b > level) {
+        (true, true) => 0.5,
+        (false, false) => 0.0,
+        // Of an infinite value all of it.
+        _ if a.is_infinite() || b.is_infinite() => 0.5,
+        _ => 0.5 * (a.max(b) - level) / (a - b).abs(),
+    };
+    half(a, b) + half(b, c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crests_and_shares_of_parabolas_are_found() {
+        // 1 - (x - 1/4)² on [-1, 1] has its crest at 1/4: five eighths of the panel.
+        let values = [-1.0, 0.0, 1.0].map(|x: f64| 1.0 - (x - 0.25) * (x - 0.25));
+        assert!((place(values, [2.0, 4.0]) - 3.25).abs() < 1e-15);
+        assert_eq!(place([1.0, 2.0, 3.0], [2.0, 4.0]), 4.0);
+        assert_eq!(place([3.0, 2.0, 1.0], [2.0, 4.0]), 2.0);
+        assert_eq!(share_above([0.0, 1.0, 3.0], 2.0), 0.25);
+        assert_eq!(share_above([-1.0, -1.0, f64::INFINITY], 0.5), 0.5);
+    }
+}

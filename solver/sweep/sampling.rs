@@ -1,0 +1,168 @@
+//! Samples of the unit cube, one coordinate per distributed axis: plainly, by Latin hypercube, or by a Sobol sequence. Sample `k` is found without the
+//! others, and the same seed gives the same samples on every machine.
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::Rng;
+
+/// How samples are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SamplingMethod {
+    /// Each sample by itself.
+    Plain,
+    /// Each coordinate has one sample in each of as many equal intervals as there are samples. McKay, Beckman & Conover (1979), Technometrics 21.
+    #[default]
+    LatinHypercube,
+    /// A Sobol sequence with Owen's scrambling, seeded. Burley (2020), JCGT 9(4). At most 65,536 samples; powers of two are best.
+    Sobol,
+}
+
+impl SamplingMethod {
+    /// Names of all methods.
+    pub const NAMES: [&'static str; 3] = ["plain", "latin-hypercube", "sobol"];
+
+    /// The method of this name.
+    pub fn parse(name: &str) -> Option<SamplingMethod> {
+        match name {
+            "plain" => Some(SamplingMethod::Plain),
+            "latin-hypercube" => Some(SamplingMethod::LatinHypercube),
+            "sobol" => Some(SamplingMethod::Sobol),
+            _ => None,
+        }
+    }
+
+    /// As in a file.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// Samples of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Sampling {
+    pub samples: u32,
+    pub method: SamplingMethod,
+    pub seed: u64,
+}
+
+/// Longest Sobol sequence: the crate's.
+pub(super) const LONGEST_SOBOL: u32 = 1 << 16;
+
+/// Most distributed axes of a Sobol sequence.
+pub(super) const MOST_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
+
+impl Sampling {
+    /// Coordinate of a sample, above zero and below one; samples and dimensions from zero.
+    pub fn unit(&self, sample: u32, dimension: usize) -> f64 {
+        let jitter = self.random(sample, dimension);
+        let count = f64::from(self.samples);
+        let value = match self.method {
+            SamplingMethod::Plain => jitter,
+            SamplingMethod::LatinHypercube => {
+                let stratum = permuted(sample, self.samples, self.seed ^ mixed(dimension as u64 + 1));
+                (f64::from(stratum) + jitter) / count
+            }
+            SamplingMethod::Sobol => {
+                let seed = mixed(self.seed) as u32;
+                // Single precision leaves intervals of 2^-24, in which the place is random.
+                f64::from(sobol_burley::sample(sample, dimension as u32, seed)) + jitter * 2f64.powi(-24)
+            }
+        };
+        value.clamp(f64::EPSILON, 1.0 - f64::EPSILON)
+    }
+
+    /// A random number of its own for each sample and dimension, 0 to below 1.
+    fn random(&self, sample: u32, dimension: usize) -> f64 {
+        let mut generator = Pcg64::new(u128::from(self.seed), dimension as u128);
+        generator.advance(u128::from(sample));
+        (generator.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Bits of a number in all others: the finalizer of SplitMix64 (Steele, Lea & Flood 2014).
+fn mixed(number: u64) -> u64 {
+    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Rounds of the network: four make a permutation that looks random (Luby & Rackoff 1988), two more as its halves are short.
+const ROUNDS: u64 = 6;
+
+/// The place of a number below `count` in a random permutation: a Feistel network over the next larger square of a power of two, walked until it is
+/// below `count` again (Black & Rogaway 2002).
+fn permuted(number: u32, count: u32, seed: u64) -> u32 {
+    let bits = (64 - u64::from(count.max(2) - 1).leading_zeros()).div_ceil(2);
+    let mask = (1u64 << bits) - 1;
+    let mut place = u64::from(number);
+    loop {
+        for round in 0..ROUNDS {
+            let (left, right) = (place >> bits, place & mask);
+            place = right << bits | (left ^ mixed(seed ^ mixed(right << 8 | round))) & mask;
+        }
+        if place < u64::from(count) {
+            return place as u32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_permutation_takes_each_place_once() {
+        for (count, seed) in [(1, 0), (2, 1), (3, 2), (17, 3), (1000, 4), (65_537, 5)] {
+            let mut places: Vec<u32> = (0..count).map(|number| permuted(number, count, seed)).collect();
+            places.sort_unstable();
+            assert!(places.into_iter().eq(0..count), "{count}");
+        }
+        assert_ne!(
+            (0..100).map(|number| permuted(number, 100, 1)).collect::<Vec<_>>(),
+            (0..100).map(|number| permuted(number, 100, 2)).collect::<Vec<_>>()
+        );
+    }
+
+    /// Means of `x`, `x²` and `x y` over the unit square: 1/2, 1/3, 1/4. Plain samples err by `1/√n`, the others by less.
+    #[test]
+    fn means_over_the_unit_square_are_met() {
+        let samples = 4096;
+        for (method, error) in
+            [(SamplingMethod::Plain, 0.02), (SamplingMethod::LatinHypercube, 0.01), (SamplingMethod::Sobol, 0.0005)]
+        {
+            let sampling = Sampling { samples, method, seed: 7 };
+            let mut sums = [0.0; 3];
+            for sample in 0..samples {
+                let [x, y] = [0, 1].map(|dimension| sampling.unit(sample, dimension));
+                assert!(x > 0.0 && x < 1.0);
+                sums = [sums[0] + x, sums[1] + x * x, sums[2] + x * y];
+            }
+            for (sum, exact) in sums.iter().zip([1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0]) {
+                let found = sum / f64::from(samples);
+                assert!((found - exact).abs() < error, "{}: {found} and {exact}", method.name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_latin_hypercube_has_a_sample_in_each_interval() {
+        let sampling = Sampling { samples: 100, method: SamplingMethod::LatinHypercube, seed: 3 };
+        for dimension in 0..4 {
+            let mut intervals: Vec<u32> =
+                (0..100).map(|sample| (100.0 * sampling.unit(sample, dimension)) as u32).collect();
+            intervals.sort_unstable();
+            assert!(intervals.into_iter().eq(0..100));
+        }
+    }
+
+    #[test]
+    fn seeds_and_dimensions_differ() {
+        for method in [SamplingMethod::Plain, SamplingMethod::LatinHypercube, SamplingMethod::Sobol] {
+            let of = |seed: u64, dimension: usize| -> Vec<f64> {
+                (0..8).map(|sample| Sampling { samples: 8, method, seed }.unit(sample, dimension)).collect()
+            };
+            assert!(of(1, 0) != of(2, 0) && of(1, 0) != of(1, 1) && of(1, 0) == of(1, 0), "{}", method.name());
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Companions of a run: the same scene, changed by less than anybody can know.
+
+use super::history::Comparison;
+use super::verdict::{Verdict, lost_block};
+use crate::column::{Block, Column};
+use crate::response::Response;
+use crate::scene::{DynamicsSource, Scene, TIGHTEST_RTOL};
+use rocking_ground::Motion;
+use serde::{Deserialize, Serialize};
+
+/// Factor of the tighter tolerance.
+const TIGHTER: f64 = 0.01;
+
+/// Relative changes of excitation and sizes. The larger one is beyond what any record or drawing gives; the smaller one beyond what single precision
+/// carries, and grows where the larger has grown beyond measure.
+const CHANGES: [f64; 4] = [1e-9, -1e-9, 1e-6, -1e-6];
+
+/// What distinguishes a companion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Change {
+    /// Tolerances multiplied by this factor; the length of the steps of a method without step control by its fourth root.
+    Tolerance(f64),
+    /// Excitation, initial angles and rates multiplied by one plus this.
+    Excitation(f64),
+    /// Half-widths multiplied by one plus this, of every second block by one less this; masses stay.
+    Sizes(f64),
+}
+
+impl Change {
+    /// The changes that a scene is followed by.
+    pub(super) fn all(scene: &Scene) -> Vec<Change> {
+        let mut changes = vec![Change::Tolerance(TIGHTER)];
+        changes.extend(CHANGES.map(Change::Excitation));
+        // Blocks that are put in place one by one would be pushed into each other.
+        if scene.initial.x.is_empty() {
+            changes.extend(CHANGES.map(Change::Sizes));
+        }
+        changes
+    }
+
+    /// The scene, changed; `None` where it would be none.
+    pub(super) fn scene(self, scene: &Scene) -> Option<Scene> {
+        let mut changed = scene.clone();
+        match self {
+            Change::Tolerance(factor) => {
+                let options = &mut changed.options;
+                options.rtol = (options.rtol * factor).max(TIGHTEST_RTOL.min(options.rtol));
+                options.atol *= factor;
+                options.step *= factor.powf(0.25);
+            }
+            Change::Excitation(change) => {
+                let initial = &mut changed.initial;
+                let is_placed = !initial.x.is_empty();
+                let lists = [&mut initial.omega, &mut initial.vx, &mut initial.vy].into_iter();
+                let angles = (!is_placed).then_some(&mut initial.theta);
+                lists.chain(angles).flatten().for_each(|value| *value *= 1.0 + change);
+                return shaken(&changed, 1.0 + change);
+            }
+            Change::Sizes(change) => {
+                changed.column = widened(&scene.column, change)?;
+                // Equations that were made for one column are none of another.
+                if matches!(changed.options.dynamics, DynamicsSource::Supplied(_)) {
+                    changed.options.dynamics = DynamicsSource::default();
+                }
+            }
+        }
+        Some(changed)
+    }
+
+    /// Whether the change is no larger than errors of a run at a good tolerance: all but the larger changes of the input.
+    pub(super) fn is_small(self) -> bool {
+        self.size().is_none_or(|size| size == CHANGES[0])
+    }
+
+    /// Size of a relative change of the input; `None` for a tolerance.
+    fn size(self) -> Option<f64> {
+        match self {
+            Change::Tolerance(_) => None,
+            Change::Excitation(change) | Change::Sizes(change) => Some(change.abs()),
+        }
+    }
+}
+
+/// The scene with its ground motion multiplied; `None` for accelerations out of range.
+pub(super) fn shaken(scene: &Scene, factor: f64) -> Option<Scene> {
+    let mut shaken = scene.clone();
+    let scaled = |motion: Motion| motion.scaled(factor).ok();
+    for motion in [&mut shaken.excitation.horizontal, &mut shaken.excitation.vertical] {
+        if let Some(old) = motion.take() {
+            *motion = Some(scaled(old)?);
+        }
+    }
+    Some(shaken)
+}
+
+/// The column with other widths.
+fn widened(column: &Column, change: f64) -> Option<Column> {
+    let widen = |(place, block): (usize, &Block)| {
+        let factor = if place % 2 == 0 { 1.0 + change } else { 1.0 - change };
+        let diagonal = |half_width: f64| half_width * half_width + block.half_height * block.half_height;
+        Block {
+            bottom_half_width: block.bottom_half_width * factor,
+            top_half_width: block.top_half_width * factor,
+            inertia: block.inertia * diagonal(block.half_width() * factor) / diagonal(block.half_width()),
+            ..*block
+        }
+    };
+    let blocks = column.blocks().iter().enumerate().map(widen).collect();
+    Column::new(blocks, column.gravity()).and_then(|new| new.displaced(column.slides().to_vec())).ok()
+}
+
+/// A run beside the run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Companion {
+    /// What distinguishes it.
+    pub change: Change,
+    /// What becomes of its column; `None` for a run that failed.
+    pub verdict: Option<Verdict>,
+    /// The block that overturned first, or lost its support, from 1.
+    pub block: Option<usize>,
+    /// When it ended `[s]`; zero for a run that failed.
+    pub ends_at: f64,
+    /// Last time at which it agreed with the run `[s]`; `None` where the two agree to their end.
+    pub parts_at: Option<f64>,
+    /// Largest difference of an angle from the run's, over `α` or over the larger angle of a falling block, as long as the two agreed; dimensionless.
+    pub difference: f64,
+}
+
+impl Companion {
+    pub(super) fn new(change: Change, run: Option<&Response>, comparison: Option<Comparison>) -> Companion {
+        Companion {
+            change,
+            verdict: run.map(|run| Verdict::of(run.status)),
+            block: run.and_then(lost_block),
+            ends_at: run.map_or(0.0, |run| run.t_final),
+            parts_at: comparison.as_ref().map_or(Some(0.0), |found| found.parts_at),
+            difference: comparison.map_or(0.0, |found| found.difference),
+        }
+    }
+}
+
+/// Largest growth of a relative change of the input, and whether it went on beyond the horizon. The larger change is read where it stays measurable:
+/// the solver's own error is a larger part of the smaller one.
+pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
+    let growth = |size: f64| {
+        let own = companions.iter().filter(move |one| one.change.size() == Some(size));
+        own.clone().fold((0.0f64, false), |(most, parts), one| {
+            (most.max(one.difference / size), parts || one.parts_at.is_some())
+        })
+    };
+    match growth(CHANGES[2]) {
+        (most, false) => (most, false),
+        _ => growth(CHANGES[0]),
+    }
+}

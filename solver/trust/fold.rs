@@ -1,0 +1,85 @@
+//! How much more or less shaking changes the verdict, among a few changes tried.
+//!
+//! Outcomes are not monotonic: a column that overturns with 1 % more may stand with 2 % more, and what lies between two changes tried is not known.
+
+use super::companions::shaken;
+use super::verdict::Verdict;
+use crate::response::Response;
+use crate::run::Simulator;
+use crate::scene::{Scene, Wanted};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Relative changes of the ground motion's amplitude that are tried, more and less.
+const TRIED: [f64; 8] = [1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1];
+
+/// The same of runs in which blocks slide or fly, which take longer.
+const TRIED_WITH_SLIDING: [f64; 3] = [1e-3, 0.01, 0.1];
+
+/// The changes tried, up to the first that changes the verdict.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Fold {
+    /// Sizes of the relative changes that were tried, each with both signs, ascending.
+    pub tried: Vec<f64>,
+    /// Changes of the largest of these sizes that change the verdict, one or two; empty where none does.
+    pub turns: Vec<Turn>,
+}
+
+/// A change of the shaking that changes the verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Turn {
+    /// Relative change of the ground motion's amplitude, dimensionless.
+    pub change: f64,
+    /// The verdict with it.
+    pub verdict: Verdict,
+}
+
+impl Fold {
+    /// Looks for the smallest change that makes another verdict; `None` for a scene without ground motion.
+    pub(super) fn search(scene: &Scene, response: &Response, verdict: Verdict) -> Option<Fold> {
+        if scene.excitation.horizontal.is_none() && scene.excitation.vertical.is_none() {
+            return None;
+        }
+        let mut short = scene.clone();
+        short.options.wanted = Wanted::Overturns;
+        short.output_dt = None;
+        short.options.record_forces = false;
+        let slides = response.motion_at_contacts().is_some();
+        let sizes: &[f64] = if slides { &TRIED_WITH_SLIDING } else { &TRIED };
+        let turn = |change: f64| {
+            let changed = shaken(&short, 1.0 + change)?;
+            let verdict_there = Verdict::of(Simulator::new().run(&changed).ok()?.status);
+            (verdict_there != verdict).then_some(Turn { change, verdict: verdict_there })
+        };
+        let mut tried = Vec::new();
+        for size in sizes {
+            tried.push(*size);
+            let turns: Vec<Turn> = [*size, -size].into_par_iter().filter_map(turn).collect();
+            if !turns.is_empty() {
+                return Some(Fold { tried, turns });
+            }
+        }
+        Some(Fold { tried, turns: Vec::new() })
+    }
+
+    /// In words: `overturns with 0.5 % more shaking`.
+    pub fn sentence(&self) -> String {
+        let largest = self.tried.last().copied().unwrap_or(0.0);
+        if self.turns.is_empty() {
+            return format!(
+                "the same with up to {} % more or less shaking ({} tried)",
+                100.0 * largest,
+                2 * self.tried.len()
+            );
+        }
+        let way = |change: f64| if change > 0.0 { "more" } else { "less" };
+        let told: Vec<String> = self
+            .turns
+            .iter()
+            .map(|Turn { change, verdict }| format!("{verdict} with {} % {}", 100.0 * change.abs(), way(*change)))
+            .collect();
+        format!("{} shaking", told.join(", "))
+    }
+}

@@ -1,0 +1,285 @@
+//! How far a run can be trusted: the run among companions, which differ from it by less than anybody can know.
+//!
+//! ```text
+//! scene ──> companions.rs   the scene at a tighter tolerance; excitation and sizes changed by 1e-9 and 1e-6
+//!       ──> history.rs      angles and slides of two runs side by side: until when they agree, by how much a change has grown
+//!       ──> band.rs         the smallest and the largest angle of all runs, over time
+//!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
+//! ```
+//!
+//! The *horizon* is the time up to which the runs agree to [`AGREEMENT`] that differ by their tolerance or by 1e-9: up to then the scene determines the
+//! angles, and the solver finds them. A verdict that is certain by then, and is that of all companions, those with changes of 1e-6 too, is *determined*.
+//! Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` is another word: a run with friction ends so where no motion follows from the laws of contact
+//! ([`StopReason::Undetermined`]).
+//!
+//! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
+
+mod companions;
+
+mod history;
+
+mod band;
+
+mod fold;
+
+mod verdict;
+
+pub use band::Band;
+pub use companions::{Change, Companion};
+pub use fold::{Fold, Turn};
+pub use history::AGREEMENT;
+pub use verdict::Verdict;
+
+use crate::column::Column;
+use crate::response::{Response, StopReason};
+use crate::run::{Simulator, SolveError};
+use crate::scene::{Scene, Wanted};
+use history::Comparison;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use verdict::lost_block;
+
+/// Interval between the rows that are compared, as a share of `1/p` of the stack that rocks fastest.
+const ROW_INTERVAL_OF_P: f64 = 0.1;
+
+/// Rows of a run, at most: the memory of ten runs stays below 30 MB.
+const MOST_ROWS: f64 = 5_000.0;
+
+/// What companions say of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Trust {
+    /// The verdict in words as far as it is determined: `stands`, `overturns`, `collapses`, or `not determined`; `ends undetermined` where no motion follows
+    /// from the laws of contact.
+    pub outcome: String,
+    /// Whether the verdict of the run is determined: certain within the horizon, and that of all companions.
+    pub determined: bool,
+    /// The verdict of the run itself.
+    pub verdict: Verdict,
+    /// Time from which the verdict of the run was certain `[s]`: of overturning, of rest, of too little energy to overturn, or the end of the run.
+    pub certain_at: f64,
+    /// Time up to which the companions with another tolerance, and those with changes of 1e-9, agree with the run to [`AGREEMENT`] `[s]`;
+    /// [`Trust::ends_at`] where they agree to the end.
+    pub horizon: f64,
+    /// The same of the companions with another tolerance alone: beyond it the solver's own error is larger.
+    pub solver_horizon: f64,
+    /// The same of all companions: beyond it angles hang on the seventh digit of the inputs.
+    pub input_horizon: f64,
+    /// When the run ended `[s]`.
+    pub ends_at: f64,
+    /// Largest change of an angle over `α`, per relative change of excitation or sizes, up to the end or to the horizon, dimensionless.
+    pub amplification: f64,
+    /// Whether the amplification is that up to the horizon, where changes went on growing.
+    pub grows_on: bool,
+    /// Whether all companions that overturn or collapse do so by the same block as the run.
+    pub same_block: bool,
+    /// The companions.
+    pub companions: Vec<Companion>,
+    /// The search for the change of the shaking that changes the verdict; none unless asked for, nor where the verdict is not determined.
+    pub fold: Option<Fold>,
+    /// Range of the angles of all runs over time; empty unless asked for.
+    #[serde(skip)]
+    pub band: Band,
+}
+
+/// What is found besides: `Follow::default()` with fields of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Follow {
+    /// Whether the change of the shaking that changes the verdict is looked for.
+    pub fold: bool,
+    /// Whether the range of the angles over time is kept.
+    pub band: bool,
+}
+
+impl Follow {
+    /// Nothing but the verdict's trust: what sweeps and studies ask of each of many runs.
+    pub const VERDICT: Follow = Follow { fold: false, band: false };
+}
+
+impl Default for Follow {
+    /// Both.
+    fn default() -> Follow {
+        Follow { fold: true, band: true }
+    }
+}
+
+/// Runs a scene and its companions.
+///
+/// ```
+/// use rocking::{Column, Motion, Scene, trust};
+/// // Three slender drums, twenty seconds of harmonic motion.
+/// let mut scene = Scene::new(Column::equal_blocks(3, 0.02, 1.0, 1.0, 9.81)?);
+/// scene.excitation.horizontal =
+///     Some(Motion::SineBurst { amplitude: 0.37, omega: 12.566, start: 0.0, phase: 0.0, duration: 20.0 });
+/// scene.options.t_end = 40.0;
+/// let (_, trust) = trust::follow(&scene)?;
+/// assert!(!trust.determined && trust.horizon < 20.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`SolveError`] of the run itself. A companion that fails agrees with nothing.
+pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
+    let response = crate::run::simulate(scene)?;
+    let trust = follow_run(scene, &response, Follow::default())?;
+    Ok((response, trust))
+}
+
+/// The companions of a run that there is. Takes some ten times as long as the run on one thread, and up to twenty with the fold; they run on all threads of
+/// the present rayon pool.
+///
+/// # Errors
+/// [`SolveError`] where the scene does not run.
+pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<Trust, SolveError> {
+    let plain = compared(scene);
+    let own = Simulator::new().run(&plain)?;
+    let run = |change: Change| (change, change.scene(&plain).map(|changed| Simulator::new().run(&changed)));
+    let runs: Vec<_> = Change::all(scene).into_par_iter().map(run).collect();
+    // A scene that cannot be changed so, as it would be out of range, has no such companion.
+    let runs: Vec<_> = runs.into_iter().filter_map(|(change, run)| Some((change, run?.ok()))).collect();
+    let companions: Vec<Companion> = runs
+        .iter()
+        .map(|(change, run)| {
+            let comparison = run.as_ref().map(|run| Comparison::of(&scene.column, &own, run));
+            Companion::new(*change, run.as_ref(), comparison)
+        })
+        .collect();
+    let ends_at = response.t_final;
+    let until = |is_taken: fn(&Companion) -> bool| {
+        companions.iter().filter(|one| is_taken(one)).filter_map(|one| one.parts_at).fold(ends_at, f64::min)
+    };
+    let horizon = until(|one| one.change.is_small());
+    let verdict = Verdict::of(response.status);
+    let same_verdict = companions.iter().all(|one| one.verdict == Some(verdict));
+    let block = lost_block(response);
+    let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| lost_block(run) == block));
+    let certain_at = certain_at(scene, response)?;
+    let determined = same_verdict && horizon >= certain_at && verdict != Verdict::Undetermined;
+    let (amplification, grows_on) = companions::amplification(&companions);
+    let all = || std::iter::once(&own).chain(runs.iter().filter_map(|(_, run)| run.as_ref()));
+    let outcome = match (verdict, determined) {
+        (Verdict::Undetermined, _) => verdict.words(),
+        (_, false) => "not determined",
+        (verdict, true) => verdict.words(),
+    };
+    Ok(Trust {
+        outcome: outcome.into(),
+        determined,
+        verdict,
+        certain_at,
+        horizon,
+        input_horizon: until(|_| true),
+        solver_horizon: until(|one| matches!(one.change, Change::Tolerance(_))),
+        ends_at,
+        amplification,
+        grows_on,
+        same_block,
+        fold: if asked.fold && determined { Fold::search(scene, response, verdict) } else { None },
+        band: if asked.band { Band::of(all(), scene.column.len()) } else { Band::default() },
+        companions,
+    })
+}
+
+/// The scene as it is compared: rows often enough, nothing recorded that is not compared.
+fn compared(scene: &Scene) -> Scene {
+    let mut plain = scene.clone();
+    plain.options.wanted = Wanted::Everything;
+    plain.options.record_forces = false;
+    plain.output_dt = Some(row_interval(&scene.column, scene.options.t_end));
+    plain
+}
+
+fn row_interval(column: &Column, t_end: f64) -> f64 {
+    let fastest = (0..column.len()).map(|interface| column.stack(interface).frequency_parameter()).fold(0.0, f64::max);
+    (ROW_INTERVAL_OF_P / fastest).min(0.01 * t_end).max(t_end / MOST_ROWS)
+}
+
+/// When the verdict of a run was certain `[s]`.
+fn certain_at(scene: &Scene, response: &Response) -> Result<f64, SolveError> {
+    let may_be_proved = matches!(response.status, StopReason::AtRest | StopReason::EndOfTime);
+    // Where blocks slide there is no such proof.
+    if !may_be_proved || response.motion_at_contacts().is_some() {
+        return Ok(response.t_final);
+    }
+    let mut outcome = scene.clone();
+    (outcome.friction, outcome.options.wanted) = (None, Wanted::Outcome);
+    Ok(Simulator::new().run(&outcome)?.t_final.min(response.t_final))
+}
+
+impl Trust {
+    /// Whether all companions agree to the end of the run.
+    pub fn reaches_the_end(&self) -> bool {
+        self.input_horizon >= self.ends_at
+    }
+
+    /// The companions by their verdict, the most frequent first; `None` for those that failed.
+    pub fn verdicts(&self) -> Vec<(Option<Verdict>, usize)> {
+        let mut counts: Vec<(Option<Verdict>, usize)> = Vec::new();
+        for companion in &self.companions {
+            match counts.iter_mut().find(|(verdict, _)| *verdict == companion.verdict) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((companion.verdict, 1)),
+            }
+        }
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        counts
+    }
+
+    /// Trust in a line: of a determined run how many companions agree, of another how far angles are known and what became of the companions.
+    pub fn sentence(&self) -> String {
+        let count = self.companions.len();
+        let grown = format!("{}{}", if self.grows_on { "more than " } else { "" }, times(self.amplification));
+        if self.determined {
+            let until = match self.reaches_the_end() {
+                true => "agree to the end".to_string(),
+                false => format!("have this verdict and agree up to t = {:.4} s", self.input_horizon),
+            };
+            let mut text = format!("{count} companions {until}, small changes grow {grown} times");
+            if let Some(fold) = &self.fold {
+                text.push_str("; ");
+                text.push_str(&fold.sentence());
+            }
+            return text;
+        }
+        let verdicts = self.verdicts();
+        let told = match &verdicts[..] {
+            [(Some(verdict), _)] if *verdict == self.verdict => {
+                format!("all {count} companions {} as well, which proves nothing beyond", plural(*verdict))
+            }
+            counts => {
+                let counts: Vec<String> = counts.iter().map(|one| counted(*one)).collect();
+                format!("of {count} companions {}", counts.join(", "))
+            }
+        };
+        format!("angles are known up to t = {:.4} s only; small changes grow {grown} times; {told}", self.horizon)
+    }
+}
+
+/// So many companions with a verdict, in words.
+fn counted((verdict, count): (Option<Verdict>, usize)) -> String {
+    match (verdict, count) {
+        (None, _) => format!("{count} failed"),
+        (Some(verdict), 1) => format!("1 {verdict}"),
+        (Some(verdict), _) => format!("{count} {}", plural(verdict)),
+    }
+}
+
+/// What several columns do.
+fn plural(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stands => "stand",
+        Verdict::Overturns => "overturn",
+        Verdict::Collapses => "collapse",
+        Verdict::Undetermined => "end undetermined",
+    }
+}
+
+/// A factor with two digits.
+fn times(factor: f64) -> String {
+    match factor {
+        factor if factor < 100.0 => format!("{factor:.1}"),
+        factor if factor < 1e5 => format!("{:.0}", factor),
+        factor => format!("{factor:.0e}"),
+    }
+}

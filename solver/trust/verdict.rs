@@ -1,0 +1,53 @@
+//! What becomes of a column, and of which block.
+
+use crate::response::{Response, StopReason};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What becomes of a column, as far as one asks whether it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Verdict {
+    /// At rest, or rocking at the end of the run.
+    Stands,
+    /// Some angle reached the overturning angle.
+    Overturns,
+    /// A block slid or flew off its support; only with friction.
+    Collapses,
+    /// No motion follows from the laws of contact with friction.
+    Undetermined,
+}
+
+impl Verdict {
+    /// Of a run with this end.
+    pub fn of(status: StopReason) -> Verdict {
+        match status {
+            status if status.overturns() => Verdict::Overturns,
+            StopReason::Collapsed => Verdict::Collapses,
+            StopReason::Undetermined => Verdict::Undetermined,
+            _ => Verdict::Stands,
+        }
+    }
+
+    /// As in a sentence: `stands`, `overturns`, `collapses`, `ends undetermined`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Verdict::Stands => "stands",
+            Verdict::Overturns => "overturns",
+            Verdict::Collapses => "collapses",
+            Verdict::Undetermined => "ends undetermined",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.words())
+    }
+}
+
+/// The block that overturned or collapsed, from 1.
+pub(super) fn lost_block(response: &Response) -> Option<usize> {
+    response.overturned_block.or_else(|| response.collapsed_block())
+}

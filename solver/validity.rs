@@ -1,0 +1,87 @@
+//! What a run without sliding asks of its contacts: friction, compression, no separation.
+//!
+//! Contacts count up to the point of no return: the time from which on some block is past its balance, `|θ_i| > α_i`, and none comes back from there
+//! until the column has overturned. A block that falls slides and parts as it likes; the outcome is known by then. In a run that does not overturn all of it counts.
+
+use crate::json::number;
+use serde::{Deserialize, Serialize};
+
+/// Coefficients of friction of [`ContactNeeds::above`]: from polished stone to what bare stone on stone hardly reaches, dimensionless.
+pub const COEFFICIENTS: [f64; 4] = [0.3, 0.5, 0.7, 1.0];
+
+/// What the contacts of a run need, up to the point of no return.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Validity {
+    /// The point of no return of a run that overturns, otherwise the end of the run `[s]`.
+    pub until: f64,
+    /// Per interface, base first.
+    pub contacts: Vec<ContactNeeds>,
+    /// Number of separations.
+    pub separations: usize,
+    /// Time of the first separation `[s]`.
+    pub first_separation: Option<f64>,
+}
+
+/// What one contact needs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ContactNeeds {
+    /// Largest `|T| / N`, dimensionless; infinite where the contact parts with a force along it.
+    pub friction_demand: Extreme,
+    /// Smallest normal force `[N]`.
+    pub min_normal_force: Extreme,
+    /// Time in which the normal force is below zero.
+    pub tension: Span,
+    /// Time in which `|T| / N` is above each of [`COEFFICIENTS`].
+    pub above: Vec<Exceedance>,
+}
+
+/// An extreme of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Extreme {
+    /// In the unit of the quantity.
+    #[serde(deserialize_with = "number")]
+    pub value: f64,
+    /// When `[s]`.
+    pub t: f64,
+    /// Angle of the block above the contact at that time `[rad]`.
+    pub theta: f64,
+}
+
+/// A part of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Span {
+    /// `[s]`
+    pub time: f64,
+    /// Share of [`Validity::until`], dimensionless.
+    pub share: f64,
+}
+
+/// Time in which a contact needs more than a coefficient of friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Exceedance {
+    /// Dimensionless.
+    pub coefficient: f64,
+    /// `[s]`
+    pub time: f64,
+    /// Share of [`Validity::until`], dimensionless.
+    pub share: f64,
+}
+
+impl Validity {
+    /// Whether the model without sliding holds for joints that are rough enough: no contact parts, none pulls, and some coefficient of friction is
+    /// enough at each.
+    pub fn holds(&self) -> bool {
+        let is_pressed = |contact: &ContactNeeds| contact.min_normal_force.value >= 0.0;
+        self.separations == 0 && self.contacts.iter().all(is_pressed) && self.largest_demand().is_finite()
+    }
+
+    /// Largest friction demand of all contacts, dimensionless.
+    pub fn largest_demand(&self) -> f64 {
+        self.contacts.iter().fold(0.0, |largest, contact| contact.friction_demand.value.max(largest))
+    }
+}
