@@ -231,7 +231,7 @@ fn a_column_of_any_kind_is_scaled_to_a_slenderness_and_a_size() {
 
 #[test]
 fn widths_heights_and_diameters_are_twice_the_halves() {
-    let read = |text: &str| rocking::Scene::from_toml(text, "s.toml".as_ref());
+    let read = |text: &str| rocking::Scene::from_toml(text, "s.toml".as_ref()).map_err(Box::new);
     let halves =
         read("[column]\nblocks = 3\nshape = \"drum\"\nhalf_width = 0.4\ntop_half_width = 0.3\nhalf_height = 1.5\n")
             .expect("valid");
