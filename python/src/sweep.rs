@@ -3,12 +3,12 @@
 use crate::error;
 use crate::interrupt::INTERVAL;
 use crate::scene::{Origin, Scene};
-use crate::table::{Column, Names, Values, into_python, whole};
+use crate::table::{Column, Names, Values, into_python, truth, whole};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rocking::scene_file::{MOST_BLOCKS, Setting, Template};
-use rocking::sweep::{Ask, Axis, Fate, Outcome, PointError};
+use rocking::sweep::{Ask, Axis, Fate, Needs, Outcome, PointError};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,6 +16,9 @@ use std::time::Instant;
 
 /// Outcome of a failed point, as in a table of the command line.
 pub const ERROR: &str = "error";
+
+/// The word of a verdict that is not determined.
+const NOT_DETERMINED: &str = "not-determined";
 
 /// A base scene and what varies.
 #[pyclass(frozen, module = "rocking._rocking")]
@@ -91,6 +94,8 @@ impl Sweep {
             Ask::Overturns => "overturns",
             Ask::Peaks => "peaks",
             Ask::Slides => "slides",
+            Ask::Validity => "validity",
+            Ask::Trust => "trust",
             _ => "outcome",
         }
     }
@@ -154,7 +159,22 @@ impl Sweep {
             if ask == Ask::Slides {
                 columns.extend(per_block("residual_slide", blocks, results, |found| &found.residual_slides));
             }
+            if ask == Ask::Validity {
+                let needs = || found().map(|found| found.and_then(|found| found.needs));
+                let number = |of: fn(&Needs) -> f64| needs().map(|needs| needs.as_ref().map_or(f64::NAN, of)).collect();
+                columns.push(Column::new("valid", truth(needs().map(|needs| needs.map(|needs| needs.valid)))));
+                columns.push(Column::new("mu_demand", Values::Number(number(|needs| needs.mu_demand))));
+                columns.push(Column::new("min_normal", Values::Number(number(|needs| needs.min_normal))));
+                let separations = needs().map(|needs| needs.map(|needs| needs.separations));
+                columns.push(Column::new("separations", whole(separations)));
+            }
+            if ask == Ask::Trust {
+                let word = |determined| if determined { "determined" } else { NOT_DETERMINED };
+                let words = found().map(|found| found.and_then(|found| found.determined).map_or("", word));
+                columns.push(Column::new("trust", Names::of(["determined", NOT_DETERMINED]).column(words)));
+            }
         }
+        columns.push(Column::new("truncated", truth(found().map(|found| found.map(|found| found.truncated)))));
         let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
         columns.push(Column::new("error", Values::Text(errors.collect())));
         columns

@@ -15,6 +15,8 @@ pub enum Values {
     Number(Vec<f64>),
     /// Names of a list known beforehand; `("category", codes, names)`, the code of a blank is -1.
     Names(Vec<i32>, Vec<String>),
+    /// Truth values with blanks; `("boolean", values, is_blank)`.
+    Truth(Vec<bool>, Vec<bool>),
     /// Text with blanks; `("string", list)`.
     Text(Vec<Option<String>>),
 }
@@ -40,6 +42,9 @@ impl Column {
             }
             Values::Number(values) => (name, "float", values.into_pyarray(py)).into_pyobject(py),
             Values::Names(codes, names) => (name, "category", codes.into_pyarray(py), names).into_pyobject(py),
+            Values::Truth(values, blanks) => {
+                (name, "boolean", values.into_pyarray(py), blanks.into_pyarray(py)).into_pyobject(py)
+            }
             Values::Text(values) => (name, "string", values).into_pyobject(py),
         }
     }
@@ -55,6 +60,12 @@ pub fn into_python(py: Python<'_>, columns: Vec<Column>) -> PyResult<Bound<'_, P
 pub fn whole(values: impl Iterator<Item = Option<usize>>) -> Values {
     let (values, blanks) = values.map(|value| (value.map_or(0, |value| value as i64), value.is_none())).unzip();
     Values::Whole(values, blanks)
+}
+
+/// Truth values with blanks.
+pub fn truth(values: impl Iterator<Item = Option<bool>>) -> Values {
+    let (values, blanks) = values.map(|value| (value.unwrap_or_default(), value.is_none())).unzip();
+    Values::Truth(values, blanks)
 }
 
 /// Names as places in their list, in which each stands once.

@@ -15,7 +15,7 @@ def read(source: Path | str) -> pd.DataFrame:
     head, *rows = csv.reader(io.StringIO(text))
     columns = {}
     for place, name in enumerate(head):
-        cells = [row[place] for row in rows]
+        cells = [{"True": "true", "False": "false"}.get(row[place], row[place]) for row in rows]
         try:
             columns[name] = pd.Series([float(cell) if cell else float("nan") for cell in cells], dtype="float64")
         except ValueError:

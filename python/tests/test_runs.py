@@ -16,7 +16,7 @@ SCENES = Path(__file__).resolve().parents[2] / "scenes"
 
 @pytest.mark.parametrize("file", sorted(SCENES.glob("*.toml")), ids=lambda file: file.stem)
 def test_a_run_has_the_bits_of_the_command_line(file: Path, command, tmp_path: Path) -> None:
-    command("run", file, "--out", tmp_path, "--quiet")
+    command("run", file, "--out", tmp_path, "--quiet", "--no-trust")
     run = rk.simulate(rk.Scene.load(file))
     rows = read(tmp_path / "response.csv")
     blocks = len(run.scene.column)
@@ -52,7 +52,7 @@ def test_a_scene_of_arguments_is_the_scene_of_the_file(scenes: Path) -> None:
 
 
 def test_without_rows_and_forces_the_motion_is_the_same(scenes: Path) -> None:
-    scene = rk.Scene.load(scenes / "three-drums-pulse.toml")
+    scene = rk.Scene.load(scenes / "paper-3-blocks-3.00.toml")
     full, bare = rk.simulate(scene), rk.simulate(scene, rows=False, forces=False)
     assert bare.theta.shape == (0, 3) and bare.summary["friction_demand"] == []
     assert np.array_equal(full.peak_theta, bare.peak_theta) and full.events.equals(bare.events)
@@ -81,7 +81,7 @@ def test_tables_pictures_and_pages(scenes: Path, tmp_path: Path) -> None:
     above, below = run.plot()
     assert len(below.lines) == 4 and "θ / α" in below.get_ylabel() and len(above.lines) == 1
     assert run._repr_svg_().startswith("<svg") and "impacts" in run._repr_html_()
-    assert set(run.figures()) == {"time-history", "phase-portrait", "energy", "forces"}
+    assert set(run.figures()) == {"time-history", "phase-portrait", "energy", "forces", "slides"}
     run.report(tmp_path / "run.html")
     page = (tmp_path / "run.html").read_text()
     assert page.startswith("<!") and run.scene.title in page

@@ -15,7 +15,7 @@ COLUMN = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
 SCENE = rk.Scene(COLUMN, rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9, t_end=20, rtol=1e-6)
 
 
-@pytest.mark.parametrize("ask", ["outcome", "overturns", "peaks"])
+@pytest.mark.parametrize("ask", ["outcome", "overturns", "peaks", "validity"])
 def test_a_sweep_has_the_table_of_the_command_line(ask: str, command, scenes: Path, tmp_path: Path) -> None:
     file = tmp_path / "sweep.toml"
     base = (scenes / "sweeps" / "column.toml").read_text()

@@ -17,6 +17,8 @@ def frame(columns: list[tuple[Any, ...]], start: int = 0) -> pd.DataFrame:
 def _series(kind: str, values: list[Any]) -> Any:
     if kind == "Int64":
         return pd.arrays.IntegerArray(values[0], values[1])
+    if kind == "boolean":
+        return pd.arrays.BooleanArray(values[0], values[1])
     if kind == "category":
         return pd.Categorical.from_codes(values[0], categories=pd.Index(values[1], dtype="str"))
     if kind == "string":

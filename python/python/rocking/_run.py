@@ -47,7 +47,7 @@ def simulate(
     rows : bool
         Whether rows are returned, every ``output_dt`` seconds. Without them a short run takes a fraction of the time.
     forces : bool
-        Whether friction demand and smallest normal forces are found.
+        Whether friction demand and smallest normal forces are found; with friction they always are.
     wanted : str
         ``everything``, ``outcome`` (whether and when it overturns: no rows, events, peaks or forces) or ``overturns`` (whether it does).
     **arguments
@@ -197,11 +197,15 @@ class Run:
         return self._response.warnings
 
     def to_pandas(self) -> pd.DataFrame:
-        """The rows as a table with the columns of ``response.csv`` before ``pattern``: ``t``, ``theta_1``, ..., ``omega_1``, ..., ``ground_x``, ``ground_y``."""
+        """The rows as a table with the columns of ``response.csv`` before ``pattern``: ``t``, ``theta_1``, ..., ``omega_1``, ..., ``ground_x``, ``ground_y``; where blocks slide or fly, their places, velocities and forces as well."""
         columns: dict[str, Any] = {"t": self.t}
         for name, values in (("theta", self.theta), ("omega", self.omega), ("slide", self.slide), ("gap", self.gap)):
             if values is not None:
                 columns.update({f"{name}_{block + 1}": values[:, block] for block in range(values.shape[1])})
+        if self.place is not None and self.velocity is not None and self.force is not None:
+            states = np.concatenate([self.place, self.velocity, self.force], axis=2)
+            for kind, name in enumerate(("x", "y", "vx", "vy", "normal", "tangential", "moment")):
+                columns.update({f"{name}_{block + 1}": states[:, block, kind] for block in range(states.shape[1])})
         columns.update({"ground_x": self.ground[:, 0], "ground_y": self.ground[:, 1]})
         return pd.DataFrame(columns)
 

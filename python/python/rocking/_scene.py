@@ -48,6 +48,7 @@ class SceneKeys(TypedDict, total=False):
     stick_angle: float
     overturn_angle: float
     output_dt: float
+    output_columns: Sequence[str]
     keys: Mapping[str, Any]
 
 
@@ -58,6 +59,7 @@ ARGUMENTS: dict[str, str] = {
     **{name: f"initial.{name}" for name in ("theta", "omega", "slide", "x", "y", "vx", "vy")},
     **{name: f"solver.{name}" for name in ("t_end", "method", "rtol", "atol", "step", "stick_angle", "overturn_angle")},
     "output_dt": "output.dt",
+    "output_columns": "output.columns",
 }
 
 #: Keys of which a scene has one.
@@ -256,7 +258,7 @@ class Scene:
         Every other key of a scene file: ``title``; ``gravity`` [m/s²]; ``friction``, a coefficient or ``{"static": .., "kinetic": ..}``; ``eta``,
         ``factors`` or ``law`` of impacts; ``theta`` [rad], ``omega`` [rad/s], ``slide`` [m], ``x``, ``y`` [m], ``vx``, ``vy`` [m/s] at t = 0, base first;
         ``t_end`` [s], ``method``, ``rtol``, ``atol``, ``step`` [s], ``stick_angle`` [rad], ``overturn_angle`` [rad] of the solver; ``output_dt`` [s], the
-        interval of the rows. ``keys`` takes any others under their dotted names.
+        interval of the rows, and ``output_columns``, of ``relative`` and ``top``. ``keys`` takes any others under their dotted names.
 
     Raises
     ------
@@ -411,15 +413,16 @@ class Scene:
 
 
 def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
-    """Arguments under the dotted names of their keys."""
+    """Arguments under the dotted names of their keys, those of ``keys`` last."""
     for name, value in arguments.items():
         if name == "keys":
-            yield from value.items()
-        elif name not in ARGUMENTS:
+            continue
+        if name not in ARGUMENTS:
             known = ", ".join([*ARGUMENTS, "keys"])
             raise TypeError(f"there is no argument `{name}`; arguments are {known}")
-        elif value is not None:
+        if value is not None:
             yield ARGUMENTS[name], value
+    yield from arguments.get("keys", {}).items()
 
 
 def _copy(value: Any) -> Any:

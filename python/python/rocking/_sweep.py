@@ -24,7 +24,7 @@ class Sweep:
         Keys of a scene file, dotted or short as in a sweep file, and their values: a sequence of numbers or names, or
         ``{"from": .., "to": .., "steps": .., "scale": "log"}``. The last axis runs fastest.
     ask : str
-        ``outcome``, ``overturns``, ``peaks`` or ``slides``.
+        ``outcome``, ``overturns``, ``peaks``, ``slides``, ``validity`` or ``trust``.
     combine : str
         ``cartesian`` or ``paired``.
 
