@@ -25,7 +25,8 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
             exception(py, "SceneError", (text, shown(file), *line, key, problem, "", shown(record)))
         }
         SceneFileError::Several { faults } => {
-            let faults: Vec<Py<PyAny>> = faults.iter().map(|fault| scene(py, fault).into_value(py).into_any()).collect();
+            let faults: Vec<Py<PyAny>> =
+                faults.iter().map(|fault| scene(py, fault).into_value(py).into_any()).collect();
             match PyTuple::new(py, &faults) {
                 Ok(faults) => exception(py, "SceneError", (text, "", 0, "", "", "", "", faults)),
                 Err(failure) => failure,
@@ -52,7 +53,8 @@ pub fn faults(py: Python<'_>, file: &Path, errors: &SceneErrors) -> PyErr {
     match &made[..] {
         [one] => one.clone_ref(py),
         several => {
-            let values: Vec<Py<PyAny>> = several.iter().map(|fault| fault.value(py).clone().unbind().into_any()).collect();
+            let values: Vec<Py<PyAny>> =
+                several.iter().map(|fault| fault.value(py).clone().unbind().into_any()).collect();
             match PyTuple::new(py, &values) {
                 Ok(faults) => exception(py, "SceneError", (errors.to_string(), file, 0, "", "", "", "", faults)),
                 Err(failure) => failure,

@@ -95,7 +95,9 @@ fn found<'py>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
         return Ok(Found::Value(float(number)));
     }
     let kind = value.get_type().name()?;
-    Err(PyTypeError::new_err(format!("key `{key}`: a {kind} cannot stand in a scene; give a number, text, a list or a dictionary")))
+    Err(PyTypeError::new_err(format!(
+        "key `{key}`: a {kind} cannot stand in a scene; give a number, text, a list or a dictionary"
+    )))
 }
 
 fn list<'py>(key: &str, items: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
@@ -104,14 +106,20 @@ fn list<'py>(key: &str, items: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
         match found(key, &item?)? {
             Found::Value(value) => values.push(value),
             Found::Table(keys) => tables.push(keys),
-            Found::Nothing => return Err(PyTypeError::new_err(format!("key `{key}`: None stands in a list; leave it out"))),
-            Found::Tables(_) => return Err(PyTypeError::new_err(format!("key `{key}`: a list of lists of tables is no scene"))),
+            Found::Nothing => {
+                return Err(PyTypeError::new_err(format!("key `{key}`: None stands in a list; leave it out")));
+            }
+            Found::Tables(_) => {
+                return Err(PyTypeError::new_err(format!("key `{key}`: a list of lists of tables is no scene")));
+            }
         }
     }
     match (values.is_empty(), tables.is_empty()) {
         (_, true) => Ok(Found::Value(format!("[{}]", values.join(", ")))),
         (true, false) => Ok(Found::Tables(tables)),
-        (false, false) => Err(PyTypeError::new_err(format!("key `{key}`: a list has tables and values; give one of them"))),
+        (false, false) => {
+            Err(PyTypeError::new_err(format!("key `{key}`: a list has tables and values; give one of them")))
+        }
     }
 }
 

@@ -61,16 +61,24 @@ impl Record {
         };
         let options = TextOptions { gravity, dt, units, lenient, channel, skip_rows, column };
         let name = file.to_string_lossy().into_owned();
-        let bytes = py.detach(|| read_file(&file)).map_err(|failure| {
-            pyo3::exceptions::PyOSError::new_err(format!("{name}: {failure}"))
-        })?;
+        let bytes = py
+            .detach(|| read_file(&file))
+            .map_err(|failure| pyo3::exceptions::PyOSError::new_err(format!("{name}: {failure}")))?;
         let record = py.detach(|| rocking::Record::from_bytes(&bytes, &options));
         record.map(|record| record.named(&name).into()).map_err(|refused| error::record(py, &name, &refused))
     }
 
     /// Filtered noise.
     #[staticmethod]
-    fn synthetic(py: Python<'_>, seed: u64, duration: f64, dt: f64, frequency: f64, damping: f64, pga: f64) -> PyResult<Record> {
+    fn synthetic(
+        py: Python<'_>,
+        seed: u64,
+        duration: f64,
+        dt: f64,
+        frequency: f64,
+        damping: f64,
+        pga: f64,
+    ) -> PyResult<Record> {
         let synthetic = Synthetic { pga, duration, dt, seed, frequency, damping };
         let record = py.detach(|| synthetic.record()).map_err(|refused| error::record(py, "", &refused))?;
         Ok(record.named(format!("seed {seed}")).into())
@@ -103,7 +111,9 @@ impl Record {
             (IntensityUnit::Si, None) => (1.0, gravity),
             (IntensityUnit::Gravity, None) => (gravity, gravity),
             _ => {
-                return Err(PyValueError::new_err(format!("{measure} is over what opens the base of a column; give `column`")));
+                return Err(PyValueError::new_err(format!(
+                    "{measure} is over what opens the base of a column; give `column`"
+                )));
             }
         };
         let record = self.record.clone();
@@ -123,7 +133,9 @@ impl Record {
     /// The record with its first sample at a time.
     fn starting_at(&self, start: f64) -> PyResult<Record> {
         if !start.is_finite() {
-            return Err(PyValueError::new_err(format!("start = {start} is out of range; give a finite number of seconds")));
+            return Err(PyValueError::new_err(format!(
+                "start = {start} is out of range; give a finite number of seconds"
+            )));
         }
         Ok(self.record.clone().starting_at(start).into())
     }
@@ -188,13 +200,20 @@ impl Record {
     }
 
     /// Pseudo-spectral acceleration at periods `[s]`, `[m/s²]`.
-    fn spectrum<'py>(&self, py: Python<'py>, periods: PyReadonlyArray1<'_, f64>, damping: f64) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    fn spectrum<'py>(
+        &self,
+        py: Python<'py>,
+        periods: PyReadonlyArray1<'_, f64>,
+        damping: f64,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let periods = periods.as_array().to_vec();
         if let Some(period) = periods.iter().find(|period| !(period.is_finite() && **period > 0.0)) {
             return Err(PyValueError::new_err(format!("period = {period} is out of range; give seconds above zero")));
         }
         if !(0.0..1.0).contains(&damping) {
-            return Err(PyValueError::new_err(format!("damping = {damping} is out of range; give a ratio from 0 to below 1")));
+            return Err(PyValueError::new_err(format!(
+                "damping = {damping} is out of range; give a ratio from 0 to below 1"
+            )));
         }
         let values: Vec<f64> =
             py.detach(|| periods.iter().map(|period| self.record.spectral_acceleration(*period, damping)).collect());
@@ -228,7 +247,9 @@ pub fn intensity(name: &str, sa_period: Option<f64>, sa_damping: Option<f64>) ->
     }
     let damping = sa_damping.unwrap_or(DEFAULT_DAMPING);
     if !(0.0..1.0).contains(&damping) {
-        return Err(PyValueError::new_err(format!("sa_damping = {damping} is out of range; give a ratio from 0 to below 1")));
+        return Err(PyValueError::new_err(format!(
+            "sa_damping = {damping} is out of range; give a ratio from 0 to below 1"
+        )));
     }
     if let Some(period) = sa_period.filter(|period| !(period.is_finite() && *period > 0.0)) {
         return Err(PyValueError::new_err(format!("sa_period = {period} is out of range; give seconds above zero")));
@@ -237,6 +258,8 @@ pub fn intensity(name: &str, sa_period: Option<f64>, sa_damping: Option<f64>) ->
         .ok_or_else(|| PyValueError::new_err(format!("`{name}` is of a period; give sa_period in s")))?;
     match (found.measure, sa_period) {
         (Measure::Sa { .. }, _) | (_, None) => Ok(found),
-        _ => Err(PyValueError::new_err(format!("`{name}` has no period; leave sa_period out, or measure by sa or sa_g"))),
+        _ => {
+            Err(PyValueError::new_err(format!("`{name}` has no period; leave sa_period out, or measure by sa or sa_g")))
+        }
     }
 }

@@ -102,8 +102,11 @@ impl Response {
 
     /// Signs of the interfaces, shape (rows, blocks).
     fn pattern<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i8>>> {
-        let signs: Vec<i8> =
-            self.samples().iter().flat_map(|sample| sample.pattern.0.iter().map(|interface| interface.sign())).collect();
+        let signs: Vec<i8> = self
+            .samples()
+            .iter()
+            .flat_map(|sample| sample.pattern.0.iter().map(|interface| interface.sign()))
+            .collect();
         let shape = [self.samples().len(), self.blocks()];
         signs.into_pyarray(py).reshape(shape)
     }
@@ -146,21 +149,25 @@ impl Response {
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let events = &self.response.events;
         let columns = PyDict::new(py);
-        let kind = |event: &Event| serde_json::to_value(event.kind).ok().and_then(|name| name.as_str().map(String::from));
+        let kind =
+            |event: &Event| serde_json::to_value(event.kind).ok().and_then(|name| name.as_str().map(String::from));
         columns.set_item("t", PyArray1::from_iter(py, events.iter().map(|event| event.t)))?;
         columns.set_item("kind", events.iter().map(|event| kind(event).unwrap_or_default()).collect::<Vec<_>>())?;
         let interface = |event: &Event| event.interface.and_then(|number| i64::try_from(number).ok());
-        columns.set_item("interface", PyArray1::from_iter(py, events.iter().map(|event| interface(event).unwrap_or(0))))?;
+        columns
+            .set_item("interface", PyArray1::from_iter(py, events.iter().map(|event| interface(event).unwrap_or(0))))?;
         columns.set_item("before", events.iter().map(|event| event.before.to_string()).collect::<Vec<_>>())?;
         columns.set_item("after", events.iter().map(|event| event.after.to_string()).collect::<Vec<_>>())?;
-        columns.set_item("mode_before", events.iter().map(|event| event.mode_before.to_string()).collect::<Vec<_>>())?;
+        columns
+            .set_item("mode_before", events.iter().map(|event| event.mode_before.to_string()).collect::<Vec<_>>())?;
         columns.set_item("mode", events.iter().map(|event| event.mode.to_string()).collect::<Vec<_>>())?;
         columns.set_item("mirrored", PyArray1::from_iter(py, events.iter().map(|event| event.mirrored)))?;
         let lost = |event: &Event| event.energy_lost.unwrap_or(f64::NAN);
         columns.set_item("energy_lost", PyArray1::from_iter(py, events.iter().map(lost)))?;
         let blocks = self.blocks();
         let grid = |name: &str, of: &dyn Fn(&Event, usize) -> f64| {
-            let numbers: Vec<f64> = events.iter().flat_map(|event| (0..blocks).map(move |block| of(event, block))).collect();
+            let numbers: Vec<f64> =
+                events.iter().flat_map(|event| (0..blocks).map(move |block| of(event, block))).collect();
             let shape = [events.len(), blocks];
             columns.set_item(name, numbers.into_pyarray(py).reshape(shape)?)
         };
@@ -280,7 +287,8 @@ impl Response {
         let (length, rest) = state.split_first_chunk::<8>().ok_or_else(damaged)?;
         let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
         let (json, rows) = rest.split_at_checked(length).ok_or_else(damaged)?;
-        let read: Pickled<rocking::Scene, rocking::Response, Vec<Event>> = serde_json::from_slice(json).map_err(error::json)?;
+        let read: Pickled<rocking::Scene, rocking::Response, Vec<Event>> =
+            serde_json::from_slice(json).map_err(error::json)?;
         let blocks = read.scene.column.len();
         let mut numbers = rows.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes));
         let mut next = || numbers.next().ok_or_else(damaged);

@@ -53,7 +53,8 @@ impl Scene {
     /// Reads TOML text; `file` is named in errors, and records are found relative to it.
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: String, file: PathBuf) -> PyResult<Scene> {
-        let scene = py.detach(|| rocking::Scene::from_toml(&text, &file)).map_err(|refused| error::scene(py, &refused))?;
+        let scene =
+            py.detach(|| rocking::Scene::from_toml(&text, &file)).map_err(|refused| error::scene(py, &refused))?;
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
     }
 
@@ -185,7 +186,8 @@ impl Scene {
 
     #[staticmethod]
     fn from_state(py: Python<'_>, state: &[u8]) -> PyResult<Scene> {
-        let Pickled { scene, origin }: Pickled<rocking::Scene, Origin> = serde_json::from_slice(state).map_err(error::json)?;
+        let Pickled { scene, origin }: Pickled<rocking::Scene, Origin> =
+            serde_json::from_slice(state).map_err(error::json)?;
         scene.check().map_err(|errors| error::faults(py, Path::new(&origin.file), &errors))?;
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
     }

@@ -193,10 +193,12 @@ fn observations(
 ) -> PyResult<Vec<Observation>> {
     let runs = records.len();
     let (peaks, slides) = (peaks.as_array(), slides.as_array());
-    if [levels.len(), outcomes.len(), uplift.len(), peaks.nrows(), slides.nrows()].iter().any(|length| *length != runs) {
+    if [levels.len(), outcomes.len(), uplift.len(), peaks.nrows(), slides.nrows()].iter().any(|length| *length != runs)
+    {
         return Err(PyValueError::new_err("columns of a study must be equally long"));
     }
-    let numbers = |row: numpy::ndarray::ArrayView1<'_, f64>| row.iter().copied().filter(|number| !number.is_nan()).collect();
+    let numbers =
+        |row: numpy::ndarray::ArrayView1<'_, f64>| row.iter().copied().filter(|number| !number.is_nan()).collect();
     records
         .into_iter()
         .zip(outcomes)
@@ -208,9 +210,12 @@ fn observations(
             }
             let fate = match outcome.as_deref() {
                 None | Some(ERROR) => None,
-                Some(name) => Some(Fate::ALL.into_iter().find(|fate| fate.name() == name).ok_or_else(|| {
-                    PyValueError::new_err(format!("row {run}: `{name}` is no outcome of a run"))
-                })?),
+                Some(name) => Some(
+                    Fate::ALL
+                        .into_iter()
+                        .find(|fate| fate.name() == name)
+                        .ok_or_else(|| PyValueError::new_err(format!("row {run}: `{name}` is no outcome of a run")))?,
+                ),
             };
             Ok(Observation {
                 record,
@@ -246,7 +251,9 @@ pub fn fragility(
     let state: LimitState =
         state.parse().map_err(|refused| error::of_study(py, &format!("there is no state `{state}`; {refused}")))?;
     if !(confidence > 0.0 && confidence < 1.0) {
-        return Err(PyValueError::new_err(format!("confidence = {confidence} is out of range; give a share between 0 and 1")));
+        return Err(PyValueError::new_err(format!(
+            "confidence = {confidence} is out of range; give a share between 0 and 1"
+        )));
     }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
@@ -284,7 +291,8 @@ pub fn stripes<'py>(
     }
     columns.set_item("errors", stripes.iter().map(|stripe| stripe.errors).collect::<Vec<_>>())?;
     for (place, share) in studies::FRACTILES.into_iter().enumerate() {
-        let values: Vec<f64> = stripes.iter().map(|stripe| stripe.fractiles.map_or(f64::NAN, |values| values[place])).collect();
+        let values: Vec<f64> =
+            stripes.iter().map(|stripe| stripe.fractiles.map_or(f64::NAN, |values| values[place])).collect();
         columns.set_item(format!("peak_{:.0}", 100.0 * share), values)?;
     }
     Ok(columns)

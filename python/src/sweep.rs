@@ -118,7 +118,8 @@ impl Sweep {
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.sweep.len())?;
         let blocks = if self.sweep.ask.is_of_peaks() { self.blocks(py)? } else { 0 };
-        let results = in_parts(py, range.clone(), threads, FIRST_PART, |part| self.sweep.lines(part, |row| row.result))?;
+        let results =
+            in_parts(py, range.clone(), threads, FIRST_PART, |part| self.sweep.lines(part, |row| row.result))?;
         into_python(py, py.detach(|| self.columns(range, &results, blocks)))
     }
 }
@@ -141,14 +142,20 @@ impl Sweep {
             columns.push(Column::new(&axis.key, axis_values(axis, settings)));
         }
         let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
-        columns.push(Column::new("outcome", fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))));
+        columns.push(Column::new(
+            "outcome",
+            fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name()))),
+        ));
         // A run that ends when its outcome is certain has not had all its impacts.
         let is_counted = |found: &&Outcome| match found.fate {
             Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
             Fate::Overturns => ask != Ask::Overturns,
             _ => ask.is_of_peaks(),
         };
-        columns.push(Column::new("impacts", whole(found().map(|found| found.filter(is_counted).map(|found| found.impacts)))));
+        columns.push(Column::new(
+            "impacts",
+            whole(found().map(|found| found.filter(is_counted).map(|found| found.impacts))),
+        ));
         columns.push(Column::new("block", whole(found().map(|found| found.and_then(|found| found.block)))));
         let time = |found: Option<&Outcome>| found.and_then(|found| found.overturned_at).unwrap_or(f64::NAN);
         columns.push(Column::new("overturned_at", Values::Number(found().map(time).collect())));
@@ -195,7 +202,12 @@ fn axis_values<'s>(axis: &Axis, settings: impl Iterator<Item = &'s Setting>) -> 
 }
 
 /// `name_1, name_2, ..`: columns of a list that each result has; blank where there is none, and beyond its end.
-pub fn per_block<T, E>(name: &str, blocks: usize, results: &[Result<T, E>], list: impl Fn(&T) -> &Vec<f64>) -> Vec<Column> {
+pub fn per_block<T, E>(
+    name: &str,
+    blocks: usize,
+    results: &[Result<T, E>],
+    list: impl Fn(&T) -> &Vec<f64>,
+) -> Vec<Column> {
     let of_block = |block: usize| {
         let value = |result: &Result<T, E>| result.as_ref().ok().and_then(|found| list(found).get(block).copied());
         let values = results.iter().map(|result| value(result).unwrap_or(f64::NAN)).collect();

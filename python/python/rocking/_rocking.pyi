@@ -5,6 +5,8 @@ from typing import Any, Final, final
 import numpy as np
 import numpy.typing as npt
 
+__all__: list[str]
+
 _Array = npt.NDArray[np.float64]
 
 __version__: Final[str]

@@ -62,7 +62,7 @@ def simulate(
 
     >>> run = simulate(Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2, output_dt=0.5)
     >>> run.t.tolist(), run.theta.shape, run.impacts
-    ([0.0, 0.5, 1.0, 1.5, 2.0], (5, 1), 3)
+    ([0.0, 0.5, 1.0, 1.5, 2.0], (5, 1), 2)
     """
     if not isinstance(column, Scene):
         scene = Scene(column, motion, vertical, **arguments)

@@ -138,7 +138,7 @@ class Column:
 
     >>> column = Column.drums(5, half_width=0.5, top_half_width=0.4, height=5.0, density=2700)
     >>> len(column), round(column.alpha, 4)
-    (5, 0.2141)
+    (5, 0.2127)
     """
 
     def __init__(self, blocks: Iterable[Mapping[str, Any]], *, gravity: float | None = None) -> None:

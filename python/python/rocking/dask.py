@@ -8,7 +8,7 @@ types of the columns are known beforehand. A task that is lost with its worker i
 >>> sweep = rk.Sweep(scene, {"omega_p": [2.0, 4.0], "amplitude_uplift": {"from": 1, "to": 8, "steps": 50}})
 >>> table = rd.frame(sweep, partition_size=25)
 >>> table.npartitions, int((table.outcome == "overturns").sum().compute(scheduler="sync"))
-(4, 32)
+(4, 89)
 """
 
 from __future__ import annotations
