@@ -5,7 +5,28 @@ from typing import Any, Final, final
 import numpy as np
 import numpy.typing as npt
 
-__all__: list[str]
+__all__ = [
+    "Ida",
+    "MAX_BLOCKS",
+    "MEASURES",
+    "Record",
+    "Response",
+    "Scene",
+    "StudyRecord",
+    "Sweep",
+    "__version__",
+    "command_line",
+    "figures",
+    "fragility",
+    "from_toml",
+    "measure_label",
+    "page",
+    "probability",
+    "scene_text",
+    "stripes",
+    "to_toml",
+]
+
 
 _Array = npt.NDArray[np.float64]
 
