@@ -95,6 +95,6 @@ mod tests {
         assert_eq!(Band::from_csv(&text, 2), Ok(band));
         assert_eq!(Band::from_csv(&text, 3), Err(2));
         assert_eq!(Band::from_csv(&text.replace("0.1,-1", "0.0,-1"), 2), Err(3));
-        assert_eq!(Band::from_csv(&text.replace("0.3", "NaN"), 2), Err(3));
+        assert_eq!(Band::from_csv(&text.replace(",0.3,", ",NaN,"), 2), Err(3));
     }
 }
