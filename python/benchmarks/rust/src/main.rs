@@ -14,10 +14,9 @@ fn least(times: usize, inner: usize, mut work: impl FnMut()) -> f64 {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.56, 1.0, 9.81)?);
-    let (alpha, p) = (scene.column.slenderness(), scene.column.stack(0).frequency_parameter());
-    scene.excitation.horizontal =
-        Some(Motion::SinePulse { amplitude: 3.0 * alpha.tan() * 9.81, omega: 5.0 * p, start: 0.0 });
+    let mut scene = Scene::new(Column::equal_blocks(1, 0.3974745895307783, 1.5566366369849045, 1.0, 9.81)?);
+    let omega = 10.7;
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 7.3575, omega, start: 0.0 });
     scene.restitution = Restitution::Eta(0.9);
     scene.options.t_end = 10.0;
     scene.options.record_forces = false;
@@ -25,9 +24,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let run = least(200, 100, || {
         std::hint::black_box(simulate(&scene)).ok();
     });
-    let omega = 5.0 * p;
     let base = format!(
-        "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.56\n[restitution]\neta = 0.9\n[excitation.horizontal]\nkind = \"sine-pulse\"\n\
+        "[column]\nblocks = 1\nhalf_width = 0.3974745895307783\nhalf_height = 1.5566366369849045\n[restitution]\neta = 0.9\n[excitation.horizontal]\nkind = \"sine-pulse\"\n\
          amplitude = 7.0\nomega = {omega:?}\n[solver]\nt_end = 20.0\nrtol = 1e-6\n"
     );
     let axes = "[axes]\nomega_p = { from = 0.5, to = 10.0, steps = 191 }\namplitude = { from = 1.0, to = 40.0, steps = 1000 }\n";
