@@ -93,7 +93,7 @@ fn pulse(sweep: &Sweep, index: usize) -> Pulse {
     let [_, omega_p, uplifts] = sweep.settings(index)[..] else { unreachable!("three axes") };
     let column = sweep.scene(index).expect("a valid scene").column;
     let bottom = column.blocks()[0];
-    let block = Block::new(bottom.half_width, bottom.half_height, Some(0.9));
+    let block = Block::new(bottom.half_width(), bottom.half_height, Some(0.9));
     let amplitude = number(&uplifts) * block.uplift();
     Pulse { block, amplitude, omega: number(&omega_p) * block.p2.sqrt(), t_end: T_END }
 }
