@@ -4,13 +4,14 @@
 //! scene ──> companions.rs   the scene at a tighter tolerance; excitation and sizes changed by 1e-9 and 1e-6
 //!       ──> history.rs      angles and slides of two runs side by side: until when they agree, by how much a change has grown
 //!       ──> band.rs         the smallest and the largest angle of all runs, over time
+//!       ──> verdict.rs      what became of the column in each run: stands, overturns, collapses, or nothing that is known
 //!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
 //! ```
 //!
 //! The *horizon* is the time up to which the runs agree to [`AGREEMENT`] that differ by their tolerance or by 1e-9: up to then the scene determines the
 //! angles, and the solver finds them. A verdict that is certain by then, and is that of all companions, those with changes of 1e-6 too, is *determined*.
-//! Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` is another word: a run with friction ends so where no motion follows from the laws of contact
-//! ([`StopReason::Undetermined`]).
+//! Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` is
+//! another word: a run with friction ends so where no motion follows from the laws of contact ([`StopReason::Undetermined`]).
 //!
 //! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
 
