@@ -203,6 +203,7 @@ fn a_column_of_any_kind_is_scaled_to_a_slenderness_and_a_size() {
         ("alpha = 0.2\np = 1.5", (Some(0.2), Some(1.5), None)),
         ("alpha = 0.15\nR = 4.0", (Some(0.15), None, Some(4.0))),
         ("p = 3.0", (None, Some(3.0), None)),
+        ("alpha = 0.1\nrocking_period = 4.0", (Some(0.1), Some(std::f64::consts::TAU / 4.0), None)),
         ("alpha = 0.3", (Some(0.3), None, None)),
     ] {
         let scene = rocking::Scene::from_toml(&format!("{drums}[size]\n{size}\n"), "s.toml".as_ref()).expect("valid");

@@ -97,7 +97,7 @@ const ALTERNATIVES: [&[&str]; 10] = [
     &["bottom_half_width", "bottom_width", "bottom_diameter"],
     &["top_half_width", "top_width", "top_diameter"],
     &["half_height", "height"],
-    &["p", "R"],
+    &["p", "rocking_period", "R"],
     &["amplitude", "amplitude_g", "amplitude_uplift", "velocity"],
     &["omega", "frequency", "period", "omega_p"],
     &["scale", "pga", "pga_g", "pga_uplift", "pgv", "pgv_uplift", "pgd", "arias", "cav", "sa", "sa_g"],

@@ -1,4 +1,4 @@
-//! `[excitation.horizontal]` and `[excitation.vertical]`: pulses by their parameters, records by their files.
+//! `[excitation.horizontal]` and `[excitation.vertical]`: pulses by their parameters, records by their files. Records of stations: `stations.rs`.
 
 use super::error::SceneFileError;
 use super::reader::Reader;
@@ -77,6 +77,15 @@ impl Reader<'_> {
     pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
+        if let Some(mut station) = table.table("station").map_err(own)? {
+            if let Some(other) = ["horizontal", "vertical"].into_iter().find(|name| table.has(name)) {
+                return Err(own(table.clash(other, "station")));
+            }
+            let excitation = self.station(&mut station, column)?;
+            station.close().map_err(own)?;
+            table.close().map_err(own)?;
+            return Ok(excitation);
+        }
         let mut component = |name: &'static str| -> Result<Option<Motion>, SceneFileError> {
             let Some(mut table) = table.table(name).map_err(own)? else { return Ok(None) };
             let motion = self.motion(&mut table, column)?;
@@ -216,11 +225,11 @@ pub(crate) fn text_options(table: &mut Table, gravity: f64) -> Result<TextOption
 }
 
 /// The size that a record is scaled to.
-struct Target {
-    key: &'static str,
-    measure: Measure,
+pub(super) struct Target {
+    pub key: &'static str,
+    pub measure: Measure,
     /// In the unit of the measure.
-    size: f64,
+    pub size: f64,
 }
 
 impl Target {
@@ -233,7 +242,7 @@ impl Target {
 }
 
 /// One of the sizes of [`NAMES`](crate::intensity::NAMES), or none.
-fn target(table: &mut Table, column: &Column) -> Result<Option<Target>, Wrong> {
+pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target>, Wrong> {
     let sa = spectrum(table)?;
     let mut found: Option<Target> = None;
     for key in NAMES {
@@ -276,7 +285,7 @@ pub(crate) fn spectrum(table: &mut Table) -> Result<Option<[f64; 2]>, Wrong> {
     Ok(period.map(|period| [period, damping]))
 }
 
-fn start(table: &mut Table) -> Result<f64, Wrong> {
+pub(super) fn start(table: &mut Table) -> Result<f64, Wrong> {
     Ok(table.number("start")?.map_or(0.0, |(value, _)| value))
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod excitation;
 pub(crate) mod reader;
 pub(crate) mod records;
 mod setting;
+pub(crate) mod stations;
 pub(crate) mod table;
 mod template;
 

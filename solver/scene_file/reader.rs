@@ -10,6 +10,7 @@ use crate::column::{Block, Column, ColumnError, Shape};
 use crate::friction::Friction;
 use crate::scene::{Initial, LARGEST, Look, Method, OutputColumn, Restitution, Scene, SceneError};
 use serde::Serialize;
+use std::f64::consts::TAU;
 use std::path::Path;
 
 impl Scene {
@@ -224,12 +225,18 @@ struct Size {
 
 impl Size {
     fn read(table: &mut Table) -> Result<Size, Wrong> {
-        let (alpha, p, radius) = (table.positive("alpha")?, table.positive("p")?, table.positive("R")?);
+        let (alpha, mut p, radius) = (table.positive("alpha")?, table.positive("p")?, table.positive("R")?);
         if let Some(value) = alpha.filter(|alpha| *alpha >= std::f64::consts::FRAC_PI_2) {
             return Err(table.wrong("alpha", format!("{value} rad is no slenderness"), "give an angle below pi/2 rad"));
         }
         if p.is_some() && radius.is_some() {
             return Err(table.clash("R", "p"));
+        }
+        if let Some(period) = table.positive("rocking_period")? {
+            if let Some(other) = ["p", "R"].into_iter().find(|key| table.has(key)) {
+                return Err(table.clash("rocking_period", other));
+            }
+            p = Some(TAU / period);
         }
         table.close()?;
         Ok(Size { alpha, p, radius })

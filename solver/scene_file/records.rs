@@ -2,23 +2,32 @@
 
 use rocking_ground::Record;
 use std::collections::HashMap;
-use std::path::PathBuf;
-use std::sync::Mutex;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Records by file and by the keys that say how to read it, kept between scenes.
 #[derive(Debug, Default)]
-pub(crate) struct Records(Mutex<HashMap<(PathBuf, String), Record>>);
+pub(crate) struct Records {
+    records: Mutex<HashMap<(PathBuf, String), Record>>,
+    folders: Mutex<HashMap<PathBuf, Listed>>,
+}
+
+/// The records of a folder, each with the names of its files.
+pub(crate) type Listed = Arc<[(String, Vec<String>)]>;
+
+fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 impl Records {
     /// A record read before.
     pub fn get(&self, key: &(PathBuf, String)) -> Option<Record> {
-        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(key).cloned()
+        locked(&self.records).get(key).cloned()
     }
 
     /// The files, sorted.
     pub fn files(&self) -> Vec<PathBuf> {
-        let records = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let mut files: Vec<PathBuf> = records.keys().map(|(file, _)| file.clone()).collect();
+        let mut files: Vec<PathBuf> = locked(&self.records).keys().map(|(file, _)| file.clone()).collect();
         files.sort();
         files.dedup();
         files
@@ -26,6 +35,16 @@ impl Records {
 
     /// Keeps a record.
     pub fn keep(&self, key: (PathBuf, String), record: &Record) {
-        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(key, record.clone());
+        locked(&self.records).insert(key, record.clone());
+    }
+
+    /// The records of a folder listed before.
+    pub fn folder(&self, folder: &Path) -> Option<Listed> {
+        locked(&self.folders).get(folder).cloned()
+    }
+
+    /// Keeps the records of a folder.
+    pub fn keep_folder(&self, folder: PathBuf, listed: &Listed) {
+        locked(&self.folders).insert(folder, listed.clone());
     }
 }

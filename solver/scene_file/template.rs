@@ -5,6 +5,7 @@ use super::excitation::set_amplitude;
 use super::reader::{Reader, end_after_free_swing};
 use super::records::Records;
 use super::setting::Setting;
+use super::stations;
 use super::table::{Cause, Table, Wrong};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -51,6 +52,11 @@ impl Template {
     /// A file that is named relative to this one.
     pub fn beside(&self, name: &str) -> PathBuf {
         self.file.parent().unwrap_or(Path::new("")).join(name)
+    }
+
+    /// Files of the components of a record of a station, by its name as a scene gives it; empty where there are none.
+    pub fn files_of_record(&self, name: &str) -> Vec<PathBuf> {
+        stations::files_of(self.file.parent().unwrap_or(Path::new("")), name)
     }
 
     /// Files of the records that its scenes have had so far, those of the scene as it stands among them; in the order of their names.
@@ -100,11 +106,13 @@ impl Template {
             "blocks" | "half_width" | "bottom_half_width" | "top_half_width" | "half_height" | "centroid_height"
             | "width" | "bottom_width" | "top_width" | "diameter" | "bottom_diameter" | "top_diameter" | "height"
             | "shape" | "depth" | "density" | "mass" | "inertia" => "column",
-            "alpha" | "p" | "R" => "size",
+            "alpha" | "p" | "rocking_period" | "R" => "size",
             "eta" | "factors" | "law" => "restitution",
             "static" | "kinetic" => "friction",
             "theta" | "slide" => "initial",
             "t_end" | "method" | "rtol" | "atol" | "step" | "stick_angle" | "overturn_angle" => "solver",
+            "record" | "component" => STATION,
+            _ if self.root.has_table(STATION) => STATION,
             _ => "excitation.horizontal",
         };
         match &self.root.named(name)[..] {
@@ -115,6 +123,9 @@ impl Template {
         }
     }
 }
+
+/// The table of a record of a station.
+const STATION: &str = "excitation.station";
 
 /// The key of the end of a run.
 const END: &str = "solver.t_end";

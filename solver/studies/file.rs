@@ -9,11 +9,11 @@ use crate::scene::Scene;
 use crate::scene_file::excitation::{noise, spectrum, text_options};
 use crate::scene_file::reader::Reader;
 use crate::scene_file::records::Records;
+use crate::scene_file::stations::{Component, records_of};
 use crate::scene_file::table::{Table, Wrong};
 use crate::scene_file::{SceneFileError, Setting, text};
 use crate::sweep::file::range;
-use rocking_ground::{Direction, Record, Synthetic, TextOptions, by_number, record_and_component};
-use std::collections::BTreeMap;
+use rocking_ground::{Direction, Synthetic, TextOptions};
 use std::path::{Path, PathBuf};
 
 /// A study of a file, and what is concluded from it.
@@ -203,20 +203,9 @@ impl Wanted<'_> {
         match self.component {
             "horizontal" => component.direction == Direction::Horizontal,
             "vertical" => component.direction == Direction::Vertical,
-            name => [component.ending.as_str(), component.record.source().component.trim()]
-                .iter()
-                .any(|own| own.eq_ignore_ascii_case(name)),
+            name => component.is_called(name),
         }
     }
-}
-
-/// A file of a folder.
-struct Component {
-    /// Relative to the study.
-    name: String,
-    ending: String,
-    direction: Direction,
-    record: Record,
 }
 
 fn of_folder(
@@ -231,30 +220,18 @@ fn of_folder(
     let failed = |error: std::io::Error| {
         refuse("folder", format!("{}: {error}", path.display()), "give the folder relative to the study")
     };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(&path).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        let file = entry.file_name().to_string_lossy().into_owned();
-        if entry.path().is_file() && !file.starts_with('.') {
-            files.push(file);
-        }
-    }
-    files.sort();
-    if files.is_empty() {
+    let records = records_of(&path).map_err(failed)?;
+    if records.is_empty() {
         return Err(refuse("folder", format!("{} has no file", path.display()), "give a folder of record files"));
     }
-    let mut groups: BTreeMap<(String, u64, String), (String, Vec<Component>)> = BTreeMap::new();
-    for file in files {
-        let (group, ending) = record_and_component(&file);
-        let (group, ending) = (group.into_owned(), ending.to_string());
-        let name = Path::new(folder).join(&file).to_string_lossy().into_owned();
-        let record = reader.record_file(table, "folder", &name, options)?;
-        let direction = Direction::of(&ending, &record.source().component);
-        let components = &mut groups.entry(by_number(&group)).or_insert_with(|| (group.clone(), Vec::new())).1;
-        components.push(Component { name, ending, direction, record });
-    }
+    let component = |file: String| reader.component(table, "folder", Path::new(folder), &file, options);
+    let groups = records.into_iter().map(|(group, files)| {
+        let components = files.into_iter().map(component).collect::<Result<Vec<Component>, _>>()?;
+        Ok((group, components))
+    });
+    let groups = groups.collect::<Result<Vec<_>, SceneFileError>>()?;
     let lacking = |what: &str, is_there: &dyn Fn(&Component) -> bool| -> Vec<String> {
-        let without = groups.values().filter(|(_, components)| !components.iter().any(is_there));
+        let without = groups.iter().filter(|(_, components)| !components.iter().any(is_there));
         without
             .map(|(group, components)| {
                 let known: Vec<&str> = components.iter().map(|component| component.name.as_str()).collect();
@@ -274,7 +251,7 @@ fn of_folder(
         }
     }
     let mut found = Vec::new();
-    for (_, components) in groups.values() {
+    for (_, components) in &groups {
         let up = components.iter().find(|component| component.direction == Direction::Vertical);
         for component in components.iter().filter(|component| wanted.takes(component)) {
             let vertical = up.filter(|_| wanted.with_vertical).map(|component| component.record.clone());

@@ -4,6 +4,7 @@ use super::distributed::{KINDS, Placed, distribution, sample, sampling};
 use super::points::{Ask, Axis, Combine, Sweep};
 use crate::scene_file::edit::exclude_each_other;
 use crate::scene_file::reader::Reader;
+use crate::scene_file::stations::records_of;
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{SceneFileError, Setting, Template, text};
 use std::path::Path;
@@ -211,7 +212,12 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             let own = axis(table, &key, &path, vec![found.quantile(0.5)], template)?;
             axes.push((own, table.find(&key), Some(found)));
         } else if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
-            let values = if inner.has("folder") { folder(&mut inner, template)? } else { range(&mut inner)? };
+            let is_of_stations = template.full_name(&path).is_some_and(|key| key.ends_with(".record"));
+            let values = match (inner.has("folder"), is_of_stations) {
+                (false, _) => range(&mut inner)?,
+                (true, false) => folder(&mut inner, template)?,
+                (true, true) => stations(&mut inner, template)?,
+            };
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
         } else {
             read_axes(&mut inner, &path, template, axes)?;
@@ -293,13 +299,24 @@ fn rounded(value: f64, error: f64) -> f64 {
     if (value - short).abs() <= error * value.abs() { short } else { value }
 }
 
+/// The records of a folder beside the base scene, by the common part of the names of their components, in the order of the numbers in it.
+fn stations(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
+    let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
+    let path = template.beside(&name);
+    let records = records_of(&path).map_err(|error| no_folder(table, &path, &error))?;
+    let named = |(record, _): (String, _)| Setting::Text(Path::new(&name).join(record).to_string_lossy().into_owned());
+    Ok(records.into_iter().map(named).collect())
+}
+
+fn no_folder(table: &Table, path: &Path, error: &std::io::Error) -> Wrong {
+    table.wrong("folder", format!("{}: {error}", path.display()), "give the folder relative to the base scene")
+}
+
 /// The files of a folder beside the base scene, in the order of their names.
 fn folder(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
     let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);
-    let failed = |error: std::io::Error| {
-        table.wrong("folder", format!("{}: {error}", path.display()), "give the folder relative to the base scene")
-    };
+    let failed = |error: std::io::Error| no_folder(table, &path, &error);
     let mut files = Vec::new();
     for entry in std::fs::read_dir(&path).map_err(failed)? {
         let entry = entry.map_err(failed)?;

@@ -11,5 +11,5 @@ mod sampling;
 
 mod copula;
 
-pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep};
+pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep, is_of_records};
 pub use sampling::SamplingMethod;

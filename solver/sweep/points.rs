@@ -25,6 +25,14 @@ pub struct Axis {
     pub values: Vec<Setting>,
 }
 
+/// Last parts of the keys whose values are ground motions of one kind: each run has one of them, and fractiles are over all.
+const OF_RECORDS: [&str; 4] = ["file", "record", "component", "seed"];
+
+/// Whether the values of a key, under its dotted name, are records: files, records of stations, components of them, seeds of synthetic ones.
+pub fn is_of_records(key: &str) -> bool {
+    key.starts_with("excitation.") && key.rsplit('.').next().is_some_and(|last| OF_RECORDS.contains(&last))
+}
+
 /// How axes make points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -189,6 +197,16 @@ pub struct Outcome {
     pub needs: Option<Needs>,
     /// Whether the verdict is determined; only if that is asked for.
     pub determined: Option<bool>,
+}
+
+impl Outcome {
+    /// Largest `|θ|/α` of all blocks, infinite where the column is lost; `None` where peaks are not asked for, no motion follows from the laws of contact, or
+    /// the verdict is not determined.
+    pub fn demand(&self) -> Option<f64> {
+        let is_open = matches!(self.fate, Fate::Undetermined | Fate::NotDetermined) || self.determined == Some(false);
+        let largest = self.peaks.iter().copied().reduce(f64::max).filter(|_| !is_open)?;
+        Some(if matches!(self.fate, Fate::Overturns | Fate::Collapses) { f64::INFINITY } else { largest })
+    }
 }
 
 /// What the contacts of a run need, all of them together, up to the point of no return ([`crate::validity`]).

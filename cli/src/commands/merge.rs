@@ -3,8 +3,8 @@
 //! A table holds its points and not how many the sweep has. That the last ones are missing is therefore seen only if the sweep is
 //! given as well. Shards of different sweeps differ in their columns, or in the digests beside them.
 
-use crate::commands::probability;
 use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
+use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, read, share};
 use crate::output;
@@ -30,7 +30,9 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let mut inputs = shards.to_vec();
     inputs.extend(wanted.iter().flat_map(|wanted| inputs_of(wanted.file, &wanted.sweep)));
     let is_sampled = wanted.as_ref().is_some_and(|wanted| wanted.sweep.samples().is_some());
-    let outputs: Vec<PathBuf> = [out.into()].into_iter().chain(is_sampled.then(|| probability::table(out))).collect();
+    let mut outputs: Vec<PathBuf> =
+        [out.into()].into_iter().chain(is_sampled.then(|| probability::table(out))).collect();
+    outputs.extend(wanted.as_ref().filter(|wanted| fractiles::has(&wanted.sweep)).map(|_| fractiles::table(out)));
     output::check(&outputs, &inputs)?;
     let mut tables = Vec::new();
     for path in shards {
@@ -64,6 +66,9 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let mut told = format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out));
     if let Some(Wanted { sweep, .. }) = &wanted {
         told.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);
+        if fractiles::has(sweep) {
+            told.push_str(&fractiles::write(sweep, out)?);
+        }
     }
     print(&told)
 }

@@ -1,6 +1,7 @@
 //! The commands, a file each.
 
 mod check;
+mod fractiles;
 mod fragility;
 mod ida;
 mod init;

@@ -19,7 +19,7 @@ pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
     }
     let values = |axis: &Axis| axis.values.iter().map(ToString::to_string).collect();
     let axes: Vec<(String, Vec<String>)> = sweep.axes.iter().map(|axis| (axis.key.clone(), values(axis))).collect();
-    check_axes(&axes, sweep.len()).map_err(at(Failure::Spectrum, &asked.file))
+    check_axes(&axes, sweep.len(), sweep.ask.is_of_peaks()).map_err(at(Failure::Spectrum, &asked.file))
 }
 
 /// Draws a table into files beside or below the table; they have its name. `study` draws the table of a study, and says `None` of another one.
@@ -47,7 +47,7 @@ pub fn plot(
     print(&draw(table, &picture)?)
 }
 
-/// Draws a table into `picture`, and the curves of the least that overturns into a file beside it, named like it with `-minimum`.
+/// Draws a table into `picture`, and, of a plane, the curves of the least that overturns into a file beside it, named like it with `-minimum`.
 /// Returns what was written and what it shows.
 pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
     let mut text = String::new();
@@ -59,7 +59,7 @@ pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// The files of both figures, of which `picture` is the first.
+/// The files of the figures of any table, of which `picture` is the first.
 pub fn files(picture: &Path) -> [PathBuf; 2] {
     [picture.into(), beside(picture, "minimum")]
 }

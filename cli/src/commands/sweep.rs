@@ -5,7 +5,7 @@
 
 use crate::arguments;
 use crate::commands::probability::{self, Lost};
-use crate::commands::{inputs, spectrum};
+use crate::commands::{fractiles, inputs, spectrum};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::progress::Progress;
@@ -37,6 +37,8 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     // Probabilities are those of whole tables.
     let is_sampled = sweep.samples().is_some() && asked.shard.is_none();
     outputs.extend(is_sampled.then(|| probability::table(&out)));
+    let is_of_records = asked.shard.is_none() && fractiles::has(&sweep);
+    outputs.extend(is_of_records.then(|| fractiles::table(&out)));
     output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
@@ -58,12 +60,13 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
     let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
+    let fractiles = if is_of_records { fractiles::write(&sweep, &out)? } else { String::new() };
     if asked.json {
         json(&Counts { tally: &tally, lost })?;
     } else if !asked.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
         let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
-        print(&format!("{tally}{wrote}{probabilities}{drawn}"))?;
+        print(&format!("{tally}{wrote}{probabilities}{fractiles}{drawn}"))?;
     }
     match first_error {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
@@ -117,7 +120,10 @@ pub fn inputs_of(file: &Path, sweep: &Sweep) -> Vec<PathBuf> {
 fn records(sweep: &Sweep) -> Vec<PathBuf> {
     let axes = sweep.axes.iter().filter(|axis| axis.key.ends_with(".file"));
     let of_axes = axes.flat_map(|axis| &axis.values).map(|value| sweep.template.beside(&value.to_string()));
-    sweep.template.records().into_iter().chain(of_axes).collect()
+    let of_stations = sweep.axes.iter().filter(|axis| axis.key == "excitation.station.record");
+    let of_stations = of_stations.flat_map(|axis| &axis.values);
+    let components = of_stations.flat_map(|value| sweep.template.files_of_record(&value.to_string()));
+    sweep.template.records().into_iter().chain(of_axes).chain(components).collect()
 }
 
 pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};

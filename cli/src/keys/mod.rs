@@ -7,6 +7,7 @@ mod kind;
 mod list;
 mod motion;
 mod scene;
+mod station;
 mod study;
 mod sweep;
 

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "types of which only the schema is made")]
 
 use super::motion::Component;
+use super::station::Station;
 use schemars::JsonSchema;
 
 /// A scene file.
@@ -140,10 +141,13 @@ pub struct Size {
     /// slenderness: the angle at which the column is balanced over its edge
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = std::f64::consts::FRAC_PI_2, "x-unit" = "rad", "x-default" = "as the column is given"))]
     pub alpha: Option<f64>,
-    /// frequency parameter; or `R`
+    /// frequency parameter; or `rocking_period`, or `R`
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "rad/s", "x-default" = "`R` stays"))]
     pub p: Option<f64>,
-    /// distance of the centroid from a corner of the base; or `p`
+    /// 2π/p, the abscissa of rocking spectra; or `p`, or `R`
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s", "x-default" = "`R` stays"))]
+    pub rocking_period: Option<f64>,
+    /// distance of the centroid from a corner of the base; or `p`, or `rocking_period`
     #[schemars(rename = "R", extend("exclusiveMinimum" = 0, "x-unit" = "m", "x-default" = "`R` stays"))]
     pub radius: Option<f64>,
 }
@@ -208,6 +212,9 @@ pub struct Excitation {
     /// positive upwards
     #[schemars(extend("x-default" = "none"))]
     pub vertical: Option<Component>,
+    /// components of one record, in place of both
+    #[schemars(extend("x-default" = "none"))]
+    pub station: Option<Station>,
 }
 
 /// State at t = 0. Lists have one number per block or interface, base first.

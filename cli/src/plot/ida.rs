@@ -15,8 +15,10 @@ const COUNTS: f64 = 62.0;
 /// Least distance of the counts of two levels.
 const LINE: f64 = 15.0;
 
-const RECORD: Stroke = Stroke::solid("#a9a9a9", 1.0);
-const FRACTILE_LINES: [Stroke; 3] = [
+/// Curves of single records.
+pub const RECORD: Stroke = Stroke::solid("#a9a9a9", 1.0);
+/// Curves of the fractiles, in the order of [`FRACTILES`].
+pub const FRACTILE_LINES: [Stroke; 3] = [
     Stroke::dashed("#0072b2", 2.0, &[8.0, 4.0]),
     Stroke::solid("#000000", 2.4),
     Stroke::dashed("#d55e00", 2.0, &[3.0, 4.0]),

@@ -1,26 +1,100 @@
-//! Overturning spectra: what becomes of the column over the plane of two axes of a sweep, and the least value that overturns.
+//! Figures of the table of a sweep.
 //!
 //! ```text
-//! table ──> grid.rs ──> outline.rs ──> panels of cells ──> sheet.rs
-//!           classes     polygons       minimum curves
-//!           scale.rs: axes, labels
+//!                       +─> family.rs ──> curves.rs   rocking spectra: the largest angle over an axis, a curve for each value of the others
+//! table ──> points.rs ──+             └─> strips.rs   what becomes of the column over one axis ────────────────┐
+//!                       +─> grid.rs ────> outline.rs ──> panels of cells: overturning spectra, least values ───+──> sheet.rs
+//!                           classes       polygons
+//!                           scale.rs: axes, labels
 //! ```
 //!
 //! Made of the table alone: an old table, or one merged from shards, gives the same figures.
 
+mod curves;
+mod family;
 mod grid;
 mod outline;
+mod points;
 mod scale;
+mod strips;
 
 use super::curve::{self, Frame, Point};
 use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, WIDTH, text_width};
 use super::style::{self, Stroke};
-use grid::{Class, Grid, Plane};
+use curves::MOST_CURVES;
+use family::Family;
+pub use family::LEAST_RECORDS;
+use grid::{Class, Grid, MOST_PANELS, Plane};
+use points::{Axis, Points};
 use scale::Scale;
 use std::collections::HashSet;
 use std::path::Path;
 
-pub use grid::NoSpectrum;
+/// Why a table makes no figure.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoSpectrum {
+    /// The file is not the table of a sweep.
+    #[error("{0}; give the table that `rocking sweep` wrote")]
+    NoTable(String),
+    /// No axis of numbers.
+    #[error("no axis with numbers has several values; give e.g. amplitude_uplift several")]
+    FewAxes,
+    /// An axis has values beyond what is drawn.
+    #[error("`{0}` has values that cannot be drawn; let their sizes be between 1e-100 and 1e100, or zero")]
+    Extreme(String),
+    /// So many panels could not be read.
+    #[error(
+        "the axes before the last two make {0} panels, and {MOST_PANELS} can be read; give those axes fewer values"
+    )]
+    ManyPanels(usize),
+    /// So many curves could not be read.
+    #[error("the other axes make {0} curves, and {MOST_CURVES} can be read; give those axes fewer values")]
+    ManyCurves(usize),
+    /// A part of a sweep, or a point twice.
+    #[error(
+        "there are {rows} points and the values of the axes make {points}; draw a whole sweep whose axes have each value once, of shards \
+         the table that `rocking merge` makes"
+    )]
+    NoGrid { rows: usize, points: usize },
+}
+
+/// How a table is drawn.
+enum Drawing {
+    /// Largest angles over an axis.
+    Curves(Family),
+    /// What becomes of the column over an axis.
+    Strips(Family),
+    /// What becomes of the column over the plane of two axes.
+    Plane(Plane),
+}
+
+impl Drawing {
+    /// That of so many rows, with or without largest angles: curves where there are angles and not too many curves, otherwise a plane of two axes of
+    /// numbers, otherwise strips along one.
+    fn of(axes: &[Axis], rows: usize, with_peaks: bool) -> Result<Drawing, NoSpectrum> {
+        let plane = || {
+            let plane = Plane::of(axes)?;
+            plane.expects(rows).map(|()| Drawing::Plane(plane))
+        };
+        let family = Family::of(axes, rows, with_peaks);
+        if with_peaks {
+            return match family {
+                Ok(family) if family.is_drawn() => Ok(Drawing::Curves(family)),
+                Ok(family) => plane().map_err(|_| NoSpectrum::ManyCurves(family.titles.len())),
+                Err(error) => Err(error),
+            };
+        }
+        match (plane(), family) {
+            (Err(NoSpectrum::FewAxes), Ok(family)) if family.titles.len() > MOST_PANELS => {
+                Err(NoSpectrum::ManyCurves(family.titles.len()))
+            }
+            (Err(NoSpectrum::FewAxes), Ok(family)) => Ok(Drawing::Strips(family)),
+            (Err(NoSpectrum::NoGrid { .. }), Ok(family)) if family.is_paired => Ok(Drawing::Strips(family)),
+            (Err(NoSpectrum::FewAxes), Err(error)) => Err(error),
+            (plane, _) => plane,
+        }
+    }
+}
 
 /// Lengths `[px]`.
 const TITLE: f64 = 24.0;
@@ -81,20 +155,28 @@ impl Class {
     }
 }
 
-/// Whether the axes of a sweep can be drawn, before it is run; each with its key and its values as a table has them.
-pub fn check(axes: &[(String, Vec<String>)], points: usize) -> Result<(), NoSpectrum> {
+/// Whether a sweep can be drawn, before it is run: its axes, each with its key and its values as a table has them, its number of points, and whether its
+/// rows have largest angles.
+pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpectrum> {
     let distinct = |values: &[String]| {
         let mut seen = HashSet::new();
         values.iter().filter(|value| seen.insert(value.as_str())).cloned().collect::<Vec<_>>()
     };
     let axes: Vec<_> = axes.iter().map(|(key, values)| (key.clone(), distinct(values))).collect();
-    Plane::of(&axes)?.expects(points)
+    Drawing::of(&axes, points, with_peaks).map(|_| ())
 }
 
-/// The spectrum, and the curves of the least value that overturns, of the table of a sweep.
-pub fn figures(table: &Path) -> Result<[Figure; 2], NoSpectrum> {
-    let grid = Grid::read(table)?;
-    Ok([spectrum(&grid), minimum(&grid)])
+/// The figures of the table of a sweep: its curves, its strips, or its spectrum and the curves of the least value that overturns.
+pub fn figures(table: &Path) -> Result<Vec<Figure>, NoSpectrum> {
+    let points = Points::read(table)?;
+    Ok(match Drawing::of(&points.axes, points.len(), points.blocks > 0)? {
+        Drawing::Curves(family) => vec![curves::draw(&points, &family)],
+        Drawing::Strips(family) => vec![strips::draw(&points, &family)],
+        Drawing::Plane(plane) => {
+            let grid = Grid::of(&points, plane)?;
+            vec![spectrum(&grid), minimum(&grid)]
+        }
+    })
 }
 
 /// A panel on paper.
@@ -126,7 +208,9 @@ impl Place<'_> {
                 sheet.words([x, y + TICK + 14.0], &text, style::NUMBER, Anchor::Middle);
             }
         }
-        for (value, text) in self.y_ticks() {
+        // A strip has one cell upwards, and nothing to number.
+        let upwards = if self.y.values.len() > 1 { self.y_ticks() } else { Vec::new() };
+        for (value, text) in upwards {
             let [x, y] = self.at([0.0, self.y.share(value)]);
             sheet.line([x - TICK, y], [x, y], &style::THIN);
             if numbers[1] {
@@ -191,7 +275,7 @@ fn spectrum(grid: &Grid) -> Figure {
         style::LABEL,
         Anchor::Middle,
     );
-    sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &legend(grid)) + 6.0;
+    sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &legend(&grid.panels, Some(LEAST))) + 6.0;
 
     let share = |panel: usize| percent(Grid::share(&grid.panels[panel..=panel], Class::overturns));
     let told = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
@@ -199,19 +283,19 @@ fn spectrum(grid: &Grid) -> Figure {
     Figure::new("overturning-spectrum", caption, sheet)
 }
 
-/// The classes that occur with their shares of all cells, those that overturn after the line of the least that does; the first of
+/// The classes that occur with their shares of all cells, those that overturn after the line of the least that does, if there is one; the first of
 /// them says that they do.
-fn legend(grid: &Grid) -> Vec<(Key, String)> {
-    let shown = |class: &Class| Grid::share(&grid.panels, |found| found == *class) > 0.0;
+fn legend(panels: &[Vec<Class>], least: Option<Stroke>) -> Vec<(Key, String)> {
+    let shown = |class: &Class| Grid::share(panels, |found| found == *class) > 0.0;
     let entry = |class: Class| {
-        let share = percent(Grid::share(&grid.panels, |found| found == class));
+        let share = percent(Grid::share(panels, |found| found == class));
         (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
     };
     let (overturning, others): (Vec<Class>, Vec<Class>) =
         Class::ALL.into_iter().rev().filter(shown).partition(|class| class.overturns());
     let mut entries: Vec<_> = others.into_iter().rev().map(entry).collect();
     if !overturning.is_empty() {
-        entries.push((Key::Line(LEAST), "least that overturns".into()));
+        entries.extend(least.map(|stroke| (Key::Line(stroke), "least that overturns".into())));
     }
     let first = entries.len();
     entries.extend(overturning.into_iter().map(entry));

@@ -3,14 +3,12 @@
 //! The last two axes with numbers that vary span each panel, the last one upwards; every combination of the others is a panel.
 //! A class is all that is kept of a row.
 
-use super::scale::{Scale, title};
-use crate::table::column::Rows;
-use crate::table::open;
-use std::collections::HashMap;
-use std::path::Path;
+use super::NoSpectrum;
+use super::points::{Axis, Points};
+use super::scale::{Scale, numbers, titles};
 
 /// Panels beyond which nobody could read them.
-const MOST_PANELS: usize = 16;
+pub const MOST_PANELS: usize = 16;
 
 /// The outcome of a point as the figure distinguishes it, from the least to the most violent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,7 +47,7 @@ impl Class {
     ];
 
     /// The class of a row.
-    fn of(outcome: &str, impacts: &str) -> Option<Class> {
+    pub fn of(outcome: &str, impacts: &str) -> Option<Class> {
         Some(match (outcome, impacts) {
             ("no-uplift", _) => Class::NoUplift,
             ("slides", _) => Class::Slides,
@@ -65,37 +63,15 @@ impl Class {
         })
     }
 
+    /// Whether the column overturned or collapsed.
+    pub fn is_lost(self) -> bool {
+        self.overturns() || self == Class::Collapses
+    }
+
     /// Whether the column overturned.
     pub fn overturns(self) -> bool {
         matches!(self, Class::Overturns | Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
     }
-}
-
-/// Why a table makes no figure.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoSpectrum {
-    /// The file is not the table of a sweep.
-    #[error("{0}; give the table that `rocking sweep` wrote")]
-    NoTable(String),
-    /// So many axes with two numbers or more are no plane.
-    #[error(
-        "axes with numbers that vary: {0}; a spectrum needs two, so give e.g. both omega_p and amplitude_uplift several values"
-    )]
-    FewAxes(usize),
-    /// An axis has values beyond what is drawn.
-    #[error("`{0}` has values that cannot be drawn; let their sizes be between 1e-100 and 1e100, or zero")]
-    Extreme(String),
-    /// So many panels could not be read.
-    #[error(
-        "the axes before the last two make {0} panels, and {MOST_PANELS} can be read; give those axes fewer values"
-    )]
-    ManyPanels(usize),
-    /// A part of a sweep, or axes that run in pairs.
-    #[error(
-        "there are {rows} points and the values of the axes make {points}; draw a whole sweep with axes that are \
-         combined as `cartesian` and have each value once, of shards the table that `rocking merge` makes"
-    )]
-    NoGrid { rows: usize, points: usize },
 }
 
 /// Positions of the values of an axis.
@@ -124,11 +100,7 @@ pub struct Plane {
 
 impl Plane {
     /// The plane of axes, each with its key and its values as a table has them.
-    pub fn of(axes: &[(String, Vec<String>)]) -> Result<Plane, NoSpectrum> {
-        let numbers = |values: &[String]| -> Option<Vec<f64>> {
-            let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
-            numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
-        };
+    pub fn of(axes: &[Axis]) -> Result<Plane, NoSpectrum> {
         let scale = |place: usize| {
             let (key, values) = &axes[place];
             let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]));
@@ -136,28 +108,21 @@ impl Plane {
         };
         let mut spanning = (0..axes.len()).rev().filter_map(scale);
         let (Some((y_place, y)), x) = (spanning.next(), spanning.next()) else {
-            return Err(NoSpectrum::FewAxes(0));
+            return Err(NoSpectrum::FewAxes);
         };
-        let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes(1)) };
+        let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes) };
         drop(spanning);
         let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());
         if let Some(scale) = [&x, &y].into_iter().find(|scale| !scale.values.iter().all(is_drawn)) {
             return Err(NoSpectrum::Extreme(scale.key.clone()));
         }
         let others = axes.iter().enumerate().filter(|(place, _)| ![x_place, y_place].contains(place));
-        let mut titles = vec![String::new()];
-        for (key, values) in others.map(|(_, axis)| axis).filter(|(_, values)| values.len() > 1) {
-            let values = shortened(values);
-            let count = titles.len() * values.len();
-            if count > MOST_PANELS {
-                return Err(NoSpectrum::ManyPanels(count));
-            }
-            let with = |above: &String, value: &str| match above.as_str() {
-                "" => title(key, value),
-                above => format!("{above}, {}", title(key, value)),
-            };
-            titles = titles.iter().flat_map(|above| values.iter().map(move |value| with(above, value))).collect();
+        let others: Vec<&Axis> = others.map(|(_, axis)| axis).collect();
+        let panels = others.iter().map(|(_, values)| values.len()).product();
+        if panels > MOST_PANELS {
+            return Err(NoSpectrum::ManyPanels(panels));
         }
+        let titles = titles(others);
         let spans = axes.iter().enumerate().map(|(place, (_, values))| {
             let along = |scale: &Scale| {
                 let cells = numbers(values).into_iter().flatten().map(|number| scale.place(number));
@@ -198,15 +163,6 @@ impl Plane {
     }
 }
 
-/// Paths of files without the folder that all have in common; other texts as they are.
-fn shortened(values: &[String]) -> Vec<&str> {
-    let folder = |value: &str| value.rfind(['/', '\\']).map_or(0, |end| end + 1);
-    let common = folder(&values[0]);
-    let is_common = |value: &String| value.as_bytes().get(..common) == values[0].as_bytes().get(..common);
-    let start = if values.iter().all(is_common) { common } else { 0 };
-    values.iter().map(|value| &value[start..]).collect()
-}
-
 /// A class for each cell of each panel.
 #[derive(Clone, Debug)]
 pub struct Grid {
@@ -217,44 +173,17 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Reads the table of a whole sweep.
-    pub fn read(file: &Path) -> Result<Grid, NoSpectrum> {
-        let broken = NoSpectrum::NoTable;
-        let failed = |error: std::io::Error| broken(error.to_string());
-        let Rows { header, rows } = open(file).map_err(failed)?;
-        let column = |name: &str| header.iter().position(|found| found == name);
-        let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
-            return Err(broken("it has no columns index, outcome and impacts".into()));
-        };
-        let mut axes: Vec<(String, Vec<String>)> =
-            header.iter().take(outcome).skip(1).map(|key| (key.into(), Vec::new())).collect();
-        let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
-        // Numbers of the values of all rows, as many for each as there are axes.
-        let (mut numbers, mut classes) = (Vec::new(), Vec::new());
-        for row in rows {
-            let row = row.map_err(failed)?;
-            for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
-                let number = seen.get(value).copied().unwrap_or_else(|| {
-                    axis.1.push(value.into());
-                    seen.insert(value.into(), axis.1.len() - 1);
-                    axis.1.len() - 1
-                });
-                numbers.push(number);
-            }
-            let class = Class::of(&row[outcome], &row[impacts]);
-            classes.push(class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?);
-        }
-        let plane = Plane::of(&axes)?;
-        plane.expects(classes.len())?;
+    /// The cells of the points of a whole sweep.
+    pub fn of(points: &Points, plane: Plane) -> Result<Grid, NoSpectrum> {
         let columns = plane.x.values.len();
         let mut panels = vec![vec![None; columns * plane.y.values.len()]; plane.titles.len()];
-        for (numbers, class) in numbers.chunks_exact(axes.len()).zip(classes) {
-            let [panel, x, y] = plane.place(numbers);
-            panels[panel][y * columns + x] = Some(class);
+        for (row, class) in points.classes.iter().enumerate() {
+            let [panel, x, y] = plane.place(points.numbers(row));
+            panels[panel][y * columns + x] = Some(*class);
         }
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
         // The number of rows is that of the cells, yet some points occur twice and others not at all.
-        let panels = panels.ok_or_else(|| broken("points are missing".into()))?;
+        let panels = panels.ok_or_else(|| NoSpectrum::NoTable("points are missing".into()))?;
         Ok(Grid { plane, panels })
     }
 
@@ -287,11 +216,10 @@ mod tests {
         let plane = Plane::of(&axes).expect("two axes");
         assert_eq!((plane.x.key.as_str(), plane.y.key.as_str()), ("eta", "omega_p"));
         assert_eq!(plane.titles, ["1 block, a", "1 block, b", "3 blocks, a", "3 blocks, b"]);
-        assert_eq!(shortened(&["r/a".into(), "s/a".into()]), ["r/a", "s/a"]);
         assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
         assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
-        assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes(1)));
-        assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes(0)));
+        assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes));
+        assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes));
     }
 
     #[test]

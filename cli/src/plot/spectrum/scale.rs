@@ -1,7 +1,8 @@
 //! An axis of cells: each is centred on its value and reaches half way to its neighbours; values in geometric progression make a
 //! logarithmic axis.
 
-use crate::plot::axis::{Axis, brief, number};
+use super::points::Axis;
+use crate::plot::axis::{self, brief, number};
 use std::cmp::Ordering;
 
 /// The values of one axis and where their cells are.
@@ -39,6 +40,21 @@ impl Scale {
         Scale { key: key.into(), values, edges, is_log, ends }
     }
 
+    /// The axis from the least of these values to the largest, for curves; at least two of them different.
+    pub fn over(key: &str, values: Vec<f64>) -> Scale {
+        let mut scale = Scale::of(key, values);
+        let [first, last] = [0, scale.values.len() - 1].map(|place| scale.values[place]);
+        scale.ends = [first, last].map(|end| if scale.is_log { end.ln() } else { end });
+        let between = scale.values.windows(2).map(|pair| scale.share(0.5 * (pair[0] + pair[1])));
+        scale.edges = [0.0].into_iter().chain(between).chain([1.0]).collect();
+        scale
+    }
+
+    /// The axis of a strip: one cell from end to end.
+    pub fn strip() -> Scale {
+        Scale { key: String::new(), values: vec![0.5], edges: vec![0.0, 1.0], is_log: false, ends: [0.0, 1.0] }
+    }
+
     /// The cell of a value.
     pub fn place(&self, value: f64) -> Option<usize> {
         // Zeros of either sign are the same.
@@ -61,7 +77,7 @@ impl Scale {
             }
         }
         let range = if self.is_log { self.ends.map(f64::exp) } else { self.ends };
-        let step = Axis::over("", range, count).step;
+        let step = axis::Axis::over("", range, count).step;
         let [first, last] = [(range[0] / step - 1e-9).ceil(), (range[1] / step + 1e-9).floor()];
         let round = (0..=(last - first) as usize).map(|place| (first + place as f64) * step);
         round.map(|value| (value, number(value, step))).collect()
@@ -87,7 +103,18 @@ fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
 }
 
 /// Keys of scenes by their last part, and what they are with their unit.
-const LABELS: [(&str, &str); 30] = [
+const LABELS: [(&str, &str); 41] = [
+    ("alpha", "α [rad]"),
+    ("p", "p [rad/s]"),
+    ("rocking_period", "2π/p [s]"),
+    ("R", "R [m]"),
+    ("pga_uplift", "PGA / (g tan α)"),
+    ("pgv", "PGV [m/s]"),
+    ("pgv_uplift", "p PGV / (g tan α)"),
+    ("pgd", "PGD [m]"),
+    ("seed", "Seed"),
+    ("point", "Point of the sweep"),
+    ("component", "Component"),
     ("amplitude_uplift", "a / (g tan α)"),
     ("omega_p", "Ω / p"),
     ("amplitude", "a [m/s²]"),
@@ -136,7 +163,7 @@ pub fn title(key: &str, value: &str) -> String {
     match (key.rsplit('.').next().unwrap_or(key), value) {
         ("blocks", "1") => "1 block".into(),
         ("blocks", count) => format!("{count} blocks"),
-        ("file", path) => path.into(),
+        ("file" | "record" | "component", name) => name.into(),
         _ => {
             let label = label(key);
             let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
@@ -144,6 +171,35 @@ pub fn title(key: &str, value: &str) -> String {
             format!("{name} = {value} {}", unit.trim_end_matches(']')).trim_end().to_string()
         }
     }
+}
+
+/// The values of an axis as numbers; `None` where one is none, or not finite.
+pub fn numbers(values: &[String]) -> Option<Vec<f64>> {
+    let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
+    numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+}
+
+/// A title for each combination of the values of axes, the last axis fastest; an axis of one value has nothing to say.
+pub fn titles<'a>(axes: impl IntoIterator<Item = &'a Axis>) -> Vec<String> {
+    let mut titles = vec![String::new()];
+    for (key, values) in axes.into_iter().filter(|(_, values)| values.len() > 1) {
+        let values = shortened(values);
+        let with = |above: &String, value: &str| match above.as_str() {
+            "" => title(key, value),
+            above => format!("{above}, {}", title(key, value)),
+        };
+        titles = titles.iter().flat_map(|above| values.iter().map(move |value| with(above, value))).collect();
+    }
+    titles
+}
+
+/// Paths of files without the folder that all have in common; other texts as they are.
+fn shortened(values: &[String]) -> Vec<&str> {
+    let folder = |value: &str| value.rfind(['/', '\\']).map_or(0, |end| end + 1);
+    let common = folder(&values[0]);
+    let is_common = |value: &String| value.as_bytes().get(..common) == values[0].as_bytes().get(..common);
+    let start = if values.iter().all(is_common) { common } else { 0 };
+    values.iter().map(|value| &value[start..]).collect()
 }
 
 #[cfg(test)]
@@ -184,5 +240,6 @@ mod tests {
         assert_eq!(title("restitution.eta", "0.9"), "η = 0.9");
         assert_eq!(title("column.half_width", "0.4"), "Half-width = 0.4 m");
         assert_eq!(title("excitation.horizontal.file", "a/b.AT2"), "a/b.AT2");
+        assert_eq!(shortened(&["r/a".into(), "s/a".into()]), ["r/a", "s/a"]);
     }
 }

@@ -1,0 +1,225 @@
+//! Rocking spectra and their like: the largest angle over one axis of a sweep, a curve for each value of the others. Makris & Konstantinidis (2003),
+//! Earthq. Eng. Struct. Dyn. 32.
+//!
+//! Over records: a panel for each value of the others, thin curves of the records and their fractiles. Where the column is lost a curve leaves at the
+//! top, and comes back where the column stands again.
+
+use super::family::Family;
+use super::points::Points;
+use super::scale::Scale;
+use super::{GAP, LINES, NUMBERS, Place, TITLE, shortened};
+use crate::plot::curve::{self, Frame, Point};
+use crate::plot::ida::{FRACTILE_LINES, RECORD};
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, WIDTH};
+use crate::plot::style::{self, Stroke};
+use rocking::studies::{FRACTILES, fractile};
+
+/// Curves beyond which nobody could read them.
+pub const MOST_CURVES: usize = 12;
+
+/// Panels of curves of records beyond which nobody could read them.
+pub const MOST_RECORD_PANELS: usize = 9;
+
+/// Panels of records beside one another.
+const MOST_COLUMNS: usize = 3;
+
+/// Heights `[px]`: of the only panel, and of panels by how many stand beside one another.
+const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 300.0, 240.0];
+
+/// Room above the largest angle, as a share of it.
+const ROOM: f64 = 0.06;
+
+/// Upper end of the angles of a column that never opens, or that is always lost.
+const NO_ANGLE: f64 = 1.0;
+
+/// Gap between the columns of panels of which only the first has numbers upwards `[px]`.
+const BETWEEN: f64 = 14.0;
+
+/// A position and the largest angle there, infinite where the column is lost; `None` where there is no answer.
+type Value = (f64, Option<f64>);
+
+/// A curve: how it looks, its name, its values from the left.
+struct Curve {
+    stroke: Stroke,
+    name: String,
+    values: Vec<Value>,
+}
+
+/// The figure of all curves.
+pub fn draw(points: &Points, family: &Family) -> Figure {
+    let rows = family.rows(points);
+    let demands =
+        |rows: &[(f64, usize)]| -> Vec<Value> { rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect() };
+    let largest = (0..points.len()).filter_map(|row| points.demand(row)).filter(|demand| demand.is_finite());
+    let top = Some(largest.fold(0.0, f64::max) * (1.0 + ROOM)).filter(|top| *top > 0.0).unwrap_or(NO_ANGLE);
+    let y = Scale::over("", vec![0.0, top]);
+    let label = if points.blocks > 1 { "Largest |θ|/α of all blocks" } else { "Largest |θ|/α" };
+    let subject = if family.x.key.ends_with("rocking_period") { "Rocking spectrum" } else { "Largest angle" };
+    let mut sheet = Sheet::new(&format!("{subject}: {label} over {}", family.x.label()));
+
+    let panels: Vec<Vec<Curve>> = match family.records {
+        1 => vec![single(points, family, &rows, &demands)],
+        _ => rows
+            .iter()
+            .map(|records| of_records(&records.iter().map(|rows| demands(rows)).collect::<Vec<_>>()))
+            .collect(),
+    };
+    let is_each_block = family.records == 1 && rows.len() == 1 && points.blocks > 1;
+    let columns = panels.len().min(MOST_COLUMNS);
+    let width = (WIDTH - LEFT - RIGHT - (columns - 1) as f64 * BETWEEN) / columns as f64;
+    let height = HEIGHTS[columns - 1];
+    let heading = if panels.len() > 1 { TITLE } else { GAP };
+    let mut bottom = 0.0;
+    for (number, curves) in panels.iter().enumerate() {
+        let (row, column) = (number / columns, number % columns);
+        let top = heading + row as f64 * (height + heading + 4.0);
+        let frame = Frame { left: LEFT + column as f64 * (width + BETWEEN), top, width, height };
+        let place = Place { frame, x: &family.x, y: &y };
+        place.grid(&mut sheet);
+        place.level(&mut sheet, 1.0);
+        for curve in curves {
+            place.values(&mut sheet, curve, family.is_joined);
+        }
+        place.axes(&mut sheet, [number + columns >= panels.len(), column == 0]);
+        if panels.len() > 1 {
+            let title = shortened(&family.titles[number], width);
+            sheet.words([frame.left + 0.5 * width, frame.top - 8.0], &title, style::LABEL, Anchor::Middle);
+        }
+        if column == 0 {
+            let each = if is_each_block { "Largest |θ|/α" } else { label };
+            place.label_upwards(&mut sheet, each.into());
+        }
+        bottom = frame.bottom().max(bottom);
+    }
+    let below = [LEFT + 0.5 * (WIDTH - LEFT - RIGHT), bottom + NUMBERS + 12.0];
+    sheet.words(below, &family.x.label(), style::LABEL, Anchor::Middle);
+    let entries = legend(family, &panels[0]);
+    sheet.height = match entries.is_empty() {
+        true => below[1] + 12.0,
+        false => sheet.legend(below[1] + 8.0, &entries) + 6.0,
+    };
+    Figure::new("rocking-spectrum", caption(points, family, subject), sheet)
+}
+
+/// The curves of a panel without fractiles: one for each value of the other axes, or, where there is none, one for each block.
+fn single(
+    points: &Points,
+    family: &Family,
+    rows: &[Vec<Vec<(f64, usize)>>],
+    demands: &dyn Fn(&[(f64, usize)]) -> Vec<Value>,
+) -> Vec<Curve> {
+    // Beyond the lines that differ, colours come with other dashes.
+    let stroke = |number: usize| Stroke { color: style::line(number).color, ..style::line(number + number / LINES) };
+    match (rows, points.blocks) {
+        ([records], 2..) => {
+            let of_block = |block: usize| Curve {
+                stroke: stroke(block),
+                name: format!("block {}", block + 1),
+                values: records[0].iter().map(|(x, row)| (*x, points.peak(*row, block))).collect(),
+            };
+            (0..points.blocks).map(of_block).collect()
+        }
+        _ => {
+            let curve = |(number, records): (usize, &Vec<Vec<(f64, usize)>>)| Curve {
+                stroke: stroke(number),
+                name: family.titles[number].clone(),
+                values: demands(&records[0]),
+            };
+            rows.iter().enumerate().map(curve).collect()
+        }
+    }
+}
+
+/// The curves of a panel of records: theirs, and those of their fractiles at each position.
+fn of_records(records: &[Vec<Value>]) -> Vec<Curve> {
+    let mut curves: Vec<Curve> =
+        records.iter().map(|values| Curve { stroke: RECORD, name: String::new(), values: values.clone() }).collect();
+    for (share, stroke) in FRACTILES.into_iter().zip(FRACTILE_LINES) {
+        let at = |place: usize| {
+            let found: Vec<f64> = records.iter().filter_map(|values| values[place].1).collect();
+            (records[0][place].0, (!found.is_empty()).then(|| fractile(&found, share)))
+        };
+        curves.push(Curve {
+            stroke,
+            name: format!("{:.0} %", 100.0 * share),
+            values: (0..records[0].len()).map(at).collect(),
+        });
+    }
+    curves
+}
+
+fn legend(family: &Family, curves: &[Curve]) -> Vec<(Key, String)> {
+    let mut entries = Vec::new();
+    if family.records > 1 {
+        entries.push((Key::Line(RECORD), format!("{} records", family.records)));
+    }
+    let named = curves.iter().filter(|curve| !curve.name.is_empty());
+    entries.extend(named.map(|curve| (Key::Line(curve.stroke.clone()), curve.name.clone())));
+    entries
+}
+
+fn caption(points: &Points, family: &Family, subject: &str) -> String {
+    let rows = 0..points.len();
+    let lost = rows.clone().filter(|row| points.demand(*row) == Some(f64::INFINITY)).count();
+    let open = rows.filter(|row| points.demand(*row).is_none()).count();
+    let mut text = format!("{subject}: the largest |θ|/α over {}", family.x.label());
+    if family.records > 1 {
+        text.push_str(&format!(", {} records with their 16, 50 and 84 % fractiles", family.records));
+    }
+    text.push('.');
+    if lost > 0 {
+        text.push_str(&format!(
+            " A curve leaves at the top where the column is lost, and comes back where it stands: {lost} of {} runs are lost.",
+            points.len()
+        ));
+    }
+    if open > 0 {
+        text.push_str(&format!(" {open} run(s) have no answer and are left out."));
+    }
+    text
+}
+
+impl Place<'_> {
+    /// Lines of the grid.
+    fn grid(&self, sheet: &mut Sheet) {
+        for (value, _) in self.x_ticks() {
+            let x = self.x.share(value);
+            sheet.line(self.at([x, 0.0]), self.at([x, 1.0]), &super::GRID);
+        }
+        for (value, _) in self.y_ticks() {
+            let y = self.y.share(value);
+            sheet.line(self.at([0.0, y]), self.at([1.0, y]), &super::GRID);
+        }
+    }
+
+    /// A value to compare with, if the panel has it.
+    fn level(&self, sheet: &mut Sheet, value: f64) {
+        let y = self.y.share(value);
+        if (0.0..1.0).contains(&y) {
+            sheet.line(self.at([0.0, y]), self.at([1.0, y]), &style::REFERENCE);
+        }
+    }
+
+    /// A curve, interrupted where there is no answer; dots where points do not follow one another, and where an answer stands by itself.
+    fn values(&self, sheet: &mut Sheet, curve: &Curve, is_joined: bool) {
+        let at = |(x, demand): (f64, f64)| self.at([self.x.share(x), self.y.share(demand).min(1.0)]);
+        let parts = curve.values.chunk_by(|a, b| a.1.is_some() && b.1.is_some());
+        let mut runs: Vec<Vec<Point>> = Vec::new();
+        for part in parts {
+            let known: Vec<(f64, f64)> = part.iter().filter_map(|(x, demand)| Some((*x, (*demand)?))).collect();
+            if !is_joined || known.len() == 1 {
+                known.iter().for_each(|value| sheet.dot(at(*value)));
+                continue;
+            }
+            // Between two positions at which the column is lost nothing is drawn.
+            let segments = known.chunk_by(|a, b| a.1.is_finite() || b.1.is_finite());
+            runs.extend(segments.map(|segment| segment.iter().map(|value| at(*value)).collect()));
+        }
+        let inside = runs.iter().flat_map(|run| curve::clip(run, &self.frame));
+        let dashed: Vec<_> =
+            inside.flat_map(|run| curve::dash(&curve::straighten(&run), curve.stroke.dashes)).collect();
+        if !dashed.is_empty() {
+            sheet.runs(&dashed, &curve.stroke);
+        }
+    }
+}

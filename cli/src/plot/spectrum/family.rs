@@ -1,0 +1,156 @@
+//! How the rows of a table make curves: what runs to the right, which rows are one curve, and which are records of one.
+
+use super::NoSpectrum;
+use super::curves::{MOST_CURVES, MOST_RECORD_PANELS};
+use super::points::{Axis, Points};
+use super::scale::{Scale, numbers, titles};
+use rocking::sweep::is_of_records;
+use std::f64::consts::TAU;
+
+/// Records from which on their fractiles are drawn in place of a named curve for each.
+pub const LEAST_RECORDS: usize = 3;
+
+/// Keys of the size of a column: along one of them runs a rocking spectrum.
+const SIZES: [&str; 3] = ["size.p", "size.rocking_period", "size.R"];
+
+/// What the values of an axis are in the figure.
+#[derive(Clone, Debug, PartialEq)]
+enum Role {
+    /// Positions to the right.
+    X(Vec<f64>),
+    /// Curves of their own: so many values.
+    Curves(usize),
+    /// Records of a curve: so many values.
+    Records(usize),
+    /// The same in all rows, or told by the axis to the right.
+    Silent,
+}
+
+/// The curves of a table.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// To the right.
+    pub x: Scale,
+    /// Whether neighbouring points follow one another, so that a line joins them: not of samples.
+    pub is_joined: bool,
+    /// Whether all axes change together.
+    pub is_paired: bool,
+    /// A title for each curve; empty if there is nothing to say.
+    pub titles: Vec<String>,
+    /// Records of each curve; one where no axis is of records.
+    pub records: usize,
+    /// Roles of the axes; empty where the number of the row runs to the right.
+    roles: Vec<Role>,
+}
+
+impl Family {
+    /// The curves of so many rows. Records are curves by themselves unless they are to be joined into fractiles.
+    pub fn of(axes: &[Axis], rows: usize, with_fractiles: bool) -> Result<Family, NoSpectrum> {
+        let varying = |place: &usize| axes[*place].1.len() > 1;
+        let places: Vec<usize> = (0..axes.len()).filter(varying).collect();
+        let of_numbers = |place: &usize| numbers(&axes[*place].1).is_some();
+        let is_grid = rows == axes.iter().map(|(_, values)| values.len()).product::<usize>();
+        if !is_grid {
+            return paired(axes, &places, rows);
+        }
+        let is_record = |place: &usize| is_of_records(&axes[*place].0);
+        let mut along: Vec<usize> =
+            places.iter().copied().filter(of_numbers).filter(|place| !is_record(place)).collect();
+        if along.is_empty() {
+            along = places.iter().copied().filter(of_numbers).collect();
+        }
+        let is_size = |place: &&usize| SIZES.contains(&axes[**place].0.as_str());
+        let longest = || along.iter().max_by_key(|place| axes[**place].1.len());
+        let Some(x_place) = along.iter().find(is_size).or_else(longest).copied() else {
+            return Err(NoSpectrum::FewAxes);
+        };
+        let records: Vec<usize> =
+            places.iter().copied().filter(|place| *place != x_place && is_record(place)).collect();
+        let count = records.iter().map(|place| axes[*place].1.len()).product();
+        let with_fractiles = with_fractiles && count >= LEAST_RECORDS;
+        let (x, positions) = scale(&axes[x_place])?;
+        let role = |place: usize| match axes[place].1.len() {
+            _ if place == x_place => Role::X(positions.clone()),
+            1 => Role::Silent,
+            count if with_fractiles && records.contains(&place) => Role::Records(count),
+            count => Role::Curves(count),
+        };
+        let roles: Vec<Role> = (0..axes.len()).map(role).collect();
+        let of_curves = axes.iter().zip(&roles).filter(|(_, role)| matches!(role, Role::Curves(_)));
+        let titles = titles(of_curves.map(|(axis, _)| axis));
+        Ok(Family {
+            x,
+            is_joined: true,
+            is_paired: false,
+            titles,
+            records: if with_fractiles { count } else { 1 },
+            roles,
+        })
+    }
+
+    /// Whether the figure can be read.
+    pub fn is_drawn(&self) -> bool {
+        self.titles.len() <= if self.records > 1 { MOST_RECORD_PANELS } else { MOST_CURVES }
+    }
+
+    /// Number of the curve, number of the record and position of a row.
+    fn place(&self, numbers: &[usize], row: usize) -> (usize, usize, f64) {
+        let (mut curve, mut record, mut x) = (0, 0, row as f64);
+        for (role, number) in self.roles.iter().zip(numbers) {
+            match role {
+                Role::X(positions) => x = positions[*number],
+                Role::Curves(count) => curve = curve * count + number,
+                Role::Records(count) => record = record * count + number,
+                Role::Silent => {}
+            }
+        }
+        (curve, record, x)
+    }
+
+    /// Positions and rows of each record of each curve, from the left.
+    pub fn rows(&self, points: &Points) -> Vec<Vec<Vec<(f64, usize)>>> {
+        let mut curves = vec![vec![Vec::new(); self.records]; self.titles.len()];
+        for row in 0..points.len() {
+            let (curve, record, x) = self.place(points.numbers(row), row);
+            curves[curve][record].push((x, row));
+        }
+        curves.iter_mut().flatten().for_each(|rows| rows.sort_by(|a, b| a.0.total_cmp(&b.0)));
+        curves
+    }
+}
+
+/// One curve of rows in which all axes change together: along the first axis of numbers that has another one in each row, or by the numbers of the rows.
+fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpectrum> {
+    let mut distinct = places.iter().copied().filter(|place| axes[*place].1.len() == rows).peekable();
+    if distinct.peek().is_none() {
+        let points = axes.iter().map(|(_, values)| values.len()).product();
+        return Err(NoSpectrum::NoGrid { rows, points });
+    }
+    let x_place = distinct.find(|place| numbers(&axes[*place].1).is_some());
+    let (x, positions) = match x_place {
+        Some(place) => scale(&axes[place])?,
+        None => {
+            let rows: Vec<f64> = (0..rows).map(|row| row as f64).collect();
+            (Scale::over("point", rows.clone()), rows)
+        }
+    };
+    let rises = |sign: f64| positions.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
+    let is_joined = rises(1.0) || rises(-1.0);
+    let role = |place| if Some(place) == x_place { Role::X(positions.clone()) } else { Role::Silent };
+    let roles = (0..axes.len()).map(role).collect();
+    Ok(Family { x, is_joined, is_paired: true, titles: vec![String::new()], records: 1, roles })
+}
+
+/// The axis to the right, and the positions of its values; `p` as the period of which it is the frequency.
+fn scale((key, values): &Axis) -> Result<(Scale, Vec<f64>), NoSpectrum> {
+    let values = numbers(values).unwrap_or_default();
+    let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());
+    if !values.iter().all(is_drawn) || values.iter().all(|value| *value == values[0]) {
+        return Err(NoSpectrum::Extreme(key.clone()));
+    }
+    let (key, positions) = match key.as_str() {
+        "size.p" => ("rocking_period", values.iter().map(|p| TAU / p).collect()),
+        key => (key, values),
+    };
+    Ok((Scale::over(key, positions.clone()), positions))
+}

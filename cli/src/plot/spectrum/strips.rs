@@ -1,0 +1,57 @@
+//! Strips: what becomes of the column over one axis of a sweep, a strip for each value of the others.
+
+use super::family::Family;
+use super::grid::{Class, Grid};
+use super::points::Points;
+use super::scale::Scale;
+use super::{GAP, NUMBERS, Place, TITLE, cells, legend, percent, shortened};
+use crate::plot::curve::Frame;
+use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet, WIDTH};
+use crate::plot::style;
+
+/// Height of a strip `[px]`.
+const HEIGHT: f64 = 40.0;
+
+/// Left end of strips `[px]`: there are no numbers upwards.
+const EDGE: f64 = 0.5 * LEFT;
+
+/// The figure of all strips.
+pub fn draw(points: &Points, family: &Family) -> Figure {
+    let rows = family.rows(points);
+    // Cells reach half way to their neighbours.
+    let x = Scale::of(&family.x.key, family.x.values.clone());
+    let one = Scale::strip();
+    let what = format!("What becomes of the column over {}", x.label());
+    let mut sheet = Sheet::new(&what);
+    let width = WIDTH - EDGE - RIGHT;
+    let heading = if family.titles == [""] { GAP } else { TITLE };
+    let mut strips: Vec<Vec<Class>> = Vec::new();
+    let mut bottom = 0.0;
+    for (number, title) in family.titles.iter().enumerate() {
+        let frame = Frame { left: EDGE, top: heading + number as f64 * (HEIGHT + heading), width, height: HEIGHT };
+        let place = Place { frame, x: &x, y: &one };
+        let own = &rows[number][0];
+        // Of points at one position the most violent.
+        let at = |value: f64| own.iter().filter(move |(x, _)| *x == value).map(|(_, row)| points.classes[*row]);
+        let order = |class: &Class| Class::ALL.iter().position(|own| own == class);
+        let strip: Vec<Class> =
+            x.values.iter().map(|value| at(*value).max_by_key(order).unwrap_or(Class::Error)).collect();
+        sheet.words([frame.left, frame.top - 7.0], &shortened(title, width), style::LABEL, Anchor::Start);
+        cells(&mut sheet, &place, &strip);
+        place.axes(&mut sheet, [number + 1 == family.titles.len(), false]);
+        strips.push(strip);
+        bottom = frame.bottom();
+    }
+    let below = [EDGE + 0.5 * width, bottom + NUMBERS + 12.0];
+    sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
+    sheet.height = sheet.legend(below[1] + 8.0, &legend(&strips, None)) + 6.0;
+    let share = |strip: &Vec<Class>| percent(Grid::share(std::slice::from_ref(strip), Class::is_lost));
+    let told: Vec<String> = family
+        .titles
+        .iter()
+        .zip(&strips)
+        .map(|(title, strip)| format!("{title} {}", share(strip)).trim_start().into())
+        .collect();
+    let caption = format!("{what}. Share of the points that are lost: {}.", told.join(", "));
+    Figure::new("outcomes", caption, sheet)
+}

@@ -1,0 +1,198 @@
+//! Records of stations: the files of a folder that are the components of one record, by their names and by what they say of themselves.
+//!
+//! A record is named by its folder and by what the names of its files have in common: `records/RSN1045` of `RSN1045_NORTHR_WPI046.AT2`,
+//! `RSN1045_NORTHR_WPI316.AT2` and `RSN1045_NORTHR_WPI-UP.AT2` ([`record_and_component`]).
+
+use super::error::SceneFileError;
+use super::excitation::{Target, start, target, text_options};
+use super::reader::Reader;
+use super::table::{Table, Wrong};
+use crate::column::Column;
+use rocking_ground::{Direction, Excitation, Motion, Record, TextOptions, by_number, record_and_component};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A component of a record: a file.
+pub(crate) struct Component {
+    /// Relative to the file that names it.
+    pub name: String,
+    /// The end of its name that names the component.
+    pub ending: String,
+    pub direction: Direction,
+    pub record: Record,
+}
+
+impl Component {
+    /// Whether it is called so, in the name of its file or in the file.
+    pub fn is_called(&self, name: &str) -> bool {
+        let own = [self.ending.as_str(), self.record.source().component.trim()];
+        own.iter().any(|own| own.eq_ignore_ascii_case(name))
+    }
+}
+
+/// Ends of the names of files that hold velocity or displacement, which PEER gives beside the acceleration.
+const NO_ACCELERATION: [&str; 2] = ["vt2", "dt2"];
+
+/// The records of a folder in the order of the numbers in their names, each with the names of its files, sorted. Hidden files are none, nor are those of
+/// velocity and displacement.
+pub(crate) fn records_of(folder: &Path) -> std::io::Result<Vec<(String, Vec<String>)>> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let file = entry.file_name().to_string_lossy().into_owned();
+        let extension = file.rsplit_once('.').map_or("", |(_, extension)| extension);
+        let is_acceleration = !NO_ACCELERATION.iter().any(|other| extension.eq_ignore_ascii_case(other));
+        if entry.path().is_file() && !file.starts_with('.') && is_acceleration {
+            files.push(file);
+        }
+    }
+    files.sort();
+    let mut records: BTreeMap<_, (String, Vec<String>)> = BTreeMap::new();
+    for file in files {
+        let record = record_and_component(&file).0.into_owned();
+        records.entry(by_number(&record)).or_insert_with(|| (record, Vec::new())).1.push(file);
+    }
+    Ok(records.into_values().collect())
+}
+
+/// Folder and name of a record, `records/RSN1045`.
+fn parted(name: &str) -> (&Path, String) {
+    let path = Path::new(name);
+    let own = path.file_name().map_or_else(String::new, |own| own.to_string_lossy().into_owned());
+    (path.parent().unwrap_or(Path::new("")), own)
+}
+
+/// The files of a record, relative to the folder of the scene; empty where there are none.
+pub(crate) fn files_of(beside: &Path, name: &str) -> Vec<PathBuf> {
+    let (folder, own) = parted(name);
+    let records = records_of(&beside.join(folder)).unwrap_or_default();
+    let files = records.into_iter().find(|(record, _)| *record == own).map(|(_, files)| files);
+    files.unwrap_or_default().into_iter().map(|file| beside.join(folder).join(file)).collect()
+}
+
+impl Reader<'_> {
+    /// A file as the component of a record; `key` names it in errors.
+    pub(crate) fn component(
+        &self,
+        table: &Table,
+        key: &str,
+        folder: &Path,
+        file: &str,
+        options: &TextOptions,
+    ) -> Result<Component, SceneFileError> {
+        let name = folder.join(file).to_string_lossy().into_owned();
+        let record = self.record_file(table, key, &name, options)?;
+        let ending = record_and_component(file).1.to_string();
+        let direction = Direction::of(&ending, &record.source().component);
+        Ok(Component { name, ending, direction, record })
+    }
+
+    /// `[excitation.station]`: components of one record, all scaled by one factor, that of the horizontal one.
+    pub(super) fn station(&self, table: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
+        let own = |wrong| self.error(wrong);
+        let options = text_options(table, column.gravity()).map_err(own)?;
+        let remedy = "give folder and name of the record without its component, e.g. \"records/RSN1045\"";
+        let name = table.text("record").map_err(own)?.ok_or_else(|| own(table.missing("record", remedy)))?.0;
+        let wanted = table.text("component").map_err(own)?.map_or_else(|| "H1".into(), |(component, _)| component);
+        let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
+        let refuse = |key: &str, problem: String| SceneFileError::Record {
+            file: self.file.into(),
+            line: self.line(&table.find(key)),
+            key: table.dotted(key),
+            record: self.beside(&name),
+            problem,
+        };
+        let components = self.components(table, &name, &options, &refuse)?;
+        let known = components.iter().map(|component| component.name.as_str()).collect::<Vec<_>>().join(", ");
+        let along: Vec<&Component> =
+            components.iter().filter(|component| component.direction == Direction::Horizontal).collect();
+        let by_place = ["H1", "H2"].iter().position(|place| wanted.eq_ignore_ascii_case(place));
+        let called = along.iter().find(|component| component.is_called(&wanted));
+        let Some(horizontal) = called.or_else(|| along.get(by_place?)).copied() else {
+            let problem = format!(
+                "it has no horizontal component `{wanted}`, only {known}; choose H1, H2 or the end of a file's name, or leave the record out"
+            );
+            return Err(refuse("component", problem));
+        };
+        let up = components.iter().find(|component| component.direction == Direction::Vertical);
+        let vertical = match (with_vertical, up) {
+            (false, _) => None,
+            (true, Some(up)) => Some(up.record.clone()),
+            (true, None) => {
+                let problem =
+                    format!("it has no vertical component, only {known}; add its file, or leave `vertical` out");
+                return Err(refuse("vertical", problem));
+            }
+        };
+        let target = target(table, column).map_err(own)?;
+        let factor = match (table.number("scale").map_err(own)?, target) {
+            (Some(_), Some(target)) => return Err(own(table.clash(target.key, "scale"))),
+            (Some((factor, _)), None) => Some(factor),
+            (None, Some(target)) => Some(self.factor(table, &horizontal.record, &target, column.gravity())?),
+            (None, None) => None,
+        };
+        let start = start(table).map_err(own)?;
+        let scaled = |record: Record| -> Result<Motion, Wrong> {
+            let record = match factor {
+                None => Ok(record),
+                Some(factor) => record.scaled(factor),
+            };
+            let record = record.map_err(|error| table.wrong("record", error.to_string(), "scale it by less"))?;
+            Ok(Motion::Record(record.starting_at(start)))
+        };
+        Ok(Excitation {
+            horizontal: Some(scaled(horizontal.record.clone()).map_err(own)?),
+            vertical: vertical.map(scaled).transpose().map_err(own)?,
+        })
+    }
+
+    /// The factor that brings a record to a size.
+    fn factor(&self, table: &Table, record: &Record, target: &Target, gravity: f64) -> Result<f64, SceneFileError> {
+        let factor = record.factor_to(target.measure, target.size, gravity);
+        factor
+            .map_err(|error| self.error(table.wrong("record", error.to_string(), "use another record or another size")))
+    }
+
+    /// The components of a record, by the names of their files.
+    fn components(
+        &self,
+        table: &Table,
+        name: &str,
+        options: &TextOptions,
+        refuse: &dyn Fn(&str, String) -> SceneFileError,
+    ) -> Result<Vec<Component>, SceneFileError> {
+        let (folder, own) = parted(name);
+        let path = self.beside(&folder.to_string_lossy());
+        let listed = |error: std::io::Error| {
+            let problem = format!("its folder {}: {error}; give the folder relative to the scene file", path.display());
+            refuse("record", problem)
+        };
+        let kept = self.records.and_then(|records| records.folder(&path));
+        let records = match kept {
+            Some(records) => records,
+            None => records_of(&path).map_err(listed)?.into(),
+        };
+        if let Some(kept) = self.records {
+            kept.keep_folder(path.clone(), &records);
+        }
+        let Some((_, files)) = records.iter().find(|(record, _)| *record == own) else {
+            let known: Vec<&str> = records.iter().take(NAMED).map(|(record, _)| record.as_str()).collect();
+            let more = if records.len() > NAMED { ", …" } else { "" };
+            let problem = match known.is_empty() {
+                true => format!("no file of {} is of this record, and there is no other", path.display()),
+                false => {
+                    format!("no file of {} is of this record; name one of {}{more}", path.display(), known.join(", "))
+                }
+            };
+            return Err(refuse("record", problem));
+        };
+        files.iter().map(|file| self.component(table, "record", folder, file, options)).collect()
+    }
+
+    fn beside(&self, name: &str) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(name)
+    }
+}
+
+/// Records of a folder that an error names.
+const NAMED: usize = 8;
