@@ -29,8 +29,11 @@ const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 300.0, 240.0];
 /// Room above the largest angle, as a share of it.
 const ROOM: f64 = 0.06;
 
-/// Upper end of the angles of a column that never opens, or that is always lost.
+/// Upper end of the angles of a column that never opens.
 const NO_ANGLE: f64 = 1.0;
+
+/// Least upper end of the angles where some columns are lost: a curve that leaves there does not look like an angle of a column that stands.
+const LEAST_TOP: f64 = 1.1;
 
 /// Gap between the columns of panels of which only the first has numbers upwards `[px]`.
 const BETWEEN: f64 = 14.0;
@@ -50,8 +53,14 @@ pub fn draw(points: &Points, family: &Family) -> Figure {
     let rows = family.rows(points);
     let demands =
         |rows: &[(f64, usize)]| -> Vec<Value> { rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect() };
-    let largest = (0..points.len()).filter_map(|row| points.demand(row)).filter(|demand| demand.is_finite());
-    let top = Some(largest.fold(0.0, f64::max) * (1.0 + ROOM)).filter(|top| *top > 0.0).unwrap_or(NO_ANGLE);
+    let demands_of_all = || (0..points.len()).filter_map(|row| points.demand(row));
+    let largest = demands_of_all().filter(|demand| demand.is_finite()).fold(0.0, f64::max) * (1.0 + ROOM);
+    let has_lost = demands_of_all().any(f64::is_infinite);
+    let top = match has_lost {
+        true => largest.max(LEAST_TOP),
+        false if largest > 0.0 => largest,
+        false => NO_ANGLE,
+    };
     let y = Scale::over("", vec![0.0, top]);
     let label = if points.blocks > 1 { "Largest |θ|/α of all blocks" } else { "Largest |θ|/α" };
     let subject = if family.x.key.ends_with("rocking_period") { "Rocking spectrum" } else { "Largest angle" };
@@ -65,7 +74,7 @@ pub fn draw(points: &Points, family: &Family) -> Figure {
             .collect(),
     };
     let is_each_block = family.records == 1 && rows.len() == 1 && points.blocks > 1;
-    let columns = panels.len().min(MOST_COLUMNS);
+    let columns = panels.len().div_ceil(panels.len().div_ceil(MOST_COLUMNS));
     let width = (WIDTH - LEFT - RIGHT - (columns - 1) as f64 * BETWEEN) / columns as f64;
     let height = HEIGHTS[columns - 1];
     let heading = if panels.len() > 1 { TITLE } else { GAP };
@@ -88,6 +97,9 @@ pub fn draw(points: &Points, family: &Family) -> Figure {
         if column == 0 {
             let each = if is_each_block { "Largest |θ|/α" } else { label };
             place.label_upwards(&mut sheet, each.into());
+            if has_lost {
+                place.name_top(&mut sheet);
+            }
         }
         bottom = frame.bottom().max(bottom);
     }
@@ -197,6 +209,17 @@ impl Place<'_> {
         let y = self.y.share(value);
         if (0.0..1.0).contains(&y) {
             sheet.line(self.at([0.0, y]), self.at([1.0, y]), &style::REFERENCE);
+        }
+    }
+
+    /// Says what the upper edge is, unless a number stands there.
+    fn name_top(&self, sheet: &mut Sheet) {
+        let at = [self.frame.left - 8.0, self.frame.top + 4.5];
+        let is_free = |(value, _): &(f64, String)| {
+            self.at([0.0, self.y.share(*value)])[1] - self.frame.top > f64::from(style::NUMBER)
+        };
+        if self.y_ticks().iter().all(is_free) {
+            sheet.words(at, "lost", style::NOTE, Anchor::End);
         }
     }
 

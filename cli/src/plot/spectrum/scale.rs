@@ -163,7 +163,7 @@ pub fn title(key: &str, value: &str) -> String {
     match (key.rsplit('.').next().unwrap_or(key), value) {
         ("blocks", "1") => "1 block".into(),
         ("blocks", count) => format!("{count} blocks"),
-        ("file" | "record" | "component", name) => name.into(),
+        ("file" | "record" | "component" | "kind" | "method", name) => name.into(),
         _ => {
             let label = label(key);
             let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
