@@ -1,6 +1,7 @@
 //! Arguments of the command line.
 
 use crate::keys::Kind;
+use crate::plot::WIDTHS_MM;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
@@ -50,7 +51,7 @@ pub enum Command {
     },
     /// Run a scene and write summary.json, response.csv and events.json.
     ///
-    /// Figures (time-history, phase-portrait, slides, energy and forces, .svg and .png) and report.html of an earlier run are removed from the
+    /// Figures (time-history, phase-portrait, slides, energy and forces, .svg, .png and .pdf) and report.html of an earlier run are removed from the
     /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
     /// number". Regular files are read up to a size: scenes and sweeps up to 64 MiB, records up to 256 MiB, files of a run up to 1 GiB.
     Run(Run),
@@ -65,6 +66,12 @@ pub enum Command {
         /// Folder for the figures; made if it is not there [default: DIR, or the folder of the table].
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
+        /// Angles in degrees: of a run in place of θ/α and rad, of a sweep the slenderness.
+        #[arg(long)]
+        degrees: bool,
+        /// Width on paper in mm; text keeps its 8 pt [default: laid out for 150].
+        #[arg(long, value_name = "MM", value_parser = paper_width)]
+        width: Option<f64>,
     },
     /// Write one self-contained HTML page of a finished run: outcome, validity, figures and an animation.
     Report {
@@ -79,7 +86,7 @@ pub enum Command {
         /// Number of blocks.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
-        /// Draw the modes into this file (SVG or PNG by its name) instead of listing them; up to 5 blocks.
+        /// Draw the modes into this file (SVG, PNG or PDF by its name) instead of listing them; up to 5 blocks.
         #[arg(long, value_name = "FILE", value_parser = figure)]
         svg: Option<PathBuf>,
         /// Print JSON instead of text.
@@ -256,7 +263,7 @@ pub struct Record {
     /// Write the record, scaled and trimmed, as a table of time and acceleration (CSV).
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw accelerogram, velocity, displacement and the growth of the Arias intensity (SVG or PNG by the file's name).
+    /// Draw accelerogram, velocity, displacement and the growth of the Arias intensity (SVG, PNG or PDF by the file's name).
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
     /// Print JSON instead of text.
@@ -293,7 +300,19 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn figure(text: &str) -> Result<PathBuf, String> {
     let file = PathBuf::from(text);
-    if Picture::of(&file).is_some() { Ok(file) } else { Err("give a name that ends in .svg or .png".into()) }
+    if Picture::of(&file).is_some() { Ok(file) } else { Err(format!("give a name that ends in {ENDINGS}")) }
+}
+
+/// What the names of figures end in.
+const ENDINGS: &str =
+    if cfg!(feature = "pdf") { ".svg, .png or .pdf" } else { ".svg or .png; PDF needs a build with `--features pdf`" };
+
+fn paper_width(text: &str) -> Result<f64, String> {
+    let [least, most] = WIDTHS_MM;
+    finite(text).and_then(|value| match (least..=most).contains(&value) {
+        true => Ok(value),
+        false => Err(format!("give {least} to {most} mm")),
+    })
 }
 
 fn unit(text: &str) -> Result<AccelerationUnit, String> {
@@ -308,9 +327,12 @@ pub struct Sweep {
     /// Table of the results: CSV, or Parquet if its name ends in .parquet [default: sweep.csv, or sweep-K-of-M.csv of a shard].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw the overturning spectrum, and beside it FILE-minimum: the least value that overturns (SVG or PNG by the name).
+    /// Draw the table (SVG, PNG or PDF by the name).
     ///
-    /// Of the last two axes with numbers that vary the last one goes upwards; each combination of the others is a panel.
+    /// With largest angles (`ask = "peaks"`): the largest |θ|/α over `rocking_period`, `p` or `R`, or else over the axis with most values, a curve for each
+    /// combination of the others, up to 12; of three records and more their fractiles. Otherwise, over two axes of numbers, the overturning spectrum, and
+    /// beside it FILE-minimum: the least value that overturns; the last axis goes upwards, and each combination of the others is a panel. Over one axis,
+    /// and over paired axes, a strip of what becomes of the column.
     /// `rocking plot TABLE.csv` draws a table that is there.
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
@@ -344,7 +366,7 @@ pub struct Ida {
     /// Table of all runs: CSV, or Parquet if its name ends in .parquet.
     #[arg(long, value_name = "FILE", default_value = "ida.csv")]
     pub out: PathBuf,
-    /// Draw the curves of all records with their fractiles, and beside it FILE-fragility: the fragility curves (SVG or PNG by the name).
+    /// Draw the curves of all records with their fractiles, and beside it FILE-fragility: the fragility curves (SVG, PNG or PDF by the name).
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
     /// Threads; as many as the machine has unless given.
@@ -385,7 +407,7 @@ pub struct Fragility {
     /// Table of the curves, beside which the shares are written [default: TABLE-fragility.csv].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw the curves (SVG or PNG by the name).
+    /// Draw the curves (SVG, PNG or PDF by the name).
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
     /// Print JSON instead of text.
@@ -466,6 +488,9 @@ pub enum Picture {
     Svg,
     /// In pixels.
     Png,
+    /// To be printed.
+    #[cfg(feature = "pdf")]
+    Pdf,
 }
 
 impl Picture {
@@ -474,13 +499,15 @@ impl Picture {
         match self {
             Picture::Svg => "svg",
             Picture::Png => "png",
+            #[cfg(feature = "pdf")]
+            Picture::Pdf => "pdf",
         }
     }
 
     /// By the name of a file.
     pub fn of(file: &Path) -> Option<Picture> {
         let extension = file.extension()?;
-        [Picture::Svg, Picture::Png].into_iter().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))
+        Picture::value_variants().iter().copied().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))
     }
 }
 

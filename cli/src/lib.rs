@@ -67,6 +67,6 @@ pub struct Picture {
 
 /// The figures of a run, in the order in which they are read.
 pub fn figures(results: &Results) -> Vec<Picture> {
-    let pictures = plot::figures(results).into_iter();
+    let pictures = plot::figures(results, &plot::Paper::default()).into_iter();
     pictures.map(|plot::Figure { name, caption, svg, .. }| Picture { name, caption, svg }).collect()
 }

@@ -49,7 +49,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
     told.push_str(&conclusions.write_to(&out)?);
     if let Some(picture) = &asked.plot {
         let label = measure.parse().map_or(measure.clone(), |intensity: Intensity| intensity.label());
-        let figure = plot::fragility(&label, &conclusions.fragilities);
+        let figure = plot::fragility(&label, &conclusions.fragilities, &plot::Paper::default());
         write(&figure, picture)?;
         let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
     }

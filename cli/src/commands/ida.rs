@@ -9,13 +9,14 @@ use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
 use crate::commands::sweep::{Fnv, OUTCOME, TIME, threads};
 use crate::error::{Failure, at};
+use crate::plot::{self, Paper};
 use crate::progress::Progress;
 use crate::table::column::{Column, Kind, Rows};
 use crate::table::growing::Growing;
 use crate::table::{Format, open};
 use crate::terminal::{json, print};
 use crate::text::{printable, shown};
-use crate::{files, output, plot};
+use crate::{files, output};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
@@ -63,10 +64,11 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     let _ = writeln!(told, "wrote {}", shown(&stripes_file));
     told.push_str(&conclusions.write(out)?);
     if let Some([picture, curves]) = &pictures {
-        let label = ida.intensity().label();
-        for (figure, path) in
-            [(plot::ida(&label, &runs, &stripes), picture), (plot::fragility(&label, &conclusions.fragilities), curves)]
-        {
+        let (label, paper) = (ida.intensity().label(), Paper::default());
+        for (figure, path) in [
+            (plot::ida(&label, &runs, &stripes, &paper), picture),
+            (plot::fragility(&label, &conclusions.fragilities, &paper), curves),
+        ] {
             write(&figure, path)?;
             let _ = writeln!(told, "wrote {}: {}", shown(path), figure.caption);
         }
@@ -90,7 +92,7 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
 
 /// Draws the curves of a finished table, and beside them the fragility of the usual limit states. Returns what was written; `None` for a table that is
 /// not of a study.
-pub fn draw(table: &Path, picture: &Path) -> Result<Option<String>, Failure> {
+pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String>, Failure> {
     // What cannot be read is told by the spectrum.
     let Ok(Rows { header, .. }) = open(table) else { return Ok(None) };
     if !["record", "scale", "first_uplift", "peak_1"].iter().all(|name| header.iter().any(|own| own == *name)) {
@@ -102,8 +104,8 @@ pub fn draw(table: &Path, picture: &Path) -> Result<Option<String>, Failure> {
         Conclusions::of(&read.runs, &read.measure, &fragility::usual_states(), &FragilityOptions::default());
     let mut told = String::new();
     for (figure, path) in [
-        (plot::ida(&label, &read.runs, &stripes(&read.runs)), picture.to_path_buf()),
-        (plot::fragility(&label, &conclusions.fragilities), beside(picture, "fragility")),
+        (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture.to_path_buf()),
+        (plot::fragility(&label, &conclusions.fragilities, paper), beside(picture, "fragility")),
     ] {
         write(&figure, &path)?;
         let _ = writeln!(told, "wrote {}: {}", shown(&path), figure.caption);

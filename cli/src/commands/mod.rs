@@ -23,6 +23,7 @@ mod trust;
 
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;
+use crate::plot::{Angles, Paper};
 use crate::terminal::{json, print};
 use modes::Asked;
 use std::path::Path;
@@ -36,10 +37,12 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Check { scene, json } => check::check(&scene, json),
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
-        Command::Plot { folder: table, format, out } if is_table(&table) => {
-            spectrum::plot(&table, format, out.as_deref(), ida::draw)
+        Command::Plot { folder: table, format, out, degrees, width } if is_table(&table) => {
+            spectrum::plot(&table, format, out.as_deref(), &paper(degrees, width), ida::draw)
         }
-        Command::Plot { folder, format, out } => plot::plot(&folder, format, out.as_ref().unwrap_or(&folder)),
+        Command::Plot { folder, format, out, degrees, width } => {
+            plot::plot(&folder, format, out.as_ref().unwrap_or(&folder), &paper(degrees, width))
+        }
         Command::Record(mut asked) => {
             let window = record::Window::of(&mut asked)?;
             match &asked.file {
@@ -67,6 +70,11 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Completions { shell } => shell::completions(shell),
         Command::Man { out } => shell::man(out.as_deref()),
     }
+}
+
+/// How figures are laid out.
+fn paper(degrees: bool, width_mm: Option<f64>) -> Paper {
+    Paper { width_mm, angles: if degrees { Angles::Degrees } else { Angles::Natural } }
 }
 
 /// Whether a table is meant, though perhaps not there, and not a folder.

@@ -3,7 +3,7 @@
 use crate::arguments::Picture;
 use crate::error::Failure;
 use crate::output;
-use crate::plot::{self, Figure};
+use crate::plot::{self, Figure, Paper};
 use crate::terminal::print;
 use crate::text::shown;
 use rocking::run_folder::Results;
@@ -11,8 +11,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Draws the figures of the run in `folder` into `out` and names them.
-pub fn plot(folder: &Path, format: Picture, out: &Path) -> Result<(), Failure> {
-    let figures = draw(&Results::read(folder)?, format, out)?;
+pub fn plot(folder: &Path, format: Picture, out: &Path, paper: &Paper) -> Result<(), Failure> {
+    let figures = draw(&Results::read(folder)?, format, out, paper)?;
     let mut text = format!("wrote {} figures to {}\n", figures.len(), shown(out));
     for (file, caption) in &figures {
         let _ = writeln!(text, "{file}: {caption}");
@@ -21,10 +21,10 @@ pub fn plot(folder: &Path, format: Picture, out: &Path) -> Result<(), Failure> {
 }
 
 /// Draws the figures of a run. Returns the names of their files and their captions.
-pub fn draw(results: &Results, format: Picture, out: &Path) -> Result<Vec<(String, String)>, Failure> {
+pub fn draw(results: &Results, format: Picture, out: &Path, paper: &Paper) -> Result<Vec<(String, String)>, Failure> {
     output::folder(out)?;
     let mut drawn = Vec::new();
-    for figure in plot::figures(results) {
+    for figure in plot::figures(results, paper) {
         let file = format!("{}.{}", figure.name, format.extension());
         write(&figure, &out.join(&file))?;
         drawn.push((file, figure.caption));
@@ -32,7 +32,8 @@ pub fn draw(results: &Results, format: Picture, out: &Path) -> Result<Vec<(Strin
     Ok(drawn)
 }
 
-/// Writes a figure as SVG, or as PNG where the file's name ends so.
+/// Writes a figure as the end of the file's name says; as SVG where that says nothing.
 pub fn write(figure: &Figure, file: &Path) -> Result<(), Failure> {
-    output::file(file, figure.bytes(Picture::of(file) == Some(Picture::Png)))
+    let bytes = figure.bytes(Picture::of(file).unwrap_or(Picture::Svg));
+    output::file(file, bytes.map_err(|problem| Failure::File(file.into(), problem))?)
 }

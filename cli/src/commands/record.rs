@@ -59,7 +59,15 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     if let Some(picture) = &arguments.plot {
         let title = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let [velocity, displacement] = [record.velocity(), record.displacement()];
-        let figure = plot::record(&title, record.dt(), DEFAULT_GRAVITY, record.accel(), &velocity, &displacement);
+        let figure = plot::record(
+            &title,
+            record.dt(),
+            DEFAULT_GRAVITY,
+            record.accel(),
+            &velocity,
+            &displacement,
+            &plot::Paper::default(),
+        );
         write(&figure, picture)?;
     }
     warn(&description.warnings);

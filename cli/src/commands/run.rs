@@ -6,7 +6,7 @@ use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
 use crate::number::fixed;
 use crate::output;
-use crate::plot::NAMES;
+use crate::plot::{NAMES, Paper};
 use crate::progress::Progress;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
@@ -41,7 +41,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
     finished.trust = followed.trust();
-    finished.outdated.extend(NAMES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]));
+    finished.outdated.extend(NAMES.iter().flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}"))));
     finished.outdated.push(report::NAME.into());
     folder.write(&finished)?;
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
@@ -52,7 +52,8 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
         // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
         let results = Results::read(out)?;
         if asked.plots {
-            written.extend(plot::draw(&results, Picture::Svg, out)?.into_iter().map(|(file, _)| file));
+            written
+                .extend(plot::draw(&results, Picture::Svg, out, &Paper::default())?.into_iter().map(|(file, _)| file));
         }
         if asked.report {
             output::file(&out.join(report::NAME), crate::report::page(&results))?;
@@ -72,6 +73,19 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.
 const MODES_PRINTED: usize = 8;
 
+/// The name of a block, from 1; empty where the scene gives none.
+fn name(scene: &Scene, block: usize) -> &str {
+    block.checked_sub(1).and_then(|place| scene.looks.get(place)).map_or("", |look| look.name.trim())
+}
+
+/// A block, from 1, with its name where the scene gives one.
+fn named(scene: &Scene, block: usize) -> String {
+    match name(scene, block) {
+        "" => format!("block {block}"),
+        name => format!("block {block}, {}", printable(name)),
+    }
+}
+
 /// A few lines on what happened.
 fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     // The words of `outcome` in tables and in summary.json.
@@ -79,7 +93,7 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     let t = response.t_final;
     let outcome = match response.status {
         StopReason::Overturned => {
-            let block = response.overturned_block.map_or(String::new(), |block| format!(" (block {block})"));
+            let block = response.overturned_block.map_or(String::new(), |block| format!(" ({})", named(scene, block)));
             format!("{fate} at t = {t:.4} s{block}")
         }
         StopReason::Falls => format!("{fate}, certain from t = {t:.4} s on"),
@@ -91,12 +105,20 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
         StopReason::AtRest => format!("{fate} and stands, at rest from t = {t:.4} s on"),
         StopReason::Collapsed => format!(
             "{fate} at t = {t:.4} s ({} lost its support)",
-            response.collapsed_block().map_or("a block".into(), |block| format!("block {block}"))
+            response.collapsed_block().map_or("a block".into(), |block| named(scene, block))
         ),
         StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
         _ => format!("{fate} and stands at t = {t:.4} s, still rocking"),
     };
     let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
+    // Names once: with the first list of the blocks.
+    let with_names = |numbers: &[f64]| {
+        let told = numbers.iter().enumerate().map(|(block, number)| match name(scene, block + 1) {
+            "" => format!("{number:.5}"),
+            name => format!("{} {number:.5}", printable(name)),
+        });
+        told.collect::<Vec<_>>().join(", ")
+    };
     let modes = response.modes_by_time();
     let (told, others) = modes.split_at(modes.len().min(MODES_PRINTED));
     let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
@@ -110,7 +132,7 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     }
     let _ = writeln!(text, "{}{outcome}; {} impact(s)", followed.lead(), response.impacts);
     text.push_str(&followed.line());
-    let (peaks, angles) = (list(&response.peaks(&scene.column)), list(&response.peak_theta));
+    let (peaks, angles) = (with_names(&response.peaks(&scene.column)), list(&response.peak_theta));
     let _ = writeln!(text, "largest |θ|/α, base first: {peaks} (|θ|: {angles} rad)");
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
     if let Some(report) = response.motion_at_contacts() {

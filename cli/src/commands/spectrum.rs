@@ -4,6 +4,7 @@ use crate::arguments::{self, Picture};
 use crate::commands::plot::write;
 use crate::error::{Failure, at};
 use crate::output;
+use crate::plot::Paper;
 use crate::plot::spectrum::{check as check_axes, figures};
 use crate::table::Format;
 use crate::terminal::print;
@@ -27,7 +28,8 @@ pub fn plot(
     table: &Path,
     format: Picture,
     out: Option<&Path>,
-    study: impl Fn(&Path, &Path) -> Result<Option<String>, Failure>,
+    paper: &Paper,
+    study: impl Fn(&Path, &Path, &Paper) -> Result<Option<String>, Failure>,
 ) -> Result<(), Failure> {
     Format::of(table)?;
     let name = table.with_extension(format.extension());
@@ -40,18 +42,18 @@ pub fn plot(
     };
     output::check(&files(&picture), &[table.into()])?;
     if table.exists()
-        && let Some(told) = study(table, &picture)?
+        && let Some(told) = study(table, &picture, paper)?
     {
         return print(&told);
     }
-    print(&draw(table, &picture)?)
+    print(&draw(table, &picture, paper)?)
 }
 
 /// Draws a table into `picture`, and, of a plane, the curves of the least that overturns into a file beside it, named like it with `-minimum`.
 /// Returns what was written and what it shows.
-pub fn draw(table: &Path, picture: &Path) -> Result<String, Failure> {
+pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failure> {
     let mut text = String::new();
-    let figures = figures(table).map_err(at(Failure::Spectrum, table))?;
+    let figures = figures(table, paper).map_err(at(Failure::Spectrum, table))?;
     for (figure, path) in figures.into_iter().zip(files(picture)) {
         write(&figure, &path)?;
         let _ = writeln!(text, "wrote {}: {}", shown(&path), figure.caption);

@@ -8,6 +8,7 @@ use crate::commands::probability::{self, Lost};
 use crate::commands::{fractiles, inputs, spectrum};
 use crate::error::{Failure, at};
 use crate::output;
+use crate::plot::Paper;
 use crate::progress::Progress;
 use crate::table::Format;
 use crate::table::column::{Column, Kind};
@@ -57,7 +58,8 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
-    let drawn = asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture))?;
+    let drawn =
+        asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()))?;
     let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
     let fractiles = if is_of_records { fractiles::write(&sweep, &out)? } else { String::new() };

@@ -17,15 +17,16 @@ fn open<'a>(motion: &'a DrawnRun) -> Option<&'a Trust> {
     motion.results.trust.as_ref().filter(|trust| !trust.reaches_the_end() && !trust.band.is_empty())
 }
 
-/// Values of the band, over `α` and at most [`FALL`], for the axis of angles; none of a run whose angles are determined to its end.
+/// Values of the band, up to [`FALL`] times the slenderness, for the axis of angles; none of a run whose angles are determined to its end.
 pub fn values(motion: &DrawnRun) -> Vec<f64> {
     let Some(trust) = open(motion) else { return Vec::new() };
     let Band { t, low, high, .. } = &trust.band;
-    let slenderness = motion.slenderness();
+    let (slenderness, units) = (motion.slenderness(), motion.units());
     let rows = t.iter().zip(low.iter().zip(high)).filter(|(t, _)| **t <= motion.end);
     let both = |(low, high): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
         let over = |angles: &[f64]| -> Vec<f64> {
-            angles.iter().zip(&slenderness).map(|(angle, alpha)| (angle / alpha).clamp(-FALL, FALL)).collect()
+            let drawn = angles.iter().zip(slenderness.iter().zip(&units));
+            drawn.map(|(angle, (alpha, unit))| angle.clamp(-FALL * alpha, FALL * alpha) / unit).collect()
         };
         [over(low), over(high)].concat()
     };
@@ -36,8 +37,8 @@ pub fn values(motion: &DrawnRun) -> Vec<f64> {
 pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let Some(trust) = open(motion) else { return };
     let frame = &panel.frame;
-    for (block, alpha) in motion.slenderness().into_iter().enumerate() {
-        let edges = edges(trust, block, motion.end, panel, alpha);
+    for (block, unit) in motion.units().into_iter().enumerate() {
+        let edges = edges(trust, block, motion.end, panel, unit);
         let inside = |[x, y]: Point| [x, y.clamp(frame.top, frame.bottom())];
         let upper = edges.iter().map(|(x, [_, top])| inside([*x, *top]));
         let lower = edges.iter().rev().map(|(x, [bottom, _])| inside([*x, *bottom]));
@@ -60,11 +61,11 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
 }
 
 /// The range of a block's angles per column of paper: `x`, and its lower and upper end `[px]`.
-fn edges(trust: &Trust, block: usize, end: f64, panel: &Panel, alpha: f64) -> Vec<(f64, [f64; 2])> {
+fn edges(trust: &Trust, block: usize, end: f64, panel: &Panel, unit: f64) -> Vec<(f64, [f64; 2])> {
     let mut edges: Vec<(f64, [f64; 2])> = Vec::new();
     let Band { t, low, high, .. } = &trust.band;
     for (place, t) in t.iter().enumerate().filter(|(_, t)| (trust.input_horizon..=end).contains(t)) {
-        let place_of = |angle: f64| panel.place([*t, angle / alpha]);
+        let place_of = |angle: f64| panel.place([*t, angle / unit]);
         let ([x, bottom], [_, top]) = (place_of(low[place][block]), place_of(high[place][block]));
         match edges.last_mut().filter(|(last, _)| x - *last < GRAIN) {
             Some((_, range)) => *range = [range[0].max(bottom), range[1].min(top)],

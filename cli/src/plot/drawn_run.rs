@@ -3,6 +3,7 @@
 //! Rows may lie far apart; events hold the angles and the rates on both sides of an impact, so that curves break where they must.
 
 use super::curve::Point;
+use super::paper::{Angles, Paper};
 use rocking::Event;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
@@ -38,6 +39,8 @@ pub struct Stretch {
 #[derive(Debug)]
 pub struct DrawnRun<'a> {
     pub results: &'a Results,
+    /// Width of the figures, and unit of their angles.
+    pub paper: &'a Paper,
     /// The rows that are drawn: those after overturning only fill the file.
     pub samples: &'a [Sample],
     /// Rows and events in order of time.
@@ -52,6 +55,9 @@ const AFTERMATH: f64 = 0.04;
 /// Curves of angles end at so many times the slenderness where the column overturns: the fall would flatten the rest.
 pub const FALL: f64 = 2.0;
 
+/// Signs of a block's name in legends.
+const LONGEST_NAME: usize = 16;
+
 /// Whether a run with this end has no motion after it.
 fn ends_early(status: StopReason) -> bool {
     matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined)
@@ -59,7 +65,7 @@ fn ends_early(status: StopReason) -> bool {
 
 impl DrawnRun<'_> {
     /// Sorts a run for drawing.
-    pub fn of(results: &Results) -> DrawnRun<'_> {
+    pub fn of<'a>(results: &'a Results, paper: &'a Paper) -> DrawnRun<'a> {
         let response = &results.response;
         let last = results.response.samples.last().map_or(0.0, |sample| sample.t);
         let (mut count, mut end) = (results.response.samples.len(), last.max(results.options.t_end));
@@ -69,7 +75,7 @@ impl DrawnRun<'_> {
             end = end.min(response.t_final * (1.0 + AFTERMATH));
         }
         let samples = &results.response.samples[..count];
-        DrawnRun { results, samples, knots: knots(samples, &results.response.events), end: end.max(1e-9) }
+        DrawnRun { results, paper, samples, knots: knots(samples, &results.response.events), end: end.max(1e-9) }
     }
 
     /// Times of the impacts `[s]`.
@@ -86,6 +92,23 @@ impl DrawnRun<'_> {
     /// Whether the column overturned.
     pub fn overturned(&self) -> bool {
         self.results.response.status == StopReason::Overturned
+    }
+
+    /// The number of a block, from zero, and its name where it has one, cut where it would make legends long.
+    pub fn block_name(&self, block: usize) -> String {
+        match self.results.looks.get(block).map(|look| look.name.trim()) {
+            None | Some("") => format!("{}", block + 1),
+            Some(name) if name.chars().count() <= LONGEST_NAME => format!("{} ({name})", block + 1),
+            Some(name) => format!("{} ({}…)", block + 1, name.chars().take(LONGEST_NAME - 1).collect::<String>()),
+        }
+    }
+
+    /// What angles are divided by where they are drawn, base first `[rad]`: the slenderness, or a degree.
+    pub fn units(&self) -> Vec<f64> {
+        match self.paper.angles {
+            Angles::Natural => self.slenderness(),
+            Angles::Degrees => vec![1f64.to_radians(); self.results.column.len()],
+        }
     }
 
     /// When the first angle passed [`FALL`] times its slenderness on the way to overturning `[s]`; none where the column stands.

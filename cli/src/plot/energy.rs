@@ -3,7 +3,7 @@
 use super::axis::{Axis, brief};
 use super::curve::Point;
 use super::drawn_run::DrawnRun;
-use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
+use super::sheet::{Anchor, Figure, Key, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
 use rocking::Sample;
@@ -45,10 +45,10 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     };
     let axis = Axis::around(&format!("Energy [{unit}]"), values.iter().map(|value| value * factor), 5);
 
-    let mut sheet = Sheet::new("Kinetic, potential and total energy over time");
+    let mut sheet = Sheet::new("Kinetic, potential and total energy over time", motion.paper);
     let entries: Vec<_> = KINDS.map(|(name, stroke)| (Key::Line(stroke), name.to_string())).into();
     let top = sheet.legend(0.0, &entries) + 4.0;
-    let panel = Panel::wide(top, HEIGHT, time_axis(motion), Some(axis));
+    let panel = sheet.wide(top, HEIGHT, time_axis(motion), Some(axis));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));

@@ -31,7 +31,7 @@ struct Contact {
 pub fn draw(motion: &DrawnRun) -> Figure {
     let contacts = contacts(motion);
     let response = &motion.results.response;
-    let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time");
+    let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time", motion.paper);
     let entries: Vec<(Key, String)> = (0..contacts.len())
         .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
         .collect();
@@ -40,7 +40,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let normals = contacts.iter().flat_map(|contact| &contact.normal).map(|point| point[1]);
     let normals = normals.map(|normal| normal.clamp(-1.0, LARGEST_NORMAL)).chain([0.0, 1.0]);
     let label = "Normal force N/W";
-    let normal = Panel::wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 3)));
+    let normal = sheet.wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 3)));
     sheet.axes(&normal);
     sheet.label_upwards(&normal);
     sheet.level(&normal, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -54,7 +54,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let most = LARGEST_DEMAND.max(motion.results.available_friction().map_or(0.0, |friction| friction * 4.0 / 3.0));
     let least = motion.results.available_friction().unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
-    let friction = Panel::wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
+    let friction = sheet.wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
     sheet.label_upwards(&friction);
     // Below the curves: a peak that reaches it is seen.

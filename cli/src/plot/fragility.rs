@@ -2,7 +2,8 @@
 
 use super::axis::Axis;
 use super::curve::Point;
-use super::sheet::{Figure, Key, Panel, Sheet};
+use super::paper::Paper;
+use super::sheet::{Figure, Key, Sheet};
 use super::style::{self, Stroke};
 use rocking::studies::{Fit, Fragility};
 
@@ -22,12 +23,13 @@ const POINTS: usize = 200;
 const FEWEST_RUNS: usize = 2;
 
 /// A figure of several limit states: `label` is the measure with its unit.
-pub fn fragility(label: &str, states: &[Fragility]) -> Figure {
+pub fn fragility(label: &str, states: &[Fragility], paper: &Paper) -> Figure {
     let levels = states.iter().flat_map(|state| &state.counts).map(|count| count.level);
     let top = levels.fold(0.0, f64::max);
-    let mut sheet = Sheet::new(&format!("Fragility: probability of {} limit state(s) over {label}", states.len()));
+    let mut sheet =
+        Sheet::new(&format!("Fragility: probability of {} limit state(s) over {label}", states.len()), paper);
     let x = Axis::over(label, [0.0, top * 1.03], 6);
-    let panel = Panel::wide(TOP, HEIGHT, x, Some(Axis::over("Probability", [-0.02, 1.02], 6)));
+    let panel = sheet.wide(TOP, HEIGHT, x, Some(Axis::over("Probability", [-0.02, 1.02], 6)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     for (place, state) in states.iter().enumerate() {

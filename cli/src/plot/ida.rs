@@ -2,7 +2,8 @@
 
 use super::axis::Axis;
 use super::curve::Point;
-use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
+use super::paper::Paper;
+use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use rocking::studies::{FRACTILES, Observation, Stripe};
 use std::collections::BTreeMap;
@@ -28,15 +29,15 @@ pub const FRACTILE_LINES: [Stroke; 3] = [
 const ROOM: f64 = 0.06;
 
 /// A figure of all runs: `label` is the measure with its unit.
-pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe]) -> Figure {
+pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper) -> Figure {
     let demands = runs.iter().filter_map(Observation::demand).filter(|demand| demand.is_finite());
     let largest = demands.fold(0.0, f64::max);
     let top = stripes.iter().map(|stripe| stripe.level).fold(0.0, f64::max);
-    let mut sheet = Sheet::new(&format!("Incremental dynamic analysis: {label} over the largest rotation"));
+    let mut sheet = Sheet::new(&format!("Incremental dynamic analysis: {label} over the largest rotation"), paper);
     let x = Axis::over("Largest |θ|/α of all blocks", [0.0, largest * (1.0 + ROOM)], 5);
     let y = Axis::over(label, [0.0, top * (1.0 + ROOM)], 5);
-    let mut panel = Panel::wide(TOP, HEIGHT, x, Some(y));
-    panel.frame.width = WIDTH - LEFT - RIGHT - COUNTS;
+    let mut panel = sheet.wide(TOP, HEIGHT, x, Some(y));
+    panel.frame.width -= COUNTS;
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
 

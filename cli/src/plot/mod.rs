@@ -20,6 +20,7 @@ mod forces;
 mod fragility;
 mod ida;
 pub mod modes;
+mod paper;
 mod phase_portrait;
 mod record;
 mod sheet;
@@ -36,6 +37,7 @@ use rocking::run_folder::Results;
 pub use drawn_run::FALL;
 pub use fragility::fragility;
 pub use ida::ida;
+pub use paper::{Angles, Paper, WIDTHS_MM};
 pub use record::record;
 pub use sheet::Figure;
 
@@ -43,8 +45,8 @@ pub use sheet::Figure;
 pub const NAMES: [&str; 5] = ["time-history", "phase-portrait", "slides", "energy", "forces"];
 
 /// All figures of a run, in the order in which they are read.
-pub fn figures(results: &Results) -> Vec<Figure> {
-    let motion = DrawnRun::of(results);
+pub fn figures(results: &Results, paper: &Paper) -> Vec<Figure> {
+    let motion = DrawnRun::of(results, paper);
     let mut figures = vec![time_history::draw(&motion), phase_portrait::draw(&motion)];
     figures.extend(slides::draw(&motion));
     figures.extend([energy::draw(&motion), forces::draw(&motion)]);

@@ -3,6 +3,7 @@
 //! Corners and pivots come from [`rocking::kinematics`]; nothing here moves.
 
 use super::curve::{Frame, Point};
+use super::paper::Paper;
 use super::sheet::{Anchor, Figure, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::posture::{groups, posture};
@@ -74,7 +75,7 @@ pub fn draw(blocks: usize) -> Figure {
     let step = right - left + GAP;
 
     let caption = format!("The {} independent rocking mode(s) of a column of {blocks} block(s)", drawings.len());
-    let mut sheet = Sheet::new(&caption);
+    let mut sheet = Sheet::new(&caption, &Paper::default());
     let (mut y, mut last_line) = (MARGIN, MARGIN);
     for row in drawings.chunk_by(|a, b| a.label.lowest == b.label.lowest) {
         let heading = format!("Lowest open interface {}", row[0].label.lowest);
@@ -162,7 +163,7 @@ pub fn sketch(column: &Column, pattern: &Pattern) -> String {
     let widest = column.blocks().iter().map(|block| block.half_width()).fold(0.0, f64::max);
     let scale = SKETCH_HEIGHT / height;
     let (width, base) = ((2.0 * (SKETCH_ROOM * height + widest) * scale).ceil(), SKETCH_HEIGHT + 4.0);
-    let mut sheet = Sheet::new("");
+    let mut sheet = Sheet::new("", &Paper::default());
     (sheet.width, sheet.height) = (width, SKETCH_HEIGHT + 6.0);
     let place = |[x, y]: Point| [0.5 * width + scale * x, base - scale * y];
     let link = pattern.linkage().link_of_block();

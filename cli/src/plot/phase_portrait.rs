@@ -3,7 +3,8 @@
 use super::axis::{Axis, subscript};
 use super::curve::{self, Frame, Ink, Point};
 use super::drawn_run::{DrawnRun, FALL, Knot};
-use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, WIDTH};
+use super::paper::Angles;
+use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet};
 use super::style::{self, Stroke};
 
 /// Room around panels `[px]`.
@@ -19,8 +20,8 @@ const CURVE: Stroke = Stroke::solid("#0072b2", 1.3);
 /// The figure.
 pub fn draw(motion: &DrawnRun) -> Figure {
     let blocks = motion.results.column.len();
-    let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) };
-    let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps");
+    let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps", motion.paper);
+    let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) }.min(sheet.most_columns());
     let entries = [(Key::Line(CURVE), "smooth motion".into()), (Key::Line(JUMP), "jump at an impact".into())];
     let top = sheet.legend(0.0, &entries) + if blocks > 1 { NAME } else { 4.0 };
 
@@ -28,14 +29,16 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let limit = |block: usize| if motion.overturned() { FALL * slenderness[block] } else { f64::INFINITY };
     let seen = || before_the_fall(motion).flat_map(|knot| (0..blocks).map(move |block| (knot, block)));
     let seen = || seen().filter(|(knot, block)| knot.theta[*block].abs() <= limit(*block));
-    let angles = seen().map(|(knot, block)| knot.theta[block]);
+    let unit = unit(motion);
+    let angles = seen().map(|(knot, block)| knot.theta[block] / unit);
     let rates = seen().flat_map(|(knot, block)| {
-        std::iter::once(&knot.before).chain(&knot.after).map(move |(omega, _)| omega[block]).collect::<Vec<_>>()
+        std::iter::once(&knot.before).chain(&knot.after).map(move |(omega, _)| omega[block] / unit).collect::<Vec<_>>()
     });
-    let width = (WIDTH - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
+    let width = (sheet.width - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
     let height = if blocks == 1 { 0.62 * width } else { 1.15 * width.min(240.0) };
-    let x = Axis::around("Angle θ [rad]", angles, if across == 1 { 5 } else { 2 });
-    let y = Axis::around("Rate ω = dθ/dt [rad/s]", rates, 4);
+    let name = if motion.paper.angles == Angles::Degrees { "°" } else { "rad" };
+    let x = Axis::around(&format!("Angle θ [{name}]"), angles, if across == 1 { 5 } else { 2 });
+    let y = Axis::around(&format!("Rate ω = dθ/dt [{name}/s]"), rates, 4);
 
     for block in 0..blocks {
         let (row, place) = (block / across, block % across);
@@ -65,6 +68,11 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     Figure::new("phase-portrait", caption, sheet)
 }
 
+/// Unit of angles, and of rates in a second `[rad]`.
+fn unit(motion: &DrawnRun) -> f64 {
+    if motion.paper.angles == Angles::Degrees { 1f64.to_radians() } else { 1.0 }
+}
+
 /// Rows and events before the fall.
 fn before_the_fall<'m>(motion: &'m DrawnRun) -> impl Iterator<Item = &'m Knot<'m>> {
     let falls_at = motion.falls_at().unwrap_or(f64::INFINITY);
@@ -79,10 +87,11 @@ fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
         let ends = [[upright, panel.frame.top], [upright, panel.frame.bottom()]];
         sheet.line(ends[0], ends[1], &Stroke::solid(style::GREY, 0.8));
     }
+    let unit = unit(motion);
     let mut runs: Vec<Vec<Point>> = vec![Vec::new()];
     let mut jumps = Vec::new();
     for knot in before_the_fall(motion) {
-        let at = |omega: &[f64]| panel.place([knot.theta[block], omega[block]]);
+        let at = |omega: &[f64]| panel.place([knot.theta[block] / unit, omega[block] / unit]);
         let before = at(knot.before.0);
         runs.last_mut().expect("there is a first").push(before);
         if let Some((omega, _)) = &knot.after {
@@ -100,7 +109,7 @@ fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
     }
     if motion.results.column.len() > 1 {
         let at = [panel.frame.left, panel.frame.top - 7.0];
-        let name = format!("block {}, θ{}", block + 1, subscript(block + 1));
+        let name = format!("block {}, θ{}", motion.block_name(block), subscript(block + 1));
         sheet.words(at, &name, style::NOTE, Anchor::Start);
     }
 }

@@ -2,7 +2,8 @@
 
 use super::axis::{Axis, brief};
 use super::curve::Point;
-use super::sheet::{Anchor, Figure, Panel, Sheet};
+use super::paper::Paper;
+use super::sheet::{Anchor, Figure, Sheet};
 use super::style::{self, Stroke};
 
 /// Heights `[px]`.
@@ -15,7 +16,15 @@ const MARK: Stroke = Stroke::dashed("#d55e00", 1.5, &[6.0, 4.0]);
 
 /// A figure of a record: samples `dt [s]` apart, `accel [m/s²]`, `velocity [m/s]`, `displacement [m]`; `gravity [m/s²]`.
 /// The build-up of the Arias intensity is the trapezoidal sum of the squares of `accel`, with 5 % and 95 % marked.
-pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64], displacement: &[f64]) -> Figure {
+pub fn record(
+    title: &str,
+    dt: f64,
+    gravity: f64,
+    accel: &[f64],
+    velocity: &[f64],
+    displacement: &[f64],
+    paper: &Paper,
+) -> Figure {
     let count = accel.len().max(velocity.len()).max(displacement.len()).max(2);
     let time = Axis::over("Time [s]", [0.0, (count - 1) as f64 * dt], 6);
     let build_up = husid(accel);
@@ -24,12 +33,12 @@ pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64
         [("Accel. [g]", &accelerations), ("Velocity [m/s]", velocity), ("Displ. [m]", displacement)];
 
     let mut sheet =
-        Sheet::new(&format!("Ground motion {title}: acceleration, velocity, displacement, Arias intensity"));
+        Sheet::new(&format!("Ground motion {title}: acceleration, velocity, displacement, Arias intensity"), paper);
     let mut top = GAP;
     let mut peaks = Vec::new();
     for (label, values) in quantities {
         let axis = Axis::around(label, values.iter().copied(), 3);
-        let panel = Panel::wide(top, HEIGHT, time.unnumbered(), Some(axis));
+        let panel = sheet.wide(top, HEIGHT, time.unnumbered(), Some(axis));
         sheet.axes(&panel);
         sheet.label_upwards(&panel);
         sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -37,7 +46,7 @@ pub fn record(title: &str, dt: f64, gravity: f64, accel: &[f64], velocity: &[f64
         peaks.push(values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs())));
         top = panel.frame.bottom() + GAP;
     }
-    let panel = Panel::wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5)));
+    let panel = sheet.wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     let percent: Vec<f64> = build_up.iter().map(|share| 100.0 * share).collect();

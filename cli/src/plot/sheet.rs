@@ -6,7 +6,9 @@
 
 use super::axis::{self, Axis};
 use super::curve::{self, Frame, Point};
+use super::paper::Paper;
 use super::style::{self, Stroke};
+use crate::arguments::Picture;
 use crate::text::{escape, printable};
 use kuva::RasterBackend;
 use kuva::backend::svg::SvgBackend;
@@ -16,12 +18,14 @@ use kuva::render::render::{PathData, Primitive, Scene};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Width of all sheets `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
+/// Width of sheets unless another one is asked for `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
 pub const WIDTH: f64 = 720.0;
 /// Room for numbers and labels left of panels `[px]`.
 pub const LEFT: f64 = 78.0;
 /// Room right of panels `[px]`.
 pub const RIGHT: f64 = 18.0;
+/// Narrowest panel beside others `[px]`.
+const NARROWEST: f64 = 140.0;
 /// Pixels of a PNG per pixel of the sheet: 300 dots per inch where it is printed 18 cm wide.
 const PNG_SCALE: f32 = 3.0;
 
@@ -30,6 +34,7 @@ const PNG_SCALE: f32 = 3.0;
 pub struct Sheet {
     /// Title, for those who cannot see the sheet.
     pub title: String,
+    paper: Paper,
     /// `[px]`
     pub width: f64,
     /// `[px]`
@@ -56,9 +61,17 @@ impl Figure {
         Figure { name, svg: sheet.svg(&caption), caption, sheet }
     }
 
-    /// A file: PNG, three pixels for one of the SVG, or the SVG itself.
-    pub fn bytes(&self, in_pixels: bool) -> Vec<u8> {
-        if in_pixels { self.sheet.png() } else { self.svg.clone().into_bytes() }
+    /// A file: the SVG itself, PNG with three pixels for one of the SVG, or PDF.
+    ///
+    /// # Errors
+    /// What could not be drawn, in words.
+    pub fn bytes(&self, picture: Picture) -> Result<Vec<u8>, String> {
+        match picture {
+            Picture::Svg => Ok(self.svg.clone().into_bytes()),
+            Picture::Png => Ok(self.sheet.png()),
+            #[cfg(feature = "pdf")]
+            Picture::Pdf => self.sheet.pdf(),
+        }
     }
 }
 
@@ -75,11 +88,6 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// A panel over the width of the sheet.
-    pub fn wide(top: f64, height: f64, x: Axis, y: Option<Axis>) -> Panel {
-        Panel { frame: Frame { left: LEFT, top, width: WIDTH - LEFT - RIGHT, height }, x, y }
-    }
-
     /// Position of a pair of values on paper.
     pub fn place(&self, [x, y]: Point) -> Point {
         let up = self.y.as_ref().map_or(0.0, |axis| axis.share(y));
@@ -117,8 +125,18 @@ const ENTRY_GAP: f64 = 20.0;
 
 impl Sheet {
     /// An empty sheet.
-    pub fn new(title: &str) -> Sheet {
-        Sheet { title: title.into(), width: WIDTH, height: 0.0, drawn: Vec::new() }
+    pub fn new(title: &str, paper: &Paper) -> Sheet {
+        Sheet { title: title.into(), paper: *paper, width: paper.width(), height: 0.0, drawn: Vec::new() }
+    }
+
+    /// A panel over the width of the sheet.
+    pub fn wide(&self, top: f64, height: f64, x: Axis, y: Option<Axis>) -> Panel {
+        Panel { frame: Frame { left: LEFT, top, width: self.width - LEFT - RIGHT, height }, x, y }
+    }
+
+    /// Panels that have room beside one another.
+    pub fn most_columns(&self) -> usize {
+        ((self.width - LEFT - RIGHT) / NARROWEST).floor().max(1.0) as usize
     }
 
     /// Frame, ticks and numbers of a panel.
@@ -294,7 +312,7 @@ impl Sheet {
                 Key::None => 0.0,
             };
             let width = room + text_width(name, style::NOTE);
-            if x > LEFT && x + width > WIDTH - RIGHT {
+            if x > LEFT && x + width > self.width - RIGHT {
                 (x, y) = (LEFT, y + LEGEND_LINE);
             }
             match key {
@@ -323,8 +341,13 @@ impl Sheet {
     pub fn svg(&self, caption: &str) -> String {
         let body = self.elements(true);
         let (width, height, [title, caption]) = (self.width, self.height, [&self.title, caption].map(escape));
+        // Of paper of a given width, lengths in millimetres.
+        let [across, down] = match self.paper.width_mm {
+            None => [width.to_string(), height.to_string()],
+            Some(millimetres) => [millimetres, millimetres * height / width].map(|length| format!("{length:.2}mm")),
+        };
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" style=\"max-width:100%;height:auto\" \
              font-family=\"Helvetica, Arial, sans-serif\" fill=\"{}\">\n  <desc>{caption}</desc>{body}",
             style::INK
@@ -349,6 +372,17 @@ impl Sheet {
     /// The sheet as a PNG file.
     pub fn png(&self) -> Vec<u8> {
         RasterBackend::new().with_scale(PNG_SCALE).render_scene(&self.scene()).expect("a sheet has a size")
+    }
+
+    /// The sheet as a PDF page of its size on paper, text as text.
+    #[cfg(feature = "pdf")]
+    pub fn pdf(&self) -> Result<Vec<u8>, String> {
+        let points = self.paper.points_per_px();
+        let page = kuva::PageSize::points(points * self.width, points * self.height);
+        let mut scene = self.scene();
+        // The font that `kuva` brings, which has all signs, and not one of this machine.
+        scene.font_family = Some("DejaVu Sans".into());
+        kuva::PdfBackend::new().with_page_size(page).render_scenes(&[scene])
     }
 
     fn scene(&self) -> Scene {

@@ -26,7 +26,7 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     let (slides, gaps) = (curves(|sample| &sample.slide), curves(|sample| &sample.gap));
     let has_gaps = gaps.iter().flatten().any(|point| point[1] > 0.0);
 
-    let mut sheet = Sheet::new("Slides of the interfaces over time");
+    let mut sheet = Sheet::new("Slides of the interfaces over time", motion.paper);
     let entries: Vec<(Key, String)> = (0..interfaces)
         .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
         .collect();
@@ -60,7 +60,7 @@ fn curves_panel(
         _ => (1e3, "mm"),
     };
     let axis = Axis::around(&format!("{name} [{unit}]"), values.iter().map(|value| value * factor), 3);
-    let panel = Panel::wide(top, height, time, Some(axis));
+    let panel = sheet.wide(top, height, time, Some(axis));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));

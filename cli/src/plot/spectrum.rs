@@ -19,7 +19,8 @@ mod scale;
 mod strips;
 
 use super::curve::{self, Frame, Point};
-use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, WIDTH, text_width};
+use super::paper::{Angles, Paper};
+use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, text_width};
 use super::style::{self, Stroke};
 use curves::MOST_CURVES;
 use family::Family;
@@ -167,16 +168,30 @@ pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpe
 }
 
 /// The figures of the table of a sweep: its curves, its strips, or its spectrum and the curves of the least value that overturns.
-pub fn figures(table: &Path) -> Result<Vec<Figure>, NoSpectrum> {
-    let points = Points::read(table)?;
+pub fn figures(table: &Path, paper: &Paper) -> Result<Vec<Figure>, NoSpectrum> {
+    let mut points = Points::read(table)?;
+    if paper.angles == Angles::Degrees {
+        points.axes.iter_mut().for_each(in_degrees);
+    }
     Ok(match Drawing::of(&points.axes, points.len(), points.blocks > 0)? {
-        Drawing::Curves(family) => vec![curves::draw(&points, &family)],
-        Drawing::Strips(family) => vec![strips::draw(&points, &family)],
+        Drawing::Curves(family) => vec![curves::draw(&points, &family, paper)],
+        Drawing::Strips(family) => vec![strips::draw(&points, &family, paper)],
         Drawing::Plane(plane) => {
             let grid = Grid::of(&points, plane)?;
-            vec![spectrum(&grid), minimum(&grid)]
+            vec![spectrum(&grid, paper), minimum(&grid, paper)]
         }
     })
+}
+
+/// An axis of slenderness in degrees; any other as it is.
+fn in_degrees((key, values): &mut Axis) {
+    if key == "size.alpha" {
+        *key = "size.alpha_degrees".into();
+        // Text that reads back exactly keeps different values apart.
+        let degrees =
+            |value: &String| value.parse::<f64>().map_or(value.clone(), |alpha| format!("{:?}", alpha.to_degrees()));
+        *values = values.iter().map(degrees).collect();
+    }
 }
 
 /// A panel on paper.
@@ -237,13 +252,13 @@ impl Place<'_> {
 }
 
 /// The figure of all panels.
-fn spectrum(grid: &Grid) -> Figure {
+fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
     let Plane { x, y, titles, .. } = &grid.plane;
     let what = format!("Overturning spectrum: {} against {}", y.label(), x.label());
-    let mut sheet = Sheet::new(&what);
-    let rows = titles.len().div_ceil(MOST_COLUMNS);
+    let mut sheet = Sheet::new(&what, paper);
+    let rows = titles.len().div_ceil(MOST_COLUMNS.min(sheet.most_columns()));
     let columns = titles.len().div_ceil(rows);
-    let width = (WIDTH - LEFT - RIGHT - (columns - 1) as f64 * GAP) / columns as f64;
+    let width = (sheet.width - LEFT - RIGHT - (columns - 1) as f64 * GAP) / columns as f64;
     let height = HEIGHTS[columns - 1];
     let heading = if titles == &[""] { GAP } else { TITLE };
     let mut bottom = 0.0;
@@ -270,7 +285,7 @@ fn spectrum(grid: &Grid) -> Figure {
         bottom = frame.bottom().max(bottom);
     }
     sheet.words(
-        [LEFT + 0.5 * (WIDTH - LEFT - RIGHT), bottom + NUMBERS + 12.0],
+        [LEFT + 0.5 * (sheet.width - LEFT - RIGHT), bottom + NUMBERS + 12.0],
         &x.label(),
         style::LABEL,
         Anchor::Middle,
@@ -349,11 +364,11 @@ fn staircase(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
 }
 
 /// The curves of the least value that overturns, those of all panels in one.
-fn minimum(grid: &Grid) -> Figure {
+fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     let Plane { x, y, titles, .. } = &grid.plane;
     let what = format!("Least {} that overturns against {}", y.label(), x.label());
-    let mut sheet = Sheet::new(&what);
-    let frame = Frame { left: LEFT, top: GAP, width: WIDTH - LEFT - RIGHT, height: MINIMUM_HEIGHT };
+    let mut sheet = Sheet::new(&what, paper);
+    let frame = Frame { left: LEFT, top: GAP, width: sheet.width - LEFT - RIGHT, height: MINIMUM_HEIGHT };
     let place = Place { frame, x, y };
     for (value, _) in place.x_ticks() {
         let x = place.x.share(value);

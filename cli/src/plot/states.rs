@@ -2,6 +2,7 @@
 
 use super::curve::Point;
 use super::modes::fill;
+use super::paper::Paper;
 use super::sheet::{Anchor, Figure, Sheet};
 use super::style::{self, Stroke};
 use rocking_codegen::joints::{Joint, Slip};
@@ -35,7 +36,7 @@ const ARROW: Stroke = Stroke::solid(style::INK, 1.8);
 /// The ten states, by rows: closed and free, on the right corner, on the left corner.
 pub fn draw() -> Figure {
     let caption = "The ten states of an interface with friction".to_string();
-    let mut sheet = Sheet::new(&caption);
+    let mut sheet = Sheet::new(&caption, &Paper::default());
     let of =
         |wanted: Interface| move |joint: &Joint| matches!(joint, Joint::Contact(interface, ..) if *interface == wanted);
     let all = Joint::all();

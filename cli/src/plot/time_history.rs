@@ -4,6 +4,7 @@ use super::axis::{Axis, brief, span, subscript};
 use super::band;
 use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL, Stretch, over_time};
+use super::paper::Angles;
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
@@ -20,7 +21,7 @@ const EDGE: f64 = 5.0;
 
 /// The figure.
 pub fn draw(motion: &DrawnRun) -> Figure {
-    let mut sheet = Sheet::new("Angles of the blocks over time, ground acceleration, impacts and modes");
+    let mut sheet = Sheet::new("Angles of the blocks over time, ground acceleration, impacts and modes", motion.paper);
     let top = ground_panel(&mut sheet, motion, GAP);
     let top = legend(&mut sheet, motion, top);
     let angles = angles_panel(&mut sheet, motion, top + 4.0);
@@ -50,7 +51,7 @@ fn ground_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
         let entries: Vec<_> = strokes.iter().cloned().map(Key::Line).zip(names).collect();
         top = sheet.legend(top - GAP, &entries) + 2.0;
     }
-    let panel = Panel::wide(top, GROUND, time_axis(motion).unnumbered(), Some(axis));
+    let panel = sheet.wide(top, GROUND, time_axis(motion).unnumbered(), Some(axis));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
@@ -68,10 +69,14 @@ fn legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
         .iter()
         .enumerate()
         .map(|(index, alpha)| {
-            let name = if motion.results.column.len() == 1 {
-                format!("θ/α, α = {} rad", brief(*alpha))
-            } else {
-                format!("block {}, α{} = {}", index + 1, subscript(index + 1), brief(*alpha))
+            let is_natural = motion.paper.angles == Angles::Natural;
+            let name = match motion.results.column.len() {
+                1 => format!("{}, α = {}", if is_natural { "θ/α" } else { "θ" }, motion.paper.angle(*alpha)),
+                // In degrees the sign is its own unit.
+                _ => {
+                    let alpha = if is_natural { brief(*alpha) } else { motion.paper.angle(*alpha) };
+                    format!("block {}, α{} = {alpha}", motion.block_name(index), subscript(index + 1))
+                }
             };
             (Key::Line(style::line(index)), name)
         })
@@ -80,26 +85,46 @@ fn legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
 }
 
 fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
-    let curves: Vec<Vec<Point>> = motion
-        .slenderness()
+    let (units, slenderness) = (motion.units(), motion.slenderness());
+    let curves: Vec<Vec<Point>> = units
         .iter()
         .enumerate()
-        .map(|(block, alpha)| motion.knots.iter().map(|knot| [knot.t, knot.theta[block] / alpha]).collect())
+        .map(|(block, unit)| motion.knots.iter().map(|knot| [knot.t, knot.theta[block] / unit]).collect())
         .collect();
-    let limit = if motion.overturned() { FALL } else { f64::INFINITY };
-    let values = curves.iter().flatten().map(|point| point[1].clamp(-limit, limit)).chain(band::values(motion));
-    let label = if curves.len() == 1 { "Angle θ/α" } else { "Angles θᵢ/αᵢ" };
-    let panel = Panel::wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 4)));
+    let limit =
+        |block: usize| if motion.overturned() { FALL * slenderness[block] / units[block] } else { f64::INFINITY };
+    let seen = |(block, points): (usize, &Vec<Point>)| -> Vec<f64> {
+        points.iter().map(|point| point[1].clamp(-limit(block), limit(block))).collect()
+    };
+    let values = curves.iter().enumerate().flat_map(seen).chain(band::values(motion));
+    let label = match (motion.paper.angles, curves.len()) {
+        (Angles::Natural, 1) => "Angle θ/α",
+        (Angles::Natural, _) => "Angles θᵢ/αᵢ",
+        (Angles::Degrees, 1) => "Angle θ [°]",
+        (Angles::Degrees, _) => "Angles θᵢ [°]",
+    };
+    let panel = sheet.wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 4)));
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     band::draw(sheet, motion, &panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
-    [-1.0, 1.0].into_iter().for_each(|bound| sheet.level(&panel, bound, &style::REFERENCE));
+    if let Some(bound) = balance(motion) {
+        [-bound, bound].into_iter().for_each(|bound| sheet.level(&panel, bound, &style::REFERENCE));
+    }
     for (block, points) in curves.iter().enumerate() {
         sheet.history(&panel, points, &style::line(block));
     }
     mark_ending(sheet, motion, &panel, Anchor::End);
     panel
+}
+
+/// The angle `α` as it is drawn; none where each block has another one.
+fn balance(motion: &DrawnRun) -> Option<f64> {
+    match (motion.paper.angles, &motion.slenderness()[..]) {
+        (Angles::Natural, _) => Some(1.0),
+        (Angles::Degrees, [alpha]) => Some(alpha.to_degrees()),
+        (Angles::Degrees, _) => None,
+    }
 }
 
 /// A line where the run was over before its time, and what happened along it: to its upper `End`, or from its lower `Start`.
@@ -114,7 +139,7 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
 
 /// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
 fn strip(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
-    let panel = Panel::wide(top, TICKS + BAND, time_axis(motion), None);
+    let panel = sheet.wide(top, TICKS + BAND, time_axis(motion), None);
     let band = Frame { top: top + TICKS, height: BAND, ..panel.frame };
     draw_band(sheet, motion, &panel, &band);
     let impacts: Vec<Vec<Point>> =
@@ -253,12 +278,16 @@ fn modes_legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
 fn caption(motion: &DrawnRun) -> String {
     let response = &motion.results.response;
     let blocks = motion.results.column.len();
-    let mut caption = if blocks == 1 {
-        "Angle of the block over its slenderness α".to_string()
-    } else {
-        "Angles of the blocks, base first, each over the slenderness αᵢ of the stack that stands on its interface"
-            .into()
-    };
+    let mut caption = String::from(match (motion.paper.angles, blocks) {
+        (Angles::Natural, 1) => "Angle of the block over its slenderness α",
+        (Angles::Natural, _) => {
+            "Angles of the blocks, base first, each over the slenderness αᵢ of the stack that stands on its interface"
+        }
+        (Angles::Degrees, 1) => "Angle of the block in degrees",
+        (Angles::Degrees, _) => {
+            "Angles of the blocks in degrees, base first; αᵢ: slenderness of the stack that stands on their interface"
+        }
+    });
     caption.push_str("; above, the acceleration of the ground in parts of gravity; below, impacts and modes.");
     let [low, high] = span(motion.knots.iter().flat_map(|knot| {
         motion.slenderness().into_iter().zip(knot.theta).map(|(alpha, theta)| theta / alpha).collect::<Vec<_>>()
@@ -266,7 +295,7 @@ fn caption(motion: &DrawnRun) -> String {
     if motion.overturned() && low.abs().max(high) > FALL {
         caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α."));
     }
-    if low <= -1.0 || high >= 1.0 {
+    if balance(motion).is_some() && (low <= -1.0 || high >= 1.0) {
         caption.push_str(" Dashed: θ = ±α, beyond which a rigid stack at rest would fall.");
     }
     if let Some((t, words)) = motion.ending() {

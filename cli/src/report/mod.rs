@@ -22,7 +22,7 @@ use std::fmt::Write as _;
 
 /// The page of a run.
 pub fn page(results: &Results) -> String {
-    let figures = plot::figures(results);
+    let figures = plot::figures(results, &plot::Paper::default());
     let figures: Vec<_> = figures.iter().map(|one| (one.name, one.caption.as_str(), one.svg.as_str())).collect();
     let title = if results.title.is_empty() { "A run of rocking" } else { &results.title };
     let parts = [

@@ -10,7 +10,8 @@ use super::scale::Scale;
 use super::{GAP, LINES, NUMBERS, Place, TITLE, shortened};
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::ida::{FRACTILE_LINES, RECORD};
-use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, WIDTH};
+use crate::plot::paper::Paper;
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet};
 use crate::plot::style::{self, Stroke};
 use rocking::studies::{FRACTILES, fractile};
 
@@ -49,7 +50,7 @@ struct Curve {
 }
 
 /// The figure of all curves.
-pub fn draw(points: &Points, family: &Family) -> Figure {
+pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let rows = family.rows(points);
     let demands =
         |rows: &[(f64, usize)]| -> Vec<Value> { rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect() };
@@ -64,7 +65,7 @@ pub fn draw(points: &Points, family: &Family) -> Figure {
     let y = Scale::over("", vec![0.0, top]);
     let label = if points.blocks > 1 { "Largest |θ|/α of all blocks" } else { "Largest |θ|/α" };
     let subject = if family.x.key.ends_with("rocking_period") { "Rocking spectrum" } else { "Largest angle" };
-    let mut sheet = Sheet::new(&format!("{subject}: {label} over {}", family.x.label()));
+    let mut sheet = Sheet::new(&format!("{subject}: {label} over {}", family.x.label()), paper);
 
     let panels: Vec<Vec<Curve>> = match family.records {
         1 => vec![single(points, family, &rows, &demands)],
@@ -74,8 +75,8 @@ pub fn draw(points: &Points, family: &Family) -> Figure {
             .collect(),
     };
     let is_each_block = family.records == 1 && rows.len() == 1 && points.blocks > 1;
-    let columns = panels.len().div_ceil(panels.len().div_ceil(MOST_COLUMNS));
-    let width = (WIDTH - LEFT - RIGHT - (columns - 1) as f64 * BETWEEN) / columns as f64;
+    let columns = panels.len().div_ceil(panels.len().div_ceil(MOST_COLUMNS.min(sheet.most_columns())));
+    let width = (sheet.width - LEFT - RIGHT - (columns - 1) as f64 * BETWEEN) / columns as f64;
     let height = HEIGHTS[columns - 1];
     let heading = if panels.len() > 1 { TITLE } else { GAP };
     let mut bottom = 0.0;
@@ -103,7 +104,7 @@ pub fn draw(points: &Points, family: &Family) -> Figure {
         }
         bottom = frame.bottom().max(bottom);
     }
-    let below = [LEFT + 0.5 * (WIDTH - LEFT - RIGHT), bottom + NUMBERS + 12.0];
+    let below = [LEFT + 0.5 * (sheet.width - LEFT - RIGHT), bottom + NUMBERS + 12.0];
     sheet.words(below, &family.x.label(), style::LABEL, Anchor::Middle);
     let entries = legend(family, &panels[0]);
     sheet.height = match entries.is_empty() {

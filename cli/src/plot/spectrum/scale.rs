@@ -103,7 +103,8 @@ fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
 }
 
 /// Keys of scenes by their last part, and what they are with their unit.
-const LABELS: [(&str, &str); 41] = [
+const LABELS: [(&str, &str); 42] = [
+    ("alpha_degrees", "α [°]"),
     ("alpha", "α [rad]"),
     ("p", "p [rad/s]"),
     ("rocking_period", "2π/p [s]"),
@@ -168,7 +169,7 @@ pub fn title(key: &str, value: &str) -> String {
             let label = label(key);
             let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
             let value = value.parse().map_or_else(|_| value.to_string(), brief);
-            format!("{name} = {value} {}", unit.trim_end_matches(']')).trim_end().to_string()
+            format!("{name} = {value} {}", unit.trim_end_matches(']')).trim_end().replace(" °", "°")
         }
     }
 }

@@ -6,7 +6,8 @@ use super::points::Points;
 use super::scale::Scale;
 use super::{GAP, NUMBERS, Place, TITLE, cells, legend, percent, shortened};
 use crate::plot::curve::Frame;
-use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet, WIDTH};
+use crate::plot::paper::Paper;
+use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet};
 use crate::plot::style;
 
 /// Height of a strip `[px]`.
@@ -16,14 +17,14 @@ const HEIGHT: f64 = 40.0;
 const EDGE: f64 = 0.5 * LEFT;
 
 /// The figure of all strips.
-pub fn draw(points: &Points, family: &Family) -> Figure {
+pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let rows = family.rows(points);
     // Cells reach half way to their neighbours.
     let x = Scale::of(&family.x.key, family.x.values.clone());
     let one = Scale::strip();
     let what = format!("What becomes of the column over {}", x.label());
-    let mut sheet = Sheet::new(&what);
-    let width = WIDTH - EDGE - RIGHT;
+    let mut sheet = Sheet::new(&what, paper);
+    let width = sheet.width - EDGE - RIGHT;
     let heading = if family.titles == [""] { GAP } else { TITLE };
     let mut strips: Vec<Vec<Class>> = Vec::new();
     let mut bottom = 0.0;

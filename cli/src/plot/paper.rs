@@ -1,0 +1,46 @@
+//! The paper of a figure: how wide it is printed, and the unit of angles.
+
+/// Pixels of a sheet per millimetre of paper: 720 px on 15 cm, where text of 14 px has 8 pt.
+const PX_PER_MM: f64 = 720.0 / 150.0;
+
+/// How figures are laid out. Text keeps its size on paper of any width.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Paper {
+    /// Width where it is printed `[mm]`; as wide as the page it stands on unless given, laid out for 15 cm.
+    pub width_mm: Option<f64>,
+    /// Unit of angles.
+    pub angles: Angles,
+}
+
+/// Units of angles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Angles {
+    /// Over the slenderness, slenderness itself and phase portraits in rad.
+    #[default]
+    Natural,
+    /// In degrees.
+    Degrees,
+}
+
+/// Narrowest and widest paper `[mm]`: on narrower paper legends and panels have no room, wider paper is none.
+pub const WIDTHS_MM: [f64; 2] = [80.0, 500.0];
+
+impl Paper {
+    /// Width of its sheets `[px]`.
+    pub fn width(&self) -> f64 {
+        self.width_mm.map_or(super::sheet::WIDTH, |width| (width * PX_PER_MM).round())
+    }
+
+    /// Points (1/72 inch) for a pixel of its sheets.
+    pub fn points_per_px(&self) -> f64 {
+        72.0 / 25.4 / PX_PER_MM
+    }
+
+    /// An angle `[rad]` in words, with its unit.
+    pub fn angle(&self, angle: f64) -> String {
+        match self.angles {
+            Angles::Natural => format!("{} rad", super::axis::brief(angle)),
+            Angles::Degrees => format!("{}°", super::axis::brief(angle.to_degrees())),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! How figures are written: width on paper, degrees, PDF, names of blocks.
+
+mod common;
+
+use common::{rocking, root, succeeds};
+use roxmltree::Document;
+use std::path::Path;
+
+/// Two blocks with names, one of them long.
+const STATUE: &str = "[[block]]\nname = \"pedestal\"\nhalf_width = 0.45\nhalf_height = 0.5\n\
+    [[block]]\nname = \"statue of the emperor Augustus\"\nhalf_width = 0.25\nhalf_height = 0.9\n[restitution]\neta = 0.9\n\
+    [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.35\nperiod = 0.6\n[solver]\nt_end = 6.0\n";
+
+/// A folder with a run of a scene.
+fn run(scene: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("s.toml"), scene).expect("written");
+    let told = succeeds(folder.path(), &["run", "s.toml", "--no-trust"]);
+    (folder, told)
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).expect("written")
+}
+
+fn words(figure: &str) -> Vec<String> {
+    let document = Document::parse(figure).expect("XML");
+    let texts = document.descendants().filter(|node| node.has_tag_name("text")).filter_map(|node| node.text());
+    texts.map(String::from).collect()
+}
+
+#[test]
+fn angles_are_drawn_in_degrees_on_request() {
+    let (folder, _) = run(STATUE);
+    let path = folder.path();
+    succeeds(path, &["plot", "out", "--out", "natural"]);
+    succeeds(path, &["plot", "out", "--out", "degrees", "--degrees"]);
+    let of = |name: &str| words(&read(path, name));
+    let (natural, degrees) = (of("natural/time-history.svg"), of("degrees/time-history.svg"));
+    assert!(natural.contains(&"Angles θᵢ/αᵢ".into()) && degrees.contains(&"Angles θᵢ [°]".into()), "{degrees:?}");
+    // The slenderness of the statue on its interface, atan(0.25 / 0.9).
+    let alpha = (0.25f64 / 0.9).atan().to_degrees();
+    assert!(degrees.iter().any(|word| word.ends_with(&format!("α₂ = {alpha:.1}°"))), "{degrees:?}");
+    let portrait = of("degrees/phase-portrait.svg");
+    assert!(
+        portrait.contains(&"Angle θ [°]".into()) && portrait.contains(&"Rate ω = dθ/dt [°/s]".into()),
+        "{portrait:?}"
+    );
+    // Nothing else has angles.
+    for name in ["energy", "forces"] {
+        assert_eq!(read(path, &format!("natural/{name}.svg")), read(path, &format!("degrees/{name}.svg")));
+    }
+    // Of a sweep, the slenderness.
+    std::fs::write(
+        path.join("sweep.toml"),
+        "scene = \"s.toml\"\nask = \"peaks\"\n[axes]\nalpha = [0.2, 0.3]\np = [1, 2, 3]\n",
+    )
+    .expect("written");
+    succeeds(path, &["sweep", "sweep.toml"]);
+    succeeds(path, &["plot", "sweep.csv", "--degrees"]);
+    let found = of("sweep.svg");
+    assert!(found.contains(&format!("α = {:.1}°", 0.2f64.to_degrees())), "{found:?}");
+}
+
+#[test]
+fn a_figure_is_laid_out_for_the_width_of_its_paper() {
+    let (folder, _) = run(STATUE);
+    let path = folder.path();
+    for (width, pixels) in [("85", 408.0), ("150", 720.0), ("200", 960.0)] {
+        succeeds(path, &["plot", "out", "--out", width, "--width", width]);
+        for name in ["time-history", "phase-portrait", "energy", "forces"] {
+            let figure = read(path, &format!("{width}/{name}.svg"));
+            let document = Document::parse(&figure).expect("XML");
+            let root = document.root_element();
+            assert_eq!(root.attribute("width"), Some(&*format!("{width}.00mm")));
+            let view: Vec<f64> = root
+                .attribute("viewBox")
+                .expect("a box")
+                .split(' ')
+                .map(|number| number.parse().expect("a number"))
+                .collect();
+            assert_eq!(view[2], pixels);
+            // Text keeps its size, and nothing is right of the paper.
+            let texts = || document.descendants().filter(|node| node.has_tag_name("text"));
+            assert!(texts().all(|text| ["13", "14"].contains(&text.attribute("font-size").expect("a size"))), "{name}");
+            let x = |text: roxmltree::Node| text.attribute("x").and_then(|x| x.parse::<f64>().ok()).unwrap_or(0.0);
+            assert!(texts().all(|text| x(text) <= pixels), "{name}");
+        }
+    }
+    let output = rocking(path, &["plot", "out", "--width", "20"]);
+    assert!(output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("give 80 to 500 mm"));
+}
+
+#[test]
+fn blocks_have_their_names_in_the_text_of_a_run_and_in_its_figures() {
+    let (folder, told) = run(STATUE);
+    assert!(told.contains("base first: pedestal 0.") && told.contains(", statue of the emperor Augustus 0."), "{told}");
+    succeeds(folder.path(), &["plot", "out"]);
+    let found = words(&read(folder.path(), "out/time-history.svg"));
+    assert!(found.iter().any(|word| word.starts_with("block 1 (pedestal), α₁ = ")), "{found:?}");
+    // Legends stay short.
+    assert!(found.iter().any(|word| word.starts_with("block 2 (statue of the e…), α₂ = ")), "{found:?}");
+    let (_, told) = run(&STATUE.replace("amplitude_g = 0.35", "amplitude_g = 2.5"));
+    assert!(
+        told.contains("(block 2, statue of the emperor Augustus)") || told.contains("(block 1, pedestal)"),
+        "{told}"
+    );
+    // Without names nothing changes.
+    let (_, told) = run(&STATUE
+        .lines()
+        .filter(|line| !line.starts_with("name"))
+        .map(|line| format!("{line}\n"))
+        .collect::<String>());
+    assert!(told.contains("largest |θ|/α, base first: 0."), "{told}");
+}
+
+/// All kinds of figures: of a run, a sweep, a study, a record, and the modes.
+#[cfg(feature = "pdf")]
+#[test]
+fn figures_of_all_kinds_are_written_as_pdf() {
+    let (folder, _) = run(STATUE);
+    let path = folder.path();
+    std::fs::write(
+        path.join("sweep.toml"),
+        "scene = \"s.toml\"\n[axes]\namplitude_g = [0.2, 0.3, 1.0]\nperiod = [0.5, 1.0]\n",
+    )
+    .expect("written");
+    let record = root().join("ground/tests/records/peer/RSN9001_HOLLOW_MIL000.AT2").display().to_string();
+    succeeds(path, &["plot", "out", "--format", "pdf"]);
+    succeeds(path, &["plot", "out", "--format", "pdf", "--width", "85", "--out", "narrow"]);
+    succeeds(path, &["sweep", "sweep.toml", "--plot", "f.pdf"]);
+    succeeds(path, &["record", &record, "--plot", "r.pdf"]);
+    succeeds(path, &["modes", "--blocks", "2", "--svg", "m.pdf"]);
+    let page = |name: &str| -> Vec<f64> {
+        let bytes = std::fs::read(path.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(bytes.starts_with(b"%PDF-"), "{name}");
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let (_, found) = text.split_once("/MediaBox").expect("a page");
+        let numbers = found.split(['[', ']']).nth(1).expect("a box").split_whitespace();
+        numbers.map(|number| number.parse().expect("a number")).collect()
+    };
+    for name in [
+        "out/time-history.pdf",
+        "out/phase-portrait.pdf",
+        "out/energy.pdf",
+        "out/forces.pdf",
+        "f.pdf",
+        "f-minimum.pdf",
+        "r.pdf",
+    ] {
+        // 15 cm.
+        assert!((page(name)[2] - 150.0 / 25.4 * 72.0).abs() < 0.1, "{name} {:?}", page(name));
+    }
+    assert!((page("narrow/energy.pdf")[2] - 85.0 / 25.4 * 72.0).abs() < 0.1);
+    assert!(page("m.pdf")[2] > 100.0);
+    // The same bytes again.
+    let before = std::fs::read(path.join("out/forces.pdf")).expect("written");
+    succeeds(path, &["plot", "out", "--format", "pdf"]);
+    assert!(before == std::fs::read(path.join("out/forces.pdf")).expect("written"));
+}
+
+#[cfg(not(feature = "pdf"))]
+#[test]
+fn a_build_without_pdf_says_how_to_get_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = rocking(folder.path(), &["record", &root().join("r").display().to_string(), "--plot", "r.pdf"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.code() == Some(2) && message.contains("PDF needs a build with `--features pdf`"),
+        "{message}"
+    );
+}
