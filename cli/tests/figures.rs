@@ -85,6 +85,13 @@ fn a_figure_is_laid_out_for_the_width_of_its_paper() {
             assert!(texts().all(|text| ["13", "14"].contains(&text.attribute("font-size").expect("a size"))), "{name}");
             let x = |text: roxmltree::Node| text.attribute("x").and_then(|x| x.parse::<f64>().ok()).unwrap_or(0.0);
             assert!(texts().all(|text| x(text) <= pixels), "{name}");
+            // About 0.55 em a sign.
+            let end =
+                |text: roxmltree::Node| x(text) + 13.0 * 0.55 * text.text().unwrap_or_default().chars().count() as f64;
+            let begins = |text: &roxmltree::Node| text.attribute("text-anchor").is_none_or(|anchor| anchor == "start");
+            for text in texts().filter(begins).filter(|text| text.attribute("transform").is_none()) {
+                assert!(end(text) <= pixels + 8.0, "{name}: {:?}", text.text());
+            }
         }
     }
     let output = rocking(path, &["plot", "out", "--width", "20"]);

@@ -4,7 +4,7 @@ use super::axis::{Axis, subscript};
 use super::curve::{self, Frame, Ink, Point};
 use super::drawn_run::{DrawnRun, FALL, Knot};
 use super::paper::Angles;
-use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet};
+use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, shortened};
 use super::style::{self, Stroke};
 
 /// Room around panels `[px]`.
@@ -110,6 +110,6 @@ fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
     if motion.results.column.len() > 1 {
         let at = [panel.frame.left, panel.frame.top - 7.0];
         let name = format!("block {}, θ{}", motion.block_name(block), subscript(block + 1));
-        sheet.words(at, &name, style::NOTE, Anchor::Start);
+        sheet.words(at, &shortened(&name, style::NOTE, panel.frame.width), style::NOTE, Anchor::Start);
     }
 }

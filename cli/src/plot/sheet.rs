@@ -116,6 +116,9 @@ pub enum Key {
     None,
 }
 
+/// Width of sentences as a share of that of [`text_width`], which is that of names and numbers at their widest.
+const PROSE: f64 = 0.92;
+
 /// Lengths in a legend `[px]`.
 const LEGEND_LINE: f64 = 21.0;
 const KEY_WIDTH: f64 = 34.0;
@@ -311,6 +314,16 @@ impl Sheet {
                 Key::Fill(_) => FILL_WIDTH + KEY_GAP,
                 Key::None => 0.0,
             };
+            // Words alone are broken where they are wider than the paper, and nothing stands beside them.
+            let available = (self.width - RIGHT - LEFT) / PROSE;
+            if matches!(key, Key::None) && text_width(name, style::NOTE) > available {
+                for line in broken(name, style::NOTE, available) {
+                    y += if x > LEFT { LEGEND_LINE } else { 0.0 };
+                    self.words([LEFT, y], &line, style::NOTE, Anchor::Start);
+                    x = self.width;
+                }
+                continue;
+            }
             let width = room + text_width(name, style::NOTE);
             if x > LEFT && x + width > self.width - RIGHT {
                 (x, y) = (LEFT, y + LEGEND_LINE);
@@ -441,6 +454,31 @@ fn behind(anchor: Anchor, width: f64) -> f64 {
         Anchor::Middle => 0.5 * width,
         Anchor::End => width,
     }
+}
+
+/// A text that is cut where it would be wider than `[px]`.
+pub fn shortened(text: &str, size: u32, width: f64) -> String {
+    let mut kept = text.to_string();
+    while text_width(&kept, size) > width {
+        kept = kept.trim_end_matches('…').chars().rev().skip(1).collect::<Vec<_>>().into_iter().rev().collect();
+        kept.push('…');
+    }
+    kept
+}
+
+/// A text as lines that are not wider than `[px]`, but for single words.
+fn broken(text: &str, size: u32, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if text_width(&format!("{line} {word}"), size) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
 }
 
 /// About how wide a text is `[px]`; the font of the PNGs is wider than most.

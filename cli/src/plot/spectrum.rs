@@ -20,7 +20,7 @@ mod strips;
 
 use super::curve::{self, Frame, Point};
 use super::paper::{Angles, Paper};
-use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, text_width};
+use super::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened, text_width};
 use super::style::{self, Stroke};
 use curves::MOST_CURVES;
 use family::Family;
@@ -271,7 +271,7 @@ fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
         let place = Place { frame, x, y };
         sheet.words(
             [frame.left + 0.5 * width, frame.top - 8.0],
-            &shortened(title, width),
+            &shortened(title, style::LABEL, width),
             style::LABEL,
             Anchor::Middle,
         );
@@ -423,16 +423,6 @@ fn curves(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
         }
     };
     runs.filter(|run| run[0].1.is_some()).map(curve).collect()
-}
-
-/// A text that is cut where it would be wider than its panel.
-fn shortened(text: &str, width: f64) -> String {
-    let mut kept = text.to_string();
-    while text_width(&kept, style::LABEL) > width {
-        kept = kept.trim_end_matches('…').chars().rev().skip(1).collect::<Vec<_>>().into_iter().rev().collect();
-        kept.push('…');
-    }
-    kept
 }
 
 /// A share in whole percent, small ones to a tenth.

@@ -7,11 +7,11 @@
 use super::family::Family;
 use super::points::Points;
 use super::scale::Scale;
-use super::{GAP, LINES, NUMBERS, Place, TITLE, shortened};
+use super::{GAP, LINES, NUMBERS, Place, TITLE};
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::ida::{FRACTILE_LINES, RECORD};
 use crate::plot::paper::Paper;
-use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet};
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
 use crate::plot::style::{self, Stroke};
 use rocking::studies::{FRACTILES, fractile};
 
@@ -29,6 +29,9 @@ const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 300.0, 240.0];
 
 /// Room above the largest angle, as a share of it.
 const ROOM: f64 = 0.06;
+
+/// The same where some columns are lost: the edge has a name, and no number beside it.
+const ROOM_BELOW_LOST: f64 = 0.1;
 
 /// Upper end of the angles of a column that never opens.
 const NO_ANGLE: f64 = 1.0;
@@ -55,8 +58,9 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let demands =
         |rows: &[(f64, usize)]| -> Vec<Value> { rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect() };
     let demands_of_all = || (0..points.len()).filter_map(|row| points.demand(row));
-    let largest = demands_of_all().filter(|demand| demand.is_finite()).fold(0.0, f64::max) * (1.0 + ROOM);
     let has_lost = demands_of_all().any(f64::is_infinite);
+    let room = 1.0 + if has_lost { ROOM_BELOW_LOST } else { ROOM };
+    let largest = demands_of_all().filter(|demand| demand.is_finite()).fold(0.0, f64::max) * room;
     let top = match has_lost {
         true => largest.max(LEAST_TOP),
         false if largest > 0.0 => largest,
@@ -92,7 +96,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         }
         place.axes(&mut sheet, [number + columns >= panels.len(), column == 0]);
         if panels.len() > 1 {
-            let title = shortened(&family.titles[number], width);
+            let title = shortened(&family.titles[number], style::LABEL, width);
             sheet.words([frame.left + 0.5 * width, frame.top - 8.0], &title, style::LABEL, Anchor::Middle);
         }
         if column == 0 {

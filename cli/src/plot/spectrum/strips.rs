@@ -4,10 +4,10 @@ use super::family::Family;
 use super::grid::{Class, Grid};
 use super::points::Points;
 use super::scale::Scale;
-use super::{GAP, NUMBERS, Place, TITLE, cells, legend, percent, shortened};
+use super::{GAP, NUMBERS, Place, TITLE, cells, legend, percent};
 use crate::plot::curve::Frame;
 use crate::plot::paper::Paper;
-use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet};
+use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet, shortened};
 use crate::plot::style;
 
 /// Height of a strip `[px]`.
@@ -37,7 +37,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         let order = |class: &Class| Class::ALL.iter().position(|own| own == class);
         let strip: Vec<Class> =
             x.values.iter().map(|value| at(*value).max_by_key(order).unwrap_or(Class::Error)).collect();
-        sheet.words([frame.left, frame.top - 7.0], &shortened(title, width), style::LABEL, Anchor::Start);
+        sheet.words([frame.left, frame.top - 7.0], &shortened(title, style::LABEL, width), style::LABEL, Anchor::Start);
         cells(&mut sheet, &place, &strip);
         place.axes(&mut sheet, [number + 1 == family.titles.len(), false]);
         strips.push(strip);
