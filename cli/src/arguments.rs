@@ -1,6 +1,7 @@
 //! Arguments of the command line.
 
 use crate::keys::Kind;
+pub use crate::plot::Picture;
 use crate::plot::WIDTHS_MM;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -8,7 +9,7 @@ use rocking::ground::AccelerationUnit;
 use rocking::intensity::{Intensity, NAMES};
 use rocking::studies::LimitState;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Simulates rocking multi-block columns on equations of motion generated at build time.
 #[derive(Debug, Parser)]
@@ -479,36 +480,6 @@ pub enum Dynamics {
     Generated,
     /// Hand-written for any number of blocks.
     Generic,
-}
-
-/// How a figure is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Picture {
-    /// To be scaled at will.
-    Svg,
-    /// In pixels.
-    Png,
-    /// To be printed.
-    #[cfg(feature = "pdf")]
-    Pdf,
-}
-
-impl Picture {
-    /// The end of a file's name.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Picture::Svg => "svg",
-            Picture::Png => "png",
-            #[cfg(feature = "pdf")]
-            Picture::Pdf => "pdf",
-        }
-    }
-
-    /// By the name of a file.
-    pub fn of(file: &Path) -> Option<Picture> {
-        let extension = file.extension()?;
-        Picture::value_variants().iter().copied().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))
-    }
 }
 
 /// How a derivation is printed.

@@ -37,7 +37,7 @@ use rocking::run_folder::Results;
 pub use drawn_run::FALL;
 pub use fragility::fragility;
 pub use ida::ida;
-pub use paper::{Angles, Paper, WIDTHS_MM};
+pub use paper::{Angles, Paper, Picture, WIDTHS_MM};
 pub use record::record;
 pub use sheet::Figure;
 

@@ -1,7 +1,13 @@
-//! The paper of a figure: how wide it is printed, and the unit of angles.
+//! The paper of a figure: how wide it is printed, the unit of angles, and how it is written.
+
+use clap::ValueEnum;
+use std::path::Path;
 
 /// Pixels of a sheet per millimetre of paper: 720 px on 15 cm, where text of 14 px has 8 pt.
 const PX_PER_MM: f64 = 720.0 / 150.0;
+
+/// Width of sheets unless another one is asked for `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
+const WIDTH: f64 = 720.0;
 
 /// How figures are laid out. Text keeps its size on paper of any width.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,7 +34,7 @@ pub const WIDTHS_MM: [f64; 2] = [80.0, 500.0];
 impl Paper {
     /// Width of its sheets `[px]`.
     pub fn width(&self) -> f64 {
-        self.width_mm.map_or(super::sheet::WIDTH, |width| (width * PX_PER_MM).round())
+        self.width_mm.map_or(WIDTH, |width| (width * PX_PER_MM).round())
     }
 
     /// Points (1/72 inch) for a pixel of its sheets.
@@ -42,5 +48,35 @@ impl Paper {
             Angles::Natural => format!("{} rad", super::axis::brief(angle)),
             Angles::Degrees => format!("{}°", super::axis::brief(angle.to_degrees())),
         }
+    }
+}
+
+/// How a figure is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Picture {
+    /// To be scaled at will.
+    Svg,
+    /// In pixels.
+    Png,
+    /// To be printed.
+    #[cfg(feature = "pdf")]
+    Pdf,
+}
+
+impl Picture {
+    /// The end of a file's name.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Picture::Svg => "svg",
+            Picture::Png => "png",
+            #[cfg(feature = "pdf")]
+            Picture::Pdf => "pdf",
+        }
+    }
+
+    /// By the name of a file.
+    pub fn of(file: &Path) -> Option<Picture> {
+        let extension = file.extension()?;
+        Picture::value_variants().iter().copied().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))
     }
 }

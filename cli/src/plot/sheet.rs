@@ -6,9 +6,8 @@
 
 use super::axis::{self, Axis};
 use super::curve::{self, Frame, Point};
-use super::paper::Paper;
+use super::paper::{Paper, Picture};
 use super::style::{self, Stroke};
-use crate::arguments::Picture;
 use crate::text::{escape, printable};
 use kuva::RasterBackend;
 use kuva::backend::svg::SvgBackend;
@@ -18,8 +17,6 @@ use kuva::render::render::{PathData, Primitive, Scene};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Width of sheets unless another one is asked for `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
-pub const WIDTH: f64 = 720.0;
 /// Room for numbers and labels left of panels `[px]`.
 pub const LEFT: f64 = 78.0;
 /// Room right of panels `[px]`.

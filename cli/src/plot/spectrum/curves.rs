@@ -5,21 +5,15 @@
 //! top, and comes back where the column stands again.
 
 use super::family::Family;
+use super::place::{GAP, NUMBERS, Place, TITLE, line};
 use super::points::Points;
 use super::scale::Scale;
-use super::{GAP, LINES, NUMBERS, Place, TITLE};
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::ida::{FRACTILE_LINES, RECORD};
 use crate::plot::paper::Paper;
 use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
 use crate::plot::style::{self, Stroke};
 use rocking::studies::{FRACTILES, fractile};
-
-/// Curves beyond which nobody could read them.
-pub const MOST_CURVES: usize = 12;
-
-/// Panels of curves of records beyond which nobody could read them.
-pub const MOST_RECORD_PANELS: usize = 9;
 
 /// Panels of records beside one another.
 const MOST_COLUMNS: usize = 3;
@@ -125,12 +119,10 @@ fn single(
     rows: &[Vec<Vec<(f64, usize)>>],
     demands: &dyn Fn(&[(f64, usize)]) -> Vec<Value>,
 ) -> Vec<Curve> {
-    // Beyond the lines that differ, colours come with other dashes.
-    let stroke = |number: usize| Stroke { color: style::line(number).color, ..style::line(number + number / LINES) };
     match (rows, points.blocks) {
         ([records], 2..) => {
             let of_block = |block: usize| Curve {
-                stroke: stroke(block),
+                stroke: line(block),
                 name: format!("block {}", block + 1),
                 values: records[0].iter().map(|(x, row)| (*x, points.peak(*row, block))).collect(),
             };
@@ -138,7 +130,7 @@ fn single(
         }
         _ => {
             let curve = |(number, records): (usize, &Vec<Vec<(f64, usize)>>)| Curve {
-                stroke: stroke(number),
+                stroke: line(number),
                 name: family.titles[number].clone(),
                 values: demands(&records[0]),
             };
@@ -197,18 +189,6 @@ fn caption(points: &Points, family: &Family, subject: &str) -> String {
 }
 
 impl Place<'_> {
-    /// Lines of the grid.
-    fn grid(&self, sheet: &mut Sheet) {
-        for (value, _) in self.x_ticks() {
-            let x = self.x.share(value);
-            sheet.line(self.at([x, 0.0]), self.at([x, 1.0]), &super::GRID);
-        }
-        for (value, _) in self.y_ticks() {
-            let y = self.y.share(value);
-            sheet.line(self.at([0.0, y]), self.at([1.0, y]), &super::GRID);
-        }
-    }
-
     /// A value to compare with, if the panel has it.
     fn level(&self, sheet: &mut Sheet, value: f64) {
         let y = self.y.share(value);

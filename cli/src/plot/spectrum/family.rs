@@ -1,14 +1,16 @@
 //! How the rows of a table make curves: what runs to the right, which rows are one curve, and which are records of one.
 
-use super::NoSpectrum;
-use super::curves::{MOST_CURVES, MOST_RECORD_PANELS};
 use super::points::{Axis, Points};
+use super::refusal::{MOST_CURVES, NoSpectrum};
 use super::scale::{Scale, numbers, titles};
 use rocking::sweep::is_of_records;
 use std::f64::consts::TAU;
 
 /// Records from which on their fractiles are drawn in place of a named curve for each.
 pub const LEAST_RECORDS: usize = 3;
+
+/// Panels of curves of records beyond which nobody could read them.
+const MOST_RECORD_PANELS: usize = 9;
 
 /// Keys of the size of a column: along one of them runs a rocking spectrum.
 const SIZES: [&str; 3] = ["size.p", "size.rocking_period", "size.R"];

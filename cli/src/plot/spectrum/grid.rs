@@ -3,76 +3,10 @@
 //! The last two axes with numbers that vary span each panel, the last one upwards; every combination of the others is a panel.
 //! A class is all that is kept of a row.
 
-use super::NoSpectrum;
+use super::class::Class;
 use super::points::{Axis, Points};
+use super::refusal::{MOST_PANELS, NoSpectrum};
 use super::scale::{Scale, numbers, titles};
-
-/// Panels beyond which nobody could read them.
-pub const MOST_PANELS: usize = 16;
-
-/// The outcome of a point as the figure distinguishes it, from the least to the most violent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Class {
-    NoUplift,
-    /// Blocks slid, and nothing rocked.
-    Slides,
-    Rocks,
-    /// The column overturned, and its impacts were not counted: the sweep asked only whether it does.
-    Overturns,
-    /// The column overturned after three impacts or more.
-    AfterMore,
-    AfterTwo,
-    AfterOne,
-    /// The column overturned without an impact.
-    AtOnce,
-    /// A block lost its support.
-    Collapses,
-    /// The point has no result, or no motion follows from the laws of contact.
-    Error,
-}
-
-impl Class {
-    /// All, in this order.
-    pub const ALL: [Class; 10] = [
-        Class::NoUplift,
-        Class::Slides,
-        Class::Rocks,
-        Class::Overturns,
-        Class::AfterMore,
-        Class::AfterTwo,
-        Class::AfterOne,
-        Class::AtOnce,
-        Class::Collapses,
-        Class::Error,
-    ];
-
-    /// The class of a row.
-    pub fn of(outcome: &str, impacts: &str) -> Option<Class> {
-        Some(match (outcome, impacts) {
-            ("no-uplift", _) => Class::NoUplift,
-            ("slides", _) => Class::Slides,
-            ("collapses", _) => Class::Collapses,
-            ("rocks", _) => Class::Rocks,
-            ("overturns", "") => Class::Overturns,
-            ("overturns", "0") => Class::AtOnce,
-            ("overturns", "1") => Class::AfterOne,
-            ("overturns", "2") => Class::AfterTwo,
-            ("overturns", _) => Class::AfterMore,
-            ("error" | "undetermined", _) => Class::Error,
-            _ => return None,
-        })
-    }
-
-    /// Whether the column overturned or collapsed.
-    pub fn is_lost(self) -> bool {
-        self.overturns() || self == Class::Collapses
-    }
-
-    /// Whether the column overturned.
-    pub fn overturns(self) -> bool {
-        matches!(self, Class::Overturns | Class::AfterMore | Class::AfterTwo | Class::AfterOne | Class::AtOnce)
-    }
-}
 
 /// Positions of the values of an axis.
 #[derive(Clone, Debug, PartialEq)]

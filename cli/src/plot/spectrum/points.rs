@@ -1,7 +1,7 @@
 //! The table of a sweep as points: what its axes are there, what became of the column, and its largest angles.
 
-use super::NoSpectrum;
-use super::grid::Class;
+use super::class::Class;
+use super::refusal::NoSpectrum;
 use crate::table::column::{NOT_DETERMINED, Rows, TRUST};
 use crate::table::open;
 use std::collections::HashMap;

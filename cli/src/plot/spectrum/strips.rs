@@ -1,10 +1,12 @@
 //! Strips: what becomes of the column over one axis of a sweep, a strip for each value of the others.
 
+use super::cells::{cells, legend, percent};
+use super::class::Class;
 use super::family::Family;
-use super::grid::{Class, Grid};
+use super::grid::Grid;
+use super::place::{GAP, NUMBERS, Place, TITLE};
 use super::points::Points;
 use super::scale::Scale;
-use super::{GAP, NUMBERS, Place, TITLE, cells, legend, percent};
 use crate::plot::curve::Frame;
 use crate::plot::paper::Paper;
 use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet, shortened};

@@ -1,0 +1,105 @@
+//! Cells of outcomes: their fills and names, how they are painted, and their legend.
+
+use super::class::Class;
+use super::grid::Grid;
+use super::outline::layers;
+use super::place::Place;
+use crate::plot::curve::{self, Frame};
+use crate::plot::sheet::{Key, Sheet};
+use crate::plot::style::{self, Stroke};
+
+/// Hatching of points without a result.
+const HATCH: Stroke = Stroke::solid(style::INK, 0.8);
+const HATCH_STEP: f64 = 5.0;
+
+impl Class {
+    /// Okabe and Ito's hues on a scale of lightness, the darker the more violent: 100, 87, 72, 58, 41 and 12 of 100.
+    fn fill(self) -> &'static str {
+        match self {
+            Class::NoUplift => "#ffffff",
+            Class::Rocks => "#cfdde9",
+            Class::Overturns => "#0065a0",
+            Class::AfterMore => "#e6a52c",
+            Class::AfterTwo => "#dd6a12",
+            Class::AfterOne => "#0065a0",
+            Class::AtOnce => "#1f1b2e",
+            Class::Slides => "#e9efdc",
+            Class::Collapses => "#7a1f3d",
+            Class::Error => "#f3d6e4",
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Class::NoUplift => "no uplift",
+            Class::Rocks => "rocks and stands",
+            Class::Overturns => "(impacts not counted)",
+            Class::AfterMore => "after 3 impacts or more",
+            Class::AfterTwo => "after 2 impacts",
+            Class::AfterOne => "after 1 impact",
+            Class::AtOnce => "without impact",
+            Class::Slides => "slides and stands",
+            Class::Collapses => "collapses: a block slides off",
+            Class::Error => "no result (hatched)",
+        }
+    }
+}
+
+/// The classes that occur with their shares of all cells, those that overturn after the line of the least that does, if there is one; the first of
+/// them says that they do.
+pub fn legend(panels: &[Vec<Class>], least: Option<Stroke>) -> Vec<(Key, String)> {
+    let shown = |class: &Class| Grid::share(panels, |found| found == *class) > 0.0;
+    let entry = |class: Class| {
+        let share = percent(Grid::share(panels, |found| found == class));
+        (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
+    };
+    let (overturning, others): (Vec<Class>, Vec<Class>) =
+        Class::ALL.into_iter().rev().filter(shown).partition(|class| class.overturns());
+    let mut entries: Vec<_> = others.into_iter().rev().map(entry).collect();
+    if !overturning.is_empty() {
+        entries.extend(least.map(|stroke| (Key::Line(stroke), "least that overturns".into())));
+    }
+    let first = entries.len();
+    entries.extend(overturning.into_iter().map(entry));
+    entries.iter_mut().skip(first).take(1).for_each(|(_, name)| name.insert_str(0, "overturns "));
+    entries
+}
+
+/// The cells of a panel as polygons, hatched where there is no result.
+pub fn cells(sheet: &mut Sheet, place: &Place, cells: &[Class]) {
+    let columns = place.x.values.len();
+    for layer in layers(cells, columns) {
+        let areas = layer.outlines.iter().map(|outline| outline.iter().map(|corner| place.corner(*corner)).collect());
+        sheet.areas(areas.collect(), layer.class.fill());
+    }
+    let wrong = |cell: &usize| cells[*cell] == Class::Error;
+    let frame = &place.frame;
+    let mut hatches = Vec::new();
+    for (row, cells) in (0..cells.len()).collect::<Vec<_>>().chunks(columns).enumerate() {
+        for run in cells.chunk_by(|a, b| wrong(a) == wrong(b)).filter(|run| wrong(&run[0])) {
+            let (first, last) = (run[0] % columns, run[run.len() - 1] % columns + 1);
+            let ([left, bottom], [right, top]) = (place.corner([first, row]), place.corner([last, row + 1]));
+            let box_of_run = Frame { left, top, width: right - left, height: bottom - top };
+            let count = ((frame.width + frame.height) / HATCH_STEP) as usize;
+            let hatch = |number: usize| {
+                let x = frame.left - frame.height + HATCH_STEP * number as f64;
+                curve::clip(&[[x, frame.bottom()], [x + frame.height, frame.top]], &box_of_run)
+            };
+            hatches.extend((0..=count).flat_map(hatch));
+        }
+    }
+    if !hatches.is_empty() {
+        sheet.runs(&hatches, &HATCH);
+    }
+}
+
+/// A share in whole percent, small ones to a tenth.
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    match percent {
+        0.0 => "0 %".into(),
+        _ if percent < 0.1 => "below 0.1 %".into(),
+        _ if percent < 1.0 => format!("{percent:.1} %"),
+        _ => format!("{percent:.0} %"),
+    }
+}

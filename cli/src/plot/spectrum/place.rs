@@ -1,0 +1,94 @@
+//! A panel of a figure of a sweep: positions, ticks, numbers, labels.
+
+use super::outline::Corner;
+use super::scale::Scale;
+use crate::plot::curve::{Frame, Point};
+use crate::plot::sheet::{Anchor, Sheet, text_width};
+use crate::plot::style::{self, Stroke};
+
+/// Room for a title above a panel, for numbers below it, and between panels `[px]`.
+pub const TITLE: f64 = 24.0;
+pub const NUMBERS: f64 = 26.0;
+pub const GAP: f64 = 14.0;
+const TICK: f64 = 4.0;
+/// Largest overhang of a number beyond the left end of its axis where another panel stands `[px]`.
+const BESIDE: f64 = 2.0;
+
+const GRID: Stroke = Stroke::solid(style::FAINT, 0.9);
+
+/// Lines that differ; beyond, colours come with other dashes.
+const LINES: usize = 7;
+
+/// The line of a curve, from zero: beyond those that differ by colour, colours come with other dashes.
+pub fn line(number: usize) -> Stroke {
+    Stroke { color: style::line(number).color, ..style::line(number + number / LINES) }
+}
+
+/// A panel on paper.
+pub struct Place<'g> {
+    pub frame: Frame,
+    pub x: &'g Scale,
+    pub y: &'g Scale,
+}
+
+impl Place<'_> {
+    /// From parts of the axes.
+    pub fn at(&self, [x, y]: Point) -> Point {
+        [self.frame.left + self.frame.width * x, self.frame.bottom() - self.frame.height * y]
+    }
+
+    pub fn corner(&self, [column, row]: Corner) -> Point {
+        self.at([self.x.edges[column], self.y.edges[row]])
+    }
+
+    /// Frame, ticks and, if wanted, numbers of each axis; what has no numbers upwards has a panel on its left.
+    pub fn axes(&self, sheet: &mut Sheet, numbers: [bool; 2]) {
+        sheet.outline(&self.frame);
+        for (value, text) in self.x_ticks() {
+            let [x, y] = self.at([self.x.share(value), 0.0]);
+            sheet.line([x, y], [x, y + TICK], &style::THIN);
+            // The numbers of neighbours must not run together.
+            let is_beside = numbers[1] || x - 0.5 * text_width(&text, style::NUMBER) > self.frame.left - BESIDE;
+            if numbers[0] && is_beside {
+                sheet.words([x, y + TICK + 14.0], &text, style::NUMBER, Anchor::Middle);
+            }
+        }
+        // A strip has one cell upwards, and nothing to number.
+        let upwards = if self.y.values.len() > 1 { self.y_ticks() } else { Vec::new() };
+        for (value, text) in upwards {
+            let [x, y] = self.at([0.0, self.y.share(value)]);
+            sheet.line([x - TICK, y], [x, y], &style::THIN);
+            if numbers[1] {
+                sheet.words([x - TICK - 4.0, y + 4.5], &text, style::NUMBER, Anchor::End);
+            }
+        }
+    }
+
+    /// The label of the upward axis, left of its numbers.
+    pub fn label_upwards(&self, sheet: &mut Sheet, text: String) {
+        let widths = self.y_ticks().into_iter().map(|(_, number)| text_width(&number, style::NUMBER));
+        let right = self.frame.left - TICK - 14.0 - widths.fold(0.0, f64::max);
+        let at = [right.max(16.0), self.frame.top + 0.5 * self.frame.height];
+        sheet.words_upwards(at, &text, style::LABEL, Anchor::Middle);
+    }
+
+    pub fn x_ticks(&self) -> Vec<(f64, String)> {
+        self.x.ticks((self.frame.width / 48.0).clamp(2.0, 6.0) as usize)
+    }
+
+    pub fn y_ticks(&self) -> Vec<(f64, String)> {
+        self.y.ticks((self.frame.height / 50.0).clamp(2.0, 6.0) as usize)
+    }
+
+    /// Lines of the grid.
+    pub fn grid(&self, sheet: &mut Sheet) {
+        for (value, _) in self.x_ticks() {
+            let x = self.x.share(value);
+            sheet.line(self.at([x, 0.0]), self.at([x, 1.0]), &GRID);
+        }
+        for (value, _) in self.y_ticks() {
+            let y = self.y.share(value);
+            sheet.line(self.at([0.0, y]), self.at([1.0, y]), &GRID);
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Why a table makes no figure.
+
+/// Panels beyond which nobody could read them.
+pub const MOST_PANELS: usize = 16;
+
+/// Curves beyond which nobody could read them.
+pub const MOST_CURVES: usize = 12;
+
+/// Why a table makes no figure.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoSpectrum {
+    /// The file is not the table of a sweep.
+    #[error("{0}; give the table that `rocking sweep` wrote")]
+    NoTable(String),
+    /// No axis of numbers.
+    #[error("no axis with numbers has several values; give e.g. amplitude_uplift several")]
+    FewAxes,
+    /// An axis has values beyond what is drawn.
+    #[error("`{0}` has values that cannot be drawn; let their sizes be between 1e-100 and 1e100, or zero")]
+    Extreme(String),
+    /// So many panels could not be read.
+    #[error(
+        "the axes before the last two make {0} panels, and {MOST_PANELS} can be read; give those axes fewer values"
+    )]
+    ManyPanels(usize),
+    /// So many curves could not be read.
+    #[error("the other axes make {0} curves, and {MOST_CURVES} can be read; give those axes fewer values")]
+    ManyCurves(usize),
+    /// A part of a sweep, or a point twice.
+    #[error(
+        "there are {rows} points and the values of the axes make {points}; draw a whole sweep whose axes have each value once, of shards \
+         the table that `rocking merge` makes"
+    )]
+    NoGrid { rows: usize, points: usize },
+}
