@@ -290,6 +290,7 @@ fn the_reference_of_scene_files_has_all_keys() {
         "solver",
         "output",
         "size",
+        "station",
     ];
     // As arguments of the table's readers, and in lists of keys with their places or conversions.
     let mut patterns: Vec<(String, &str)> = calls.iter().map(|call| (format!(".{call}(\""), "")).collect();

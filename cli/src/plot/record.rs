@@ -99,7 +99,7 @@ mod tests {
     fn a_constant_acceleration_builds_up_evenly() {
         let build_up = husid(&[2.0; 101]);
         assert!(build_up.iter().enumerate().all(|(place, share)| (share - place as f64 / 100.0).abs() < 1e-12));
-        let figure = record("constant", 0.01, 9.81, &[2.0; 101], &[0.0; 101], &[0.0; 101]);
+        let figure = record("constant", 0.01, 9.81, &[2.0; 101], &[0.0; 101], &[0.0; 101], &Paper::default());
         assert!(figure.caption.ends_with("lie 0.9 s."), "{}", figure.caption);
         assert!(husid(&[0.0; 3]).iter().all(|share| *share == 0.0) && husid(&[]).is_empty());
     }
