@@ -121,6 +121,29 @@ fn blocks_have_their_names_in_the_text_of_a_run_and_in_its_figures() {
     assert!(told.contains("largest |θ|/α, base first: 0."), "{told}");
 }
 
+/// Three blocks that slide as one: their energy is ½ m v².
+#[test]
+fn energies_of_blocks_that_slide_are_drawn() {
+    let (folder, _) = run("friction = 0.3\n[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 1.2\n\
+        [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.7\nperiod = 0.8\n");
+    let told = succeeds(folder.path(), &["plot", "out"]);
+    let table = read(folder.path(), "out/response.csv");
+    let header: Vec<&str> = table.lines().next().expect("a header").split(',').collect();
+    let place = header.iter().position(|name| *name == "vx_1").expect("velocities");
+    let speeds = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(place).expect("a cell").parse::<f64>().expect("a number").abs());
+    // 0.8 m by 2.4 m, 1 kg/m².
+    let largest = 0.5 * 0.8 * 2.4 * speeds.fold(0.0, f64::max).powi(2);
+    let (_, caption) = told.split_once("Largest: ").expect("in the caption");
+    let found: f64 = caption.split(' ').next().expect("a number").parse().expect("a number");
+    assert!(largest > 0.1 && (found / largest - 1.0).abs() < 5e-3, "{found} {largest}");
+    // The name of the end keeps clear of the curves.
+    let figure = read(folder.path(), "out/slides.svg");
+    assert!(words(&figure).contains(&"at rest".into()));
+}
+
 /// All kinds of figures: of a run, a sweep, a study, a record, and the modes.
 #[cfg(feature = "pdf")]
 #[test]

@@ -7,7 +7,7 @@ use super::paper::{Angles, Paper};
 use rocking::Event;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{ModeName, Sample, StopReason};
+use rocking::{BlockState, ModeName, Sample, StopReason};
 
 /// The column at a row or an event. Lengths N, base first.
 #[derive(Clone, Debug)]
@@ -20,6 +20,8 @@ pub struct Knot<'a> {
     pub before: (&'a [f64], Pattern),
     /// The same, after the event; none for a row.
     pub after: Option<(&'a [f64], Pattern)>,
+    /// Where blocks slid or flew: places and velocities of the blocks, before and after.
+    pub blocks: [Vec<BlockState>; 2],
 }
 
 /// A stretch of time in one pattern.
@@ -173,14 +175,25 @@ fn knots<'a>(samples: &'a [Sample], events: &'a [Event]) -> Vec<Knot<'a>> {
         // The row of an event's own time may stand for either side of it.
         if !taken {
             let before = (sample.omega.as_slice(), sample.pattern.clone());
-            knots.push(Knot { t: sample.t, theta: &sample.theta, before, after: None });
+            let blocks = [sample.blocks.clone(), Vec::new()];
+            knots.push(Knot { t: sample.t, theta: &sample.theta, before, after: None, blocks });
         }
     }
     knots
 }
 
 fn at_event(event: &Event) -> Knot<'_> {
+    let state = |place: [f64; 2], velocity: [f64; 2]| {
+        let mut state = BlockState::default();
+        (state.place, state.velocity) = (place, velocity);
+        state
+    };
+    let blocks = [
+        event.blocks.iter().map(|block| state(block.place, block.velocity_before)).collect(),
+        event.blocks.iter().map(|block| state(block.place, block.velocity_after)).collect(),
+    ];
     Knot {
+        blocks,
         t: event.t,
         theta: &event.theta,
         before: (&event.omega_before[..], event.before.clone()),
@@ -191,9 +204,12 @@ fn at_event(event: &Event) -> Knot<'_> {
 impl Knot<'_> {
     /// The knot as rows, one for each side of an event. No ground motion: nothing that needs it is asked of them.
     pub fn rows(&self) -> impl Iterator<Item = Sample> {
-        std::iter::once(&self.before)
-            .chain(&self.after)
-            .map(|(omega, pattern)| Sample::new(self.t, self.theta.to_vec(), omega.to_vec(), pattern.clone()))
+        let sides = std::iter::once(&self.before).chain(&self.after).zip(&self.blocks);
+        sides.map(|((omega, pattern), blocks)| {
+            let mut row = Sample::new(self.t, self.theta.to_vec(), omega.to_vec(), pattern.clone());
+            row.blocks.clone_from(blocks);
+            row
+        })
     }
 }
 

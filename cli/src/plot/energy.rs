@@ -29,7 +29,10 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     // After the fall has begun, energies show only how far the column has fallen.
     let fall = motion.falls_at().unwrap_or(f64::INFINITY);
     let mut curves: [Vec<Point>; 3] = [const { Vec::new() }; 3];
-    for row in motion.knots.iter().flat_map(|knot| knot.rows()) {
+    // Where blocks slid or flew, events without their places would have the energy of rocking alone.
+    let has_places = motion.samples.iter().any(|sample| !sample.blocks.is_empty());
+    let rows = motion.knots.iter().flat_map(|knot| knot.rows()).filter(|row| !has_places || !row.blocks.is_empty());
+    for row in rows {
         let energy = row.energy(column);
         let potential = energy.potential - level;
         for (curve, value) in curves.iter_mut().zip([energy.kinetic, potential, energy.kinetic + potential]) {

@@ -54,7 +54,13 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     }
     counts(&mut sheet, &panel, runs, stripes);
 
-    let mut entries = vec![(Key::Line(RECORD), format!("{} record(s)", by_record.len()))];
+    let mut entries = vec![(
+        Key::Line(RECORD),
+        match by_record.len() {
+            1 => "1 record".into(),
+            count => format!("{count} records"),
+        },
+    )];
     let names = FRACTILES.map(|share| format!("{:.0} %", 100.0 * share));
     entries.extend(FRACTILE_LINES.iter().zip(names).map(|(stroke, name)| (Key::Line(stroke.clone()), name)));
     let undecided: usize = stripes.iter().map(Stripe::undecided).sum();

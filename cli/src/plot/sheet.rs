@@ -38,6 +38,8 @@ pub struct Sheet {
     pub height: f64,
     /// In the order of drawing.
     drawn: Vec<Primitive>,
+    /// Curves of data in panels, on paper: names keep clear of them.
+    data: Vec<Vec<Point>>,
 }
 
 /// A figure: a stand-alone SVG document, and what it is made of.
@@ -126,7 +128,14 @@ const ENTRY_GAP: f64 = 20.0;
 impl Sheet {
     /// An empty sheet.
     pub fn new(title: &str, paper: &Paper) -> Sheet {
-        Sheet { title: title.into(), paper: *paper, width: paper.width(), height: 0.0, drawn: Vec::new() }
+        Sheet {
+            title: title.into(),
+            paper: *paper,
+            width: paper.width(),
+            height: 0.0,
+            drawn: Vec::new(),
+            data: Vec::new(),
+        }
     }
 
     /// A panel over the width of the sheet.
@@ -188,8 +197,14 @@ impl Sheet {
 
     /// Lines in a panel, cut at its frame; `runs` on paper.
     pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
-        let inside = runs.iter().flat_map(|run| curve::clip(run, &panel.frame));
-        self.runs(&inside.flat_map(|run| curve::dash(&run, stroke.dashes)).collect::<Vec<_>>(), stroke);
+        let inside: Vec<_> = runs.iter().flat_map(|run| curve::clip(run, &panel.frame)).collect();
+        self.runs(&inside.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect::<Vec<_>>(), stroke);
+        self.data.extend(inside);
+    }
+
+    /// Whether no curve of data runs through a frame.
+    pub fn is_free(&self, frame: &Frame) -> bool {
+        self.data.iter().all(|run| curve::clip(run, frame).is_empty())
     }
 
     /// A history in a panel: values over time, thinned to what the width can show.
@@ -202,7 +217,7 @@ impl Sheet {
     pub fn level(&mut self, panel: &Panel, value: f64, stroke: &Stroke) {
         if panel.reaches(value) {
             let y = panel.place([panel.x.range[0], value])[1];
-            self.lines(panel, &[vec![[panel.frame.left, y], [panel.frame.right(), y]]], stroke);
+            self.line([panel.frame.left, y], [panel.frame.right(), y], stroke);
         }
     }
 

@@ -5,7 +5,7 @@ use super::band;
 use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL, Stretch, over_time};
 use super::paper::Angles;
-use super::sheet::{Anchor, Figure, Key, Panel, Sheet, corners};
+use super::sheet::{self, Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::percent;
 use rocking::{Sample, StopReason};
@@ -132,10 +132,26 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
-    let y = if matches!(anchor, Anchor::End) { frame.top + 8.0 } else { frame.bottom() - 8.0 };
     let beside = if frame.right() - x > 20.0 { x + 15.0 } else { x - 6.0 };
+    // Where no curve runs: at the end that is asked for, at the other one, or between them.
+    let height = sheet::text_width(&words, style::NOTE);
+    let (top, bottom) = ((frame.top + 8.0, Anchor::End), (frame.bottom() - 8.0, Anchor::Start));
+    let between = (1..PLACES).map(|place| {
+        let share = f64::from(place) / f64::from(PLACES);
+        (frame.top + 8.0 + share * (frame.height - 16.0 - height), Anchor::End)
+    });
+    let first = if matches!(anchor, Anchor::End) { [top, bottom] } else { [bottom, top] };
+    let is_free = |(y, anchor): &(f64, Anchor)| {
+        let top = if matches!(anchor, Anchor::End) { *y } else { y - height };
+        let size = f64::from(style::NOTE);
+        sheet.is_free(&Frame { left: beside - size, top, width: size + 4.0, height })
+    };
+    let (y, anchor) = first.into_iter().chain(between).find(is_free).unwrap_or(first[0]);
     sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);
 }
+
+/// Parts into which the way of a name along its line is cut where both ends are taken.
+const PLACES: u8 = 8;
 
 /// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
 fn strip(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
@@ -190,7 +206,7 @@ fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) 
     for same in drawn.chunk_by(|a, b| a.mode == b.mode) {
         let (from, to) = (same[0].from, same[same.len() - 1].to);
         let label = &same[0].mode;
-        if to - from > super::sheet::text_width(label, style::NOTE) + 2.0 {
+        if to - from > sheet::text_width(label, style::NOTE) + 2.0 {
             let at = [0.5 * (from + to), band.top + 0.5 * BAND + 4.5];
             sheet.words(at, label, style::NOTE, Anchor::Middle);
         }
