@@ -1,6 +1,6 @@
 //! The range of the angles of a run and its companions, behind the run's own curves, from where they part.
 
-use super::curve::Point;
+use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL};
 use super::sheet::{Anchor, Panel, Sheet, text_width};
 use super::style::{self, Stroke};
@@ -33,7 +33,7 @@ pub fn values(motion: &DrawnRun) -> Vec<f64> {
     rows.flat_map(|(_, pair)| both(pair)).collect()
 }
 
-/// Draws the band of each block, and a line at the horizon.
+/// Draws the band of each block.
 pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let Some(trust) = open(motion) else { return };
     let frame = &panel.frame;
@@ -47,6 +47,12 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
             sheet.veil(corners, style::line(block).color, OPACITY);
         }
     }
+}
+
+/// Draws a line at the horizon with its name, where no curve runs if there is such a place.
+pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
+    let Some(trust) = open(motion) else { return };
+    let frame = &panel.frame;
     // Where the scene determines the angles to the end, its first six digits may not.
     let (t, words) = match trust.horizon < trust.ends_at {
         true => (trust.horizon, "angles known up to here"),
@@ -55,9 +61,15 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let x = panel.place_x(t);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
     // Left of the line, unless it begins at once.
-    let is_room = x - frame.left > text_width(words, style::NOTE) + 12.0;
+    let width = text_width(words, style::NOTE);
+    let is_room = x - frame.left > width + 12.0;
     let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
-    sheet.words_on_paper([at, frame.top + 16.0], words, style::NOTE, anchor);
+    let left = if is_room { at - width } else { at };
+    let size = f64::from(style::NOTE);
+    let is_free = |y: &f64| sheet.is_free(&Frame { left, top: y - size, width, height: size + 4.0 });
+    let (top, bottom) = (frame.top + 16.0, frame.bottom() - 8.0);
+    let y = [top, bottom].into_iter().find(is_free).unwrap_or(top);
+    sheet.words_on_paper([at, y], words, style::NOTE, anchor);
 }
 
 /// The range of a block's angles per column of paper: `x`, and its lower and upper end `[px]`.

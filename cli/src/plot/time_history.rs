@@ -114,6 +114,7 @@ fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
     for (block, points) in curves.iter().enumerate() {
         sheet.history(&panel, points, &style::line(block));
     }
+    band::mark_horizon(sheet, motion, &panel);
     mark_ending(sheet, motion, &panel, Anchor::End);
     panel
 }
