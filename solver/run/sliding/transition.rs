@@ -326,7 +326,8 @@ impl<'p> Instant<'p> {
         (joints != solution.joints).then_some(joints)
     }
 
-    /// Brings the blocks to the motion that these states allow, momentum conserved. A corner without a gap that would close by it is closed as well.
+    /// Brings the blocks to the motion that these states allow, momentum conserved. A corner without a gap that would close by it is closed as well;
+    /// one that was closing before has its impact still to come.
     pub fn hold(&mut self, joints: &[Joint]) {
         let chain = Chain::new(self.column(), &self.now);
         let before = chain.motion(&Rates::of(&self.now));
@@ -345,7 +346,8 @@ impl<'p> Instant<'p> {
                 Joint::Corner(side, _, slip) => {
                     let has_no_gap = held.gap_angle(interface).abs() <= self.resolution.angle;
                     let rate = f64::from(side) * difference(&answer.rates.omega, interface);
-                    (has_no_gap && rate < 0.0).then_some(slip)
+                    let was_closing = f64::from(side) * self.now.gap_rate(interface) < -self.resolution.rate;
+                    (has_no_gap && rate < 0.0 && !was_closing).then_some(slip)
                 }
                 Joint::Closed(_) | Joint::Free => None,
             };
