@@ -101,12 +101,10 @@ impl<'p> Smooth<'p> {
 
     /// Whether the forces at a time and a state are beyond all bounds: the rows are close to a state in which they determine none (Painlevé).
     pub fn is_jamming(&mut self, t: f64, x: &[f64]) -> bool {
+        let ground = Ground::at(self.segment, t, self.gravity);
         let mut moment = self.moment(self.configuration(x));
-        let largest = |answer: &Answer| answer.contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
-        let largest = largest(self.answer(t, &mut moment));
-        let usual = self.column.mass()
-            * acceleration_scale(self.column, &moment.configuration, Ground::at(self.segment, t, self.gravity));
-        !(largest <= JAMMING * usual)
+        let largest = self.answer(t, &mut moment).contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
+        largest > JAMMING * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground)
     }
 
     fn solved(&mut self, t: f64, now: &Configuration, chain: &Chain) -> Option<Answer> {
