@@ -4,7 +4,7 @@
 //! Over records: a panel for each value of the others, thin curves of the records and their fractiles. Where the column is lost a curve leaves at the
 //! top, and comes back where the column stands again.
 
-use super::family::Family;
+use super::family::{Family, Rows};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
 use super::points::Points;
 use super::scale::Scale;
@@ -49,8 +49,6 @@ struct Curve {
 /// The figure of all curves.
 pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let rows = family.rows(points);
-    let demands =
-        |rows: &[(f64, usize)]| -> Vec<Value> { rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect() };
     let demands_of_all = || (0..points.len()).filter_map(|row| points.demand(row));
     let has_lost = demands_of_all().any(f64::is_infinite);
     let room = 1.0 + if has_lost { ROOM_BELOW_LOST } else { ROOM };
@@ -66,10 +64,10 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let mut sheet = Sheet::new(&format!("{subject}: {label} over {}", family.x.label()), paper);
 
     let panels: Vec<Vec<Curve>> = match family.records {
-        1 => vec![single(points, family, &rows, &demands)],
+        1 => vec![single(points, family, &rows)],
         _ => rows
             .iter()
-            .map(|records| of_records(&records.iter().map(|rows| demands(rows)).collect::<Vec<_>>()))
+            .map(|records| of_records(&records.iter().map(|rows| demands(points, rows)).collect::<Vec<_>>()))
             .collect(),
     };
     let is_each_block = family.records == 1 && rows.len() == 1 && points.blocks > 1;
@@ -112,13 +110,13 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     Figure::new("rocking-spectrum", caption(points, family, subject), sheet)
 }
 
+/// Largest angles of all blocks at the positions of rows.
+fn demands(points: &Points, rows: &Rows) -> Vec<Value> {
+    rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect()
+}
+
 /// The curves of a panel without fractiles: one for each value of the other axes, or, where there is none, one for each block.
-fn single(
-    points: &Points,
-    family: &Family,
-    rows: &[Vec<Vec<(f64, usize)>>],
-    demands: &dyn Fn(&[(f64, usize)]) -> Vec<Value>,
-) -> Vec<Curve> {
+fn single(points: &Points, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> {
     match (rows, points.blocks) {
         ([records], 2..) => {
             let of_block = |block: usize| Curve {
@@ -129,10 +127,10 @@ fn single(
             (0..points.blocks).map(of_block).collect()
         }
         _ => {
-            let curve = |(number, records): (usize, &Vec<Vec<(f64, usize)>>)| Curve {
+            let curve = |(number, records): (usize, &Vec<Rows>)| Curve {
                 stroke: line(number),
                 name: family.titles[number].clone(),
-                values: demands(&records[0]),
+                values: demands(points, &records[0]),
             };
             rows.iter().enumerate().map(curve).collect()
         }

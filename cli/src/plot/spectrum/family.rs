@@ -28,6 +28,9 @@ enum Role {
     Silent,
 }
 
+/// Positions of rows, from the left, and their numbers.
+pub type Rows = Vec<(f64, usize)>;
+
 /// The curves of a table.
 #[derive(Clone, Debug)]
 pub struct Family {
@@ -110,7 +113,7 @@ impl Family {
     }
 
     /// Positions and rows of each record of each curve, from the left.
-    pub fn rows(&self, points: &Points) -> Vec<Vec<Vec<(f64, usize)>>> {
+    pub fn rows(&self, points: &Points) -> Vec<Vec<Rows>> {
         let mut curves = vec![vec![Vec::new(); self.records]; self.titles.len()];
         for row in 0..points.len() {
             let (curve, record, x) = self.place(points.numbers(row), row);
