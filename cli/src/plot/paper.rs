@@ -38,6 +38,7 @@ impl Paper {
     }
 
     /// Points (1/72 inch) for a pixel of its sheets.
+    #[cfg(feature = "pdf")]
     pub fn points_per_px(&self) -> f64 {
         72.0 / 25.4 / PX_PER_MM
     }
