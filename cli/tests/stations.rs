@@ -99,9 +99,20 @@ fn an_axis_takes_the_records_of_a_folder_with_their_components() {
         let response = rocking::simulate(&single).expect("runs");
         assert_eq!(row.result.expect("runs").peaks, response.peaks(&single.column));
     }
-    // A component is part of the sweep: another one in its file begins the table anew, and no output replaces it.
-    let output = rocking(path, &["sweep", "sweep.toml", "--out", "records/RSN9002_HOLLOW_MIL-UP.AT2"]);
+    // A component is part of the sweep: no output replaces it, and the digest is another one with another vertical component.
+    let up = "records/RSN9002_HOLLOW_MIL-UP.AT2";
+    let output = rocking(path, &["sweep", "sweep.toml", "--out", up]);
     assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    let digest = || {
+        succeeds(path, &["sweep", "sweep.toml", "--shard", "1/1", "--out", "d.csv"]);
+        std::fs::read_to_string(path.join("d.csv.digest")).expect("written")
+    };
+    let before = digest();
+    let text = std::fs::read_to_string(path.join(up)).expect("there");
+    write(up, &format!("{text}\n"));
+    let changed = digest();
+    write(up, &text);
+    assert!(before != changed && before == digest());
 
     // A record without the component is a row with its error, and all others have results.
     std::fs::remove_file(path.join("records/RSN9002_HOLLOW_MIL090.AT2")).expect("there");
