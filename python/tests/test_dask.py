@@ -10,13 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import distributed
 import pandas as pd
 import pytest
 import rocking as rk
-
-dd = pytest.importorskip("dask.dataframe")
-distributed = pytest.importorskip("distributed")
-rd = pytest.importorskip("rocking.dask")
+import rocking.dask as rd
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 
