@@ -3,8 +3,8 @@
     python python/benchmarks/cluster.py partition          costs of a partition
     python python/benchmarks/cluster.py study RUNS [FOLDER]  one study into Parquet, with memory and traffic over time (CSV beside the folder)
 
-Figures of docs/book/clusters.md. The scene is cheap (one block, outcome only), so that everything beside the runs shows. Times are wall-clock on a machine that others may use:
-take the least of several. Bytes moved are those of the loopback device, of all programs of the machine.
+Figures of docs/book/clusters.md. The scene is cheap (one block, outcome only), so that everything beside the runs shows. Costs are processor times, which other
+programs on the machine change little. Bytes moved are those of the loopback device, of all programs of the machine.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ INTERVAL = 0.25
 def study(runs: int) -> rk.Sweep:
     """A grid of about so many runs of one block under a pulse."""
     scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.56), rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9, t_end=20, rtol=1e-6)
-    frequencies = max(1, round(math.sqrt(runs / 10)))
-    amplitudes = max(1, round(runs / frequencies))
+    frequencies = max(2, round(math.sqrt(runs / 10)))
+    amplitudes = max(2, round(runs / frequencies))
     return rk.Sweep(
         scene, {"omega_p": {"from": 0.5, "to": 8.0, "steps": frequencies}, "amplitude_uplift": {"from": 0.5, "to": 12.0, "steps": amplitudes}}
     )
@@ -60,40 +60,55 @@ def partition() -> None:
         again.table(0, 1, threads=1)
         row = time.perf_counter()
         pickle.dumps(plan)
-        for name, spent in (("read the study", read - begin), ("one row", row - read), ("pickle", time.perf_counter() - row)):
-            best[name] = min(best[name], spent)
-    for name, spent in best.items():
-        print(f"{name}: {1e3 * spent:.3g} ms")
+        for name, took in (("read the study", read - begin), ("one row", row - read), ("pickle", time.perf_counter() - row)):
+            best[name] = min(best[name], took)
+    for name, took in best.items():
+        print(f"{name}: {1e3 * took:.3g} ms")
 
-    def plain() -> float:
-        begin = time.perf_counter()
-        plan.table(threads=1)
-        return time.perf_counter() - begin
-
-    alone = min(plain() for _ in range(5))
-    print(f"plain sweep, one thread: {1e6 * alone / len(plan):.3g} us a run, {len(plan)} runs")
-    with cluster(), tempfile.TemporaryDirectory() as scratch:
+    print(f"plain sweep, one thread: {1e6 * plain(plan):.3g} us a run, {len(plan)} runs")
+    records = rk.Ida(plan.scene(0), rk.synthetic(range(20), duration=60.0, dt=0.005), "PGV", [0.01 + 0.001 * level for level in range(20)])
+    print(f"pickle of an analysis of 20 records of 60 s: {len(pickle.dumps(records))} bytes")
+    with cluster() as client, tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch) / "table"
+        # Modules are imported, and the first of everything is done.
+        rd.to_parquet(plan, folder, partition_size=len(plan) // 10)
         rd.frame(plan, partition_size=len(plan) // 10).outcome.value_counts().compute()
-        rows: list[dict[str, float]] = []
-        for parts in (20, 100, 500, 2000):
-            size = -(-len(plan) // parts)
-            for kind in ("counts", "parquet"):
-                spent, moved = [], []
-                for _ in range(3):
-                    before, begin = loopback(), time.perf_counter()
-                    if kind == "counts":
-                        rd.frame(plan, partition_size=size).outcome.value_counts().compute()
-                    else:
-                        rd.to_parquet(plan, Path(scratch) / "table", partition_size=size)
-                    spent.append(time.perf_counter() - begin)
-                    moved.append(loopback() - before)
-                    shutil.rmtree(Path(scratch) / "table", ignore_errors=True)
-                rows.append({"parts": parts, "kind": kind, "seconds": min(spent), "bytes": min(moved)})  # type: ignore[dict-item]
-                print(f"{kind:8} {parts:5} partitions of {size:5} rows: {min(spent):.3f} s, {min(moved) / 1e3:.0f} kB moved", flush=True)
-        for kind in ("counts", "parquet"):
-            first, last = [row for row in rows if row["kind"] == kind][:: len([row for row in rows if row["kind"] == kind]) - 1]
-            more = last["parts"] - first["parts"]
-            print(f"{kind}: a partition costs {1e3 * (last['seconds'] - first['seconds']) / more:.3g} ms of {WORKERS} workers, moves {(last['bytes'] - first['bytes']) / more:.0f} bytes")
+
+        def counts(studied: rd.Plan, size: int) -> None:
+            rd.frame(studied, partition_size=size).outcome.value_counts().compute()
+
+        def parquet(studied: rd.Plan, size: int) -> None:
+            rd.to_parquet(studied, folder, partition_size=size)
+            shutil.rmtree(folder)
+
+        for kind, studied, work in (("counts", plan, counts), ("parquet", plan, parquet), ("records, counts", records, counts)):
+            few, many = (20, 400) if studied is plan else (4, 40)
+            rows = []
+            for parts in (few, many):
+                before, begin = (loopback(), *spent(client)), time.perf_counter()
+                work(studied, len(studied) // parts)
+                wall, after = time.perf_counter() - begin, (loopback(), *spent(client))
+                rows.append([late - early for early, late in zip(before, after)])
+                moved, own, workers = rows[-1]
+                print(
+                    f"{kind}, {parts} partitions of {len(studied) // parts} rows: {wall:.2f} s, processors: client and scheduler {own:.2f} s, workers {workers:.2f} s; {moved / 1e3:.0f} kB moved",
+                    flush=True,
+                )
+            moved, own, workers = ((late - early) / (many - few) for early, late in zip(*rows))
+            print(f"{kind}: a partition costs {1e3 * own:.2f} ms of client and scheduler and {1e3 * workers:.2f} ms of a worker, and moves {moved / 1e3:.1f} kB")
+
+
+def plain(plan: rd.Plan) -> float:
+    """Processor time of a run in a plain table [s]."""
+    begin = time.process_time()
+    plan.table(threads=1)
+    return (time.process_time() - begin) / len(plan)
+
+
+def spent(client: Client) -> tuple[float, float]:
+    """Processor time so far: of this process, which has client and scheduler, and of all workers [s]."""
+    workers = [psutil.Process(pid).cpu_times() for pid in client.run(os.getpid).values()]
+    return time.process_time(), sum(times.user + times.system for times in workers)
 
 
 class cluster:
@@ -131,11 +146,9 @@ def measured(runs: int, folder: Path) -> None:
         reader = threading.Thread(target=memory, args=(client, stop, rows))
         reader.start()
         time.sleep(1.0)
-        cpu = [psutil.Process(pid).cpu_times() for pid in client.run(os.getpid).values()]
-        before, begin = loopback(), time.perf_counter()
+        before, begin = (loopback(), *spent(client)), time.perf_counter()
         rd.to_parquet(plan, folder, partition_size=size)
-        spent, moved = time.perf_counter() - begin, loopback() - before
-        after = [psutil.Process(pid).cpu_times() for pid in client.run(os.getpid).values()]
+        wall, after = time.perf_counter() - begin, (loopback(), *spent(client))
         import dask.dataframe as dd
 
         table: Any = dd.read_parquet(folder)
@@ -145,9 +158,10 @@ def measured(runs: int, folder: Path) -> None:
     assert int(counts.sum()) == len(plan)
     files = list(folder.glob("*.parquet"))
     stored = sum(file.stat().st_size for file in files)
-    worked = sum(late.user + late.system - early.user - early.system for early, late in zip(cpu, after))
+    moved, own, worked = (late - early for early, late in zip(before, after))
     print(counts.sort_index().to_string())
-    print(f"{spent:.1f} s, {worked:.1f} s of the workers' processors ({1e6 * worked / len(plan):.3g} us a run), {moved / 1e6:.2f} MB moved, {len(files)} files of {stored / 1e6:.1f} MB")
+    print(f"{wall:.1f} s; processors: client and scheduler {own:.1f} s, workers {worked:.1f} s ({1e6 * worked / len(plan):.3g} us a run)")
+    print(f"{moved / 1e6:.2f} MB moved, {len(files)} files of {stored / 1e6:.1f} MB ({stored / len(plan):.3g} bytes a run)")
     print(f"largest resident memory: client {max(row[1] for row in rows):.0f} MB, workers {', '.join(f'{max(row[number] for row in rows):.0f}' for number in range(2, 2 + WORKERS))} MB")
     print(f"at the start: client {rows[0][1]:.0f} MB, workers {', '.join(f'{rows[0][number]:.0f}' for number in range(2, 2 + WORKERS))} MB")
     # The largest of each tenth: bounded memory does not grow from one to the next.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import threading
 import time
@@ -59,12 +60,19 @@ def test_a_sweep_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> Non
 def test_a_study_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> None:
     plan = rk.Ida(SCENE, rk.synthetic(range(4), duration=6.0), "PGV", [0.1, 0.3, 0.5, 0.7, 0.9, 1.5])
     here = plan.run()
-    there = rd.frame(plan, partition_size=5).compute()
+    lazy = rd.frame(plan, partition_size=2)
+    # The records are a task of their own: they are not sent with each of the 12 partitions.
+    size = len(pickle.dumps(plan))
+    assert lazy.npartitions == 12 and size > rd.MOST_BYTES
+    assert size < len(pickle.dumps(dict(lazy.optimize().__dask_graph__()))) < 2 * size
+    there = lazy.compute()
     assert text(there) == text(here.table)
     assert rk.Study(there).fragility("overturned").to_dict() == here.fragility("overturned").to_dict()
 
 
-def test_a_killed_worker_loses_nothing(client: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize("most_bytes", [rd.MOST_BYTES, 0], ids=["study in each task", "study in a task of its own"])
+def test_a_killed_worker_loses_nothing(most_bytes: int, client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rd, "MOST_BYTES", most_bytes)
     sweep = rk.Sweep(SCENE, {"omega_p": {"from": 0.5, "to": 8, "steps": 300}, "amplitude_uplift": {"from": 0.5, "to": 12, "steps": 400}}, ask="peaks")
     here = sweep.table()
     victims = list(client.run(os.getpid).values())

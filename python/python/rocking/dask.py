@@ -1,7 +1,8 @@
 """Studies beyond one machine: a sweep or an incremental dynamic analysis as a lazy ``dask.dataframe``.
 
-A study finds the run of any index without the others, so a partition is a range of indices and a task sends nothing but the study and two numbers. Names and
-types of the columns are known beforehand. A task that is lost with its worker is run again elsewhere and gives the same rows.
+A study finds the run of any index without the others, so a partition is a range of indices and a task sends nothing but the study and two numbers. A study with
+records is a task of its own, which a worker receives once. Names and types of the columns are known beforehand. A task that is lost with its worker is run again
+elsewhere and gives the same rows.
 
 >>> import rocking as rk, rocking.dask as rd
 >>> scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.pulse("sine-pulse", amplitude_uplift=3, omega_p=5), eta=0.9)
@@ -14,6 +15,7 @@ types of the columns are known beforehand. A task that is lost with its worker i
 from __future__ import annotations
 
 import os
+import pickle
 from typing import TYPE_CHECKING, Any, Union
 
 import pandas as pd
@@ -29,6 +31,9 @@ SECONDS_PER_PARTITION = 5.0
 
 #: Rows of the largest partition [rows]: some 100 bytes each, so that a worker holds tens of megabytes.
 MOST_ROWS = 500_000
+
+#: Largest study that travels with each partition [bytes]. Dask has a smaller graph of these; a larger study would be most of what moves.
+MOST_BYTES = 20_000
 
 #: Rows that are timed to choose a partition.
 TIMED_ROWS = 512
@@ -72,6 +77,7 @@ def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) ->
     threads : int
         Threads of a task: 1 where workers have one thread a core, as those of a ``LocalCluster`` with ``threads_per_worker=1``.
     """
+    import dask
     import dask.dataframe as dd
 
     length = len(plan)
@@ -82,8 +88,18 @@ def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) ->
     # Known beforehand: an empty range has the columns of all others.
     meta = plan.table(0, 0, threads=1)
     divisions = (*(start for start, _ in bounds), length - 1)
-    from_map: Any = dd.from_map
-    made: dd.DataFrame = from_map(_part, bounds, plan=plan, threads=threads, meta=meta, divisions=divisions, label="rocking")
+    state = pickle.dumps(plan)
+    made: dd.DataFrame
+    if len(state) <= MOST_BYTES:
+        from_map: Any = dd.from_map
+        made = from_map(_part, bounds, plan=plan, threads=threads, meta=meta, divisions=divisions, label="rocking")
+    else:
+        # Bytes until a worker has them: the study is read once there.
+        name = dask.base.tokenize(state, size, threads)
+        shared = dask.delayed(pickle.loads)(state, dask_key_name=f"rocking-study-{name}")
+        part = dask.delayed(_part)
+        parts = [part(own, shared, threads, dask_key_name=f"rocking-{name}-{own[0]}") for own in bounds]
+        made = dd.from_delayed(parts, meta=meta, divisions=divisions, verify_meta=False)
     return made
 
 
