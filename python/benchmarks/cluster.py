@@ -152,7 +152,7 @@ def measured(runs: int, folder: Path) -> None:
         import dask.dataframe as dd
 
         table: Any = dd.read_parquet(folder)
-        counts = table.outcome.value_counts().compute()
+        counts = table.outcome.astype("string").value_counts().compute()
         stop.set()
         reader.join()
     assert int(counts.sum()) == len(plan)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import time
 from typing import TYPE_CHECKING, Any, Union
 
 import pandas as pd
@@ -35,8 +36,8 @@ MOST_ROWS = 500_000
 #: Largest study that travels with each partition [bytes]. Dask has a smaller graph of these; a larger study would be most of what moves.
 MOST_BYTES = 20_000
 
-#: Rows that are timed to choose a partition.
-TIMED_ROWS = 512
+#: Seconds of runs that are timed to choose a partition.
+TIMED_SECONDS = 0.25
 
 Plan = Union[Sweep, Ida]
 
@@ -49,20 +50,23 @@ def _part(bounds: tuple[int, int], plan: Plan, threads: int) -> pd.DataFrame:
 def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, threads: int = 1) -> int:
     """Rows of a partition that takes so many seconds, from the time of rows spread over the study.
 
-    The estimate costs some hundred runs; partitions of a study whose runs differ much take between a fraction and a multiple of it.
+    The estimate costs about half a second of runs; partitions of a study whose runs differ much take between a fraction and a multiple of it.
     """
-    import time
-
     length = len(plan)
-    pieces = 8
-    rows = max(1, min(TIMED_ROWS, length) // pieces)
-    starts = sorted({(length - rows) * piece // max(pieces - 1, 1) for piece in range(pieces)} if length > rows else {0})
-    begin = time.perf_counter()
-    for start in starts:
-        plan.table(start, min(start + rows, length), threads=threads)
-    spent = time.perf_counter() - begin
-    per_row = spent / (rows * len(starts))
-    return int(min(max(seconds / per_row, 1.0), MOST_ROWS))
+    pieces, rows, spent = 8, 4, 0.0
+    # A call costs half a millisecond beside its rows: it is timed over as many as make that little.
+    while True:
+        rows = max(1, min(rows, length // pieces))
+        starts = sorted({(length - rows) * piece // (pieces - 1) for piece in range(pieces)})
+        begin = time.process_time()
+        for start in starts:
+            plan.table(start, start + rows, threads=1)
+        spent = time.process_time() - begin
+        if spent >= TIMED_SECONDS or rows * pieces >= length:
+            break
+        rows *= 2
+    per_row = spent / (rows * len(starts)) / threads
+    return int(min(max(seconds / per_row, 1.0), MOST_ROWS)) if per_row > 0 else MOST_ROWS
 
 
 def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) -> "dd.DataFrame":
@@ -81,7 +85,7 @@ def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) ->
     import dask.dataframe as dd
 
     length = len(plan)
-    size = globals()["partition_size"](plan) if partition_size is None else partition_size
+    size = globals()["partition_size"](plan, threads=threads) if partition_size is None else partition_size
     if size < 1:
         raise ValueError(f"partition_size = {size}; give at least one row")
     bounds = [(start, min(start + size, length)) for start in range(0, length, size)]
@@ -106,4 +110,6 @@ def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) ->
 def to_parquet(plan: Plan, folder: str | os.PathLike[str], *, partition_size: int | None = None, threads: int = 1, **options: Any) -> None:
     """Runs a study into a folder of Parquet files, a file per partition, by the present client; no worker holds more than its partition."""
     table: Any = frame(plan, partition_size=partition_size, threads=threads)
-    table.to_parquet(os.fspath(folder), write_index=False, **options)
+    written = table.to_parquet(os.fspath(folder), write_index=False, compute=False, **options)
+    # One task for each partition: rows are written by the worker that made them.
+    written.optimize(fuse=True).compute()
