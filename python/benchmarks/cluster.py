@@ -1,6 +1,7 @@
 """What a study costs beside its runs: partitions, bytes moved, memory, Parquet.
 
     python python/benchmarks/cluster.py partition          costs of a partition
+    python python/benchmarks/cluster.py graph              memory of client and scheduler for each partition
     python python/benchmarks/cluster.py study RUNS [FOLDER]  one study into Parquet, with memory and traffic over time (CSV beside the folder)
 
 Figures of docs/book/clusters.md. The scene is cheap (one block, outcome only), so that everything beside the runs shows. Costs are processor times, which other
@@ -19,8 +20,8 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Any
 
+import pandas as pd
 import psutil
 import rocking as rk
 import rocking.dask as rd
@@ -98,6 +99,25 @@ def partition() -> None:
             print(f"{kind}: a partition costs {1e3 * own:.2f} ms of client and scheduler and {1e3 * workers:.2f} ms of a worker, and moves {moved / 1e3:.1f} kB")
 
 
+def graph() -> None:
+    """Memory of client and scheduler, one process here, for each partition of a study of many."""
+    parts = 5000
+    plan = study(parts)
+    rows: list[list[float]] = []
+    with cluster() as client, tempfile.TemporaryDirectory() as scratch:
+        rd.to_parquet(plan, Path(scratch) / "few", partition_size=parts // 10)
+        stop = threading.Event()
+        reader = threading.Thread(target=memory, args=(client, stop, rows))
+        reader.start()
+        begin = time.process_time()
+        rd.to_parquet(plan, Path(scratch) / "many", partition_size=1)
+        own = time.process_time() - begin
+        stop.set()
+        reader.join()
+    most = max(row[1] for row in rows) - rows[0][1]
+    print(f"{len(plan)} partitions: client and scheduler grow by {most:.0f} MB ({1e3 * most / len(plan):.1f} kB each) and take {1e3 * own / len(plan):.2f} ms each")
+
+
 def plain(plan: rd.Plan) -> float:
     """Processor time of a run in a plain table [s]."""
     begin = time.process_time()
@@ -134,6 +154,11 @@ def memory(client: Client, stop: threading.Event, rows: list[list[float]]) -> No
         rows.append([time.perf_counter() - begin, *sizes, float(loopback() - before)])
 
 
+def outcomes(file: str) -> "pd.Series[int]":
+    """Rows of a file by outcome."""
+    return pd.read_parquet(file, columns=["outcome"])["outcome"].astype(str).value_counts()
+
+
 def measured(runs: int, folder: Path) -> None:
     """A study into Parquet files, and the shares of outcomes from them."""
     plan = study(runs)
@@ -149,17 +174,14 @@ def measured(runs: int, folder: Path) -> None:
         before, begin = (loopback(), *spent(client)), time.perf_counter()
         rd.to_parquet(plan, folder, partition_size=size)
         wall, after = time.perf_counter() - begin, (loopback(), *spent(client))
-        import dask.dataframe as dd
-
-        table: Any = dd.read_parquet(folder)
-        counts = table.outcome.astype("string").value_counts().compute()
+        files = list(folder.glob("*.parquet"))
+        counts = pd.concat(client.gather(client.map(outcomes, [str(file) for file in files]))).groupby(level=0).sum()
         stop.set()
         reader.join()
     assert int(counts.sum()) == len(plan)
-    files = list(folder.glob("*.parquet"))
     stored = sum(file.stat().st_size for file in files)
     moved, own, worked = (late - early for early, late in zip(before, after))
-    print(counts.sort_index().to_string())
+    print(counts.to_string())
     print(f"{wall:.1f} s; processors: client and scheduler {own:.1f} s, workers {worked:.1f} s ({1e6 * worked / len(plan):.3g} us a run)")
     print(f"{moved / 1e6:.2f} MB moved, {len(files)} files of {stored / 1e6:.1f} MB ({stored / len(plan):.3g} bytes a run)")
     print(f"largest resident memory: client {max(row[1] for row in rows):.0f} MB, workers {', '.join(f'{max(row[number] for row in rows):.0f}' for number in range(2, 2 + WORKERS))} MB")
@@ -177,6 +199,8 @@ def measured(runs: int, folder: Path) -> None:
 def main() -> None:
     if sys.argv[1:2] == ["partition"]:
         partition()
+    elif sys.argv[1:2] == ["graph"]:
+        graph()
     elif sys.argv[1:2] == ["study"] and len(sys.argv) in (3, 4):
         with tempfile.TemporaryDirectory() as scratch:
             measured(int(float(sys.argv[2])), Path(sys.argv[3] if len(sys.argv) == 4 else f"{scratch}/study"))

@@ -27,10 +27,11 @@ from ._sweep import Sweep
 if TYPE_CHECKING:
     import dask.dataframe as dd
 
-#: Seconds that a partition should take: a task costs the scheduler and the worker some milliseconds.
+#: Seconds that a partition should take. Beside its runs a partition costs a worker 10 ms and the scheduler 2.4 ms of processor (measured by
+#: benchmarks/cluster.py): 0.2 % of the worker's time, and one scheduler keeps 2000 workers busy.
 SECONDS_PER_PARTITION = 5.0
 
-#: Rows of the largest partition [rows]: some 100 bytes each, so that a worker holds tens of megabytes.
+#: Rows of the largest partition [rows], for the memory of a worker: 240 MB beside those of an idle one.
 MOST_ROWS = 500_000
 
 #: Largest study that travels with each partition [bytes]. Dask has a smaller graph of these; a larger study would be most of what moves.
