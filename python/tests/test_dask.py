@@ -52,6 +52,9 @@ def test_a_sweep_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> Non
     there = rd.frame(SWEEP, partition_size=500).compute()
     assert text(there) == text(here)
     assert there.index.equals(here.index) and there.outcome.cat.categories.equals(here.outcome.cat.categories)
+    parts = [rd.frame(SWEEP, rows=SWEEP.shard(number, 3), partition_size=1000) for number in (1, 2, 3)]
+    pd.testing.assert_frame_equal(pd.concat([part.compute() for part in parts]), there)
+    assert parts[1].divisions[0] == SWEEP.shard(2, 3).start
     lazy = rd.frame(SWEEP, partition_size=700)
     counts = lazy.groupby("outcome", observed=True).index.count().compute()
     assert counts.sort_index().to_dict() == here.groupby("outcome", observed=True)["index"].count().sort_index().to_dict()
@@ -107,3 +110,6 @@ def test_a_partition_takes_about_as_long_as_asked() -> None:
     assert 1 <= size <= rd.MOST_ROWS and 0.05 < spent < 5.0
     with pytest.raises(ValueError, match="at least one row"):
         rd.frame(SWEEP, partition_size=0)
+    for rows in (range(0), range(5, len(SWEEP) + 1), range(-1, 5), range(0, 10, 2)):
+        with pytest.raises(ValueError, match="no range of the 8816 rows"):
+            rd.frame(SWEEP, rows=rows)

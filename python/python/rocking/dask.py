@@ -37,6 +37,9 @@ MOST_ROWS = 500_000
 #: Largest study that travels with each partition [bytes]. Dask has a smaller graph of these; a larger study would be most of what moves.
 MOST_BYTES = 20_000
 
+#: Most values on the axes of such a study: each partition reads them anew, at 1 µs each.
+MOST_VALUES = 20_000
+
 #: Seconds of runs that are timed to choose a partition.
 TIMED_SECONDS = 0.25
 
@@ -70,13 +73,15 @@ def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, thread
     return int(min(max(seconds / per_row, 1.0), MOST_ROWS)) if per_row > 0 else MOST_ROWS
 
 
-def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) -> "dd.DataFrame":
+def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None = None, threads: int = 1) -> "dd.DataFrame":
     """The table of a study as a lazy data frame.
 
     Parameters
     ----------
     plan : Sweep or Ida
         Files that its scene names must be readable by the workers; records read with ``Record.read`` travel with the study.
+    rows : range
+        Indices of the runs, all unless given; ``Sweep.shard`` has those of a part.
     partition_size : int
         Rows of a partition; chosen by :func:`partition_size` unless given.
     threads : int
@@ -85,17 +90,20 @@ def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) ->
     import dask
     import dask.dataframe as dd
 
-    length = len(plan)
+    asked = range(len(plan)) if rows is None else rows
+    if asked.step != 1 or not 0 <= asked.start < asked.stop <= len(plan):
+        raise ValueError(f"rows = {asked} are no range of the {len(plan)} rows of the study")
     size = globals()["partition_size"](plan, threads=threads) if partition_size is None else partition_size
     if size < 1:
         raise ValueError(f"partition_size = {size}; give at least one row")
-    bounds = [(start, min(start + size, length)) for start in range(0, length, size)]
+    bounds = [(start, min(start + size, asked.stop)) for start in range(asked.start, asked.stop, size)]
     # Known beforehand: an empty range has the columns of all others.
     meta = plan.table(0, 0, threads=1)
-    divisions = (*(start for start, _ in bounds), length - 1)
+    divisions = (*(start for start, _ in bounds), asked.stop - 1)
     state = pickle.dumps(plan)
     made: dd.DataFrame
-    if len(state) <= MOST_BYTES:
+    values = sum(plan.axes.values()) if isinstance(plan, Sweep) else 0
+    if len(state) <= MOST_BYTES and values <= MOST_VALUES:
         from_map: Any = dd.from_map
         made = from_map(_part, bounds, plan=plan, threads=threads, meta=meta, divisions=divisions, label="rocking")
     else:
@@ -108,9 +116,14 @@ def frame(plan: Plan, *, partition_size: int | None = None, threads: int = 1) ->
     return made
 
 
-def to_parquet(plan: Plan, folder: str | os.PathLike[str], *, partition_size: int | None = None, threads: int = 1, **options: Any) -> None:
-    """Runs a study into a folder of Parquet files, a file per partition, by the present client; no worker holds more than its partition."""
-    table: Any = frame(plan, partition_size=partition_size, threads=threads)
+def to_parquet(
+    plan: Plan, folder: str | os.PathLike[str], *, rows: range | None = None, partition_size: int | None = None, threads: int = 1, **options: Any
+) -> None:
+    """Runs a study into a folder of Parquet files, a file per partition, by the present client; no worker holds more than its partition.
+
+    Arguments as of :func:`frame`; ``options`` are those of ``dask.dataframe.DataFrame.to_parquet``.
+    """
+    table: Any = frame(plan, rows=rows, partition_size=partition_size, threads=threads)
     written = table.to_parquet(os.fspath(folder), write_index=False, compute=False, **options)
     # One task for each partition: rows are written by the worker that made them.
     written.optimize(fuse=True).compute()
