@@ -277,7 +277,9 @@ fn compared(one: &Response, image: &Response) -> Image {
             continue;
         }
         let fastest = a.omega_before.iter().chain(&a.omega_after).fold(1.0f64, |most, rate| most.max(rate.abs()));
-        let is_rounding = a.kind == b.kind
+        // A column that leaves the ground as a whole tips or flies: two names of one motion.
+        let is_same_kind = a.kind == b.kind || !a.kind.is_impact() && !b.kind.is_impact();
+        let is_rounding = is_same_kind
             && (a.t - b.t).abs() <= SAME_EVENT
             && off(&a.theta, &b.theta) <= SAME_EVENT * fastest
             && off(&a.omega_after, &b.omega_after) <= SAME_EVENT * fastest;

@@ -72,7 +72,7 @@ struct Slack {
 }
 
 /// The size of the accelerations at work `[m/s²]`.
-fn acceleration_scale(column: &Column, now: &Configuration, ground: Ground) -> f64 {
+pub fn acceleration_scale(column: &Column, now: &Configuration, ground: Ground) -> f64 {
     let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
     ground.x.abs() + ground.gravity.abs() + 1e-3 * column.gravity() + fastest * fastest * column.size()
 }

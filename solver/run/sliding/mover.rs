@@ -150,7 +150,7 @@ impl<'p> Mover<'p> {
         let mut wanted = self.pace.unwrap_or(FIRST_STEP);
         let mut pace = 0.0f64;
         self.work.phases += 1;
-        let ended = loop {
+        let ended = 'stretch: loop {
             let left = smooth.segment.end - t;
             if t + left <= t {
                 t = smooth.segment.end;
@@ -181,6 +181,9 @@ impl<'p> Mover<'p> {
                 h *= if error.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 };
                 wanted = h;
                 if t + h <= t {
+                    if smooth.is_jamming(t, &x) {
+                        break 'stretch Ended::Jam;
+                    }
                     let mode = format!("{} with friction", from.configuration.pattern());
                     return Err(SolveError::StepTooSmall { time: t, step: h, mode });
                 }

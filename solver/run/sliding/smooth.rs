@@ -7,6 +7,7 @@ use crate::friction::contact::{Coefficients, centre};
 use crate::friction::generated::Generated;
 use crate::friction::joint::Configuration;
 use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};
+use crate::friction::search::acceleration_scale;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::explicit::System;
 use crate::numerics::per_block::PerBlock;
@@ -14,6 +15,9 @@ use crate::run::problem::Problem;
 use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
 use std::cell::OnceCell;
+
+/// Forces beyond which a motion jams, as multiples of what weight, ground and rates account for.
+const JAMMING: f64 = 1e6;
 
 /// Right-hand side of a set of states.
 pub struct Smooth<'p> {
@@ -93,6 +97,14 @@ impl<'p> Smooth<'p> {
             moment.answer = self.solved(t, &moment.configuration, moment.chain());
         }
         moment.answer.get_or_insert_with(|| Answer::none(blocks))
+    }
+
+    /// Whether the forces at a time and a state are beyond all bounds: the rows are close to a state in which they determine none (Painlevé).
+    pub fn is_jamming(&mut self, t: f64, x: &[f64]) -> bool {
+        let ground = Ground::at(self.segment, t, self.gravity);
+        let mut moment = self.moment(self.configuration(x));
+        let largest = self.answer(t, &mut moment).contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
+        largest > JAMMING * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground)
     }
 
     fn solved(&mut self, t: f64, now: &Configuration, chain: &Chain) -> Option<Answer> {

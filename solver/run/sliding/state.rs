@@ -25,6 +25,8 @@ pub enum Ended {
     Guard(Guard),
     /// The ground's acceleration jumped.
     Jump,
+    /// Forces grow without bound.
+    Jam,
     /// The run is over in time.
     Time,
     /// Nothing starts the column any more.
@@ -38,7 +40,7 @@ impl Ended {
             Ended::Time => Some((StopReason::EndOfTime, None)),
             Ended::Rest => Some((StopReason::AtRest, None)),
             Ended::Guard(Guard::Overturn(block)) => Some((StopReason::Overturned, Some(block))),
-            Ended::Guard(_) | Ended::Jump => None,
+            Ended::Guard(_) | Ended::Jump | Ended::Jam => None,
         }
     }
 }

@@ -48,7 +48,14 @@ pub fn start(problem: &Problem, friction: &Coefficients, at: &State) -> Transiti
 /// The transition at the end of a stretch.
 pub fn transition(problem: &Problem, friction: &Coefficients, before: &State, ended: Ended) -> Transition {
     let mut instant = Instant::new(problem, friction, before);
-    let Ended::Guard(guard) = ended else { return instant.decided(EventKind::Jump, None) };
+    let guard = match ended {
+        Ended::Guard(guard) => guard,
+        Ended::Jam => {
+            instant.jam();
+            return instant.decided(EventKind::Impact, None);
+        }
+        Ended::Jump | Ended::Time | Ended::Rest => return instant.decided(EventKind::Jump, None),
+    };
     let (kind, hint) = match guard {
         Guard::Overturn(block) => return instant.over(StopReason::Overturned, Some(block)),
         Guard::Collapse(interface) => return instant.collapsed(interface),
@@ -92,6 +99,19 @@ pub(super) struct Instant<'p> {
     pub ambiguous: usize,
     is_jammed: bool,
     pub stop: Option<StopReason>,
+}
+
+/// Hops and slides, per interface, that have been ended in an instant because they are too low.
+struct Stilled {
+    hops: PerBlock<bool>,
+    slides: PerBlock<bool>,
+}
+
+impl Stilled {
+    fn none(interfaces: usize) -> Stilled {
+        let none = || (0..interfaces).map(|_| false).collect();
+        Stilled { hops: none(), slides: none() }
+    }
 }
 
 impl<'p> Instant<'p> {
@@ -175,21 +195,28 @@ impl<'p> Instant<'p> {
         let mut solution = match found {
             Some(solution) => solution,
             None => {
-                // No acceleration is admissible: velocities jump as in an impact (Painlevé).
-                self.is_jammed = true;
-                self.strike(&touch, EventKind::Impact, &[])?;
+                self.jam();
+                if let Some(reason) = self.stop {
+                    return Err(reason);
+                }
                 self.accelerations(&self.touching(), None).ok_or(StopReason::Undetermined)?
             }
         };
         // Hops, bounces and slides lower than the resolution end at once.
-        for _ in 0..self.column().len() + 1 {
-            let Some(held) = self.too_low(&solution) else { break };
+        let mut stilled = Stilled::none(self.column().len());
+        while let Some(held) = self.too_low(&solution, &mut stilled) {
             self.hold(&held);
             let touch = self.joined();
             solution = self.accelerations(&touch, None).ok_or(StopReason::Undetermined)?;
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
         Ok(self.search(&self.touching()).carried(&solution))
+    }
+
+    /// No acceleration is admissible, or forces grow without bound (Painlevé): velocities jump as in an impact.
+    fn jam(&mut self) {
+        self.is_jammed = true;
+        self.stop = self.strike(&self.touching(), EventKind::Impact, &[]).err();
     }
 
     pub fn touching(&self) -> Vec<Touch> {
@@ -301,8 +328,9 @@ impl<'p> Instant<'p> {
         Some((interface, joint))
     }
 
-    /// The states without the hops and slides that would come back before they exceed the resolution; `None` if there are none.
-    fn too_low(&self, solution: &Solution) -> Option<PerBlock<Joint>> {
+    /// The states without the hops and slides that would come back before they exceed the resolution; `None` if there are no new ones. All that
+    /// has been stilled in this instant is stilled together: one at a time, each would pass its momentum on to the others.
+    fn too_low(&self, solution: &Solution, stilled: &mut Stilled) -> Option<PerBlock<Joint>> {
         let least = self.problem.scene.options.stick_angle;
         let returns = |rate: f64, change: f64, least: f64| {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
@@ -316,17 +344,31 @@ impl<'p> Instant<'p> {
             let length = half_length(self.column(), interface, self.now.slide[interface]);
             returns(self.now.slide_rate[interface], solution.answer.rates.slide[interface], least * length)
         };
-        let held = |(interface, &joint): (usize, &Joint)| match joint {
-            Joint::Corner(_, _, slip) if hops(interface) => Joint::Closed(slip),
-            Joint::Corner(side, _, Slip::Slides(_)) if stops(interface) => self.corner(interface, side, Slip::Sticks),
-            Joint::Closed(Slip::Slides(_)) if stops(interface) => Joint::Closed(Slip::Sticks),
-            joint => joint,
+        let mut is_new = false;
+        for (interface, joint) in solution.joints.iter().enumerate() {
+            let is_corner = matches!(joint, Joint::Corner(..));
+            if is_corner && !stilled.hops[interface] && hops(interface) {
+                (stilled.hops[interface], is_new) = (true, true);
+            }
+            let is_sliding = joint.slip().is_some_and(|slip| slip != Slip::Sticks);
+            if is_sliding && !stilled.slides[interface] && !stilled.hops[interface] && stops(interface) {
+                (stilled.slides[interface], is_new) = (true, true);
+            }
+        }
+        let held = |(interface, &joint): (usize, &Joint)| {
+            let with = |slip: Slip| if stilled.slides[interface] { Slip::Sticks } else { slip };
+            match joint {
+                Joint::Corner(_, _, slip) if stilled.hops[interface] => Joint::Closed(with(slip)),
+                Joint::Corner(side, _, slip) if with(slip) != slip => self.corner(interface, side, with(slip)),
+                Joint::Closed(slip) => Joint::Closed(with(slip)),
+                joint => joint,
+            }
         };
-        let joints: PerBlock<Joint> = solution.joints.iter().enumerate().map(held).collect();
-        (joints != solution.joints).then_some(joints)
+        is_new.then(|| solution.joints.iter().enumerate().map(held).collect())
     }
 
-    /// Brings the blocks to the motion that these states allow, momentum conserved. A corner without a gap that would close by it is closed as well.
+    /// Brings the blocks to the motion that these states allow, momentum conserved. A corner without a gap that would close by it is closed as well;
+    /// one that was closing before has its impact still to come.
     pub fn hold(&mut self, joints: &[Joint]) {
         let chain = Chain::new(self.column(), &self.now);
         let before = chain.motion(&Rates::of(&self.now));
@@ -345,7 +387,8 @@ impl<'p> Instant<'p> {
                 Joint::Corner(side, _, slip) => {
                     let has_no_gap = held.gap_angle(interface).abs() <= self.resolution.angle;
                     let rate = f64::from(side) * difference(&answer.rates.omega, interface);
-                    (has_no_gap && rate < 0.0).then_some(slip)
+                    let was_closing = f64::from(side) * self.now.gap_rate(interface) < -self.resolution.rate;
+                    (has_no_gap && rate < 0.0 && !was_closing).then_some(slip)
                 }
                 Joint::Closed(_) | Joint::Free => None,
             };
