@@ -69,6 +69,9 @@ def test_a_study_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> Non
     assert lazy.npartitions == 12 and size > rd.MOST_BYTES
     assert size < len(pickle.dumps(dict(lazy.optimize().__dask_graph__()))) < 2 * size
     there = lazy.compute()
+    # Parts of other lengths that begin alike are other tasks.
+    long, short = (rd.frame(plan, rows=range(stop), partition_size=10) for stop in (6, 3))
+    assert [len(part) for part in client.gather(client.compute([long, short]))] == [6, 3]
     assert text(there) == text(here.table)
     assert rk.Study(there).fragility("overturned").to_dict() == here.fragility("overturned").to_dict()
 

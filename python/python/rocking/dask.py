@@ -87,8 +87,9 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
     threads : int
         Threads of a task: 1 where workers have one thread a core, as those of a ``LocalCluster`` with ``threads_per_worker=1``.
     """
-    import dask
     import dask.dataframe as dd
+    from dask.base import tokenize
+    from dask.delayed import delayed
 
     asked = range(len(plan)) if rows is None else rows
     if asked.step != 1 or not 0 <= asked.start < asked.stop <= len(plan):
@@ -108,9 +109,9 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
         made = from_map(_part, bounds, plan=plan, threads=threads, meta=meta, divisions=divisions, label="rocking")
     else:
         # Bytes until a worker has them: the study is read once there.
-        name = dask.base.tokenize(state, size, threads)
-        shared = dask.delayed(pickle.loads)(state, dask_key_name=f"rocking-study-{name}")
-        part = dask.delayed(_part)
+        name = tokenize(state, size, threads, asked.start, asked.stop)
+        shared = delayed(pickle.loads)(state, dask_key_name=f"rocking-study-{name}")
+        part = delayed(_part)
         parts = [part(own, shared, threads, dask_key_name=f"rocking-{name}-{own[0]}") for own in bounds]
         made = dd.from_delayed(parts, meta=meta, divisions=divisions, verify_meta=False)
     return made
