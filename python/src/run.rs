@@ -145,6 +145,24 @@ impl Response {
         self.has_blocks().then(|| self.rows(py, force, shape)).transpose()
     }
 
+    /// Rotations at the interfaces `[rad]`, shape (rows, blocks).
+    fn relative_angles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.rows(py, |sample, out| out.extend(sample.relative_angles()), [self.samples().len(), self.blocks()])
+    }
+
+    /// Displacement of the middle of the column's top, to the right and upwards `[m]`, shape (rows, 2).
+    fn top_displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let column = &self.scene.column;
+        self.rows(py, |sample, out| out.extend(sample.top_displacement(column)), [self.samples().len(), 2])
+    }
+
+    /// Columns that the scene asks for, by their names in a scene file.
+    #[getter]
+    fn output_columns(&self) -> Vec<String> {
+        let name = |column| serde_json::to_value(column).ok().and_then(|name| name.as_str().map(String::from));
+        self.scene.output_columns.iter().filter_map(name).collect()
+    }
+
     /// Events as columns; arrays of angles, rates and impulses have the shape (events, blocks).
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let events = &self.response.events;

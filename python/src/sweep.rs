@@ -7,8 +7,8 @@ use crate::table::{Column, Names, Values, into_python, truth, whole};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use rocking::scene_file::{MOST_BLOCKS, Setting, Template};
-use rocking::sweep::{Ask, Axis, Fate, Needs, Outcome, PointError};
+use rocking::scene_file::{Setting, Template};
+use rocking::sweep::{Ask, Axis, Fate, Field, Needs, Outcome, PointError};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -117,74 +117,59 @@ impl Sweep {
     /// The rows of a range of points.
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.sweep.len())?;
-        let blocks = if self.sweep.ask.is_of_peaks() { self.blocks(py)? } else { 0 };
+        let fields = self.sweep.fields().map_err(|refused| error::scene(py, &refused))?;
         let results =
             in_parts(py, range.clone(), threads, FIRST_PART, |part| self.sweep.lines(part, |row| row.result))?;
-        into_python(py, py.detach(|| self.columns(range, &results, blocks)))
+        into_python(py, py.detach(|| self.columns(range, &results, &fields)))
     }
 }
 
 impl Sweep {
-    /// Blocks of the largest column, as far as axes are within the limits of a scene.
-    fn blocks(&self, py: Python<'_>) -> PyResult<usize> {
-        let base = self.sweep.template.with(std::iter::empty()).map_err(|refused| error::scene(py, &refused))?;
-        let counts = self.sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
-        let counts = counts.filter_map(|count| count.to_string().parse().ok()).filter(|count| *count <= MOST_BLOCKS);
-        Ok(counts.max().unwrap_or(base.column.len()))
-    }
-
-    fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], blocks: usize) -> Vec<Column> {
+    fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], fields: &[Field]) -> Vec<Column> {
         let ask = self.sweep.ask;
         let found = || results.iter().map(|result| result.as_ref().ok());
-        let mut columns = vec![Column::new("index", Values::Index(range.clone().map(|index| index as i64).collect()))];
-        for (place, axis) in self.sweep.axes.iter().enumerate() {
-            let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
-            columns.push(Column::new(&axis.key, axis_values(axis, settings)));
-        }
-        let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
-        columns.push(Column::new(
-            "outcome",
-            fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name()))),
-        ));
         // A run that ends when its outcome is certain has not had all its impacts.
         let is_counted = |found: &&Outcome| match found.fate {
             Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
             Fate::Overturns => ask != Ask::Overturns,
             _ => ask.is_of_peaks(),
         };
-        columns.push(Column::new(
-            "impacts",
-            whole(found().map(|found| found.filter(is_counted).map(|found| found.impacts))),
-        ));
-        columns.push(Column::new("block", whole(found().map(|found| found.and_then(|found| found.block)))));
-        let time = |found: Option<&Outcome>| found.and_then(|found| found.overturned_at).unwrap_or(f64::NAN);
-        columns.push(Column::new("overturned_at", Values::Number(found().map(time).collect())));
-        if ask.is_of_peaks() {
-            columns.extend(per_block("peak", blocks, results, |found| &found.peaks));
-            let mode = |found: Option<&Outcome>| found.and_then(|found| found.last_mode.clone());
-            columns.push(Column::new("last_mode", Values::Text(found().map(mode).collect())));
-            if ask == Ask::Slides {
-                columns.extend(per_block("residual_slide", blocks, results, |found| &found.residual_slides));
+        let number = |of: &dyn Fn(&Outcome) -> Option<f64>| {
+            Values::Number(found().map(|found| found.and_then(of).unwrap_or(f64::NAN)).collect())
+        };
+        let needs = |found: &Outcome, of: fn(&Needs) -> f64| found.needs.as_ref().map(of);
+        let values = |field: Field| match field {
+            Field::Index => Values::Index(range.clone().map(|index| index as i64).collect()),
+            Field::Axis(place) => {
+                let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
+                axis_values(&self.sweep.axes[place], settings)
             }
-            if ask == Ask::Validity {
-                let needs = || found().map(|found| found.and_then(|found| found.needs));
-                let number = |of: fn(&Needs) -> f64| needs().map(|needs| needs.as_ref().map_or(f64::NAN, of)).collect();
-                columns.push(Column::new("valid", truth(needs().map(|needs| needs.map(|needs| needs.valid)))));
-                columns.push(Column::new("mu_demand", Values::Number(number(|needs| needs.mu_demand))));
-                columns.push(Column::new("min_normal", Values::Number(number(|needs| needs.min_normal))));
-                let separations = needs().map(|needs| needs.map(|needs| needs.separations));
-                columns.push(Column::new("separations", whole(separations)));
+            Field::Outcome => {
+                let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
+                fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))
             }
-            if ask == Ask::Trust {
+            Field::Impacts => whole(found().map(|found| found.filter(is_counted).map(|found| found.impacts))),
+            Field::Block => whole(found().map(|found| found.and_then(|found| found.block))),
+            Field::OverturnedAt => number(&|found| found.overturned_at),
+            Field::Peak(block) => number(&|found| found.peaks.get(block).copied()),
+            Field::LastMode => Values::Text(found().map(|found| found?.last_mode.clone()).collect()),
+            Field::ResidualSlide(interface) => number(&|found| found.residual_slides.get(interface).copied()),
+            Field::Valid => truth(found().map(|found| found?.needs.map(|needs| needs.valid))),
+            Field::MuDemand => number(&|found| needs(found, |needs| needs.mu_demand)),
+            Field::MinNormal => number(&|found| needs(found, |needs| needs.min_normal)),
+            Field::Separations => whole(found().map(|found| found?.needs.map(|needs| needs.separations))),
+            Field::Trust => {
                 let word = |determined| if determined { "determined" } else { NOT_DETERMINED };
                 let words = found().map(|found| found.and_then(|found| found.determined).map_or("", word));
-                columns.push(Column::new("trust", Names::of(["determined", NOT_DETERMINED]).column(words)));
+                Names::of(["determined", NOT_DETERMINED]).column(words)
             }
-        }
-        columns.push(Column::new("truncated", truth(found().map(|found| found.map(|found| found.truncated)))));
-        let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
-        columns.push(Column::new("error", Values::Text(errors.collect())));
-        columns
+            Field::Truncated => truth(found().map(|found| found.map(|found| found.truncated))),
+            Field::Error => {
+                let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
+                Values::Text(errors.collect())
+            }
+        };
+        fields.iter().map(|field| Column::new(self.sweep.heading(*field), values(*field))).collect()
     }
 }
 

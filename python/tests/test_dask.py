@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import threading
 import time
@@ -10,13 +11,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import distributed
 import pandas as pd
 import pytest
 import rocking as rk
-
-dd = pytest.importorskip("dask.dataframe")
-distributed = pytest.importorskip("distributed")
-rd = pytest.importorskip("rocking.dask")
+import rocking.dask as rd
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 
@@ -53,6 +52,9 @@ def test_a_sweep_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> Non
     there = rd.frame(SWEEP, partition_size=500).compute()
     assert text(there) == text(here)
     assert there.index.equals(here.index) and there.outcome.cat.categories.equals(here.outcome.cat.categories)
+    parts = [rd.frame(SWEEP, rows=SWEEP.shard(number, 3), partition_size=1000) for number in (1, 2, 3)]
+    pd.testing.assert_frame_equal(pd.concat([part.compute() for part in parts]), there)
+    assert parts[1].divisions[0] == SWEEP.shard(2, 3).start
     lazy = rd.frame(SWEEP, partition_size=700)
     counts = lazy.groupby("outcome", observed=True).index.count().compute()
     assert counts.sort_index().to_dict() == here.groupby("outcome", observed=True)["index"].count().sort_index().to_dict()
@@ -61,12 +63,22 @@ def test_a_sweep_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> Non
 def test_a_study_on_two_workers_has_the_bytes_of_a_local_one(client: Any) -> None:
     plan = rk.Ida(SCENE, rk.synthetic(range(4), duration=6.0), "PGV", [0.1, 0.3, 0.5, 0.7, 0.9, 1.5])
     here = plan.run()
-    there = rd.frame(plan, partition_size=5).compute()
+    lazy = rd.frame(plan, partition_size=2)
+    # The records are a task of their own: they are not sent with each of the 12 partitions.
+    size = len(pickle.dumps(plan))
+    assert lazy.npartitions == 12 and size > rd.MOST_BYTES
+    assert size < len(pickle.dumps(dict(lazy.optimize().__dask_graph__()))) < 2 * size
+    there = lazy.compute()
+    # Parts of other lengths that begin alike are other tasks.
+    long, short = (rd.frame(plan, rows=range(stop), partition_size=10) for stop in (6, 3))
+    assert [len(part) for part in client.gather(client.compute([long, short]))] == [6, 3]
     assert text(there) == text(here.table)
     assert rk.Study(there).fragility("overturned").to_dict() == here.fragility("overturned").to_dict()
 
 
-def test_a_killed_worker_loses_nothing(client: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize("most_bytes", [rd.MOST_BYTES, 0], ids=["study in each task", "study in a task of its own"])
+def test_a_killed_worker_loses_nothing(most_bytes: int, client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rd, "MOST_BYTES", most_bytes)
     sweep = rk.Sweep(SCENE, {"omega_p": {"from": 0.5, "to": 8, "steps": 300}, "amplitude_uplift": {"from": 0.5, "to": 12, "steps": 400}}, ask="peaks")
     here = sweep.table()
     victims = list(client.run(os.getpid).values())
@@ -101,3 +113,6 @@ def test_a_partition_takes_about_as_long_as_asked() -> None:
     assert 1 <= size <= rd.MOST_ROWS and 0.05 < spent < 5.0
     with pytest.raises(ValueError, match="at least one row"):
         rd.frame(SWEEP, partition_size=0)
+    for rows in (range(0), range(5, len(SWEEP) + 1), range(-1, 5), range(0, 10, 2)):
+        with pytest.raises(ValueError, match="no range of the 8816 rows"):
+            rd.frame(SWEEP, rows=rows)

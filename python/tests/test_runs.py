@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +33,34 @@ def test_a_run_has_the_bits_of_the_command_line(file: Path, command, tmp_path: P
     assert json.loads(run.to_json())["events"] == events
     assert run.events.t.tolist() == [event["t"] for event in events]
     assert run.events.kind.tolist() == [event["kind"] for event in events]
+
+
+@pytest.mark.parametrize("asked", [["relative"], ["top"], ["top", "relative"], []], ids="-".join)
+@pytest.mark.parametrize("file", ["three-drums-pulse", "harmonic-with-vertical", "sliding"])
+def test_columns_that_the_scene_asks_for(file: str, asked: list[str], scenes: Path, command, tmp_path: Path) -> None:
+    if file == "sliding":
+        column = rk.Column.prisms(2, half_width=0.4, half_height=0.8)
+        scene = rk.Scene(column, rk.pulse("sine-pulse", amplitude_g=0.6, frequency=2), friction=0.2, t_end=2, output_columns=asked)
+    else:
+        scene = rk.Scene.load(scenes / f"{file}.toml").replace(output_columns=asked)
+    scene.save(tmp_path / "scene.toml")
+    command("run", tmp_path / "scene.toml", "--out", tmp_path, "--quiet", "--no-trust")
+    run = rk.simulate(scene)
+    made = run.to_pandas()
+    pd.testing.assert_frame_equal(made, read(tmp_path / "response.csv").drop(columns="pattern"), check_exact=True)
+    phi, top = [f"phi_{block + 1}" for block in range(len(run.scene.column))], ["top_x", "top_y"]
+    names = {"relative": phi, "top": top}
+    assert list(made.columns)[len(made.columns) - sum(len(names[name]) for name in asked) :] == [column for name in asked for column in names[name]]
+    assert json.loads(run.to_json())["rows"].keys() == set(made.columns)
+    data, again = run.to_xarray(), pickle.loads(pickle.dumps(run))
+    assert ("phi" in data, "top" in data) == ("relative" in asked, "top" in asked)
+    assert again.to_pandas().equals(made)
+    if "relative" in asked:
+        assert np.array_equal(data.phi.sel(block=1), made.theta_1) and np.array_equal(data.phi, made[phi]) and data.phi.units == "rad"
+        assert np.array_equal(run.phi[:, 1:], np.diff(run.theta, axis=1))
+    if "top" in asked:
+        assert np.array_equal(data.top.sel(direction="vertical"), made.top_y) and data.top.units == "m"
+        assert run.top[0].tolist() == [0.0, 0.0] and np.abs(run.top).max() > 1e-4
 
 
 def test_the_folder_of_a_run_is_that_of_the_command_line(scenes: Path, command, tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ COLUMN = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
 SCENE = rk.Scene(COLUMN, rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9, t_end=20, rtol=1e-6)
 
 
-@pytest.mark.parametrize("ask", ["outcome", "overturns", "peaks", "validity"])
+@pytest.mark.parametrize("ask", ["outcome", "overturns", "peaks", "validity", "trust"])
 def test_a_sweep_has_the_table_of_the_command_line(ask: str, command, scenes: Path, tmp_path: Path) -> None:
     file = tmp_path / "sweep.toml"
     base = (scenes / "sweeps" / "column.toml").read_text()
@@ -40,6 +40,32 @@ def test_a_sweep_has_the_table_of_the_command_line(ask: str, command, scenes: Pa
     pd.testing.assert_frame_equal(loaded.table(), made)
     pd.testing.assert_frame_equal(pd.concat([loaded.table(0, 7), loaded.table(7, threads=1)]), made)
     assert (made.outcome == "error").sum() == 40 and made.error.notna().sum() == 40
+
+
+@pytest.mark.parametrize("method", ["plain", "latin-hypercube", "sobol"])
+def test_a_sampled_sweep_has_the_table_of_the_command_line(method: str, command, scenes: Path, tmp_path: Path) -> None:
+    file = tmp_path / "sweep.toml"
+    (tmp_path / "column.toml").write_text((scenes / "sweeps" / "column.toml").read_text())
+    correlated = '[{ axes = ["amplitude_uplift", "eta"], value = 0.5 }]'
+    sampling = f'[sampling]\nsamples = 64\nmethod = "{method}"\nseed = 7\ncorrelations = {correlated}\n'
+    axes = "blocks = [1, 2]\namplitude_uplift = { lognormal = [4.0, 0.4] }\neta = { normal = [0.88, 0.1], max = 1.0 }\nmethod = { discrete = ['auto', 'dop853'] }\n"
+    file.write_text(f'scene = "column.toml"\n{sampling}[axes]\n{axes}')
+    command("sweep", file, "--out", tmp_path / "table.csv", "--quiet")
+    expected = read(tmp_path / "table.csv")
+    sweep = rk.Sweep(
+        rk.Scene.load(tmp_path / "column.toml"),
+        {
+            "blocks": [1, 2],
+            "amplitude_uplift": {"lognormal": [4.0, 0.4]},
+            "eta": {"normal": [0.88, 0.1], "max": 1.0},
+            "method": {"discrete": ["auto", "dop853"]},
+        },
+        sampling={"samples": 64, "method": method, "seed": 7, "correlations": [{"axes": ["amplitude_uplift", "eta"], "value": 0.5}]},
+    )
+    made = sweep.table()
+    assert len(made) == 128 and made["restitution.eta"].max() <= 1 and made["restitution.eta"].nunique() > 30
+    pd.testing.assert_frame_equal(as_read(made), expected, check_exact=True, check_dtype=False)
+    pd.testing.assert_frame_equal(pd.concat([sweep.table(0, 50), pickle.loads(pickle.dumps(sweep)).table(50)]), made)
 
 
 def test_a_sweep_with_friction_asks_for_slides() -> None:
@@ -77,6 +103,9 @@ def test_a_record_in_memory_is_swept() -> None:
         ({"amplitude_uplift": []}, {}, "the axis has no values"),
         ({}, {}, "axes"),
         ({"amplitude_uplift": [1.0]}, {"ask": "everything"}, "there is no question"),
+        ({"amplitude_uplift": {"lognormal": [4.0, 0.4]}}, {}, "sampling"),
+        ({"half_width": {"normal": [0.4, 0.5]}}, {"sampling": {"samples": 64}}, "half_width"),
+        ({"amplitude_uplift": [1.0]}, {"sampling": {"samples": 64}}, "sampling"),
         ({"amplitude_uplift": [1.0], "omega_p": [1.0, 2.0]}, {"combine": "paired"}, "equally long"),
     ],
 )

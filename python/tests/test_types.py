@@ -15,7 +15,7 @@ import rocking as rk
 PROGRAM = """
 import numpy as np
 import rocking as rk
-from typing import assert_type
+from typing_extensions import assert_type
 
 column = rk.Column.drums(5, half_width=0.5, top_half_width=0.4, height=5.0, density=2700)
 run = rk.simulate(column, rk.pulse("ricker", amplitude_g=0.4, frequency=1.2), eta=0.9, t_end=30.0, theta=np.zeros(5))
@@ -28,7 +28,6 @@ rk.Scene(column, t_end="ten")  # E: not a number
 """
 
 
-@pytest.mark.skipif(sys.version_info < (3, 11), reason="assert_type is in typing from 3.11 on")
 def test_users_are_checked(tmp_path: Path) -> None:
     file = tmp_path / "program.py"
     file.write_text(PROGRAM)
@@ -43,8 +42,6 @@ MODULES = ["rocking", *(f"rocking.{module.name}" for module in pkgutil.iter_modu
 
 @pytest.mark.parametrize("name", MODULES)
 def test_examples_of_docstrings_hold(name: str) -> None:
-    if name == "rocking.dask":
-        pytest.importorskip("dask.dataframe")
     result = doctest.testmod(importlib.import_module(name))
     assert result.failed == 0
 

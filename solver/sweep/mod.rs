@@ -3,6 +3,8 @@
 pub(crate) mod file;
 mod points;
 
+mod columns;
+
 mod distributed;
 
 mod distribution;
@@ -11,5 +13,6 @@ mod sampling;
 
 mod copula;
 
+pub use columns::Field;
 pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep, is_of_records};
 pub use sampling::SamplingMethod;

@@ -17,8 +17,8 @@ use crate::terminal::{json, print};
 use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::SceneFileError;
-use rocking::scene_file::{Cause, MOST_BLOCKS, Setting};
-use rocking::sweep::{Ask, Axis, Fate, Row, Sweep};
+use rocking::scene_file::{Cause, Setting};
+use rocking::sweep::{Ask, Fate, Field, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -138,43 +138,24 @@ pub const TRUNCATED: &str = "truncated";
 
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
-    let of_axis = |axis: &Axis| {
-        let is_number = axis.values.iter().all(|value| matches!(value, Setting::Number(_)));
-        Column::full(&axis.key, if is_number { Kind::Number } else { Kind::Text })
-    };
-    let mut columns = vec![Column::full("index", Kind::Whole)];
-    columns.extend(sweep.axes.iter().map(of_axis));
-    columns.push(Column::full(OUTCOME, Kind::Text));
-    columns.push(Column::sparse("impacts", Kind::Whole));
-    columns.push(Column::sparse("block", Kind::Whole));
-    columns.push(Column::sparse(TIME, Kind::Number));
-    if sweep.ask.is_of_peaks() {
-        let base = sweep.template.with(std::iter::empty()).map_err(Failure::scene)?;
-        let counts = sweep.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
-        // Larger numbers are rows with errors.
-        let counts = counts.filter_map(|count| count.to_string().parse().ok()).filter(|count| *count <= MOST_BLOCKS);
-        let blocks = 1..=counts.max().unwrap_or(base.column.len());
-        let per_block = |name: &str| -> Vec<Column> {
-            blocks.clone().map(|block| Column::sparse(format!("{name}_{block}"), Kind::Number)).collect()
+    let column = |field: Field| {
+        let (full, kind) = match field {
+            Field::Index => (true, Kind::Whole),
+            Field::Axis(place) => {
+                let is_number = sweep.axes[place].values.iter().all(|value| matches!(value, Setting::Number(_)));
+                (true, if is_number { Kind::Number } else { Kind::Text })
+            }
+            Field::Outcome => (true, Kind::Text),
+            Field::Impacts | Field::Block | Field::Separations => (false, Kind::Whole),
+            Field::OverturnedAt | Field::Peak(_) | Field::ResidualSlide(_) | Field::MuDemand | Field::MinNormal => {
+                (false, Kind::Number)
+            }
+            Field::LastMode | Field::Valid | Field::Trust | Field::Truncated | Field::Error => (false, Kind::Text),
         };
-        columns.extend(per_block("peak"));
-        columns.push(Column::sparse("last_mode", Kind::Text));
-        if sweep.ask == Ask::Slides {
-            columns.extend(per_block("residual_slide"));
-        }
-        if sweep.ask == Ask::Validity {
-            columns.push(Column::sparse("valid", Kind::Text));
-            columns.push(Column::sparse("mu_demand", Kind::Number));
-            columns.push(Column::sparse("min_normal", Kind::Number));
-            columns.push(Column::sparse("separations", Kind::Whole));
-        }
-        if sweep.ask == Ask::Trust {
-            columns.push(Column::sparse(TRUST, Kind::Text));
-        }
-    }
-    columns.push(Column::sparse(TRUNCATED, Kind::Text));
-    columns.push(Column::sparse("error", Kind::Text));
-    Ok(columns)
+        let make = if full { Column::full } else { Column::sparse };
+        make(sweep.heading(field), kind)
+    };
+    Ok(sweep.fields().map_err(Failure::scene)?.into_iter().map(column).collect())
 }
 
 /// Columns of every table besides its axes: index, outcome, impacts, block, time, truncated, error.

@@ -133,6 +133,16 @@ class Run:
         return self._response.force()
 
     @cached_property
+    def phi(self) -> Array:
+        """Rotations at the interfaces [rad], the angle of the block above minus that of the block below, shape (rows, blocks)."""
+        return self._response.relative_angles()
+
+    @cached_property
+    def top(self) -> Array:
+        """Displacement of the middle of the column's top in the frame of the ground [m], to the right and upwards, shape (rows, 2)."""
+        return self._response.top_displacement()
+
+    @cached_property
     def events(self) -> pd.DataFrame:
         """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s], impulses [N s]."""
         columns: dict[str, Any] = {}
@@ -197,7 +207,11 @@ class Run:
         return self._response.warnings
 
     def to_pandas(self) -> pd.DataFrame:
-        """The rows as a table with the columns of ``response.csv`` before ``pattern``: ``t``, ``theta_1``, ..., ``omega_1``, ..., ``ground_x``, ``ground_y``; where blocks slide or fly, their places, velocities and forces as well."""
+        """The rows as a table with the columns of ``response.csv`` except ``pattern``: ``t``, ``theta_1``, ..., ``omega_1``, ..., ``ground_x``, ``ground_y``.
+
+        Where blocks slide or fly, their places, velocities and forces as well; ``phi_1``, ... [rad] and ``top_x``, ``top_y`` [m] where the scene's
+        ``output_columns`` ask for them.
+        """
         columns: dict[str, Any] = {"t": self.t}
         for name, values in (("theta", self.theta), ("omega", self.omega), ("slide", self.slide), ("gap", self.gap)):
             if values is not None:
@@ -207,22 +221,33 @@ class Run:
             for kind, name in enumerate(("x", "y", "vx", "vy", "normal", "tangential", "moment")):
                 columns.update({f"{name}_{block + 1}": states[:, block, kind] for block in range(states.shape[1])})
         columns.update({"ground_x": self.ground[:, 0], "ground_y": self.ground[:, 1]})
+        for asked in self._response.output_columns:
+            if asked == "relative":
+                columns.update({f"phi_{interface + 1}": self.phi[:, interface] for interface in range(self.phi.shape[1])})
+            elif asked == "top":
+                columns.update({"top_x": self.top[:, 0], "top_y": self.top[:, 1]})
         return pd.DataFrame(columns)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """The rows as a data set over ``t`` and ``block``."""
+        """The rows as a data set over ``t`` and ``block``; ``phi`` and ``top`` where the scene's ``output_columns`` ask for them."""
         import xarray
 
         names = {"theta": "rad", "omega": "rad/s", "slide": "m", "gap": "m"}
         known = {name: values for name in names if (values := getattr(self, name)) is not None}
         variables = {name: (("t", "block"), values, {"units": names[name]}) for name, values in known.items()}
         ground = {"ground": (("t", "direction"), self.ground, {"units": "m/s²"})}
+        asked = self._response.output_columns
+        if "relative" in asked:
+            variables["phi"] = (("t", "block"), self.phi, {"units": "rad"})
+        if "top" in asked:
+            ground["top"] = (("t", "direction"), self.top, {"units": "m"})
         coordinates = {"t": self.t, "block": np.arange(1, self.theta.shape[1] + 1), "direction": ["horizontal", "vertical"]}
         return xarray.Dataset({**variables, **ground}, coords=coordinates, attrs={"status": self.status, "t_final": self.t_final})
 
     def to_json(self) -> str:
         """Summary, rows and events as JSON."""
-        rows = {name: self.to_pandas()[name].tolist() for name in self.to_pandas().columns}
+        table = self.to_pandas()
+        rows = {name: table[name].tolist() for name in table.columns}
         return json.dumps({"summary": self.summary, "rows": rows, "events": json.loads(self._response.events_json())})
 
     def write(self, folder: str | os.PathLike[str]) -> None:

@@ -22,11 +22,15 @@ class Sweep:
         The base scene.
     axes : mapping
         Keys of a scene file, dotted or short as in a sweep file, and their values: a sequence of numbers or names, or
-        ``{"from": .., "to": .., "steps": .., "scale": "log"}``. The last axis runs fastest.
+        ``{"from": .., "to": .., "steps": .., "scale": "log"}``, or a distribution such as ``{"lognormal": [median, dispersion]}``. The last axis runs
+        fastest.
     ask : str
         ``outcome``, ``overturns``, ``peaks``, ``slides``, ``validity`` or ``trust``.
     combine : str
         ``cartesian`` or ``paired``.
+    sampling : mapping
+        Where axes are distributions, the keys of ``[sampling]`` of a sweep file: ``samples``, ``method`` (``plain``, ``latin-hypercube`` or ``sobol``),
+        ``seed``, ``correlations``.
 
     Raises
     ------
@@ -40,9 +44,18 @@ class Sweep:
     ['no-uplift', 'rocks', 'overturns']
     """
 
-    def __init__(self, scene: Scene, axes: Mapping[str, Any], *, ask: str = "outcome", combine: str = "cartesian") -> None:
-        self._source: tuple[Any, ...] = (scene, dict(axes), ask, combine)
-        text = _rocking.to_toml({"ask": ask, "combine": combine, "axes": dict(axes)})
+    def __init__(
+        self,
+        scene: Scene,
+        axes: Mapping[str, Any],
+        *,
+        ask: str = "outcome",
+        combine: str = "cartesian",
+        sampling: Mapping[str, Any] | None = None,
+    ) -> None:
+        self._source: tuple[Any, ...] = (scene, dict(axes), ask, combine, sampling)
+        drawn = {} if sampling is None else {"sampling": dict(sampling)}
+        text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": dict(axes)})
         self._sweep = _rocking.Sweep.from_toml(text, "<sweep>", scene.toml, scene.file)
 
     @classmethod
@@ -96,14 +109,29 @@ class Sweep:
         if len(source) == 1:
             self.__dict__.update(Sweep.load(source[0]).__dict__)
         else:
-            scene, axes, ask, combine = source
-            self.__init__(scene, axes, ask=ask, combine=combine)  # type: ignore[misc]
+            scene, axes, ask, combine, sampling = source
+            self.__init__(scene, axes, ask=ask, combine=combine, sampling=sampling)  # type: ignore[misc]
 
 
 #: File of a scene that a sweep made of its base scene.
 WITHOUT_KEYS = "<point of a sweep>"
 
 
-def sweep(scene: Scene, axes: Mapping[str, Any], *, ask: str = "outcome", combine: str = "cartesian", threads: int = 0) -> pd.DataFrame:
-    """Runs a sweep; as :class:`Sweep` and :meth:`Sweep.table`."""
-    return Sweep(scene, axes, ask=ask, combine=combine).table(threads=threads)
+def sweep(
+    scene: Scene,
+    axes: Mapping[str, Any],
+    *,
+    ask: str = "outcome",
+    combine: str = "cartesian",
+    sampling: Mapping[str, Any] | None = None,
+    threads: int = 0,
+) -> pd.DataFrame:
+    """Runs a sweep; as :class:`Sweep` and :meth:`Sweep.table`.
+
+    >>> from rocking import Column, pulse
+    >>> scene = Scene(Column.prisms(1, half_width=0.4, half_height=1.6), pulse("sine-pulse", amplitude_uplift=3, omega_p=5), eta=0.9)
+    >>> drawn = sweep(scene, {"amplitude_uplift": {"lognormal": [5.0, 0.4]}}, sampling={"samples": 200, "method": "sobol", "seed": 1})
+    >>> bool((drawn.outcome == "overturns").mean() > 0.05)
+    True
+    """
+    return Sweep(scene, axes, ask=ask, combine=combine, sampling=sampling).table(threads=threads)
