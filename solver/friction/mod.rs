@@ -14,10 +14,12 @@ mod complementarity;
 pub mod contact;
 pub mod gaps;
 pub mod generated;
+pub mod guard_series;
 pub mod guards;
 pub mod joint;
 pub mod rows;
 pub mod search;
+pub mod series;
 
 #[cfg(test)]
 mod generated_test;

@@ -14,6 +14,7 @@ use super::chain::{Chain, Motion, Rates};
 use super::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
+use crate::numerics::elimination::Factors;
 use crate::numerics::per_block::PerBlock;
 
 /// A coordinate of a configuration.
@@ -142,15 +143,17 @@ impl<'c, 'a> Rows<'c, 'a> {
     }
 
     /// Values of the coordinates for which the rows balance these loads; `None` where the rows do not determine them.
-    fn solve(&self, loads: Vec<f64>) -> Option<Vec<f64>> {
+    fn solve(&self, mut loads: Vec<f64>) -> Option<Vec<f64>> {
         let size = self.coordinates.len();
-        let mut matrix = vec![0.0; size * size];
+        let mut factors = Factors::with_size(size);
         for row in 0..size {
             for (column, motion) in self.columns.iter().enumerate() {
-                matrix[row * size + column] = self.work(row, &motion.linear, Some(&motion.angular));
+                *factors.entry(row, column) = self.work(row, &motion.linear, Some(&motion.angular));
             }
         }
-        solved(matrix, loads)
+        factors.factorise()?;
+        factors.solve(&mut loads);
+        loads.iter().all(|x| x.is_finite()).then_some(loads)
     }
 
     /// The accelerations at these rates on a moving ground.
@@ -227,34 +230,4 @@ fn answer(chain: &Chain, points: &[Vec2], rates: Rates, change: Motion) -> Answe
     };
     let contacts = (0..blocks.len()).map(contact).collect();
     Answer { rates, change, contacts }
-}
-
-/// `x` of `A x = b` by elimination with partial pivoting, `A` row by row; `None` if a pivot vanishes.
-fn solved(mut a: Vec<f64>, mut b: Vec<f64>) -> Option<Vec<f64>> {
-    let size = b.len();
-    for column in 0..size {
-        let pivot = (column..size).max_by(|p, q| a[p * size + column].abs().total_cmp(&a[q * size + column].abs()))?;
-        let value = a[pivot * size + column];
-        if value == 0.0 || !value.is_finite() {
-            return None;
-        }
-        if pivot != column {
-            (0..size).for_each(|k| a.swap(pivot * size + k, column * size + k));
-            b.swap(pivot, column);
-        }
-        for row in column + 1..size {
-            let factor = a[row * size + column] / value;
-            if factor != 0.0 {
-                for k in column..size {
-                    a[row * size + k] -= factor * a[column * size + k];
-                }
-                b[row] -= factor * b[column];
-            }
-        }
-    }
-    for row in (0..size).rev() {
-        let known: f64 = (row + 1..size).map(|k| a[row * size + k] * b[k]).sum();
-        b[row] = (b[row] - known) / a[row * size + row];
-    }
-    b.iter().all(|x| x.is_finite()).then_some(b)
 }

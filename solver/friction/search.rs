@@ -36,7 +36,7 @@ pub struct Solution {
 const IMPACT_SHARE: f64 = 1e-10;
 
 /// The same of accelerations and forces. A guard asks for twice as much ([`force_slack`]), so that what ends a state is no rounding here.
-const ACCELERATION_SHARE: f64 = 1e-11;
+pub const ACCELERATION_SHARE: f64 = 1e-11;
 
 /// Share of the speed at work by which an impact must change some velocity to be one.
 const JUMP_SHARE: f64 = 1e-9;

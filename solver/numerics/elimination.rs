@@ -1,4 +1,5 @@
-//! Small systems of linear equations whose matrix is not symmetric: elimination with partial pivoting.
+//! Small systems of linear equations whose matrix is not symmetric: elimination with partial pivoting. [`eliminate`] serves one system of known size,
+//! [`Factors`] several with one matrix.
 
 /// `x` of `matrix · x = loads`; `None` where a pivot vanishes or a number is not finite.
 #[inline]
@@ -34,6 +35,76 @@ pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: 
     loads.iter().all(|value| value.is_finite()).then_some(loads)
 }
 
+/// A matrix, and its factors once it is factorised.
+#[derive(Clone, Debug)]
+pub struct Factors {
+    size: usize,
+    /// Row by row; factorised, multipliers below the diagonal.
+    entries: Vec<f64>,
+    /// Row that takes the place of each column's pivot.
+    pivots: Vec<usize>,
+}
+
+impl Factors {
+    /// Storage for a matrix with so many rows and columns.
+    pub fn with_size(size: usize) -> Factors {
+        Factors { size, entries: vec![0.0; size * size], pivots: vec![0; size] }
+    }
+
+    /// An entry of the matrix, to be written before it is factorised.
+    pub fn entry(&mut self, row: usize, column: usize) -> &mut f64 {
+        &mut self.entries[row * self.size + column]
+    }
+
+    /// Factorises the matrix; `None` where a pivot vanishes or is not finite.
+    pub fn factorise(&mut self) -> Option<()> {
+        let (size, a) = (self.size, &mut self.entries);
+        for column in 0..size {
+            let mut pivot = column;
+            for row in column + 1..size {
+                if a[row * size + column].abs() >= a[pivot * size + column].abs() {
+                    pivot = row;
+                }
+            }
+            self.pivots[column] = pivot;
+            let value = a[pivot * size + column];
+            if value == 0.0 || !value.is_finite() {
+                return None;
+            }
+            if pivot != column {
+                (0..size).for_each(|k| a.swap(pivot * size + k, column * size + k));
+            }
+            for row in column + 1..size {
+                let factor = a[row * size + column] / value;
+                a[row * size + column] = factor;
+                if factor != 0.0 {
+                    for k in column + 1..size {
+                        a[row * size + k] -= factor * a[column * size + k];
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Replaces loads by the solution. The matrix must be factorised.
+    pub fn solve(&self, loads: &mut [f64]) {
+        let (size, a) = (self.size, &self.entries);
+        for (column, pivot) in self.pivots.iter().enumerate() {
+            loads.swap(column, *pivot);
+        }
+        for row in 1..size {
+            for column in 0..row {
+                loads[row] -= a[row * size + column] * loads[column];
+            }
+        }
+        for row in (0..size).rev() {
+            let known: f64 = (row + 1..size).map(|k| a[row * size + k] * loads[k]).sum();
+            loads[row] = (loads[row] - known) / a[row * size + row];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,11 +116,22 @@ mod tests {
         let loads = matrix.map(|row| row.iter().zip(&x).map(|(a, b)| a * b).sum());
         let solution = eliminate(matrix, loads).expect("regular");
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-14), "{solution:?}");
+        let mut factors = Factors::with_size(3);
+        for (row, entries) in matrix.iter().enumerate() {
+            entries.iter().enumerate().for_each(|(column, entry)| *factors.entry(row, column) = *entry);
+        }
+        factors.factorise().expect("regular");
+        let mut solution = loads;
+        factors.solve(&mut solution);
+        assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-14), "{solution:?}");
     }
 
     #[test]
     fn dependent_rows_have_no_solution() {
         assert_eq!(eliminate([[1.0, 2.0], [2.0, 4.0]], [1.0, 2.0]), None);
         assert_eq!(eliminate([[f64::NAN]], [1.0]), None);
+        let mut factors = Factors::with_size(2);
+        (0..4).for_each(|k| *factors.entry(k / 2, k % 2) = [1.0, 2.0, 2.0, 4.0][k]);
+        assert_eq!(factors.factorise(), None);
     }
 }

@@ -11,7 +11,7 @@ mod alone;
 mod coefficients;
 mod series;
 
-pub use coefficients::MAX_ORDER;
+pub use coefficients::{MAX_ORDER, reciprocal, turned};
 pub use series::SeriesSystem;
 
 use super::control::{Attempt, Part, Tolerance, rough_root, without_remainder};
@@ -26,24 +26,24 @@ use wide::f64x2;
 const MIN_ORDER: usize = 4;
 
 /// What a term before the last one still counts for: of an odd or even function every second coefficient is zero.
-const BEFORE_LAST: f64 = 0.1;
+pub const BEFORE_LAST: f64 = 0.1;
 
 /// Terms are kept this much smaller than the tolerance. Without, errors are what is asked for at best, several times that where the
 /// motion lingers at an unstable balance; it costs an eighth of the step.
-const MARGIN: f64 = 8.0;
+pub const MARGIN: f64 = 8.0;
 
 /// Error of a step of the largest order below which a lower one is looked for: above, it would save less than looking costs.
 const SHORT: f64 = 1e-3;
 
 /// Steps aim this far below what just meets the tolerance.
-const SAFETY: f64 = 0.9;
+pub const SAFETY: f64 = 0.9;
 
 /// Error of a step above which a longer one is not looked for: it would save less than looking costs.
 const LONG_ENOUGH: f64 = 0.1;
 
 /// A step is no longer than so many times what was wanted: the last terms of a series say little of a step far beyond those that
 /// they were looked at for, where the motion lingers at an unstable balance most of all.
-const LARGEST_GROWTH: f64 = 8.0;
+pub const LARGEST_GROWTH: f64 = 8.0;
 
 /// Rounds in which a step as long as the terms allow is looked for.
 const GUESSES: usize = 3;

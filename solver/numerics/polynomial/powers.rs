@@ -93,6 +93,21 @@ impl Powers {
         self
     }
 
+    /// The polynomial up to a place, which becomes 1.
+    pub fn up_to(mut self, place: f64) -> Powers {
+        let mut power = 1.0;
+        for coefficient in &mut self.coefficients[1..=self.degree] {
+            power *= place;
+            *coefficient *= power;
+        }
+        self
+    }
+
+    /// The coefficient of a power.
+    pub fn coefficient(&self, power: usize) -> f64 {
+        self.coefficients[power]
+    }
+
     /// Value at `s`.
     pub fn evaluate(&self, s: f64) -> f64 {
         self.terms().iter().rev().fold(0.0, |sum, c| sum * s + c)

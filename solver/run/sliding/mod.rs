@@ -15,6 +15,7 @@ mod contacts;
 mod impact;
 mod mover;
 mod recorder;
+mod series_steps;
 mod smooth;
 mod state;
 mod step;

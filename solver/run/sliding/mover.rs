@@ -1,6 +1,6 @@
 //! Time passes: at rest until the ground starts the column, in motion by steps of an explicit method until a guard falls to zero.
 
-use super::recorder::{Inside, Recorder};
+use super::recorder::{Moments, Recorder};
 use super::smooth::{Moment, Smooth};
 use super::state::{Ended, State};
 use super::step::Step;
@@ -11,11 +11,11 @@ use crate::friction::joint::{Joint, Slip};
 use crate::numerics::ode::explicit::{Explicit, System, Tableau};
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::numerics::ode::methods::{ForTableau, Method};
-use crate::numerics::ode::tableaus::dop853::Dop853;
 use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::problem::Problem;
 use crate::run::rest;
+use crate::scene::DynamicsSource;
 
 /// First step of a run `[s]`; step control corrects it.
 const FIRST_STEP: f64 = 1e-3;
@@ -33,10 +33,10 @@ const LEAST_WAIT: f64 = 1e-9;
 
 /// What moves a column with friction.
 pub struct Mover<'p> {
-    problem: &'p Problem<'p>,
-    friction: &'p Coefficients,
+    pub(super) problem: &'p Problem<'p>,
+    pub(super) friction: &'p Coefficients,
     /// Step length that the steps before suggest `[s]`.
-    pace: Option<f64>,
+    pub(super) pace: Option<f64>,
     /// When the last wait ended with a start `[s]`, and for how long a start at that time has been in vain `[s]`.
     started: f64,
     vain: f64,
@@ -49,13 +49,41 @@ struct Resting<'p> {
     moment: Option<Moment<'p>>,
 }
 
-impl<'p> Inside<'p> for Resting<'p> {
+impl<'p> Moments<'p> for Resting<'p> {
     fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
         let moment = self.moment.insert(self.smooth.moment(self.smooth.base.clone()));
         if needs_forces {
             self.smooth.answer(t, moment);
         }
         moment
+    }
+}
+
+/// Where steps are in time.
+pub(super) struct Place {
+    /// `[s]`
+    pub t: f64,
+    /// Segment of the ground motion.
+    pub segment: usize,
+}
+
+impl Place {
+    /// Goes on to the segment that is not over; why the steps end if there is none, or the ground jumps.
+    pub fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
+        loop {
+            let left = problem.ground[self.segment].end - self.t;
+            if self.t + left > self.t {
+                return None;
+            }
+            self.t = problem.ground[self.segment].end;
+            if self.segment + 1 == problem.ground.len() {
+                return Some(Ended::Time);
+            }
+            self.segment += 1;
+            if problem.ground[self.segment].jumps {
+                return Some(Ended::Jump);
+            }
+        }
     }
 }
 
@@ -90,12 +118,15 @@ impl<'p> Mover<'p> {
         if is_still {
             return Ok(self.wait(from, recorder));
         }
-        let method = self.problem.scene.options.method;
-        // Series of equations with friction are not symmetric; order 8 takes their place.
-        let method = if method.stepper() == Method::Taylor { Method::Dop853 } else { method };
+        let options = &self.problem.scene.options;
+        // Series by hand would be no check of generated equations by those written by hand: order 8 takes their place.
+        let method = match options.method.stepper() {
+            Method::Taylor if options.dynamics == DynamicsSource::Generic => Method::Dop853,
+            method => method,
+        };
         match method.explicit(Passing { mover: self, from, recorder }) {
             Ok(result) => result,
-            Err(passing) => passing.with::<Dop853>(),
+            Err(Passing { mover, from, recorder }) => mover.steps_on_series(from, recorder),
         }
     }
 
@@ -133,37 +164,39 @@ impl<'p> Mover<'p> {
         (State { t, segment, configuration: from.configuration.clone() }, ended)
     }
 
-    fn smooth(&self, from: &State) -> Smooth<'p> {
+    pub(super) fn smooth(&self, from: &State) -> Smooth<'p> {
         Smooth::new(self.problem, self.friction, from)
+    }
+
+    /// Where steps from a state begin.
+    pub(super) fn enter(&self, from: &State) -> Place {
+        Place { t: from.t, segment: from.segment }
+    }
+
+    /// Length of the first step from a state `[s]`.
+    pub(super) fn first_step(&self) -> f64 {
+        self.pace.unwrap_or(FIRST_STEP)
     }
 
     /// Steps until a guard falls to zero, the ground jumps, or the time is over.
     fn steps<M: Tableau>(&mut self, from: &State, recorder: &mut Recorder<'p>) -> Result<(State, Ended), SolveError> {
         let problem = self.problem;
         let mut smooth = self.smooth(from);
-        let (mut t, mut segment) = (from.t, from.segment);
+        let mut at = self.enter(from);
         let mut x = smooth.state(&from.configuration);
         let mut method = Explicit::<Vec<f64>, M>::new(&x);
         let mut interpolant = Interpolant::new(&x);
         let mut slope = x.clone();
         let list = guards::guards(&from.configuration.joints);
-        let mut wanted = self.pace.unwrap_or(FIRST_STEP);
+        let mut wanted = self.first_step();
         let mut pace = 0.0f64;
         self.work.phases += 1;
         let ended = 'stretch: loop {
-            let left = smooth.segment.end - t;
-            if t + left <= t {
-                t = smooth.segment.end;
-                if segment + 1 == problem.ground.len() {
-                    break Ended::Time;
-                }
-                segment += 1;
-                smooth.segment = &problem.ground[segment];
-                if smooth.segment.jumps {
-                    break Ended::Jump;
-                }
-                continue;
+            if let Some(ended) = at.next_segment(problem) {
+                break ended;
             }
+            smooth.segment = &problem.ground[at.segment];
+            let (t, left) = (at.t, smooth.segment.end - at.t);
             smooth.slope(t, &x, &mut slope);
             if !problem.scene.options.method.has_step_control() {
                 wanted = problem.scene.options.step;
@@ -201,18 +234,18 @@ impl<'p> Mover<'p> {
             }
             let s = first.map_or(1.0, |(s, _)| s);
             let until = if s == 1.0 { t + h } else { t + s * h };
-            recorder.read(segment, [t, until], &mut step);
+            recorder.read(at.segment, [t, until], &mut step);
             let last = step.configuration(s);
             if let Some((_, guard)) = first {
                 x = smooth.state(&last);
-                t = until;
+                at.t = until;
                 break Ended::Guard(guard);
             }
             x.clone_from(method.end());
-            t = until;
+            at.t = until;
         };
         self.pace = Some(wanted);
         self.work.rhs_calls += smooth.calls;
-        Ok((State { t, segment, configuration: smooth.configuration(&x) }, ended))
+        Ok((State { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }
 }

@@ -10,7 +10,7 @@ use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact::Coefficients;
 use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::ContactForce;
-use crate::numerics::guards::first_crossing;
+use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{
     BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport,
@@ -23,19 +23,35 @@ use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
 use std::collections::BTreeMap;
 
-/// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
-const GAUSS: [(f64, f64); 5] = [
-    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
-    (0.230_765_344_947_158_45, 0.239_314_335_249_683_24),
-    (0.5, 0.284_444_444_444_444_45),
-    (0.769_234_655_052_841_5, 0.239_314_335_249_683_24),
-    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
-];
-
 /// The inside of a stretch.
-pub trait Inside<'p> {
+pub trait Moments<'p> {
     /// The column at a time `[s]`, with accelerations and forces where they are needed.
     fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p>;
+}
+
+/// The inside of a step.
+pub trait Inside<'p>: Moments<'p> {
+    /// Raises the largest sizes of the blocks' angles `[rad]` to those up to a time `[s]`.
+    fn peaks(&mut self, until: f64, peaks: &mut [f64]);
+
+    /// Visits the nodes of a quadrature up to a time `[s]`.
+    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>));
+}
+
+/// A node of the quadrature over a step.
+pub struct Node<'m, 'p> {
+    /// `[s]`
+    pub t: f64,
+    /// What it stands for `[s]`.
+    pub weight: f64,
+    /// `Σ m v` relative to the ground `[kg m/s]`.
+    pub momentum: Vec2,
+    /// In the axes of the faces that carry the contacts, by interface; none where the states determine none.
+    pub contacts: PerBlock<ContactForce>,
+    /// `[m/s]`, by interface.
+    pub slide_rates: PerBlock<f64>,
+    /// The column, where some interface may be free.
+    pub flying: Option<&'m Moment<'p>>,
 }
 
 /// The record of a run under way.
@@ -229,7 +245,7 @@ impl<'p> Recorder<'p> {
     }
 
     /// Records rows and forces of a span at rest, of the column with its slides: nothing moves, and nothing does work.
-    pub fn rest(&mut self, column: &Column, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
+    pub fn rest(&mut self, column: &Column, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Moments<'p>) {
         if !self.problem.is_recorded() {
             return;
         }
@@ -258,57 +274,24 @@ impl<'p> Recorder<'p> {
         while let Some(t) = self.next_row().filter(|t| *t < until) {
             self.row(t, inside.moment(t.max(from), true));
         }
-        let mut before = (from, inside.moment(from, false).configuration.omega.clone());
-        for (node, weight) in GAUSS {
-            let t = from + node * (until - from);
-            let moment = inside.moment(t, true);
-            self.forces_and_work(segment, t, weight * (until - from), moment);
-            let omega = moment.configuration.omega.clone();
-            self.crests([before.0, t], [&before.1, &omega], inside);
-            before = (t, omega);
-        }
-        let end = inside.moment(until, false).configuration.clone();
-        self.crests([before.0, until], [&before.1, &end.omega], inside);
-        self.angles(&end);
+        inside.peaks(until, &mut self.peak_theta);
+        inside.nodes(until, &mut |node| self.node(segment, node));
     }
 
-    /// Records the crests of angles between two times at which the blocks turn like this.
-    fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], inside: &mut dyn Inside<'p>) {
-        for block in 0..rates[0].len() {
-            let [start, end] = rates.map(|rates| rates[block]);
-            let angle = inside.moment(until, false).configuration.theta[block];
-            let may_be_higher = angle.abs() + start.abs().max(end.abs()) * (until - from) > self.peak_theta[block];
-            if start * end >= 0.0 || !may_be_higher {
+    /// Records forces, flights and work at a node of the quadrature over a step.
+    fn node(&mut self, segment: usize, node: &Node) {
+        let Node { t, weight, momentum: [px, py], contacts, slide_rates, flying } = node;
+        let [ax, ay] = self.problem.ground[segment].accelerations(*t);
+        self.report.ground_work -= weight * (ax * px + ay * py);
+        let is_free =
+            |interface: usize| flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free);
+        for (interface, (contact, rate)) in contacts.iter().zip(slide_rates).enumerate() {
+            if let Some(moment) = flying.filter(|_| is_free(interface)) {
+                let gap = lowest_gap(moment.chain(), interface);
+                self.report.highest_flight = self.report.highest_flight.max(gap);
                 continue;
             }
-            let mut rate =
-                |s: f64| start.signum() * inside.moment(from + s * (until - from), false).configuration.omega[block];
-            if let Some(s) = first_crossing(&mut rate, start.abs(), 1.0) {
-                self.angles(&inside.moment(from + s * (until - from), false).configuration);
-            }
-        }
-    }
-
-    fn angles(&mut self, configuration: &Configuration) {
-        for (peak, angle) in self.peak_theta.iter_mut().zip(&configuration.theta) {
-            *peak = peak.max(angle.abs());
-        }
-    }
-
-    /// Records the forces at a moment, and their work over a part of the step `[s]`.
-    fn forces_and_work(&mut self, segment: usize, t: f64, part: f64, moment: &Moment) {
-        let (Moment { configuration: now, answer, .. }, chain) = (moment, moment.chain());
-        let motion = chain.motion(&Rates::of(now));
-        let [ax, ay] = self.problem.ground[segment].accelerations(t);
-        for (block, v) in self.column().blocks().iter().zip(&motion.linear) {
-            self.report.ground_work -= part * block.mass * (ax * v[0] + ay * v[1]);
-        }
-        for (interface, contact) in answer.iter().flat_map(|answer| answer.contacts.iter().enumerate()) {
-            if now.joints[interface] == Joint::Free {
-                self.report.highest_flight = self.report.highest_flight.max(lowest_gap(chain, interface));
-                continue;
-            }
-            self.report.friction_work += part * contact.tangential * now.slide_rate[interface];
+            self.report.friction_work += weight * contact.tangential * rate;
             self.contact(interface, contact);
         }
     }

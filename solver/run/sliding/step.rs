@@ -1,15 +1,21 @@
-//! The inside of a step: the first guard that falls to zero.
+//! The inside of a step: the first guard that falls to zero, and what the recorder reads.
+//!
+//! A step has a dense output ([`Output`]). Where that is a Taylor series, guards, forces and angles are polynomials, whose roots and crests are isolated;
+//! guards of forces are then refined on the forces themselves. Where it is the interpolant of an explicit method, guards are sampled.
 
-use super::recorder::Inside;
+use super::recorder::{Inside, Moments, Node};
 use super::smooth::{Moment, Smooth};
-use crate::friction::chain::Pose;
+use crate::friction::chain::{Pose, Rates};
 use crate::friction::gaps::{self, Corner};
+use crate::friction::guard_series::SeriesSpan;
 use crate::friction::guards::{self, Guard};
-use crate::friction::joint::Configuration;
-use crate::friction::search::force_slack;
-use crate::mechanics::dynamics::Ground;
+use crate::friction::joint::{Configuration, Joint};
+use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale, force_slack};
+use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::numerics::guards::first_crossing;
 use crate::numerics::ode::interpolant::Interpolant;
+use crate::numerics::polynomial::powers::Powers;
+use crate::numerics::polynomial::track::Track;
 use crate::scene::SolveOptions;
 
 /// Share of its size below which a guard that starts from zero has not left it.
@@ -21,13 +27,65 @@ const LOW_SHARE: f64 = 1e-3;
 /// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
 const NEAR_START: f64 = 1e-4;
 
+/// Place in a step up to which a guard that is not above zero at the start by rounding must have risen.
+const RISEN_BY: f64 = 0.03;
+
+/// Rounds in which a root of a polynomial is refined on the forces themselves: each squares the error.
+const REFINEMENTS: usize = 6;
+
+/// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_24),
+    (0.5, 0.284_444_444_444_444_45),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_24),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+/// The dense output of a step, `s` from 0 to 1.
+pub trait Output {
+    /// Writes `[values, rates]` of the coordinates at a place.
+    fn state(&self, s: f64, state: &mut [f64]);
+
+    /// The step on a series, if it is one.
+    fn series(&self) -> Option<&SeriesSpan<'_>>;
+}
+
+impl Output for Interpolant<Vec<f64>> {
+    fn state(&self, s: f64, state: &mut [f64]) {
+        self.evaluate(s, state);
+    }
+
+    fn series(&self) -> Option<&SeriesSpan<'_>> {
+        None
+    }
+}
+
+impl Output for SeriesSpan<'_> {
+    fn state(&self, s: f64, state: &mut [f64]) {
+        let (values, rates) = state.split_at_mut(state.len() / 2);
+        let (t, highest) = (s * self.h, self.series.orders() + 1);
+        for ((own, value), rate) in self.series.values().zip(values).zip(rates) {
+            (*value, *rate) = (0.0, 0.0);
+            for k in (0..=highest).rev() {
+                *rate = *rate * t + *value;
+                *value = *value * t + own.of(k);
+            }
+        }
+    }
+
+    fn series(&self) -> Option<&SeriesSpan<'_>> {
+        Some(self)
+    }
+}
+
 /// Room made for the moments of a step.
 const USUAL_MOMENTS: usize = 24;
 
 /// An accepted step with what has been evaluated inside it.
-pub struct Step<'s, 'p> {
+pub struct Step<'s, 'p, O> {
     smooth: &'s mut Smooth<'p>,
-    interpolant: &'s Interpolant<Vec<f64>>,
+    output: &'s O,
     t: f64,
     h: f64,
     /// Places, and what was evaluated there.
@@ -39,18 +97,13 @@ pub struct Step<'s, 'p> {
     stick_angle: f64,
 }
 
-impl<'s, 'p> Step<'s, 'p> {
+impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     /// A step from a time on, of a length `[s]`.
-    pub fn new(
-        smooth: &'s mut Smooth<'p>,
-        interpolant: &'s Interpolant<Vec<f64>>,
-        [t, h]: [f64; 2],
-        options: &SolveOptions,
-    ) -> Step<'s, 'p> {
+    pub fn new(smooth: &'s mut Smooth<'p>, output: &'s O, [t, h]: [f64; 2], options: &SolveOptions) -> Step<'s, 'p, O> {
         let &SolveOptions { overturn_angle, stick_angle, .. } = options;
         let state = vec![0.0; 2 * smooth.dof()];
         let (places, moments) = (Vec::with_capacity(USUAL_MOMENTS), Vec::with_capacity(USUAL_MOMENTS));
-        Step { smooth, interpolant, t, h, places, moments, state, overturn_angle, stick_angle }
+        Step { smooth, output, t, h, places, moments, state, overturn_angle, stick_angle }
     }
 
     /// The configuration at a place of the step, 0 to 1.
@@ -63,7 +116,7 @@ impl<'s, 'p> Step<'s, 'p> {
         let index = match self.places.iter().position(|place| *place == s) {
             Some(index) => index,
             None => {
-                self.interpolant.evaluate(s, &mut self.state);
+                self.output.state(s, &mut self.state);
                 self.places.push(s);
                 self.moments.push(self.smooth.moment(self.smooth.configuration(&self.state)));
                 self.places.len() - 1
@@ -94,9 +147,17 @@ impl<'s, 'p> Step<'s, 'p> {
         let mut first: Option<(f64, Guard)> = None;
         for &guard in list {
             let limit = first.map_or(1.0, |(s, _)| s);
-            let found = match guard {
-                Guard::Land(corner) => self.landing(corner, limit),
-                _ => self.crossing(guard, &|step, s| step.value(guard, s), limit),
+            let found = match (guard, self.output.series()) {
+                (Guard::Land(corner), Some(span)) => {
+                    let ([along, above], reach) = span.gap(corner);
+                    self.landing(guard, &|_, s| [along.evaluate(s).abs() - reach, above.evaluate(s)], limit)
+                }
+                (Guard::Land(corner), None) => self.landing(guard, &|step, s| step.gap(corner, s), limit),
+                (_, Some(span)) => span.guard(guard).iter().flatten().fold(None, |found: Option<f64>, track| {
+                    let limit = found.unwrap_or(limit);
+                    self.root(guard, track, limit).or(found)
+                }),
+                (_, None) => self.crossing(guard, &|step, s| step.value(guard, s), limit),
             };
             if let Some(s) = found {
                 first = Some((s, guard));
@@ -105,22 +166,73 @@ impl<'s, 'p> Step<'s, 'p> {
         first
     }
 
-    /// The first place up to `limit` at which a corner lands. Height and distance beside the face are smooth, the larger of both is not: a corner that
-    /// comes from above is followed by its height alone.
-    fn landing(&mut self, corner: Corner, limit: f64) -> Option<f64> {
-        let guard = Guard::Land(corner);
+    /// How far a corner of a free interface is beside the other block's face, and how far above it `[m]`.
+    fn gap(&mut self, corner: Corner, s: f64) -> [f64; 2] {
         let column = self.smooth.column;
-        let gap = |step: &mut Self, s: f64| {
-            let now = &step.at(s, false).configuration;
-            gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner)
-        };
+        let now = &self.at(s, false).configuration;
+        gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner)
+    }
+
+    /// The first place up to `limit` at which a corner with this gap lands. Height and distance beside the face are smooth, the larger of both is not: a
+    /// corner that comes from above is followed by its height alone.
+    fn landing(&mut self, guard: Guard, gap: &dyn Fn(&mut Self, f64) -> [f64; 2], limit: f64) -> Option<f64> {
         if gap(self, 0.0)[1] >= -self.noise(guard) {
             let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
                 return Some(s);
             }
         }
-        self.crossing(guard, &|step, s| step.value(guard, s), limit)
+        let value = |step: &mut Self, s: f64| {
+            let [beside, above] = gap(step, s);
+            beside.max(above)
+        };
+        self.crossing(guard, &value, limit)
+    }
+
+    /// The first place up to `limit` at which a guard falls to zero that is this polynomial. Roots at the start are divided out: as many as leading
+    /// coefficients are rounding.
+    fn root(&mut self, guard: Guard, track: &Powers, limit: f64) -> Option<f64> {
+        let start = track.coefficient(0);
+        let roots = if guard.may_start_from_zero() {
+            let rounding = self.rounding_at_start(guard);
+            if start < -8.0 * rounding[0] {
+                return Some(0.0);
+            }
+            rounding.iter().enumerate().take_while(|(k, rounding)| track.coefficient(*k).abs() <= **rounding).count()
+        } else if start > 0.0 {
+            0
+        } else if track.evaluate(RISEN_BY) <= 0.0 {
+            return Some(0.0);
+        } else {
+            1
+        };
+        let s = Track::Powers(*track).first_root(roots).filter(|s| *s <= limit)?;
+        if guard.needs_forces() { self.refined(guard, track, s, limit) } else { Some(s) }
+    }
+
+    /// A root of a polynomial on the guard itself by Newton's rule: what a series leaves out of forces is more than of angles. `None` where the guard does
+    /// not fall to zero there.
+    fn refined(&mut self, guard: Guard, track: &Powers, root: f64, limit: f64) -> Option<f64> {
+        let mut s = root;
+        for _ in 0..REFINEMENTS {
+            let [_, slope] = track.with_slope(s);
+            let value = self.value(guard, s);
+            if value <= 0.0 && s == 0.0 {
+                break;
+            }
+            let next = s - value / slope;
+            if !(slope < 0.0 && next <= 1.0) {
+                // It only comes close, or falls in the next step.
+                return (value <= 0.0).then_some(s);
+            }
+            let next = next.max(0.0);
+            let is_found = (next - s).abs() <= 4.0 * f64::EPSILON;
+            s = next;
+            if is_found {
+                break;
+            }
+        }
+        (s <= limit).then_some(s)
     }
 
     /// The first place up to `limit` at which a guard falls to zero. A root at the start is divided out, as often as the guard's derivatives
@@ -153,6 +265,23 @@ impl<'s, 'p> Step<'s, 'p> {
         first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }
 
+    /// What value, slope and half the bend of a guard over the step may be by rounding where it starts from zero. What the search for states takes for rounding of
+    /// accelerations leaves a bend, and of a slide's rate a slope.
+    fn rounding_at_start(&mut self, guard: Guard) -> [f64; 3] {
+        let (column, h) = (self.smooth.column, self.h);
+        let ground = Ground::at(self.smooth.segment, self.t, self.smooth.gravity);
+        let scale = acceleration_scale(column, &self.at(0.0, false).configuration, ground);
+        let size = column.size();
+        let speed = START_ROUNDING * (size * self.smooth.gravity).sqrt();
+        let acceleration = 4.0 * ACCELERATION_SHARE * scale;
+        let noise = self.noise(guard);
+        match guard {
+            Guard::Stop(_) => [noise, h * acceleration, 0.0],
+            Guard::Close(_) => [noise, h * speed / size, 0.5 * h * h * acceleration / size],
+            _ => [noise, h * speed, 0.5 * h * h * acceleration],
+        }
+    }
+
     /// What a guard's values that start from zero must exceed to have left it: rounding, and a share of the hops, bounces and slides that are too low to be
     /// followed.
     fn noise(&self, guard: Guard) -> f64 {
@@ -169,8 +298,95 @@ impl<'s, 'p> Step<'s, 'p> {
     }
 }
 
-impl<'p> Inside<'p> for Step<'_, 'p> {
+impl<'p, O: Output> Moments<'p> for Step<'_, 'p, O> {
     fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
         self.at(((t - self.t) / self.h).clamp(0.0, 1.0), needs_forces)
+    }
+}
+
+impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
+    fn peaks(&mut self, until: f64, peaks: &mut [f64]) {
+        let end = ((until - self.t) / self.h).clamp(0.0, 1.0);
+        if let Some(span) = self.output.series() {
+            for (block, peak) in peaks.iter_mut().enumerate() {
+                *peak = Track::Powers(span.angle(block).up_to(end)).largest_size(*peak);
+            }
+            return;
+        }
+        let places = GAUSS.iter().map(|(node, _)| node * end).chain([end]);
+        let mut before = (0.0, self.at(0.0, false).configuration.omega.clone());
+        for s in places {
+            let omega = self.at(s, false).configuration.omega.clone();
+            self.crests([before.0, s], [&before.1, &omega], peaks);
+            before = (s, omega);
+        }
+        raise(peaks, &self.at(end, false).configuration);
+    }
+
+    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>)) {
+        let part = until - self.t;
+        let end = (part / self.h).clamp(0.0, 1.0);
+        let forces = self.output.series().map(|span| {
+            let blocks = 0..span.joints.len();
+            let contacts: Vec<[Powers; 2]> = blocks.clone().map(|i| span.contact_force(i)).collect();
+            (span.momentum(), contacts, blocks.map(|i| span.slide_rate(i)).collect::<Vec<Powers>>())
+        });
+        for (node, weight) in GAUSS {
+            let s = node * end;
+            let (t, weight) = (self.t + s * self.h, weight * part);
+            match &forces {
+                Some((momentum, contacts, rates)) => {
+                    let contact = |[along, across]: &[Powers; 2]| ContactForce {
+                        tangential: along.evaluate(s),
+                        normal: across.evaluate(s),
+                        moment: 0.0,
+                    };
+                    let contacts = contacts.iter().map(contact).collect();
+                    let slide_rates = rates.iter().map(|rate| rate.evaluate(s)).collect();
+                    let momentum = momentum.map(|component| component.evaluate(s));
+                    let has_flight = self.smooth.base.joints.contains(&Joint::Free);
+                    let flying = has_flight.then(|| self.at(s, false));
+                    visit(&Node { t, weight, momentum, contacts, slide_rates, flying });
+                }
+                None => {
+                    let column = self.smooth.column;
+                    let moment = self.at(s, true);
+                    let motion = moment.chain().motion(&Rates::of(&moment.configuration));
+                    let momentum =
+                        column.blocks().iter().zip(&motion.linear).fold([0.0, 0.0], |sum, (block, v)| {
+                            [sum[0] + block.mass * v[0], sum[1] + block.mass * v[1]]
+                        });
+                    let contacts = moment.answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect();
+                    let slide_rates = moment.configuration.slide_rate.clone();
+                    visit(&Node { t, weight, momentum, contacts, slide_rates, flying: Some(moment) });
+                }
+            }
+        }
+    }
+}
+
+impl<O: Output> Step<'_, '_, O> {
+    /// Raises peaks to the crests of angles between two places at which the blocks turn like this.
+    fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], peaks: &mut [f64]) {
+        for block in 0..rates[0].len() {
+            let [start, end] = rates.map(|rates| rates[block]);
+            let angle = self.at(until, false).configuration.theta[block];
+            let may_be_higher = angle.abs() + start.abs().max(end.abs()) * (until - from) * self.h > peaks[block];
+            if start * end >= 0.0 || !may_be_higher {
+                continue;
+            }
+            let mut rate =
+                |share: f64| start.signum() * self.at(from + share * (until - from), false).configuration.omega[block];
+            if let Some(share) = first_crossing(&mut rate, start.abs(), 1.0) {
+                raise(peaks, &self.at(from + share * (until - from), false).configuration);
+            }
+        }
+    }
+}
+
+/// Raises the largest sizes of angles to those of a configuration.
+fn raise(peaks: &mut [f64], configuration: &Configuration) {
+    for (peak, angle) in peaks.iter_mut().zip(&configuration.theta) {
+        *peak = peak.max(angle.abs());
     }
 }

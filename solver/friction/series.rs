@@ -1,0 +1,599 @@
+//! Taylor series of a motion in which blocks stick, slide and fly (docs/book/model.md, section 14).
+//!
+//! Vectors are complex numbers, `x + i y`. A block turned clockwise by `θ` has the direction `z = exp(-iθ)` along its faces and `i z` across them. Where
+//! the sum of what its links carry is known, each block's acceleration is linear in second derivatives:
+//!
+//! ```text
+//! z' = -i θ' z,      y = u z_face                                    the link's direction, the slide as a vector
+//! P_i'' = P_{i-1}'' + 2 h_{i-1} i z_{i-1}'' + a z_{i-1}'' + b z_i'' + y_i''           middles of bases
+//! F_i = F_{i+1} + m_i (P_i'' + e_i i z_i'' + (ẍ_g + i (g + ÿ_g)))                     force at interface i
+//! T + i N = F_i conj(z)                                              in the axes of a face
+//! Q_i = Q_{i+1} + I_i θ_i'' + e_i T_i + (2 h_i - e_i) T_{i+1} - a N_{i+1} - b N_{i+1}  moment about the middle of block i's base
+//! ```
+//!
+//! `a` and `b` are the places of a contact on the lower and on the upper face; the one along which the contact slides has `u` in it. The rows are
+//! `Q_i - b N_i = 0` of the angle that begins at a corner, `T + ε μ N = 0` of a slide, `F_i = 0` and `Q_i = 0` of a free interface. Order by order, products are
+//! convolutions of what is known, and the unknown second derivatives of the order enter linearly, with the matrix of the lowest order for all: one
+//! factorisation serves the whole series. Forces, and so all guards, are series themselves.
+//!
+//! No formula is shared with the generated programs or with [`super::rows`], which check it.
+
+use super::joint::{Configuration, Face, Joint, Slip};
+use super::rows::{Coordinate, coordinates};
+use crate::column::Column;
+use crate::mechanics::kinematics::Vec2;
+use crate::numerics::elimination::Factors;
+use crate::numerics::ode::taylor::{reciprocal, turned};
+use crate::numerics::polynomial::bernstein::COEFFICIENTS;
+use crate::numerics::polynomial::powers::Powers;
+use wide::f64x2;
+
+/// Most orders of second derivatives: coordinates run two ahead.
+pub const MOST_ORDERS: usize = COEFFICIENTS - 2;
+
+/// Coefficients of a number, and of a vector, order by order.
+type Numbers = [f64; COEFFICIENTS];
+type Vectors = [f64x2; COEFFICIENTS];
+
+const NO_NUMBERS: Numbers = [0.0; COEFFICIENTS];
+const NO_VECTORS: Vectors = [f64x2::ZERO; COEFFICIENTS];
+
+/// Blocks that turn together.
+#[derive(Clone, Debug)]
+struct Link {
+    /// Place of the angle among the coordinates; none of the ground.
+    coordinate: Option<usize>,
+    /// `θ`, and `θ'` twice.
+    theta: Numbers,
+    rate: Vectors,
+    /// `z`, its real part twice, and its imaginary part twice.
+    direction: Vectors,
+    real: Vectors,
+    imaginary: Vectors,
+    /// `z''`, and the part of its next coefficient that lower orders give.
+    second: Vectors,
+    known: f64x2,
+}
+
+/// How a contact moves along a face, or its blocks apart.
+#[derive(Clone, Debug)]
+enum Translation {
+    /// The contact slides along the face of a link.
+    Slide {
+        coordinate: usize,
+        /// The link whose face carries the contact.
+        face: usize,
+        /// Whether that is the upper block's.
+        is_upper: bool,
+        /// `ε μ`
+        lift: f64,
+        /// `u`
+        slide: Numbers,
+    },
+    /// The blocks fly: two coordinates from this one on.
+    Apart { coordinate: usize, apart: Vectors },
+}
+
+/// An interface and the block above it.
+#[derive(Clone, Debug)]
+struct Level {
+    joint: Joint,
+    /// Links of the blocks below and above.
+    below: usize,
+    link: usize,
+    /// Places of the contact on both faces without the slide that moves `[m]`.
+    on_lower: f64,
+    on_upper: f64,
+    translation: Option<Translation>,
+    mass: f64,
+    inertia: f64,
+    centroid_height: f64,
+    height: f64,
+    /// `F`, `F conj(z)` in the axes of the lower and of the upper block, and `Q`.
+    force: Vectors,
+    in_lower: Vectors,
+    in_upper: Vectors,
+    moment: Numbers,
+    /// `u N` of a slide.
+    lever: Numbers,
+    /// Parts of the next coefficients that lower orders give: of `y''`, of both forces in axes, of `u N`.
+    known: Known,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Known {
+    translation: f64x2,
+    in_lower: f64x2,
+    in_upper: f64x2,
+    lever: f64,
+}
+
+/// The series of a set of states.
+#[derive(Clone, Debug)]
+pub struct Series {
+    coordinates: Vec<Coordinate>,
+    /// The ground, then the links from the base.
+    links: Vec<Link>,
+    levels: Vec<Level>,
+    /// `ẍ_g + i (g + ÿ_g)`
+    ground: Vectors,
+    factors: Factors,
+    /// Residual of each row, then second derivatives of the coordinates.
+    rows: Vec<f64>,
+    second: Vec<f64>,
+    /// `Σ m v` at the start `[kg m/s]`.
+    momentum: f64x2,
+    mass: f64,
+    /// Orders of second derivatives that are known.
+    orders: usize,
+}
+
+/// A force in the axes of a face `[N]`: along it and across it.
+pub type InAxes = [f64; 2];
+
+/// `i v`
+fn across(v: f64x2) -> f64x2 {
+    turned(v)
+}
+
+/// `a conj(b)`
+#[inline(always)]
+fn in_axes(a: f64x2, real: f64x2, imaginary: f64x2) -> f64x2 {
+    a * real - across(a * imaginary)
+}
+
+impl Link {
+    fn new(coordinate: Option<usize>) -> Link {
+        let mut link = Link {
+            coordinate,
+            theta: NO_NUMBERS,
+            rate: NO_VECTORS,
+            direction: NO_VECTORS,
+            real: NO_VECTORS,
+            imaginary: NO_VECTORS,
+            second: NO_VECTORS,
+            known: f64x2::ZERO,
+        };
+        link.set_direction(0, f64x2::new([1.0, 0.0]));
+        link
+    }
+
+    fn set_direction(&mut self, order: usize, direction: f64x2) {
+        let [real, imaginary] = direction.to_array();
+        self.direction[order] = direction;
+        (self.real[order], self.imaginary[order]) = (f64x2::splat(real), f64x2::splat(imaginary));
+    }
+
+    /// `-i Σ_{j < rates} θ'_j z_{last-j}`: the part of a derivative of `z` that so many rates give.
+    #[inline(always)]
+    fn turning(&self, rates: usize, last: usize) -> f64x2 {
+        let terms = self.rate[..rates].iter().zip(self.direction[..=last].iter().rev());
+        -across(terms.fold(f64x2::ZERO, |sum, (rate, direction)| rate * direction + sum))
+    }
+}
+
+impl Level {
+    /// Component across the face along which the contact slides, order by order.
+    fn across(&self, is_upper: bool, order: usize) -> f64 {
+        let [_, normal] = if is_upper { self.in_upper[order] } else { self.in_lower[order] }.to_array();
+        normal
+    }
+
+    /// What lower orders give of the next one.
+    #[inline(always)]
+    fn look_ahead(&mut self, links: &[Link], order: usize) {
+        // Coefficients of the force in the axes of a link but the last, which is sought.
+        let turned = |force: &Vectors, link: &Link| {
+            let (mut along, mut turned) = (f64x2::ZERO, f64x2::ZERO);
+            for j in 0..order {
+                along = force[j] * link.real[order - j] + along;
+                turned = force[j] * link.imaginary[order - j] + turned;
+            }
+            along - across(turned)
+        };
+        let (below, own) = (&links[self.below], &links[self.link]);
+        self.known.in_upper = turned(&self.force, own);
+        self.known.in_lower = match self.below {
+            0 => f64x2::ZERO,
+            link if link == self.link => self.known.in_upper,
+            _ => turned(&self.force, below),
+        };
+        let Some(Translation::Slide { face, is_upper, slide, .. }) = &self.translation else { return };
+        let direction = &links[*face].direction;
+        let mut sum = f64x2::ZERO;
+        for j in 1..order + 2 {
+            sum = f64x2::splat(slide[j]) * direction[order + 2 - j] + sum;
+        }
+        self.known.translation = sum * f64x2::splat(((order + 1) * (order + 2)) as f64);
+        self.known.lever = (1..=order).map(|j| slide[j] * self.across(*is_upper, order - j)).sum();
+    }
+}
+
+impl Series {
+    /// For the states of a configuration with these coefficients of kinetic friction; slides of contacts that stick are those of the configuration.
+    pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Series {
+        let Configuration { joints, slide, .. } = configuration;
+        let coordinates = coordinates(joints);
+        let mut links = vec![Link::new(None)];
+        let place = |wanted: &dyn Fn(&Coordinate) -> bool| coordinates.iter().position(wanted).unwrap_or_default();
+        let mut levels = Vec::with_capacity(joints.len());
+        for (i, (block, &joint)) in column.blocks().iter().zip(joints).enumerate() {
+            let below = links.len() - 1;
+            if !matches!(joint, Joint::Closed(_)) {
+                let angle = place(&|own| matches!(own, Coordinate::Angle(blocks) if blocks.start == i));
+                links.push(Link::new(Some(angle)));
+            }
+            let link = links.len() - 1;
+            let is_upper = matches!(joint, Joint::Corner(_, Face::Upper, _));
+            let translation = match joint.slip() {
+                Some(Slip::Sticks) => None,
+                Some(Slip::Slides(_)) => Some(Translation::Slide {
+                    coordinate: place(&|own| *own == Coordinate::Slide(i)),
+                    face: if is_upper { link } else { below },
+                    is_upper,
+                    lift: joint.slip().map_or(0.0, Slip::sign) * kinetic[i],
+                    slide: NO_NUMBERS,
+                }),
+                None => Some(Translation::Apart {
+                    coordinate: place(&|own| *own == Coordinate::Apart(i, 0)),
+                    apart: NO_VECTORS,
+                }),
+            };
+            // A slide that moves is a vector of its own.
+            let fixed = if joint.sticks() { slide[i] } else { 0.0 };
+            let (on_lower, on_upper) = match joint {
+                Joint::Closed(_) => (fixed, 0.0),
+                Joint::Free => (0.0, 0.0),
+                Joint::Corner(side, Face::Upper, _) => {
+                    let corner =
+                        i.checked_sub(1).map_or(0.0, |below| f64::from(side) * column.blocks()[below].top_half_width);
+                    (corner, fixed - corner)
+                }
+                Joint::Corner(side, ..) => {
+                    let corner = f64::from(side) * block.bottom_half_width;
+                    (fixed + corner, -corner)
+                }
+            };
+            levels.push(Level {
+                joint,
+                below,
+                link,
+                on_lower,
+                on_upper,
+                translation,
+                mass: block.mass,
+                inertia: block.inertia,
+                centroid_height: block.centroid_height,
+                height: 2.0 * block.half_height,
+                force: NO_VECTORS,
+                in_lower: NO_VECTORS,
+                in_upper: NO_VECTORS,
+                moment: NO_NUMBERS,
+                lever: NO_NUMBERS,
+                known: Known::default(),
+            });
+        }
+        let dof = coordinates.len();
+        Series {
+            factors: Factors::with_size(dof),
+            rows: vec![0.0; dof],
+            second: vec![0.0; dof],
+            coordinates,
+            links,
+            levels,
+            ground: NO_VECTORS,
+            momentum: f64x2::ZERO,
+            mass: column.mass(),
+            orders: 0,
+        }
+    }
+
+    /// Begins the series about a state, `[values, rates]` of the coordinates; `ground` are coefficients of the horizontal and of the vertical acceleration
+    /// with gravity `[m/s²]`. `None` where the rows do not determine the motion.
+    pub fn begin(&mut self, x: &[f64], ground: [&[f64]; 2]) -> Option<()> {
+        let (values, rates) = x.split_at(self.coordinates.len());
+        for (k, own) in self.ground.iter_mut().enumerate() {
+            *own = f64x2::new(ground.map(|component| component.get(k).copied().unwrap_or(0.0)));
+        }
+        for link in &mut self.links {
+            let Some(place) = link.coordinate else { continue };
+            (link.theta[0], link.theta[1]) = (values[place], rates[place]);
+            link.rate[0] = f64x2::splat(rates[place]);
+            let (sin, cos) = libm::sincos(values[place]);
+            link.set_direction(0, f64x2::new([cos, -sin]));
+            let turning = link.turning(1, 0);
+            link.set_direction(1, turning);
+        }
+        for level in &mut self.levels {
+            match &mut level.translation {
+                Some(Translation::Slide { coordinate, slide, .. }) => {
+                    (slide[0], slide[1]) = (values[*coordinate], rates[*coordinate]);
+                }
+                Some(Translation::Apart { coordinate, apart }) => {
+                    (apart[0], apart[1]) = (pair(values, *coordinate), pair(rates, *coordinate));
+                }
+                None => {}
+            }
+        }
+        self.momentum = self.momentum_at_start();
+        self.orders = 0;
+        self.factorise()?;
+        self.extend()
+    }
+
+    /// `Σ m v` of the state at the start: velocities are linear in rates as accelerations are in second derivatives.
+    fn momentum_at_start(&self) -> f64x2 {
+        let (mut foot, mut momentum) = (f64x2::ZERO, f64x2::ZERO);
+        for level in &self.levels {
+            let [below, own] = [level.below, level.link].map(|link| self.links[link].direction[1]);
+            foot += below * f64x2::splat(level.on_lower) + own * f64x2::splat(level.on_upper);
+            foot += match &level.translation {
+                Some(Translation::Slide { face, slide, .. }) => {
+                    let direction = &self.links[*face].direction;
+                    f64x2::splat(slide[1]) * direction[0] + f64x2::splat(slide[0]) * direction[1]
+                }
+                Some(Translation::Apart { apart, .. }) => apart[1],
+                None => f64x2::ZERO,
+            };
+            momentum += (foot + across(own) * f64x2::splat(level.centroid_height)) * f64x2::splat(level.mass);
+            foot += across(own) * f64x2::splat(level.height);
+        }
+        momentum
+    }
+
+    /// Factorises the matrix of the rows: their change for a unit of each second derivative.
+    fn factorise(&mut self) -> Option<()> {
+        for column in 0..self.coordinates.len() {
+            self.second.fill(0.0);
+            self.second[column] = 1.0;
+            self.evaluate::<false>(0);
+            for (row, value) in self.rows.iter().enumerate() {
+                *self.factors.entry(row, column) = *value;
+            }
+        }
+        self.factors.factorise()
+    }
+
+    /// Adds an order. `None` where a number is not finite.
+    pub fn extend(&mut self) -> Option<()> {
+        let order = self.orders;
+        for link in self.links.iter_mut().skip(1) {
+            link.known = link.turning(order + 1, order + 1) * f64x2::splat((order + 1) as f64);
+        }
+        for level in &mut self.levels {
+            level.look_ahead(&self.links, order);
+        }
+        self.second.fill(0.0);
+        self.evaluate::<true>(order);
+        for (second, row) in self.second.iter_mut().zip(&self.rows) {
+            *second = -row;
+        }
+        self.factors.solve(&mut self.second);
+        if !self.second.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        self.evaluate::<true>(order);
+        self.integrate(order);
+        self.orders += 1;
+        Some(())
+    }
+
+    /// Coefficients of directions, forces and moments of an order, and the residuals of the rows, for these second derivatives of the coordinates; without
+    /// what lower orders and the ground add, only what is linear in them.
+    #[inline(always)]
+    fn evaluate<const IS_WHOLE: bool>(&mut self, order: usize) {
+        let Series { links, levels, second, rows, ground, .. } = self;
+        let known = |value: f64x2| if IS_WHOLE { value } else { f64x2::ZERO };
+        for link in links.iter_mut() {
+            let Some(place) = link.coordinate else { continue };
+            link.second[order] = known(link.known) - across(link.direction[0]) * f64x2::splat(second[place]);
+        }
+        let mut foot = known(ground[order]);
+        for level in levels.iter_mut() {
+            let [below, own] = [level.below, level.link].map(|link| links[link].second[order]);
+            foot += below * f64x2::splat(level.on_lower) + own * f64x2::splat(level.on_upper);
+            match &level.translation {
+                Some(Translation::Slide { coordinate, face, slide, .. }) => {
+                    let face = &links[*face];
+                    foot += known(level.known.translation) + f64x2::splat(second[*coordinate]) * face.direction[0];
+                    foot += f64x2::splat(slide[0]) * face.second[order];
+                }
+                Some(Translation::Apart { coordinate, .. }) => foot += pair(second, *coordinate),
+                None => {}
+            }
+            let raised = across(own);
+            level.force[order] = (foot + raised * f64x2::splat(level.centroid_height)) * f64x2::splat(level.mass);
+            foot += raised * f64x2::splat(level.height);
+        }
+        // From the top: force on what is above, and the part of the moment that passes through the interface above.
+        let (mut above, mut along_above, mut passed) = (f64x2::ZERO, 0.0, 0.0);
+        for level in levels.iter_mut().rev() {
+            let (below, own) = (&links[level.below], &links[level.link]);
+            level.force[order] += above;
+            above = level.force[order];
+            level.in_upper[order] = known(level.known.in_upper) + in_axes(above, own.real[0], own.imaginary[0]);
+            level.in_lower[order] = if level.below == level.link {
+                level.in_upper[order]
+            } else {
+                known(level.known.in_lower) + in_axes(above, below.real[0], below.imaginary[0])
+            };
+            let [[along, normal_on_lower], [along_own, normal_on_upper]] =
+                [level.in_lower[order], level.in_upper[order]].map(f64x2::to_array);
+            let turn = own.coordinate.map_or(0.0, |place| second[place]);
+            let moment = passed
+                + level.inertia * turn
+                + level.centroid_height * (along_own - along_above)
+                + level.height * along_above;
+            level.moment[order] = moment;
+            // The contact's distance from the middle of the block's base times the force across it.
+            let mut on_base = level.on_upper * normal_on_upper;
+            passed = moment - level.on_lower * normal_on_lower - on_base;
+            along_above = along;
+            match &level.translation {
+                Some(Translation::Slide { coordinate, is_upper, lift, slide, .. }) => {
+                    let [along, normal] =
+                        if *is_upper { [along_own, normal_on_upper] } else { [along, normal_on_lower] };
+                    level.lever[order] = slide[0] * normal + if IS_WHOLE { level.known.lever } else { 0.0 };
+                    passed -= level.lever[order];
+                    on_base += if *is_upper { level.lever[order] } else { 0.0 };
+                    rows[*coordinate] = along + lift * normal;
+                }
+                Some(Translation::Apart { coordinate, .. }) => {
+                    [rows[*coordinate], rows[*coordinate + 1]] = above.to_array();
+                    // What is free transmits nothing.
+                    (passed, along_above) = (0.0, 0.0);
+                }
+                None => {}
+            }
+            if level.below != level.link
+                && let Some(place) = own.coordinate
+            {
+                rows[place] = moment - on_base;
+            }
+        }
+    }
+
+    /// Coordinates and directions two orders ahead of second derivatives.
+    fn integrate(&mut self, order: usize) {
+        let Series { links, levels, second, .. } = self;
+        let (first, both) = (reciprocal(order + 1), reciprocal(order + 1) * reciprocal(order + 2));
+        let numbers = |value: f64| (f64x2::splat(value) * first, (f64x2::splat(value) * both).to_array()[0]);
+        for link in links.iter_mut() {
+            let Some(place) = link.coordinate else { continue };
+            (link.rate[order + 1], link.theta[order + 2]) = numbers(second[place]);
+            link.set_direction(order + 2, link.second[order] * both);
+        }
+        for level in levels.iter_mut() {
+            match &mut level.translation {
+                Some(Translation::Slide { coordinate, slide, .. }) => slide[order + 2] = numbers(second[*coordinate]).1,
+                Some(Translation::Apart { coordinate, apart }) => {
+                    apart[order + 2] = pair(second, *coordinate) * both;
+                }
+                None => {}
+            }
+        }
+    }
+
+    /// Orders of second derivatives that are known; coordinates run two ahead.
+    pub fn orders(&self) -> usize {
+        self.orders
+    }
+
+    /// Coefficients of the values of each coordinate.
+    pub fn values(&self) -> impl Iterator<Item = Values<'_>> {
+        self.coordinates.iter().map(|coordinate| self.values_of(coordinate))
+    }
+
+    fn values_of(&self, coordinate: &Coordinate) -> Values<'_> {
+        match coordinate {
+            Coordinate::Angle(blocks) => Values::Number(&self.links[self.levels[blocks.start].link].theta),
+            Coordinate::Slide(interface) => Values::Number(self.slide(*interface).unwrap_or(&NO_NUMBERS)),
+            Coordinate::Apart(interface, axis) => match &self.levels[*interface].translation {
+                Some(Translation::Apart { apart, .. }) => Values::Component(apart, *axis),
+                _ => Values::Number(&NO_NUMBERS),
+            },
+        }
+    }
+
+    /// Coefficients of the slide of an interface (from zero) that slides `[m]`.
+    pub fn slide(&self, interface: usize) -> Option<&[f64]> {
+        match &self.levels[interface].translation {
+            Some(Translation::Slide { slide, .. }) => Some(slide),
+            _ => None,
+        }
+    }
+
+    /// Coefficients of the angle of a block `[rad]`.
+    pub fn angle(&self, block: usize) -> &[f64] {
+        &self.links[self.levels[block].link].theta
+    }
+
+    /// Force at an interface of an order, in the axes of the lower block's or of the upper block's face `[N]`.
+    pub fn force(&self, interface: usize, is_upper: bool, order: usize) -> InAxes {
+        let level = &self.levels[interface];
+        if is_upper { level.in_upper[order] } else { level.in_lower[order] }.to_array()
+    }
+
+    /// Force at an interface in the axes of the face that carries the contact `[N]`.
+    pub fn contact_force(&self, interface: usize, order: usize) -> InAxes {
+        let is_upper = matches!(self.levels[interface].joint, Joint::Corner(_, Face::Upper, _));
+        self.force(interface, is_upper, order)
+    }
+
+    /// Moment at a closed interface of an order about the middle of the upper block's base, clockwise `[N m]`.
+    pub fn moment(&self, interface: usize, order: usize) -> f64 {
+        self.levels[interface].moment[order]
+    }
+
+    /// Slide times normal force at an interface of an order `[N m]`.
+    pub fn lever(&self, interface: usize, order: usize) -> f64 {
+        let level = &self.levels[interface];
+        match level.translation {
+            Some(_) => level.lever[order],
+            None => level.on_lower * level.across(false, order),
+        }
+    }
+
+    /// `Σ m v` of an order relative to the ground `[kg m/s]`.
+    pub fn momentum(&self, order: usize) -> Vec2 {
+        let momentum = match order.checked_sub(1) {
+            None => self.momentum,
+            Some(before) => {
+                let force = self.levels[0].force[before] - self.ground[before] * f64x2::splat(self.mass);
+                force * reciprocal(order)
+            }
+        };
+        momentum.to_array()
+    }
+
+    /// From the middle of the lower face of a free interface to the middle of the upper one, in the axes of the lower or of the upper block `[m]`, and
+    /// the direction of the upper block in the axes of the lower one: coefficients of all orders up to `order`.
+    pub fn pose(&self, interface: usize, order: usize) -> [Vec<Vec2>; 3] {
+        let level = &self.levels[interface];
+        let (below, own) = (&self.links[level.below], &self.links[level.link]);
+        let none = NO_VECTORS;
+        let apart = if let Some(Translation::Apart { apart, .. }) = &level.translation { apart } else { &none };
+        let seen = |vector: &Vectors, from: &Link| {
+            let product = |k: usize| {
+                let terms = (0..=k).map(|j| in_axes(vector[j], from.real[k - j], from.imaginary[k - j]));
+                terms.fold(f64x2::ZERO, |sum, term| sum + term).to_array()
+            };
+            (0..=order).map(product).collect::<Vec<Vec2>>()
+        };
+        [seen(apart, below), seen(apart, own), seen(&own.direction, below)]
+    }
+}
+
+/// Coefficients of a coordinate.
+#[derive(Clone, Copy)]
+pub enum Values<'s> {
+    Number(&'s [f64]),
+    Component(&'s [f64x2], usize),
+}
+
+impl Values<'_> {
+    /// That of an order.
+    #[inline(always)]
+    pub fn of(&self, order: usize) -> f64 {
+        match self {
+            Values::Number(numbers) => numbers[order],
+            Values::Component(vectors, axis) => vectors[order].to_array()[*axis],
+        }
+    }
+}
+
+/// Two numbers as a vector.
+#[inline(always)]
+fn pair(values: &[f64], place: usize) -> f64x2 {
+    f64x2::new([values[place], values[place + 1]])
+}
+
+/// A polynomial of the share `s` of a step of length `h` `[s]`, from its coefficients in time.
+pub fn polynomial(h: f64, order: usize, coefficient: impl Fn(usize) -> f64) -> Powers {
+    let mut power = 1.0;
+    let terms = (1..=order).map(|k| {
+        power *= h;
+        coefficient(k) * power
+    });
+    Powers::with_terms(coefficient(0), terms)
+}

@@ -1,0 +1,139 @@
+//! Steps on Taylor series: as many orders as the step needs, and a step as long as its last terms allow (Jorba & Zou, 2005).
+
+use super::mover::Mover;
+use super::recorder::Recorder;
+use super::state::{Ended, State};
+use super::step::Step;
+use crate::friction::guard_series::SeriesSpan;
+use crate::friction::guards;
+use crate::friction::search::force_slack;
+use crate::friction::series::{MOST_ORDERS, Series};
+use crate::mechanics::dynamics::Ground;
+use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
+use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, MARGIN, SAFETY};
+use crate::run::error::SolveError;
+
+/// Orders of second derivatives after which the terms are first compared with the tolerance.
+const LEAST_ORDERS: usize = 4;
+
+/// Rounds in which a step as long as the terms allow is looked for; then it is halved.
+const ROUNDS: usize = 4;
+
+impl<'p> Mover<'p> {
+    /// Steps on series until a guard falls to zero, the ground jumps, or the time is over.
+    pub(super) fn steps_on_series(
+        &mut self,
+        from: &State,
+        recorder: &mut Recorder<'p>,
+    ) -> Result<(State, Ended), SolveError> {
+        let problem = self.problem;
+        let options = &problem.scene.options;
+        let joints = &from.configuration.joints;
+        let mut smooth = self.smooth(from);
+        let mut series = Series::new(smooth.column, &from.configuration, &self.friction.kinetic);
+        let most_orders = most_orders(problem.tolerance.rtol);
+        let (mut at, mut x) = (self.enter(from), smooth.state(&from.configuration));
+        let list = guards::guards(joints);
+        let mut wanted = self.first_step();
+        self.work.phases += 1;
+        let ended = loop {
+            if let Some(ended) = at.next_segment(problem) {
+                break ended;
+            }
+            let segment = &problem.ground[at.segment];
+            smooth.segment = segment;
+            let (t, left) = (at.t, segment.end - at.t);
+            let mut ground = [[0.0; MOST_ORDERS]; 2];
+            segment.horizontal.expand_at(t, &mut ground[0][..most_orders]);
+            segment.vertical.expand_at(t, &mut ground[1][..most_orders]);
+            ground[1][0] += smooth.gravity;
+            let begun = series.begin(&x, [&ground[0], &ground[1]]);
+            let most = left.min(LARGEST_GROWTH * wanted);
+            let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
+            self.work.rhs_calls += series.orders();
+            let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
+                if begun.is_none() || smooth.is_jamming(t, &x) {
+                    break Ended::Jam;
+                }
+                let mode = format!("{} with friction", from.configuration.pattern());
+                return Err(SolveError::StepTooSmall { time: t, step: length.unwrap_or(0.0), mode });
+            };
+            wanted = if h < left { h } else { wanted.max(h) };
+            self.work.steps += 1;
+            let now = smooth.configuration(&x);
+            let span = SeriesSpan {
+                series: &series,
+                column: smooth.column,
+                joints,
+                fixed: &self.friction.fixed,
+                h,
+                slack: force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity)),
+                overturn_angle: options.overturn_angle,
+            };
+            let mut step = Step::new(&mut smooth, &span, [t, h], options);
+            let first = step.first_of(&list);
+            let s = first.map_or(1.0, |(s, _)| s);
+            at.t = if s == 1.0 { t + h } else { t + s * h };
+            recorder.read(at.segment, [t, at.t], &mut step);
+            let last = step.configuration(s);
+            x = smooth.state(&last);
+            if let Some((_, guard)) = first {
+                break Ended::Guard(guard);
+            }
+        };
+        self.pace = Some(wanted);
+        self.work.rhs_calls += smooth.calls;
+        Ok((State { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
+    }
+}
+
+/// Orders for steps of this tolerance: beyond, one costs more than the longer step saves.
+fn most_orders(rtol: f64) -> usize {
+    ((2.0 - 0.5 * libm::log(rtol)).ceil() as usize).clamp(LEAST_ORDERS, MOST_ORDERS)
+}
+
+/// A length up to `most` for which the last terms of the series meet the tolerance `[s]`; orders are added as far as they are needed. `None` where a number is
+/// not finite.
+fn length(series: &mut Series, most: f64, most_orders: usize, tolerance: Tolerance) -> Option<f64> {
+    loop {
+        if series.orders() >= LEAST_ORDERS && error(series, most, tolerance) <= 1.0 {
+            return Some(most);
+        }
+        if series.orders() >= most_orders {
+            break;
+        }
+        series.extend()?;
+    }
+    let mut h = most;
+    for round in 0.. {
+        let error = error(series, h, tolerance);
+        if error <= 1.0 {
+            return Some(h);
+        }
+        if !error.is_finite() || h == 0.0 {
+            return None;
+        }
+        h *= if round < ROUNDS { SAFETY / rough_root(error, series.orders()) } else { 0.5 };
+    }
+    None
+}
+
+/// Size of the last terms of all rates and values in a step, relative to the tolerance.
+fn error(series: &Series, h: f64, tolerance: Tolerance) -> f64 {
+    let last = series.orders();
+    let power = (1..last).fold(MARGIN, |power, _| power * h);
+    let mut error = 0.0f64;
+    for values in series.values() {
+        let rate = |order: usize| (order + 1) as f64 * values.of(order + 1);
+        let [value, first, second] = [values.of(0).abs(), rate(0).abs(), rate(1).abs()];
+        let scales = [
+            h / (last as f64 * tolerance.scale(value, value + h * (first + 0.5 * h * second))),
+            1.0 / tolerance.scale(first, first + h * second),
+        ];
+        let size = (rate(last) * h).abs().max(BEFORE_LAST * rate(last - 1).abs()) * power;
+        let weighted = size * scales[0].max(scales[1]);
+        // A number that is not finite is an error of any size.
+        error = if weighted <= error { error } else { weighted };
+    }
+    error
+}
