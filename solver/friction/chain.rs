@@ -240,11 +240,11 @@ impl<'a> Chain<'a> {
 
     /// Velocities of the blocks for rates of the coordinates, or the part of accelerations that is linear in their second derivatives.
     pub fn motion(&self, rates: &Rates) -> Motion {
-        let mut linear = PerBlock::new();
+        let mut linear = PerBlock::filled([0.0; 2], self.len());
         let mut below = [0.0, 0.0];
-        for i in 0..self.len() {
+        for (i, linear) in linear.iter_mut().enumerate() {
             let foot = plus(below, self.apart_rate(i, rates));
-            linear.push(plus(foot, swept(rates.omega[i], self.to_centroid[i])));
+            *linear = plus(foot, swept(rates.omega[i], self.to_centroid[i]));
             below = plus(foot, swept(rates.omega[i], self.to_top[i]));
         }
         Motion { linear, angular: rates.omega.clone() }
@@ -252,9 +252,9 @@ impl<'a> Chain<'a> {
 
     /// Accelerations of the centroids `[m/s²]` that the rates cause: centripetal ones and those of slides along turning faces.
     pub fn imposed(&self, rates: &Rates) -> PerBlock<Vec2> {
-        let mut accelerations = PerBlock::new();
+        let mut accelerations = PerBlock::filled([0.0; 2], self.len());
         let mut below = [0.0, 0.0];
-        for i in 0..self.len() {
+        for (i, acceleration) in accelerations.iter_mut().enumerate() {
             let link = &self.links[i];
             let (lower, upper) = (i.checked_sub(1).map_or(0.0, |below| rates.omega[below]), rates.omega[i]);
             let mut foot = below;
@@ -264,7 +264,7 @@ impl<'a> Chain<'a> {
                 let face = link.face.map_or(0.0, |face| rates.omega[face]);
                 foot = plus(foot, scaled(swept(face, link.along), 2.0 * rates.slide[i]));
             }
-            accelerations.push(plus(foot, scaled(self.to_centroid[i], -upper * upper)));
+            *acceleration = plus(foot, scaled(self.to_centroid[i], -upper * upper));
             below = plus(foot, scaled(self.to_top[i], -upper * upper));
         }
         accelerations

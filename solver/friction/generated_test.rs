@@ -12,10 +12,14 @@ use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeSet;
 
 /// xorshift64* (Vigna 2016), from -1 to 1.
-struct Random(u64);
+pub(super) struct Random(u64);
 
 impl Random {
-    fn within(&mut self, a: f64, b: f64) -> f64 {
+    pub fn seeded(seed: u64) -> Random {
+        Random(seed)
+    }
+
+    pub fn within(&mut self, a: f64, b: f64) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
@@ -39,8 +43,18 @@ fn states(interface: usize) -> Vec<Joint> {
     states
 }
 
+/// All combinations of states of so many interfaces.
+pub(super) fn combinations(blocks: usize) -> Vec<Vec<Joint>> {
+    let longer = |joints: &Vec<Joint>, interface: usize| {
+        states(interface).into_iter().map(|state| [joints.as_slice(), &[state]].concat()).collect::<Vec<_>>()
+    };
+    (0..blocks).fold(vec![Vec::new()], |combinations, interface| {
+        combinations.iter().flat_map(|joints| longer(joints, interface)).collect()
+    })
+}
+
 /// A tapered and displaced column in these states, all else random.
-fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Configuration) {
+pub(super) fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Configuration) {
     let block = |random: &mut Random| {
         let (bottom, half_height) = (random.within(0.4, 0.6), random.within(0.3, 1.2));
         let half_widths = [bottom, bottom * random.within(0.8, 1.1)];
@@ -111,14 +125,7 @@ fn generated_programs_give_the_accelerations_of_the_rows_in_all_states() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let (mut worst, mut seen) = (0.0f64, BTreeSet::new());
     for blocks in 1..=MAX_BLOCKS.min(3) {
-        let mut combinations = vec![Vec::new()];
-        for interface in 0..blocks {
-            let longer = |joints: &Vec<Joint>| {
-                states(interface).into_iter().map(|state| [joints.as_slice(), &[state]].concat()).collect::<Vec<_>>()
-            };
-            combinations = combinations.iter().flat_map(longer).collect();
-        }
-        for joints in &combinations {
+        for joints in &combinations(blocks) {
             if coordinates(joints).iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
                 continue;
             }

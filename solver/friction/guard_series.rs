@@ -5,10 +5,11 @@
 
 use super::gaps::Corner;
 use super::guards::Guard;
-use super::joint::{Face, Joint, Sign};
-use super::series::{Series, polynomial};
+use super::joint::{Face, Joint, Sign, Slip};
+use super::series::Series;
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
+use crate::numerics::polynomial::bernstein::COEFFICIENTS;
 use crate::numerics::polynomial::powers::Powers;
 
 /// A step on a series.
@@ -20,81 +21,94 @@ pub struct SeriesSpan<'s> {
     pub fixed: &'s [f64],
     /// Length `[s]`.
     pub h: f64,
+    /// Powers of the length.
+    powers: [f64; COEFFICIENTS],
     /// Violation of a condition on forces that is rounding `[N]`.
     pub slack: f64,
     pub overturn_angle: f64,
 }
 
-impl SeriesSpan<'_> {
-    /// Values of a coordinate-like series over the step.
-    fn of_values(&self, coefficient: impl Fn(usize) -> f64) -> Powers {
-        polynomial(self.h, self.series.orders() + 1, coefficient)
+impl<'s> SeriesSpan<'s> {
+    /// A step of a length `[s]` on a series of these states.
+    pub fn new(
+        series: &'s Series,
+        column: &'s Column,
+        joints: &'s [Joint],
+        fixed: &'s [f64],
+        [h, slack, overturn_angle]: [f64; 3],
+    ) -> SeriesSpan<'s> {
+        let mut powers = [1.0; COEFFICIENTS];
+        for k in 1..powers.len() {
+            powers[k] = powers[k - 1] * h;
+        }
+        SeriesSpan { series, column, joints, fixed, h, powers, slack, overturn_angle }
     }
 
-    /// Values of forces and moments over the step.
-    fn of_forces(&self, coefficient: impl Fn(usize) -> f64) -> Powers {
-        polynomial(self.h, self.series.orders() - 1, coefficient)
+    /// Values of coordinates over the step, with a constant added.
+    #[inline(always)]
+    fn of_values(&self, constant: f64, coefficient: impl Fn(usize) -> f64) -> Powers {
+        Powers::scaled(&self.powers[..self.series.orders() + 2], constant, coefficient)
+    }
+
+    /// Values of forces and moments over the step, with a constant added.
+    #[inline(always)]
+    fn of_forces(&self, constant: f64, coefficient: impl Fn(usize) -> f64) -> Powers {
+        Powers::scaled(&self.powers[..self.series.orders()], constant, coefficient)
     }
 
     /// Angle of a block `[rad]`.
     pub fn angle(&self, block: usize) -> Powers {
         let angle = self.series.angle(block);
-        self.of_values(|k| angle[k])
+        self.of_values(0.0, |k| angle[k])
     }
 
-    /// Force at an interface in the axes of the face that carries the contact `[N]`: along it and across it.
-    pub fn contact_force(&self, interface: usize) -> [Powers; 2] {
-        [0, 1].map(|axis| self.of_forces(|k| self.series.contact_force(interface, k)[axis]))
-    }
-
-    /// Rate of a slide `[m/s]`; zero where the contact sticks.
-    pub fn slide_rate(&self, interface: usize) -> Powers {
-        let slide = self.series.slide(interface).unwrap_or(&[0.0; 2]);
-        let orders = if slide.len() > 2 { self.series.orders() } else { 0 };
-        polynomial(self.h, orders, |k| (k + 1) as f64 * slide[k + 1])
-    }
-
-    /// `Σ m v` `[kg m/s]`.
-    pub fn momentum(&self) -> [Powers; 2] {
-        [0, 1].map(|axis| polynomial(self.h, self.series.orders(), |k| self.series.momentum(k)[axis]))
-    }
-
-    /// The polynomials of which a guard is the least; none of a landing.
-    pub fn guard(&self, guard: Guard) -> [Option<Powers>; 2] {
+    /// Visits the polynomials of which a guard is the least; none of a landing.
+    pub fn guard(&self, guard: Guard, visit: &mut dyn FnMut(&Powers)) {
+        let series = self.series;
         match guard {
-            Guard::Cone(i, side) => [Some(self.cone(i, side)), None],
-            Guard::Press(i) => {
-                let [_, normal] = self.contact_force(i);
-                [Some(normal.shifted(1.0, self.slack)), None]
-            }
-            Guard::Tip(i, side) => self.tip(i, side),
+            Guard::Cone(i, side) => self.cone(i, side, visit),
+            Guard::Press(i) => visit(&self.of_forces(self.slack, |k| series.contact_force(i, k)[1])),
+            Guard::Tip(i, side) => self.tip(i, side, visit),
             Guard::Stop(i) => {
-                let sign = self.joints[i].slip().map_or(0.0, |slip| slip.sign());
-                [Some(self.slide_rate(i).shifted(sign, 0.0)), None]
+                let Some(slide) = series.slide(i) else { return };
+                let sign = self.joints[i].slip().map_or(0.0, Slip::sign);
+                let rate = |k: usize| sign * (k + 1) as f64 * slide[k + 1];
+                visit(&Powers::scaled(&self.powers[..series.orders() + 1], 0.0, rate));
             }
             Guard::Close(i) => {
                 let side = if let Joint::Corner(side, ..) = self.joints[i] { f64::from(side) } else { 1.0 };
-                let upper = self.series.angle(i);
-                let lower = i.checked_sub(1).map(|below| self.series.angle(below));
-                [Some(self.of_values(|k| side * (upper[k] - lower.map_or(0.0, |lower| lower[k])))), None]
+                let upper = series.angle(i);
+                match i.checked_sub(1).map(|below| series.angle(below)) {
+                    Some(lower) => visit(&self.of_values(0.0, |k| side * (upper[k] - lower[k]))),
+                    None => visit(&self.of_values(0.0, |k| side * upper[k])),
+                }
             }
-            Guard::Edge(i) => [self.edge(i), None],
+            Guard::Edge(i) => self.edge(i, visit),
             Guard::Collapse(i) => {
-                let Some(below) = i.checked_sub(1) else { return [None; 2] };
+                let Some(below) = i.checked_sub(1) else { return };
                 let blocks = self.column.blocks();
                 let reach = blocks[below].top_half_width + blocks[i].bottom_half_width;
-                let place = match self.series.slide(i) {
-                    Some(slide) => self.of_values(|k| slide[k]),
+                match series.slide(i) {
+                    Some(slide) => self.within(reach, |k| slide[k], visit),
                     None => {
                         let [in_lower, ..] = self.pose(i);
-                        self.of_values(|k| in_lower[k][0])
+                        self.within(reach, |k| in_lower[k][0], visit);
                     }
-                };
-                within(place, reach)
+                }
             }
-            Guard::Overturn(block) => within(self.angle(block), self.overturn_angle),
-            Guard::Land(_) => [None; 2],
+            Guard::Overturn(block) => {
+                let angle = series.angle(block);
+                self.within(self.overturn_angle, |k| angle[k], visit);
+            }
+            Guard::Land(_) => {}
         }
+    }
+
+    /// Visits `limit - x` and `limit + x`.
+    #[inline(always)]
+    fn within(&self, limit: f64, x: impl Fn(usize) -> f64, visit: &mut dyn FnMut(&Powers)) {
+        visit(&self.of_values(limit, |k| -x(k)));
+        visit(&self.of_values(limit, &x));
     }
 
     /// [`Series::pose`] up to the order of the step.
@@ -103,40 +117,40 @@ impl SeriesSpan<'_> {
     }
 
     /// How far the force at a sticking contact is inside its cone ([`super::contact::cone_margins`]).
-    fn cone(&self, i: usize, side: Sign) -> Powers {
+    fn cone(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let coefficient = self.fixed[i];
         let margin = |[along, across]: [f64; 2]| coefficient * across + f64::from(side) * along;
-        let margin = match self.joints[i] {
+        match self.joints[i] {
             // On coinciding corners, each cone belongs to one of the two faces.
-            Joint::Corner(corner, Face::Both, _) => self.of_forces(|k| margin(self.series.force(i, corner != side, k))),
-            _ => self.of_forces(|k| margin(self.series.contact_force(i, k))),
-        };
-        margin.shifted(1.0, self.slack)
+            Joint::Corner(corner, Face::Both, _) => {
+                visit(&self.of_forces(self.slack, |k| margin(self.series.force(i, corner != side, k))));
+            }
+            _ => visit(&self.of_forces(self.slack, |k| margin(self.series.contact_force(i, k)))),
+        }
     }
 
-    /// How far the resultant at a closed contact is from the end of a side, times the normal force: the end of the upper or of the lower face.
-    fn tip(&self, i: usize, side: Sign) -> [Option<Powers>; 2] {
+    /// How far the resultant at a closed contact is from the end of a side, times the normal force: the end of the upper and that of the lower face.
+    fn tip(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let blocks = self.column.blocks();
         let (side, series) = (f64::from(side), self.series);
         let own = blocks[i].bottom_half_width;
         let normal = |k: usize| series.contact_force(i, k)[1];
-        let at_upper = self.of_forces(|k| own * normal(k) + side * series.moment(i, k)).shifted(1.0, own * self.slack);
-        let at_lower = i.checked_sub(1).map(|below| {
+        visit(&self.of_forces(own * self.slack, |k| own * normal(k) + side * series.moment(i, k)));
+        if let Some(below) = i.checked_sub(1) {
             let reach = blocks[below].top_half_width;
             let margin = |k: usize| reach * normal(k) + side * (series.moment(i, k) - series.lever(i, k));
-            self.of_forces(margin).shifted(1.0, reach * self.slack)
-        });
-        [Some(at_upper), at_lower]
+            visit(&self.of_forces(reach * self.slack, margin));
+        }
     }
 
     /// How far a corner is from the end of the face it stands on.
-    fn edge(&self, i: usize) -> Option<Powers> {
-        let Joint::Corner(side, face, _) = self.joints[i] else { return None };
-        let (slide, below) = (self.series.slide(i)?, i.checked_sub(1)?);
+    fn edge(&self, i: usize, visit: &mut dyn FnMut(&Powers)) {
+        let Joint::Corner(side, face, _) = self.joints[i] else { return };
+        let (Some(slide), Some(below)) = (self.series.slide(i), i.checked_sub(1)) else { return };
         let blocks = self.column.blocks();
         let beyond = blocks[i].bottom_half_width - blocks[below].top_half_width;
         let sign = if face == Face::Upper { 1.0 } else { -1.0 };
-        Some(self.of_values(|k| sign * (f64::from(side) * slide[k] + if k == 0 { beyond } else { 0.0 })))
+        visit(&self.of_values(sign * beyond, |k| sign * f64::from(side) * slide[k]));
     }
 
     /// How far a corner of a free interface is to the right of the middle of the other block's face, how far above it, and half of that face's width
@@ -152,15 +166,10 @@ impl SeriesSpan<'_> {
                 let arm = [1.0, -1.0][axis] * f64::from(side) * lower;
                 // The corner is below the face: its height above is less than none.
                 let sign = [1.0, -1.0][axis];
-                self.of_values(|k| sign * (arm * turn[k][axis] - in_upper[k][axis]))
+                self.of_values(0.0, |k| sign * (arm * turn[k][axis] - in_upper[k][axis]))
             }
-            Face::Lower | Face::Both => self.of_values(|k| in_lower[k][axis] + upper * turn[k][axis]),
+            Face::Lower | Face::Both => self.of_values(0.0, |k| in_lower[k][axis] + upper * turn[k][axis]),
         };
         ([of(0), of(1)], if face == Face::Upper { blocks[interface].bottom_half_width } else { lower })
     }
-}
-
-/// `limit - x` and `limit + x`.
-fn within(x: Powers, limit: f64) -> [Option<Powers>; 2] {
-    [-1.0, 1.0].map(|sign| Some(x.shifted(sign, limit)))
 }

@@ -25,6 +25,8 @@ pub mod series;
 mod generated_test;
 #[cfg(test)]
 mod oracle_test;
+#[cfg(test)]
+mod series_test;
 
 use crate::column::Column;
 use chain::Pose;

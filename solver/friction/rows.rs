@@ -37,6 +37,15 @@ impl Coordinate {
             Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
         }
     }
+
+    /// Gives it a rate.
+    fn give(&self, rate: f64, rates: &mut Rates) {
+        match self {
+            Coordinate::Angle(range) => rates.omega[range.clone()].fill(rate),
+            Coordinate::Slide(interface) => rates.slide[*interface] = rate,
+            Coordinate::Apart(interface, axis) => rates.apart[*interface][*axis] = rate,
+        }
+    }
 }
 
 /// The free coordinates of these states, base first.
@@ -60,13 +69,7 @@ pub fn coordinates(joints: &[Joint]) -> Vec<Coordinate> {
 /// Rates of a configuration for values of its free coordinates.
 pub fn rates(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Rates {
     let mut rates = Rates::zero(blocks);
-    for (coordinate, &value) in coordinates.iter().zip(values) {
-        match coordinate {
-            Coordinate::Angle(range) => rates.omega[range.clone()].fill(value),
-            Coordinate::Slide(interface) => rates.slide[*interface] = value,
-            Coordinate::Apart(interface, axis) => rates.apart[*interface][*axis] = value,
-        }
-    }
+    coordinates.iter().zip(values).for_each(|(coordinate, value)| coordinate.give(*value, &mut rates));
     rates
 }
 
@@ -100,8 +103,8 @@ pub struct Rows<'c, 'a> {
     coordinates: Vec<Coordinate>,
     /// Motion of the blocks for a unit rate of each coordinate.
     columns: Vec<Motion>,
-    /// Virtual motion along which each row is tested.
-    tests: Vec<Motion>,
+    /// Direction along which all above a slide is tested; of other coordinates, which are tested along themselves, none.
+    lifted: Vec<Vec2>,
     /// Centre or point of each contact `[m]`.
     points: PerBlock<Vec2>,
 }
@@ -111,30 +114,36 @@ impl<'c, 'a> Rows<'c, 'a> {
     /// faces `[m]`.
     pub fn new(chain: &'c Chain<'a>, joints: &[Joint], kinetic: &[f64], centres: &[f64]) -> Rows<'c, 'a> {
         let coordinates = coordinates(joints);
-        let unit = |index: usize| {
-            let mut values = vec![0.0; coordinates.len()];
-            values[index] = 1.0;
-            chain.motion(&rates(&coordinates, &values, joints.len()))
+        let mut unit = Rates::zero(joints.len());
+        let column = |coordinate: &Coordinate| {
+            coordinate.give(1.0, &mut unit);
+            let motion = chain.motion(&unit);
+            coordinate.give(0.0, &mut unit);
+            motion
         };
-        let columns: Vec<Motion> = (0..coordinates.len()).map(unit).collect();
-        let test = |(column, coordinate): (&Motion, &Coordinate)| match coordinate {
+        let columns: Vec<Motion> = coordinates.iter().map(column).collect();
+        let lifted = |coordinate: &Coordinate| match coordinate {
             Coordinate::Slide(interface) => {
                 let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
                 let [along, across] = chain.axes(*interface);
-                let direction = [along[0] + lift * across[0], along[1] + lift * across[1]];
-                let above = |block: usize| if block >= *interface { direction } else { [0.0, 0.0] };
-                Motion { linear: (0..joints.len()).map(above).collect(), angular: PerBlock::filled(0.0, joints.len()) }
+                [along[0] + lift * across[0], along[1] + lift * across[1]]
             }
-            _ => column.clone(),
+            _ => [0.0; 2],
         };
-        let tests = columns.iter().zip(&coordinates).map(test).collect();
-        Rows { chain, coordinates, columns, tests, points: points(chain, joints, centres) }
+        let lifted = coordinates.iter().map(lifted).collect();
+        Rows { chain, coordinates, columns, lifted, points: points(chain, joints, centres) }
     }
 
     /// `Σ m_j a_j · δr_j + I_j α_j δθ_j`
     fn work(&self, row: usize, linear: &[Vec2], angular: Option<&[f64]>) -> f64 {
-        let test = &self.tests[row];
         let blocks = self.chain.column().blocks().iter().enumerate();
+        if let Coordinate::Slide(interface) = self.coordinates[row] {
+            let d = self.lifted[row];
+            return blocks.skip(interface).fold(0.0, |sum, (j, block)| {
+                sum + block.mass * (linear[j][0] * d[0] + linear[j][1] * d[1])
+            });
+        }
+        let test = &self.columns[row];
         blocks.fold(0.0, |sum, (j, block)| {
             let (a, d) = (linear[j], test.linear[j]);
             let turning = angular.map_or(0.0, |angular| block.inertia * angular[j] * test.angular[j]);

@@ -20,6 +20,7 @@ use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;
+use std::cell::OnceCell;
 
 /// States of all interfaces with what they give.
 #[derive(Clone, Debug)]
@@ -58,6 +59,10 @@ pub struct Search<'a> {
     friction: &'a Coefficients,
     question: Question,
     now_rates: Rates,
+    /// Centres of closed contacts on their lower faces `[m]`.
+    centres: PerBlock<f64>,
+    /// The geometry of the present states, once a contact parts.
+    held: OnceCell<Chain<'a>>,
     /// The size of accelerations, or velocities.
     linear: f64,
     slack: Slack,
@@ -104,7 +109,8 @@ impl<'a> Search<'a> {
         let slack = share * linear;
         let slack = Slack { force: column.mass() * slack, linear: slack, angular: slack / size };
         let now_rates = Rates::of(now);
-        Search { column, now, touch, friction, question, now_rates, linear, slack }
+        let centres = now.slide.iter().enumerate().map(|(i, slide)| centre(column, i, *slide)).collect();
+        Search { column, now, touch, friction, question, now_rates, centres, held: OnceCell::new(), linear, slack }
     }
 
     /// The states that follow; `None` if none is admissible.
@@ -238,16 +244,15 @@ impl<'a> Search<'a> {
     fn answer(&self, joints: &[Joint]) -> Option<Answer> {
         let mut configuration = self.now.clone();
         configuration.joints = PerBlock::from_slice(joints);
-        let held = Chain::new(self.column, self.now);
         for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free {
+                let held = self.held.get_or_init(|| Chain::new(self.column, self.now));
                 configuration.apart[interface] = held.apart(interface);
                 configuration.apart_rate[interface] = held.apart_rate(interface, &self.now_rates);
             }
         }
         let chain = Chain::new(self.column, &configuration);
-        let centres: Vec<f64> = (0..joints.len()).map(|i| centre(self.column, i, self.now.slide[i])).collect();
-        let rows = Rows::new(&chain, joints, &self.friction.kinetic, &centres);
+        let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
         match &self.question {
             Question::Accelerations(ground) => rows.accelerations(&Rates::of(&configuration), *ground),
             Question::Impact(before) => rows.impact(before),

@@ -25,7 +25,6 @@ use crate::mechanics::kinematics::Vec2;
 use crate::numerics::elimination::Factors;
 use crate::numerics::ode::taylor::{reciprocal, turned};
 use crate::numerics::polynomial::bernstein::COEFFICIENTS;
-use crate::numerics::polynomial::powers::Powers;
 use wide::f64x2;
 
 /// Most orders of second derivatives: coordinates run two ahead.
@@ -534,16 +533,28 @@ impl Series {
         }
     }
 
-    /// `Σ m v` of an order relative to the ground `[kg m/s]`.
-    pub fn momentum(&self, order: usize) -> Vec2 {
-        let momentum = match order.checked_sub(1) {
-            None => self.momentum,
-            Some(before) => {
-                let force = self.levels[0].force[before] - self.ground[before] * f64x2::splat(self.mass);
-                force * reciprocal(order)
-            }
-        };
-        momentum.to_array()
+    /// Force at an interface after `t` `[s]`, in the axes of the face that carries the contact `[N]`.
+    pub fn contact_force_at(&self, interface: usize, t: f64) -> InAxes {
+        let level = &self.levels[interface];
+        let is_upper = matches!(level.joint, Joint::Corner(_, Face::Upper, _));
+        let force = if is_upper { &level.in_upper } else { &level.in_lower };
+        let t = f64x2::splat(t);
+        force[..self.orders].iter().rev().fold(f64x2::ZERO, |sum, term| sum * t + term).to_array()
+    }
+
+    /// Rate of a slide after `t` `[s]`; zero where the contact sticks `[m/s]`.
+    pub fn slide_rate_at(&self, interface: usize, t: f64) -> f64 {
+        let Some(slide) = self.slide(interface) else { return 0.0 };
+        (1..self.orders + 2).rev().fold(0.0, |sum, k| sum * t + k as f64 * slide[k])
+    }
+
+    /// `Σ m v` relative to the ground after `t` `[s]`: the impulse of the force at the base and of the ground's acceleration `[kg m/s]`.
+    pub fn momentum_at(&self, t: f64) -> Vec2 {
+        let mass = f64x2::splat(self.mass);
+        let force = &self.levels[0].force;
+        let term = |k: usize| (force[k] - self.ground[k] * mass) * reciprocal(k + 1);
+        let impulse = (0..self.orders).rev().fold(f64x2::ZERO, |sum, k| sum * f64x2::splat(t) + term(k));
+        (self.momentum + impulse * f64x2::splat(t)).to_array()
     }
 
     /// From the middle of the lower face of a free interface to the middle of the upper one, in the axes of the lower or of the upper block `[m]`, and
@@ -586,14 +597,4 @@ impl Values<'_> {
 #[inline(always)]
 fn pair(values: &[f64], place: usize) -> f64x2 {
     f64x2::new([values[place], values[place + 1]])
-}
-
-/// A polynomial of the share `s` of a step of length `h` `[s]`, from its coefficients in time.
-pub fn polynomial(h: f64, order: usize, coefficient: impl Fn(usize) -> f64) -> Powers {
-    let mut power = 1.0;
-    let terms = (1..=order).map(|k| {
-        power *= h;
-        coefficient(k) * power
-    });
-    Powers::with_terms(coefficient(0), terms)
 }

@@ -175,9 +175,18 @@ impl<'de, T: Copy + Deserialize<'de>> Deserialize<'de> for PerBlock<T> {
 
 impl<T: Copy> FromIterator<T> for PerBlock<T> {
     fn from_iter<I: IntoIterator<Item = T>>(entries: I) -> PerBlock<T> {
-        let mut list = PerBlock::new();
-        entries.into_iter().for_each(|entry| list.push(entry));
-        list
+        let mut entries = entries.into_iter();
+        let Some(first) = entries.next() else { return PerBlock::new() };
+        let (mut list, mut length) = ([first; INLINE_LENGTH], 1);
+        while let Some(entry) = entries.next() {
+            if length == INLINE_LENGTH {
+                return PerBlock(Storage::Heap(list.into_iter().chain([entry]).chain(entries).collect()));
+            }
+            list[length] = entry;
+            length += 1;
+        }
+        let length = InlineLength::of(length).expect("one to six entries");
+        PerBlock(Storage::Inline { entries: list, length })
     }
 }
 

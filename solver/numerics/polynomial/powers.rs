@@ -3,7 +3,7 @@
 //! Their coefficients fall as those of the series do, so that sums over them bound the polynomial and its derivatives closely on the
 //! whole of `[0, 1]`. Where such bounds do not tell, the Bernstein form does ([`Powers::bernstein`]).
 
-use super::bernstein::{Bernstein, COEFFICIENTS};
+use super::bernstein::{self, Bernstein, COEFFICIENTS};
 
 /// `Σ coefficients[k] s^k` on `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,6 +80,17 @@ impl Powers {
             degree + 1
         });
         Powers { coefficients, degree }
+    }
+
+    /// Coefficients in time, with the powers of a step's length, and a constant added.
+    #[inline(always)]
+    pub fn scaled(powers: &[f64], constant: f64, coefficient: impl Fn(usize) -> f64) -> Powers {
+        let mut coefficients = [0.0; COEFFICIENTS];
+        for (k, (place, power)) in coefficients.iter_mut().zip(powers).enumerate() {
+            *place = coefficient(k) * power;
+        }
+        coefficients[0] += constant;
+        Powers { coefficients, degree: powers.len() - 1 }
     }
 
     fn terms(&self) -> &[f64] {
@@ -172,6 +183,15 @@ impl Powers {
             s = if slope < 0.0 && next > above && next < below { next } else { 0.5 * (above + below) };
         }
         FirstRoot::At(s)
+    }
+
+    /// [`Powers::first_root`], by the Bernstein form where bounds do not decide.
+    pub fn root(&self, roots: usize) -> Option<f64> {
+        match self.first_root(roots) {
+            FirstRoot::Absent => None,
+            FirstRoot::At(s) => Some(s),
+            FirstRoot::Unknown => bernstein::first_root(&self.bernstein(), roots),
+        }
     }
 
     /// The largest size on `[0, 1]`, if it is above `known`, else `known`; `None` where bounds do not tell.

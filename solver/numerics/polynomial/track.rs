@@ -1,7 +1,7 @@
 //! A linear function of the state over a step, as a polynomial in either form.
 
 use super::bernstein::{self, Bernstein};
-use super::powers::{FirstRoot, Powers};
+use super::powers::Powers;
 
 /// A linear function of the state over a step.
 #[derive(Clone, Copy, Debug)]
@@ -16,11 +16,7 @@ impl Track {
     /// The first `s` in `(0, 1]` at which the function is not above zero; `start_roots` known roots at `s = 0` are left out.
     pub fn first_root(&self, start_roots: usize) -> Option<f64> {
         match self {
-            Track::Powers(powers) => match powers.first_root(start_roots) {
-                FirstRoot::Absent => None,
-                FirstRoot::At(s) => Some(s),
-                FirstRoot::Unknown => bernstein::first_root(&powers.bernstein(), start_roots),
-            },
+            Track::Powers(powers) => powers.root(start_roots),
             Track::Bernstein(polynomial) => bernstein::first_root(polynomial, start_roots),
         }
     }

@@ -6,7 +6,7 @@ use super::state::State;
 use super::sticking::Part;
 use super::transition::{Change, Transition};
 use crate::column::Column;
-use crate::friction::chain::{Chain, Rates};
+use crate::friction::chain::{Chain, Motion, Rates};
 use crate::friction::contact::Coefficients;
 use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::ContactForce;
@@ -122,8 +122,8 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Records an event.
-    fn change(&mut self, t: f64, change: &Change) {
+    /// Records an event. Returns the energies before and after it, where it is recorded `[J]`.
+    fn change(&mut self, t: f64, change: &Change) -> [f64; 2] {
         let Change { kind, interfaces, before, after, impact } = change;
         for (interface, flights) in self.report.flights.iter_mut().enumerate() {
             let has_landed = *kind == EventKind::Landing && interfaces.contains(&interface);
@@ -135,13 +135,17 @@ impl<'p> Recorder<'p> {
             self.impulses(impulses);
         }
         if !self.problem.is_recorded() {
-            return;
+            return [0.0; 2];
         }
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
-        let place = Chain::new(self.column(), after).centroid;
-        let [was, is] = [before, after].map(|one| Chain::new(self.column(), one).motion(&Rates::of(one)).linear);
-        let block =
-            |block: usize| BlockAtEvent { place: place[block], velocity_before: was[block], velocity_after: is[block] };
+        let chains = [before, after].map(|one| Chain::new(self.column(), one));
+        let motions = [0, 1].map(|k| chains[k].motion(&Rates::of([before, after][k])));
+        let energies = [0, 1].map(|k| energy_of(&chains[k], &motions[k]));
+        let block = |block: usize| BlockAtEvent {
+            place: chains[1].centroid[block],
+            velocity_before: motions[0].linear[block],
+            velocity_after: motions[1].linear[block],
+        };
         let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
         self.events.push(Event {
             t,
@@ -156,10 +160,11 @@ impl<'p> Recorder<'p> {
             theta: PerBlock::from_slice(&after.theta),
             omega_before: PerBlock::from_slice(&before.omega),
             omega_after: PerBlock::from_slice(&after.omega),
-            blocks: (0..place.len()).map(block).collect(),
+            blocks: (0..self.column().len()).map(block).collect(),
             energy_lost: impact.as_ref().map(|(_, share)| *share),
             impulses: impact.as_ref().map_or_else(PerBlock::new, |(impulses, _)| PerBlock::from_slice(impulses)),
         });
+        energies
     }
 
     fn impulses(&mut self, impulses: &[Impulse]) {
@@ -194,11 +199,12 @@ impl<'p> Recorder<'p> {
         for event in &response.events {
             let before = sticking(&event.before, &event.theta, &event.omega_before);
             let after = sticking(&event.after, &event.theta, &event.omega_after);
-            lost += energy(column, &before) - energy(column, &after);
             let numbers = if event.interfaces.is_empty() { event.interface.as_slice() } else { &event.interfaces[..] };
             let impact = event.energy_lost.map(|share| (event.impulses.to_vec(), share));
             let interfaces = numbers.iter().map(|number| number - 1).collect();
-            self.change(event.t, &Change { kind: event.kind, interfaces, before, after, impact });
+            let [before, after] =
+                self.change(event.t, &Change { kind: event.kind, interfaces, before, after, impact });
+            lost += before - after;
         }
         self.report.impact_losses += lost;
         self.report.ground_work += lost + energy(column, &until.configuration) - energy(column, &from.configuration);
@@ -386,7 +392,12 @@ impl<'p> Recorder<'p> {
 /// Kinetic and potential energy relative to the moving ground `[J]`.
 fn energy(column: &Column, configuration: &Configuration) -> f64 {
     let chain = Chain::new(column, configuration);
-    let motion = chain.motion(&Rates::of(configuration));
+    energy_of(&chain, &chain.motion(&Rates::of(configuration)))
+}
+
+/// The same, from geometry and motion.
+fn energy_of(chain: &Chain, motion: &Motion) -> f64 {
+    let column = chain.column();
     let lifted = column.blocks().iter().zip(&chain.centroid);
     let potential: f64 = lifted.map(|(block, place)| block.mass * column.gravity() * place[1]).sum();
     motion.energy(column) + potential

@@ -61,15 +61,9 @@ impl<'p> Mover<'p> {
             wanted = if h < left { h } else { wanted.max(h) };
             self.work.steps += 1;
             let now = smooth.configuration(&x);
-            let span = SeriesSpan {
-                series: &series,
-                column: smooth.column,
-                joints,
-                fixed: &self.friction.fixed,
-                h,
-                slack: force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity)),
-                overturn_angle: options.overturn_angle,
-            };
+            let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
+            let sizes = [h, slack, options.overturn_angle];
+            let span = SeriesSpan::new(&series, smooth.column, joints, &self.friction.fixed, sizes);
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
             let s = first.map_or(1.0, |(s, _)| s);

@@ -19,14 +19,22 @@ use std::cell::OnceCell;
 /// Forces beyond which a motion jams, as multiples of what weight, ground and rates account for.
 const JAMMING: f64 = 1e6;
 
+/// Generated equations of a set of states.
+enum Programs {
+    /// Not asked for so far.
+    Unknown,
+    Present(Generated),
+    /// The build has none, or the scene wants none: the rows serve.
+    Absent,
+}
+
 /// Right-hand side of a set of states.
 pub struct Smooth<'p> {
     pub column: &'p Column,
     pub friction: &'p Coefficients,
     pub base: Configuration,
     coordinates: Vec<Coordinate>,
-    /// Accelerations where the build has a program for the states; the rows serve the rest.
-    generated: Option<Generated>,
+    programs: Programs,
     pub gravity: f64,
     pub segment: &'p Segment,
     /// Evaluations so far.
@@ -38,17 +46,25 @@ impl<'p> Smooth<'p> {
     pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, from: &State) -> Smooth<'p> {
         let (column, base) = (&problem.scene.column, from.configuration.clone());
         let is_generic = problem.scene.options.dynamics == DynamicsSource::Generic;
-        let generated = if is_generic { None } else { Generated::new(column, &base, &friction.kinetic) };
         Smooth {
             column,
             friction,
             coordinates: coordinates(&base.joints),
-            generated,
+            programs: if is_generic { Programs::Absent } else { Programs::Unknown },
             base,
             gravity: column.gravity(),
             segment: &problem.ground[from.segment],
             calls: 0,
         }
+    }
+
+    /// The generated equations, where there are some.
+    fn generated(&mut self) -> Option<&mut Generated> {
+        if let Programs::Unknown = self.programs {
+            let generated = Generated::new(self.column, &self.base, &self.friction.kinetic);
+            self.programs = generated.map_or(Programs::Absent, Programs::Present);
+        }
+        if let Programs::Present(generated) = &mut self.programs { Some(generated) } else { None }
     }
 
     /// Number of free coordinates.
@@ -111,7 +127,7 @@ impl<'p> Smooth<'p> {
         self.calls += 1;
         let centres: PerBlock<f64> = (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect();
         let (rates, ground) = (Rates::of(now), Ground::at(self.segment, t, self.gravity));
-        if let Some(generated) = &mut self.generated {
+        if let Some(generated) = self.generated() {
             let second = generated.rates(now, ground)?;
             return Some(answer_to(chain, &now.joints, &centres, second, &rates, ground));
         }
@@ -142,10 +158,10 @@ impl System for Smooth<'_> {
     fn slope(&mut self, t: f64, x: &Vec<f64>, slope: &mut Vec<f64>) {
         let dof = self.coordinates.len();
         slope[..dof].copy_from_slice(&x[dof..]);
-        if let Some(generated) = &mut self.generated {
-            self.calls += 1;
+        let ground = Ground::at(self.segment, t, self.gravity);
+        self.calls += 1;
+        if let Some(generated) = self.generated() {
             let (values, rates) = x.split_at(dof);
-            let ground = Ground::at(self.segment, t, self.gravity);
             return generated.accelerations(values, rates, ground, &mut slope[dof..]);
         }
         let now = self.configuration(x);

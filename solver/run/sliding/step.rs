@@ -153,10 +153,13 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
                     self.landing(guard, &|_, s| [along.evaluate(s).abs() - reach, above.evaluate(s)], limit)
                 }
                 (Guard::Land(corner), None) => self.landing(guard, &|step, s| step.gap(corner, s), limit),
-                (_, Some(span)) => span.guard(guard).iter().flatten().fold(None, |found: Option<f64>, track| {
-                    let limit = found.unwrap_or(limit);
-                    self.root(guard, track, limit).or(found)
-                }),
+                (_, Some(span)) => {
+                    let mut found = None;
+                    span.guard(guard, &mut |track| {
+                        found = self.root(guard, track, found.unwrap_or(limit)).or(found);
+                    });
+                    found
+                }
                 (_, None) => self.crossing(guard, &|step, s| step.value(guard, s), limit),
             };
             if let Some(s) = found {
@@ -206,7 +209,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         } else {
             1
         };
-        let s = Track::Powers(*track).first_root(roots).filter(|s| *s <= limit)?;
+        let s = track.root(roots).filter(|s| *s <= limit)?;
         if guard.needs_forces() { self.refined(guard, track, s, limit) } else { Some(s) }
     }
 
@@ -326,24 +329,18 @@ impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
     fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>)) {
         let part = until - self.t;
         let end = (part / self.h).clamp(0.0, 1.0);
-        let forces = self.output.series().map(|span| {
-            let blocks = 0..span.joints.len();
-            let contacts: Vec<[Powers; 2]> = blocks.clone().map(|i| span.contact_force(i)).collect();
-            (span.momentum(), contacts, blocks.map(|i| span.slide_rate(i)).collect::<Vec<Powers>>())
-        });
         for (node, weight) in GAUSS {
             let s = node * end;
             let (t, weight) = (self.t + s * self.h, weight * part);
-            match &forces {
-                Some((momentum, contacts, rates)) => {
-                    let contact = |[along, across]: &[Powers; 2]| ContactForce {
-                        tangential: along.evaluate(s),
-                        normal: across.evaluate(s),
-                        moment: 0.0,
+            match self.output.series() {
+                Some(&SeriesSpan { series, joints, h, .. }) => {
+                    let contact = |interface: usize| {
+                        let [tangential, normal] = series.contact_force_at(interface, s * h);
+                        ContactForce { normal, tangential, moment: 0.0 }
                     };
-                    let contacts = contacts.iter().map(contact).collect();
-                    let slide_rates = rates.iter().map(|rate| rate.evaluate(s)).collect();
-                    let momentum = momentum.map(|component| component.evaluate(s));
+                    let contacts = (0..joints.len()).map(contact).collect();
+                    let slide_rates = (0..joints.len()).map(|i| series.slide_rate_at(i, s * h)).collect();
+                    let momentum = series.momentum_at(s * h);
                     let has_flight = self.smooth.base.joints.contains(&Joint::Free);
                     let flying = has_flight.then(|| self.at(s, false));
                     visit(&Node { t, weight, momentum, contacts, slide_rates, flying });
