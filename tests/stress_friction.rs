@@ -8,7 +8,7 @@
 mod scenes;
 
 use rocking::column::Shape;
-use rocking::{Block, Column, EventKind, Friction, Motion, Response, Restitution, Scene, StopReason};
+use rocking::{Block, Column, EventKind, Friction, Method, Motion, Response, Restitution, Scene, StopReason};
 use rocking::{simulate, simulate_observed};
 use scenes::Random;
 use std::collections::BTreeMap;
@@ -149,13 +149,18 @@ fn throw(random: &mut Random, scene: &mut Scene) {
     }
 }
 
+/// The scene of a seed; `ROCKING_METHOD` names another method than the default.
 fn scene(kind: Kind, seed: u64) -> Scene {
     let random = &mut Random::new(seed);
     random.bits();
-    match kind {
+    let mut scene = match kind {
         Kind::Everyday => everyday(random),
         Kind::Hostile => hostile(random),
+    };
+    if let Some(method) = std::env::var("ROCKING_METHOD").ok().and_then(|name| Method::parse(&name)) {
+        scene.options.method = method;
     }
+    scene
 }
 
 /// How far a corner of one block is inside the other at an interface `[m]`.

@@ -25,8 +25,8 @@ const SAFETY: f64 = 0.9;
 const LEAST_ERROR: f64 = 1e-12;
 
 /// Factor by which a step is shortened to resolve what starts from zero, and the share of the longest step down to which it is.
-const RESOLVING: f64 = 0.125;
-const SHORTEST_SHARE: f64 = 1e-4;
+pub(super) const RESOLVING: f64 = 0.125;
+pub(super) const SHORTEST_SHARE: f64 = 1e-4;
 
 /// Time for which the column waits after a start in vain `[s]`; it doubles as long as starts are in vain.
 const LEAST_WAIT: f64 = 1e-9;

@@ -1,11 +1,11 @@
 //! Steps on Taylor series: as many orders as the step needs, and a step as long as its last terms allow (Jorba & Zou, 2005).
 
-use super::mover::Mover;
+use super::mover::{Mover, RESOLVING, SHORTEST_SHARE};
 use super::recorder::Recorder;
 use super::state::{Ended, State};
 use super::step::Step;
 use crate::friction::guard_series::SeriesSpan;
-use crate::friction::guards;
+use crate::friction::guards::{self, Guard};
 use crate::friction::search::force_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
 use crate::mechanics::dynamics::Ground;
@@ -34,7 +34,7 @@ impl<'p> Mover<'p> {
         let most_orders = most_orders(problem.tolerance.rtol);
         let (mut at, mut x) = (self.enter(from), smooth.state(&from.configuration));
         let list = guards::guards(joints);
-        let mut wanted = self.first_step();
+        let (mut wanted, mut longest) = (self.first_step(), f64::INFINITY);
         self.work.phases += 1;
         let ended = loop {
             if let Some(ended) = at.next_segment(problem) {
@@ -48,7 +48,7 @@ impl<'p> Mover<'p> {
             segment.vertical.expand_at(t, &mut ground[1][..most_orders]);
             ground[1][0] += smooth.gravity;
             let begun = series.begin(&x, [&ground[0], &ground[1]]);
-            let most = left.min(LARGEST_GROWTH * wanted);
+            let most = left.min(LARGEST_GROWTH * wanted).min(longest);
             let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
             self.work.rhs_calls += series.orders();
             let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
@@ -58,7 +58,7 @@ impl<'p> Mover<'p> {
                 let mode = format!("{} with friction", from.configuration.pattern());
                 return Err(SolveError::StepTooSmall { time: t, step: length.unwrap_or(0.0), mode });
             };
-            wanted = if h < left { h } else { wanted.max(h) };
+            wanted = if h < most { h } else { wanted.max(h) };
             self.work.steps += 1;
             let now = smooth.configuration(&x);
             let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
@@ -66,6 +66,13 @@ impl<'p> Mover<'p> {
             let span = SeriesSpan::new(&series, smooth.column, joints, &self.friction.fixed, sizes);
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
+            let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
+            if is_unresolved && h > SHORTEST_SHARE * wanted {
+                // Sampled, a gap that has just opened may be less than the rounding of so long a step.
+                longest = RESOLVING * h;
+                continue;
+            }
+            longest = f64::INFINITY;
             let s = first.map_or(1.0, |(s, _)| s);
             at.t = if s == 1.0 { t + h } else { t + s * h };
             recorder.read(at.segment, [t, at.t], &mut step);

@@ -150,9 +150,13 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
             let found = match (guard, self.output.series()) {
                 (Guard::Land(corner), Some(span)) => {
                     let ([along, above], reach) = span.gap(corner);
-                    self.landing(guard, &|_, s| [along.evaluate(s).abs() - reach, above.evaluate(s)], limit)
+                    let gap = |_: &mut Self, s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
+                    self.landing(guard, &gap, &|step| step.root(guard, &above, limit), limit)
                 }
-                (Guard::Land(corner), None) => self.landing(guard, &|step, s| step.gap(corner, s), limit),
+                (Guard::Land(corner), None) => {
+                    let gap = |step: &mut Self, s: f64| step.gap(corner, s);
+                    self.landing(guard, &gap, &|step| step.crossing(guard, &|step, s| gap(step, s)[1], limit), limit)
+                }
                 (_, Some(span)) => {
                     let mut found = None;
                     span.guard(guard, &mut |track| {
@@ -177,10 +181,16 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     }
 
     /// The first place up to `limit` at which a corner with this gap lands. Height and distance beside the face are smooth, the larger of both is not: a
-    /// corner that comes from above is followed by its height alone.
-    fn landing(&mut self, guard: Guard, gap: &dyn Fn(&mut Self, f64) -> [f64; 2], limit: f64) -> Option<f64> {
+    /// corner that comes from above is followed by its height alone, whose first zero is `fall`.
+    fn landing(
+        &mut self,
+        guard: Guard,
+        gap: &dyn Fn(&mut Self, f64) -> [f64; 2],
+        fall: &dyn Fn(&mut Self) -> Option<f64>,
+        limit: f64,
+    ) -> Option<f64> {
         if gap(self, 0.0)[1] >= -self.noise(guard) {
-            let s = self.crossing(guard, &|step, s| gap(step, s)[1], limit)?;
+            let s = fall(self)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
                 return Some(s);
             }
@@ -193,23 +203,27 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     }
 
     /// The first place up to `limit` at which a guard falls to zero that is this polynomial. Roots at the start are divided out: as many as leading
-    /// coefficients are rounding.
+    /// coefficients are rounding. A guard that does not rise from there falls to zero where it is below it by more than rounding.
     fn root(&mut self, guard: Guard, track: &Powers, limit: f64) -> Option<f64> {
         let start = track.coefficient(0);
-        let roots = if guard.may_start_from_zero() {
+        let s = if guard.may_start_from_zero() {
             let rounding = self.rounding_at_start(guard);
-            if start < -8.0 * rounding[0] {
+            let below = 8.0 * rounding[0];
+            if start < -below {
                 return Some(0.0);
             }
-            rounding.iter().enumerate().take_while(|(k, rounding)| track.coefficient(*k).abs() <= **rounding).count()
+            let leading = rounding.iter().enumerate();
+            let roots = leading.take_while(|(k, rounding)| track.coefficient(*k).abs() <= **rounding).count();
+            let rises = track.coefficient(roots) > 0.0;
+            if rises { track.root(roots) } else { track.shifted(1.0, below).root(0) }
         } else if start > 0.0 {
-            0
+            track.root(0)
         } else if track.evaluate(RISEN_BY) <= 0.0 {
             return Some(0.0);
         } else {
-            1
+            track.root(1)
         };
-        let s = track.root(roots).filter(|s| *s <= limit)?;
+        let s = s.filter(|s| *s <= limit)?;
         if guard.needs_forces() { self.refined(guard, track, s, limit) } else { Some(s) }
     }
 
