@@ -139,9 +139,9 @@ impl<'c, 'a> Rows<'c, 'a> {
         let blocks = self.chain.column().blocks().iter().enumerate();
         if let Coordinate::Slide(interface) = self.coordinates[row] {
             let d = self.lifted[row];
-            return blocks.skip(interface).fold(0.0, |sum, (j, block)| {
-                sum + block.mass * (linear[j][0] * d[0] + linear[j][1] * d[1])
-            });
+            return blocks
+                .skip(interface)
+                .fold(0.0, |sum, (j, block)| sum + block.mass * (linear[j][0] * d[0] + linear[j][1] * d[1]));
         }
         let test = &self.columns[row];
         blocks.fold(0.0, |sum, (j, block)| {

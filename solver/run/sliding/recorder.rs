@@ -202,8 +202,7 @@ impl<'p> Recorder<'p> {
             let numbers = if event.interfaces.is_empty() { event.interface.as_slice() } else { &event.interfaces[..] };
             let impact = event.energy_lost.map(|share| (event.impulses.to_vec(), share));
             let interfaces = numbers.iter().map(|number| number - 1).collect();
-            let [before, after] =
-                self.change(event.t, &Change { kind: event.kind, interfaces, before, after, impact });
+            let [before, after] = self.change(event.t, &Change { kind: event.kind, interfaces, before, after, impact });
             lost += before - after;
         }
         self.report.impact_losses += lost;

@@ -203,7 +203,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     }
 
     /// The first place up to `limit` at which a guard falls to zero that is this polynomial. Roots at the start are divided out: as many as leading
-    /// coefficients are rounding. A guard that does not rise from there falls to zero where it is below it by more than rounding.
+    /// coefficients are rounding. A guard that does not rise from there by more than rounding falls to zero where it is below it by more than rounding.
     fn root(&mut self, guard: Guard, track: &Powers, limit: f64) -> Option<f64> {
         let start = track.coefficient(0);
         let s = if guard.may_start_from_zero() {
@@ -215,7 +215,12 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
             let leading = rounding.iter().enumerate();
             let roots = leading.take_while(|(k, rounding)| track.coefficient(*k).abs() <= **rounding).count();
             let rises = track.coefficient(roots) > 0.0;
-            if rises { track.root(roots) } else { track.shifted(1.0, below).root(0) }
+            let found = if rises { track.root(roots) } else { Some(0.0) };
+            match found {
+                // What has not left its start by then is there all the time.
+                Some(s) if track.evaluate(0.5 * s) <= rounding[0] => track.shifted(1.0, below).root(0),
+                found => found,
+            }
         } else if start > 0.0 {
             track.root(0)
         } else if track.evaluate(RISEN_BY) <= 0.0 {
