@@ -33,6 +33,9 @@ const RISEN_BY: f64 = 0.03;
 /// Rounds in which a root of a polynomial is refined on the forces themselves: each squares the error.
 const REFINEMENTS: usize = 6;
 
+/// Newton's step, as a share of the step, after which the error is its square, and so below rounding.
+const NEAR_ROOT: f64 = 1e-9;
+
 /// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
 const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668, 0.118_463_442_528_094_5),
@@ -248,7 +251,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
                 return (value <= 0.0).then_some(s);
             }
             let next = next.max(0.0);
-            let is_found = (next - s).abs() <= 4.0 * f64::EPSILON;
+            let is_found = (next - s).abs() <= NEAR_ROOT;
             s = next;
             if is_found {
                 break;

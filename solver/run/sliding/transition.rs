@@ -205,9 +205,15 @@ impl<'p> Instant<'p> {
         // Hops, bounces and slides lower than the resolution end at once.
         let mut stilled = Stilled::none(self.column().len());
         while let Some(held) = self.too_low(&solution, &mut stilled) {
+            let moving = (self.now.clone(), self.energy_lost);
             self.hold(&held);
             let touch = self.joined();
-            solution = self.accelerations(&touch, None).ok_or(StopReason::Undetermined)?;
+            let Some(without) = self.accelerations(&touch, None) else {
+                // Where no motion follows without them, they go on.
+                (self.now, self.energy_lost) = moving;
+                break;
+            };
+            solution = without;
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
         Ok(self.search(&self.touching()).carried(&solution))
