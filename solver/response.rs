@@ -240,7 +240,7 @@ pub struct Work {
     /// Swings in closed form instead of steps.
     #[serde(alias = "swings")]
     pub closed_form_swings: usize,
-    /// Multi-sample steps: steps over several samples of a record at once.
+    /// Multi-sample steps: stretches over several samples of a record.
     #[serde(alias = "leaps")]
     pub multi_sample_steps: usize,
     /// Stretches of ground motion passed at rest without a step.

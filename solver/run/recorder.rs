@@ -4,7 +4,7 @@ use super::modes::Modes;
 use super::needs::{InPanel, Needs};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Over, Panel, Request, Stretch};
+use super::stretch::{Over, Panel, Stretch};
 use super::transition::Transition;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
@@ -134,22 +134,21 @@ impl Recorder {
         if !problem.is_recorded() {
             return;
         }
-        if stretch.is_coarse {
-            let is_whole = problem.records_forces() || self.next_row(problem).is_some_and(|t| t < stretch.end);
-            let request = Request { is_whole, known_peak: self.peak_theta[0] };
-            stretch.inside.refine(problem, request, &mut |finer| self.read_inside(problem, finer));
-        }
-        self.read_inside(problem, stretch);
-    }
-
-    /// Records rows, peaks and forces of a stretch.
-    fn read_inside(&mut self, problem: &Problem, stretch: &mut Stretch) {
         while let Some(t) = self.next_row(problem).filter(|t| *t < stretch.end) {
             let (theta, omega) = stretch.inside.state_at(t);
             self.record_row(problem, t, theta.to_vec(), omega.to_vec());
         }
         stretch.inside.raise_peaks(&mut self.peak_theta);
-        let Some(mut needs) = self.needs.take_if(|_| !stretch.is_coarse) else { return };
+        if !stretch.is_coarse {
+            self.read_forces(problem, stretch);
+        } else if problem.records_forces() {
+            stretch.inside.refine(problem, &mut |finer| self.read_forces(problem, finer));
+        }
+    }
+
+    /// Records the forces of a stretch.
+    fn read_forces(&mut self, problem: &Problem, stretch: &mut Stretch) {
+        let Some(mut needs) = self.needs.take() else { return };
         needs.begin(stretch.inside, stretch.end, &self.peak_theta);
         stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, &mut needs));
         needs.end(stretch.inside);

@@ -11,14 +11,14 @@ mod alone;
 mod coefficients;
 mod series;
 
-pub use coefficients::MAX_ORDER;
+pub use coefficients::{MAX_ORDER, RECIPROCAL, reciprocal, turned};
 pub use series::SeriesSystem;
 
 use super::control::{Attempt, Part, Tolerance, rough_root, without_remainder};
 use crate::numerics::polynomial::difference::Difference;
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::state_vector::StateVector;
-use coefficients::{NUMBER, RECIPROCAL};
+use coefficients::NUMBER;
 use series::{Series, rate_of};
 use wide::f64x2;
 
@@ -26,11 +26,11 @@ use wide::f64x2;
 const MIN_ORDER: usize = 4;
 
 /// What a term before the last one still counts for: of an odd or even function every second coefficient is zero.
-const BEFORE_LAST: f64 = 0.1;
+pub const BEFORE_LAST: f64 = 0.1;
 
 /// Terms are kept this much smaller than the tolerance. Without, errors are what is asked for at best, several times that where the
 /// motion lingers at an unstable balance; it costs an eighth of the step.
-const MARGIN: f64 = 8.0;
+pub const MARGIN: f64 = 8.0;
 
 /// Error of a step of the largest order below which a lower one is looked for: above, it would save less than looking costs.
 const SHORT: f64 = 1e-3;
