@@ -13,6 +13,7 @@ use crate::numerics::ode::control::{Part, Tolerance};
 use crate::numerics::ode::one_angle::{HIGHEST_ORDER, LEAST_ORDER, OneAngle, Turning};
 use crate::numerics::ode::taylor::MARGIN;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::numerics::scalar::Scalar;
 use rocking_ground::{Segment, Timeline};
@@ -136,7 +137,7 @@ impl Phase {
         let index = self.sample_steps.partition_point(|step| step.t <= t).saturating_sub(1);
         let Some(SampleStep { t: from, h, start, weights }) = self.sample_steps.get(index) else { return };
         let series = OneAngle::expand::<HIGHEST_ORDER>(weights, *start);
-        let [theta, rate] = series.track(1.0, start.theta, 1.0).with_slope((t - from) / h);
+        let [theta, rate] = series.track(1.0, start.theta).with_slope((t - from) / h);
         self.inside.copy_from_slice(&[theta, rate / h]);
     }
 
@@ -191,11 +192,13 @@ impl Walk<'_> {
         let sign = self.gap.across.sign;
         let Place { mut t, mut segment, mut omega, mut angle } = self.place;
         let (mut peak, mut needs_order) = (self.peak, self.needs_order);
+        // Rate at the start, in this unit `[1/s]`: that of the step before.
+        let (mut rate, mut unit) = (omega, 1.0);
         let end = loop {
             let span = &ground[segment];
             let h = span.end - t;
             let Some(weights) = rocker.weights(span, t, h) else { break End::Over };
-            angle.rate = omega * h;
+            angle.rate = rate * (unit * h);
             let step = OneAngle::expand::<ORDER>(&weights, angle);
             let (end, per_second) = (step.end, 1.0 / h);
             let omega_end = end.rate * per_second;
@@ -218,9 +221,13 @@ impl Walk<'_> {
             if is_simple {
                 peak = if largest > peak { largest } else { peak };
             } else {
-                match examine(&step, &self.gap, angle.theta, self.resolution, peak) {
+                let track = step.track(sign, angle.theta);
+                match examine(&track, self.gap.start_roots, self.resolution, peak) {
                     Touch::Grazes => break End::Over,
-                    Touch::Lands(share, crest) => (landing, peak) = (Some(share), crest),
+                    Touch::Lands(share, crest) => {
+                        let [_, rate] = track.with_slope(share);
+                        (landing, peak) = (Some([share, sign * rate]), crest);
+                    }
                     Touch::Clears(crest) => peak = crest,
                 }
                 self.gap.start_roots = if out_end > self.resolution { 0 } else { self.gap.start_roots };
@@ -229,13 +236,13 @@ impl Walk<'_> {
                 steps.push(SampleStep { t, h, start: angle, weights });
             }
             self.intervals += 1;
-            if let Some(landing) = landing {
-                let [_, rate] = step.track(1.0, angle.theta, 1.0).with_slope(landing);
+            if let Some([landing, rate]) = landing {
                 t = if landing == 1.0 { span.end } else { t + landing * h };
                 (omega, angle.theta) = (rate * per_second, 0.0);
                 break End::Landed;
             }
             (angle, omega, t) = (end, omega_end, span.end);
+            (rate, unit) = (end.rate, per_second);
             let next = segment + 1;
             let goes_on = next < ground.len() && !self.stops_at(&ground[next], t);
             segment += usize::from(goes_on);
@@ -265,20 +272,19 @@ enum Touch {
     Grazes,
 }
 
-/// What the gap does in a step in which the rate may change its sign.
+/// What the gap, which this series gives, does in a step in which the rate may change its sign.
 #[inline(never)] // Rare: its registers are not saved in the loop.
-fn examine(step: &OneAngle, gap: &Gap, theta: f64, resolution: f64, peak: f64) -> Touch {
-    let (sign, roots) = (gap.across.sign, gap.start_roots);
-    let track = step.track(sign, theta, 1.0);
+fn examine(track: &Powers, roots: usize, resolution: f64, peak: f64) -> Touch {
+    let largest = |track: Powers| Track::Powers(track).largest_size(peak);
     if roots > 0 && track.size() <= resolution {
         return Touch::Clears(peak);
     }
-    let Some(landing) = Track::Powers(track).first_root(roots) else {
-        return Touch::Clears(Track::Powers(track).largest_size(peak));
+    let Some(landing) = Track::Powers(*track).first_root(roots) else {
+        return Touch::Clears(largest(*track));
     };
     let [value, slope] = track.with_slope(landing);
     if !(slope < 0.0 || value <= resolution) {
         return Touch::Grazes;
     }
-    Touch::Lands(landing, Track::Powers(step.track(sign, theta, landing)).largest_size(peak))
+    Touch::Lands(landing, largest(track.up_to(landing)))
 }

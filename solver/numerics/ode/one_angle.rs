@@ -13,7 +13,7 @@
 //!
 //! Sine and cosine of the next angle are those of the last one turned by `δ`.
 
-use super::taylor::{BEFORE_LAST, RECIPROCAL, reciprocal, turned};
+use super::taylor::{BEFORE_LAST, RECIPROCAL, turned};
 use crate::numerics::polynomial::powers::Powers;
 use wide::f64x2;
 
@@ -38,8 +38,8 @@ pub struct Turning {
 /// The series of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct OneAngle {
-    /// Coefficients of the rate, each twice, from the constant one up to the order.
-    rates: [f64x2; HIGHEST_ORDER + 1],
+    /// Coefficients of the rate, from the constant one up to the order.
+    rates: [f64; HIGHEST_ORDER + 1],
     order: usize,
     /// State at the end.
     pub end: Turning,
@@ -49,37 +49,40 @@ pub struct OneAngle {
     pub last: f64,
 }
 
-/// Coefficients of `[cos δ, sin δ]` and of `[δ', δ']`.
+/// Coefficients of `[cos δ, sin δ]` and of `δ'`.
 struct Series {
     circle: [f64x2; HIGHEST_ORDER + 1],
-    rates: [f64x2; HIGHEST_ORDER + 1],
+    rates: [f64; HIGHEST_ORDER + 1],
 }
 
 impl Series {
+    /// The first three: `cos δ = 1 - Ω_0² u²/2`, `sin δ = Ω_0 u + Ω_1 u²/2`, with `Ω_1 = P`, `2 Ω_2 = P' + Q Ω_0`.
     #[inline(always)]
-    fn begin(rate: f64) -> Series {
-        let zeros = [f64x2::ZERO; HIGHEST_ORDER + 1];
-        let mut series = Series { circle: zeros, rates: zeros };
-        (series.circle[0], series.rates[0]) = (f64x2::new([1.0, 0.0]), f64x2::splat(rate));
+    fn begin(rate: f64, [[p, q], [p_slope, _]]: [[f64; 2]; 2]) -> Series {
+        let mut series = Series { circle: [f64x2::ZERO; HIGHEST_ORDER + 1], rates: [0.0; HIGHEST_ORDER + 1] };
+        series.circle[..3].copy_from_slice(&[
+            f64x2::new([1.0, 0.0]),
+            f64x2::new([0.0, rate]),
+            f64x2::new([-0.5 * rate * rate, 0.5 * p]),
+        ]);
+        series.rates[..3].copy_from_slice(&[rate, p, 0.5 * (p_slope + q * rate)]);
         series
     }
 
-    /// What follows from the order `k` under `[P, Q]` and their slopes.
+    /// What follows from the order `k`, two at least. A step waits for the coefficients one after another, from `Ω` over `sin δ` to `Ω`: they are
+    /// scalars, and what comes last is added last.
     #[inline(always)]
-    fn extend(&mut self, k: usize, weights: [f64x2; 2]) {
+    fn extend(&mut self, k: usize, [[p, q], [p_slope, q_slope]]: [[f64; 2]; 2]) {
         let Series { circle, rates } = self;
-        let mut load = weights[0] * circle[k];
-        if k > 0 {
-            load = weights[1] * circle[k - 1] + load;
+        let ([cos, sin], [cos_before, sin_before]) = (circle[k].to_array(), circle[k - 1].to_array());
+        // That of the constant coefficients, one and zero, is added last.
+        let mut turning = circle[k] * f64x2::splat(rates[0]);
+        for j in 1..k {
+            turning += circle[k - j] * f64x2::splat(rates[j]);
         }
-        // What has only just been computed comes last: all else is summed meanwhile.
-        let mut turning = f64x2::ZERO;
-        for j in 0..k + 1 {
-            turning += circle[k - j] * rates[j];
-        }
-        let [of_cos, of_sin] = load.to_array();
-        circle[k + 1] = turned(turning) * reciprocal(k + 1);
-        rates[k + 1] = f64x2::splat(of_cos + of_sin) * reciprocal(k + 1);
+        let ([of_cos, of_sin], share) = (turning.to_array(), RECIPROCAL[k + 1]);
+        rates[k + 1] = (p * cos + (p_slope * cos_before + q_slope * sin_before) + q * sin) * share;
+        circle[k + 1] = f64x2::new([-share * of_sin, share * (of_cos + rates[k])]);
     }
 }
 
@@ -88,9 +91,9 @@ impl OneAngle {
     #[inline(always)]
     pub fn expand<const ORDER: usize>(weights: &Weights, start: Turning) -> OneAngle {
         let Turning { theta, rate, circle } = start;
-        let mut series = Series::begin(rate);
         let [cos, sin] = circle.to_array().map(f64x2::splat);
-        let weights = [0, 1].map(|k| cos * weights[k] - turned(weights[k]) * sin);
+        let weights = [0, 1].map(|k| (cos * weights[k] - turned(weights[k]) * sin).to_array());
+        let mut series = Series::begin(rate, weights);
         // A piece of code for each order: loops as short as these cost more than their sums.
         macro_rules! each {
             ($($order:literal)*) => {$(
@@ -99,36 +102,33 @@ impl OneAngle {
                 }
             )*};
         }
-        each!(0 1 2 3 4 5 6 7 8 9 10 11);
-        // `[θ', δ]`, the sum over sizes, and the circle.
-        let (mut sums, mut change, mut circle) = (f64x2::ZERO, 0.0, f64x2::ZERO);
+        each!(2 3 4 5 6 7 8 9 10 11);
+        // `[θ', δ]`, the sum over sizes, and the circle. The last terms, which are the last to be known, come last.
+        let (mut sums, mut change, mut turn) = (f64x2::ZERO, 0.0, f64x2::ZERO);
         macro_rules! each {
             ($($order:literal)*) => {$(
                 if $order <= ORDER {
-                    sums += series.rates[$order] * f64x2::new([1.0, RECIPROCAL[$order + 1]]);
-                    change += series.rates[$order].as_array()[0].abs();
-                    circle += series.circle[$order];
+                    sums += f64x2::splat(series.rates[$order]) * f64x2::new([1.0, RECIPROCAL[$order + 1]]);
+                    change += series.rates[$order].abs();
+                    turn += series.circle[$order];
                 }
             )*};
         }
-        each!(12 11 10 9 8 7 6 5 4 3 2 1);
-        circle += series.circle[0];
-        let [gained, turn] = sums.to_array();
+        each!(1 2 3 4 5 6 7 8 9 10 11 12);
+        let [gained, moved] = sums.to_array();
+        let turn = turn + series.circle[0];
         let end =
-            Turning { theta: theta + (rate + turn), rate: rate + gained, circle: cos * circle + turned(circle) * sin };
-        let [before, last] = [ORDER - 1, ORDER].map(|order| series.rates[order].as_array()[0].abs());
+            Turning { theta: theta + (rate + moved), rate: rate + gained, circle: cos * turn + turned(turn) * sin };
+        let [before, last] = [ORDER - 1, ORDER].map(|order| series.rates[order].abs());
         let before = BEFORE_LAST * before;
         OneAngle { rates: series.rates, order: ORDER, end, change, last: if last > before { last } else { before } }
     }
 
-    /// `sign θ` over the step up to a share of it, in units of that part.
-    pub fn track(&self, sign: f64, start: f64, share: f64) -> Powers {
-        let mut power = sign;
-        let terms = self.rates[..=self.order].iter().zip(&RECIPROCAL[1..]).map(|(rate, reciprocal)| {
-            power *= share;
-            rate.as_array()[0] * power * reciprocal
-        });
-        Powers::with_terms(sign * start, terms)
+    /// `sign θ` over the step.
+    #[inline(always)]
+    pub fn track(&self, sign: f64, start: f64) -> Powers {
+        let terms = self.rates[..=self.order].iter().zip(&RECIPROCAL[1..]);
+        Powers::with_terms(sign * start, terms.map(|(rate, reciprocal)| sign * rate * reciprocal))
     }
 }
 
@@ -161,7 +161,7 @@ mod tests {
             // Of no account: it counts by the weights, which are some thousandths in a step from sample to sample.
             let turned = (cos - libm::cos(exact.theta)).abs().max((sin - libm::sin(exact.theta)).abs());
             assert!(turned < 2.0 * step.last.max(1e-15), "order {order}: {turned:e}, last {:e}", step.last);
-            let [angle, slope] = step.track(1.0, theta, 1.0).with_slope(1.0);
+            let [angle, slope] = step.track(1.0, theta).with_slope(1.0);
             assert!((angle - step.end.theta).abs() < 1e-15 && (slope - step.end.rate).abs() < 1e-15);
             assert!((step.end.rate - rate).abs() <= step.change);
         };

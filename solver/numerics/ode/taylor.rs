@@ -11,7 +11,7 @@ mod alone;
 mod coefficients;
 mod series;
 
-pub use coefficients::{MAX_ORDER, RECIPROCAL, reciprocal, turned};
+pub use coefficients::{MAX_ORDER, RECIPROCAL, turned};
 pub use series::SeriesSystem;
 
 use super::control::{Attempt, Part, Tolerance, rough_root, without_remainder};

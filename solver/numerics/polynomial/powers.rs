@@ -93,6 +93,16 @@ impl Powers {
         self
     }
 
+    /// The part up to `s`, on `[0, 1]` again.
+    pub fn up_to(mut self, s: f64) -> Powers {
+        let mut power = 1.0;
+        for c in &mut self.coefficients[1..=self.degree] {
+            power *= s;
+            *c *= power;
+        }
+        self
+    }
+
     /// Value at `s`.
     pub fn evaluate(&self, s: f64) -> f64 {
         self.terms().iter().rev().fold(0.0, |sum, c| sum * s + c)
