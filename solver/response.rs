@@ -359,6 +359,9 @@ pub struct Response {
     /// Smallest normal force per interface, a fall included `[N]`. Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
+    /// Largest sizes of gaps, base first; empty unless a study records them in place of rows `[rad]`.
+    #[serde(skip)]
+    pub(crate) largest_gaps: Vec<f64>,
     /// Contact problems without admissible pattern.
     pub separations: Vec<Separation>,
     /// Forces and separations up to the point of no return, with times; `None` if the scene's options ask for no forces, and for runs in which

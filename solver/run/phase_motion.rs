@@ -201,11 +201,25 @@ impl Inside for Phase {
             Kind::Step(step) => {
                 let step = *step;
                 for link in 0..self.dof {
-                    raise(&mut peaks[self.gaps[link].blocks()], |known| self.peak_of_step(step, link, known));
+                    let angle = Difference { sign: 1.0, upper: link, lower: None };
+                    raise(&mut peaks[self.gaps[link].blocks()], |known| self.peak_of_step(step, angle, known));
                 }
             }
             Kind::Swing(swing) => raise(&mut peaks[self.gaps[0].blocks()], |known| swing.peak(known)),
             Kind::Samples(samples) => raise(&mut peaks[self.gaps[0].blocks()], |_| samples.peak),
+        }
+    }
+
+    fn raise_gaps(&mut self, gaps: &mut [f64]) {
+        for index in 0..self.dof {
+            let Gap { interface, across, .. } = self.gaps[index];
+            raise(&mut gaps[interface..=interface], |known| match self.stretch {
+                Kind::Instant => known,
+                Kind::Step(step) => self.peak_of_step(step, across, known),
+                // The gap of the one link that moves is its angle.
+                Kind::Swing(swing) => swing.peak(known),
+                Kind::Samples(samples) => samples.peak,
+            });
         }
     }
 

@@ -20,6 +20,8 @@ pub(crate) struct Problem<'a> {
     pub tolerance: Tolerance,
     /// Nothing but the outcome is requested, and the ground comes to rest before the end.
     pub may_stand: bool,
+    /// Whether the largest gaps are recorded.
+    pub records_gaps: bool,
 }
 
 /// What a run leaves out because the answer is the same without: everything, unless a benchmark measures what each is worth.
@@ -71,6 +73,7 @@ impl<'a> Problem<'a> {
             kappa: scene.restitution.per_interface(&scene.column),
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
             may_stand: prospects.is_some() && ground.last().is_some_and(Segment::is_quiet),
+            records_gaps: false,
         }
     }
 

@@ -65,6 +65,9 @@ pub(crate) trait Inside {
     /// Raises the largest angles so far, per block, to those in the stretch `[rad]`.
     fn raise_peaks(&mut self, peaks: &mut [f64]);
 
+    /// Raises the largest sizes of gaps by interface to those inside `[rad]`.
+    fn raise_gaps(&mut self, gaps: &mut [f64]);
+
     /// Calls `note` with the contact forces of panels so short that forces are parabolas over them.
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel));
 
