@@ -19,7 +19,8 @@ use crate::numerics::scalar::Scalar;
 use rocking_ground::{Segment, Timeline};
 use wide::f64x2;
 
-/// Share of the tolerance below which all errors of a stretch are for the next one to be of a lower order.
+/// Share of the tolerance below which all errors of a stretch must lie for the next stretch to try a lower order: an order is worth a factor of about a
+/// hundred in the error of a step from sample to sample; larger, orders would go down and up again.
 const FINE_ENOUGH: f64 = 1e-3;
 
 /// A walk from sample to sample.
@@ -38,7 +39,7 @@ struct Walk<'p> {
 
     place: Place,
     intervals: usize,
-    /// Whether some interval was in need of the order.
+    /// Whether some interval needed the order.
     needs_order: bool,
     /// Largest size of the angle `[rad]`.
     peak: f64,
@@ -61,11 +62,11 @@ struct Place {
 /// Why a walk ends.
 #[derive(PartialEq)]
 enum End {
-    /// The order does not do for the next interval.
+    /// The order is too low for the next interval.
     Coarse,
     /// The block has landed.
     Landed,
-    /// Somebody else goes on.
+    /// A stretch of another kind follows.
     Over,
 }
 
