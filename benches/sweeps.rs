@@ -5,12 +5,18 @@
 //! anything is timed each answer, whether the column overturns, is compared with that at rtol 1e-12. Times are medians of rounds in
 //! which all take turns. The figures go to `target/bench/sweeps.csv`. What biases them: three to five blocks are chaotic, so that
 //! answers that differ from the tight ones are counted, not refused.
+//!
+//! Then incremental dynamic analyses: a column 6 m high of one, two, three and five blocks, 44 synthetic records of 30 s at 0.01 s, 20 levels of PGV, 10 s
+//! of free swing after each record, on one thread, without companions, at the default tolerances. `target/bench/analyses.csv`.
 
 mod common;
 
 use rayon::prelude::*;
+use rocking::ground::Synthetic;
+use rocking::intensity::Intensity;
+use rocking::studies::{Ida, StudyRecord};
 use rocking::sweep::Fate;
-use rocking::{Simulator, StopReason, Sweep, Wanted};
+use rocking::{Block, Column, Scene, Simulator, StopReason, Sweep, Wanted};
 use std::path::Path;
 use std::time::Instant;
 
@@ -80,7 +86,66 @@ fn main() -> std::io::Result<()> {
             csv.push_str(&format!("{blocks},{threads},{rate:.0},{speed_up:.3},{different},{circumstances}\n"));
         }
     }
-    common::write("sweeps.csv", &csv)
+    common::write("sweeps.csv", &csv)?;
+    analyses()
+}
+
+/// Blocks of the analyses.
+const ANALYSED: [usize; 4] = [1, 2, 3, 5];
+
+/// Rounds of the analyses, of which the median counts.
+const ANALYSIS_ROUNDS: usize = 3;
+
+/// Verdicts in a thousand of one block that may differ from those at rtol 1e-12.
+const MOST_OTHER_VERDICTS: usize = 5;
+
+/// An analysis of a column of so many blocks, at a relative tolerance.
+fn analysis(blocks: usize, rtol: Option<f64>) -> Ida {
+    let half_width = |i: usize| 0.5 - 0.15 * i as f64 / (blocks - 1).max(1) as f64;
+    let column = (0..blocks).map(|i| Block::rectangle(half_width(i), 3.0 / blocks as f64, 2700.0)).collect();
+    let mut scene = Scene::new(Column::new(column, 9.81).expect("a valid column"));
+    if let Some(rtol) = rtol {
+        (scene.options.rtol, scene.options.atol) = (rtol, 1e-3 * rtol);
+    }
+    let record = |seed: u64| {
+        let frequency = 1.0 + 0.1 * seed as f64;
+        let horizontal = Synthetic { duration: 30.0, seed, frequency, ..Synthetic::default() }.record();
+        StudyRecord { name: format!("seed {seed}"), horizontal: horizontal.expect("a valid record"), vertical: None }
+    };
+    let levels = (1..=20).map(|level| 0.1 * f64::from(level)).collect();
+    let pgv = Intensity::named("pgv", None).expect("a measure");
+    Ida::new(scene, (1..=44).map(record).collect(), pgv, levels).expect("a valid study").followed(false)
+}
+
+/// Times the analyses.
+fn analyses() -> std::io::Result<()> {
+    let fates = |study: &Ida| study.lines(0..study.len(), |run| run.result.map(|found| found.fate).ok());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let mut csv = format!("blocks,runs,us_per_run,overturned,other_verdicts,{}\n", common::CIRCUMSTANCES);
+    let circumstances = common::circumstances();
+    for blocks in ANALYSED {
+        let study = analysis(blocks, None);
+        let (own, tight) = (fates(&study), fates(&analysis(blocks, Some(1e-12))));
+        let other = own.iter().zip(&tight).filter(|(own, tight)| own != tight).count();
+        let overturned = own.iter().filter(|fate| **fate == Some(Fate::Overturns)).count();
+        assert!(own.iter().all(Option::is_some) && overturned > 0, "{blocks} blocks: {overturned} overturn");
+        assert!(blocks > 1 || 1000 * other <= MOST_OTHER_VERDICTS * own.len(), "{other} other verdicts");
+        let mut times: Vec<f64> = (0..ANALYSIS_ROUNDS)
+            .map(|_| {
+                let start = Instant::now();
+                pool.install(|| fates(&study));
+                start.elapsed().as_secs_f64()
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        let each = 1e6 * times[ANALYSIS_ROUNDS / 2] / study.len() as f64;
+        println!(
+            "{blocks} blocks: {each:>8.1} µs a run, {overturned} of {} overturn, {other} other verdicts",
+            study.len()
+        );
+        csv.push_str(&format!("{blocks},{},{each:.2},{overturned},{other},{circumstances}\n", study.len()));
+    }
+    common::write("analyses.csv", &csv)
 }
 
 /// Whether a point overturns at the tightest tolerance.

@@ -240,7 +240,7 @@ pub struct Work {
     /// Swings in closed form instead of steps.
     #[serde(alias = "swings")]
     pub closed_form_swings: usize,
-    /// Multi-sample steps: steps over several samples of a record at once.
+    /// Multi-sample steps: stretches over several samples of a record.
     #[serde(alias = "leaps")]
     pub multi_sample_steps: usize,
     /// Stretches of ground motion passed at rest without a step.
@@ -359,6 +359,9 @@ pub struct Response {
     /// Smallest normal force per interface, a fall included `[N]`. Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
+    /// Largest sizes of gaps, base first; empty unless a study records them in place of rows `[rad]`.
+    #[serde(skip)]
+    pub(crate) largest_gaps: Vec<f64>,
     /// Contact problems without admissible pattern.
     pub separations: Vec<Separation>,
     /// Forces and separations up to the point of no return, with times; `None` if the scene's options ask for no forces, and for runs in which

@@ -87,6 +87,16 @@ impl Piece {
         }
     }
 
+    /// Acceleration at `t` and its slope, where the piece is a straight line `[m/s²]`, `[m/s³]`.
+    #[inline(always)]
+    pub fn line_at(&self, t: f64) -> Option<[f64; 2]> {
+        match *self {
+            Piece::Zero => Some([0.0; 2]),
+            Piece::Linear { value, slope, start } => Some([value + slope * (t - start), slope]),
+            _ => None,
+        }
+    }
+
     /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
     #[inline]
     pub fn expand_at(&self, t: f64, coefficients: &mut [f64]) {

@@ -31,6 +31,12 @@ impl Segment {
     /// Whether both accelerations are zero.
     #[inline]
     pub fn is_quiet(&self) -> bool {
-        self.horizontal == Piece::Zero && self.vertical == Piece::Zero
+        matches!((&self.horizontal, &self.vertical), (Piece::Zero, Piece::Zero))
+    }
+
+    /// Whether both accelerations are straight lines.
+    #[inline]
+    pub fn is_straight(&self) -> bool {
+        [&self.horizontal, &self.vertical].iter().all(|piece| matches!(piece, Piece::Zero | Piece::Linear { .. }))
     }
 }

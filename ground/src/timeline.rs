@@ -35,7 +35,6 @@ impl TimelineCache {
             excitation.divide(t_end, &mut timeline.segments);
             timeline.impulses.clear();
             timeline.pushes.clear();
-            timeline.find_samples();
             self.of = (timeline.segments.len() >= MANY_SEGMENTS).then(|| (excitation.clone(), t_end));
         }
         Arc::make_mut(&mut self.timeline).look_ahead(lookahead);
@@ -47,10 +46,6 @@ impl TimelineCache {
 #[derive(Clone, Debug, Default)]
 pub struct Timeline {
     segments: Vec<Segment>,
-    /// Horizontal accelerations at the starts of the segments and at the end of the last one `[m/s²]`; contiguous in memory.
-    accelerations: Vec<f64>,
-    /// For each segment the first one from it on, maybe itself, that does not continue a record of equal intervals.
-    uninterrupted_until: Vec<usize>,
     /// Bounds of the impulse of both components after each segment `[m/s]`; empty unless requested.
     impulses: Vec<f64>,
     /// Bounds of the pushes to the left and to the right after each segment, discounted to its end `[m/s]`; infinite before a vertical
@@ -69,18 +64,7 @@ impl Deref for Timeline {
     }
 }
 
-/// Share by which intervals of a record may differ, for times are rounded. A step over several takes them for equal.
-const INTERVAL_TOLERANCE: f64 = 1e-9;
-
 impl Timeline {
-    /// Horizontal accelerations `[m/s²]` at the bounds of up to `most` segments from `first` on, as long as they are intervals of one
-    /// record with nothing vertical beside it. At most one value where `first` is no such interval.
-    #[inline]
-    pub fn samples(&self, first: usize, most: usize) -> &[f64] {
-        let until = self.uninterrupted_until.get(first).map_or(first, |until| (*until).min(first + most));
-        self.accelerations.get(first..=until).unwrap_or_default()
-    }
-
     /// A bound of the impulse `∫ |a| dt` of both components from `t` in a segment on, if it is less than `limit` `[m/s]`.
     ///
     /// # Panics
@@ -138,31 +122,6 @@ impl Timeline {
             }
         }
     }
-
-    /// Fills the accelerations at the bounds of segments, where some of them are intervals of records.
-    fn find_samples(&mut self) {
-        self.accelerations.clear();
-        self.uninterrupted_until.clear();
-        let segments = &self.segments;
-        let is_sampled =
-            |own: &Segment| matches!((&own.horizontal, &own.vertical), (Piece::Linear { .. }, Piece::Zero));
-        let Some(last) = segments.last().filter(|_| segments.iter().any(is_sampled)) else { return };
-        let at_end = last.horizontal.value(last.end);
-        self.accelerations.extend(segments.iter().map(|own| own.horizontal.value(own.start)).chain([at_end]));
-        let mut first = 0;
-        while let [own, later @ ..] = &segments[first..] {
-            let dt = own.end - own.start;
-            let is_even = |next: &Segment| ((next.end - next.start) - dt).abs() <= INTERVAL_TOLERANCE * dt;
-            let goes_on = |next: &&Segment| is_sampled(own) && is_sampled(next) && !next.jumps && is_even(next);
-            let end = first + 1 + later.iter().take_while(goes_on).count();
-            // The next segment need not begin with the value at which this one ends if it jumps or is no interval of a record.
-            let next = segments.get(end);
-            let breaks_off = !is_sampled(own) || next.is_some_and(|next| next.jumps || !is_sampled(next));
-            let until = end - usize::from(breaks_off);
-            self.uninterrupted_until.extend((first..end).map(|own| until.max(own)));
-            first = end;
-        }
-    }
 }
 
 #[cfg(test)]
@@ -212,34 +171,5 @@ mod tests {
         let impulse =
             |timeline: &Timeline| timeline.impulse_from(at(timeline, 4.9), 4.9, f64::INFINITY).expect("finite");
         assert!((impulse(&timeline) - impulse(&alone) - 1.0).abs() < 1e-12, "a second of a metre per second squared");
-    }
-
-    #[test]
-    fn samples_are_those_of_a_record_up_to_where_it_jumps_or_ends() {
-        let values: Vec<f64> = (1..=30).map(f64::from).collect();
-        let record = Motion::Record(Record::new(values.clone(), 0.1, 0.05).expect("valid"));
-        let push = Motion::Rectangular { amplitude: 2.0, start: 1.05, duration: 0.9 };
-        let mut cache = TimelineCache::default();
-        let alone = Excitation { horizontal: Some(record.clone()), vertical: None };
-        let timeline = cache.timeline(&alone, 5.0, Lookahead::default());
-        assert_eq!(timeline.samples(0, 4), [0.0], "before it begins");
-        let first: Vec<f64> = timeline.samples(1, 4).to_vec();
-        assert!(first.iter().zip(&values).all(|(a, b)| (a - b).abs() < 1e-12) && first.len() == 5, "{first:?}");
-        // It ends with a jump: the last interval is left out.
-        assert_eq!(timeline.samples(1, 100).len(), 29);
-        assert_eq!(
-            (timeline.samples(29, 4).len(), timeline.samples(30, 4).len(), timeline.samples(99, 4).len()),
-            (1, 1, 0)
-        );
-        let both = Excitation { horizontal: Some(Motion::Sum { terms: vec![record.clone(), push] }), vertical: None };
-        let timeline = cache.timeline(&both, 5.0, Lookahead::default());
-        // It jumps at the eleventh sample, and at the twentieth.
-        assert_eq!([1, 5, 10, 11, 19, 20].map(|first: usize| timeline.samples(first, 100).len()), [10, 6, 1, 9, 1, 10]);
-        let lifted = Excitation {
-            horizontal: Some(record),
-            vertical: Some(Motion::Rectangular { amplitude: 1.0, start: 0.0, duration: 9.0 }),
-        };
-        let timeline = cache.timeline(&lifted, 5.0, Lookahead::default());
-        assert!((0..timeline.len()).all(|first| timeline.samples(first, 100).is_empty()), "none is a record alone");
     }
 }

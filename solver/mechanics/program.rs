@@ -1,7 +1,7 @@
 //! What generated code is made of: the arithmetic it needs, the column it reads, the functions it gives.
 //!
-//! Generated functions are generic over the [`Scalar`]: doubles for a run, lanes for an ensemble, double-doubles for a
-//! reference, duals for derivatives.
+//! Generated functions are generic over the [`Scalar`]: doubles for a run, double-doubles for a reference, duals for
+//! derivatives.
 
 pub use crate::numerics::scalar::Scalar;
 

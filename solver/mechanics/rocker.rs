@@ -1,18 +1,19 @@
-//! One free angle on a ground that moves to the side: the equation of one block, for steps over several samples of a record.
+//! One free angle on a ground that moves, in closed form: the equation of one block, for steps from sample to sample of a record.
 
 use super::dynamics::{Dynamics, Ground};
-use crate::numerics::ode::collocation::LinearlyForced;
-use crate::numerics::ode::gauss_rule::AtNodes;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::ode::one_angle::Weights;
 use crate::numerics::state_vector::StateVector;
+use rocking_ground::Segment;
+use wide::f64x2;
 
-/// One free angle on a ground that moves to the side by `a`: `θ¨ = cos θ (C + C' a) + sin θ (S + S' a)`.
+/// One free angle under an effective gravity `g` on a ground that moves to the side by `a`: `θ¨ = cos θ (G g + H a) + sin θ (G' g + H' a)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rocker {
-    /// `[C, S]`
-    own: [f64; 2],
-    /// `[C', S']`
-    shaken: [f64; 2],
+    gravity: f64,
+    /// `[G, G']` `[1/m]`
+    pulled: f64x2,
+    /// `[H, H']` `[1/m]`
+    shaken: f64x2,
 }
 
 impl Rocker {
@@ -22,35 +23,20 @@ impl Rocker {
         let inertia = *mode.mass_matrix(&mode.zero_state()).first()?;
         let under = |ground: Ground| {
             let [of_cos, of_sin] = mode.weights(&still, &still, ground);
-            Some([-of_cos.as_slice().first()? / inertia, -of_sin.as_slice().first()? / inertia])
+            Some(f64x2::new([-of_cos.as_slice().first()? / inertia, -of_sin.as_slice().first()? / inertia]))
         };
-        Some(Rocker { own: under(Ground { x: 0.0, gravity })?, shaken: under(Ground { x: 1.0, gravity: 0.0 })? })
+        let pulled = under(Ground { x: 0.0, gravity: 1.0 })?;
+        Some(Rocker { gravity, pulled, shaken: under(Ground { x: 1.0, gravity: 0.0 })? })
     }
 
-    /// The largest acceleration of the angle, and how it changes at most with the angle, under accelerations of the ground up to this
-    /// `[rad/s²]`.
-    pub fn acceleration_bound(&self, ground: f64) -> f64 {
-        let size = |[a, b]: [f64; 2]| a.abs() + b.abs();
-        size(self.own) + ground * size(self.shaken)
-    }
-
-    /// The acceleration of an angle `[rad/s²]`.
-    pub fn acceleration(&self, theta: f64, ground: f64) -> f64 {
-        let (sin, cos) = Scalar::sin_cos(theta);
-        let [own, shaken] = [self.own, self.shaken].map(|part| part[0] * cos + part[1] * sin);
-        own + ground * shaken
-    }
-}
-
-impl LinearlyForced for Rocker {
+    /// The weights in a part of a segment, from `t` on for `h` `[s]`, in units of that part; `None` where the ground's acceleration is not linear.
     #[inline(always)]
-    fn parts(&self, theta: AtNodes) -> [[AtNodes; 2]; 2] {
-        let (sin, cos) = theta.sin_cos();
-        // One by one: a map over an array is a call, compiled for the plainest instructions.
-        let splat = AtNodes::from_f64;
-        let (own_cos, own_sin) = (splat(self.own[0]), splat(self.own[1]));
-        let (shaken_cos, shaken_sin) = (splat(self.shaken[0]), splat(self.shaken[1]));
-        let parts = [own_cos * cos + own_sin * sin, shaken_cos * cos + shaken_sin * sin];
-        [parts, [own_sin * cos - own_cos * sin, shaken_sin * cos - shaken_cos * sin]]
+    pub fn weights(&self, segment: &Segment, t: f64, h: f64) -> Option<Weights> {
+        let [a, a_slope] = segment.horizontal.line_at(t)?;
+        let [v, v_slope] = segment.vertical.line_at(t)?;
+        let (g, square) = (self.gravity + v, h * h);
+        let start = self.pulled * f64x2::splat(g) + self.shaken * f64x2::splat(a);
+        let slope = self.pulled * f64x2::splat(v_slope) + self.shaken * f64x2::splat(a_slope);
+        Some([start * f64x2::splat(square), slope * f64x2::splat(square * h)])
     }
 }

@@ -4,7 +4,6 @@
 
 pub mod elimination;
 pub mod guards;
-pub mod lanes;
 pub mod lemke;
 pub mod ode;
 pub mod per_block;
@@ -13,3 +12,4 @@ pub mod scalar;
 pub mod scalar_types;
 pub mod sines;
 pub mod state_vector;
+pub mod widest;

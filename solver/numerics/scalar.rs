@@ -1,4 +1,4 @@
-//! The arithmetic of generated equations, as a trait: doubles, lanes, duals, or a scalar of the user.
+//! The arithmetic of generated equations, as a trait: doubles, duals, or a scalar of the user.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -1,203 +1,163 @@
-//! A step over several samples of a record as a stretch, for one block ([`crate::numerics::ode::collocation`]), where nothing can happen in between.
+//! Steps from sample to sample of a record as one stretch, for one block: its angle's series is short, and nothing is looked up, stored or called
+//! in between ([`crate::numerics::ode::one_angle`]).
 //!
-//! Between nodes an angle leaves the straight line, and its rate the mean, by no more than the largest acceleration allows. That shows, for
-//! most of a record, that the block neither lands nor overturns in a step; where it might, steps go from sample to sample. Where
-//! the inside of a step is read (rows, forces, a crest above the peak so far), the step is refined into steps from sample to sample, whose end
-//! is dropped: what is recorded has no bearing on the run.
-//!
-//! Worth 1.9 times on one slender block under a record (`cargo bench --bench skips`, "steps from sample to sample").
+//! The stretch ends with the landing, after [`MOST_INTERVALS`], or before an interval in which the block may overturn or the ground is not linear
+//! in time: steps of the method go on there. Where forces are read, steps of the method pass the same samples once more, and their end is dropped: what
+//! is recorded has no bearing on the run.
 
-use super::phase::{Crests, Kind, Phase, SampleStep, StepEnd};
+use super::phase::{Gap, Kind, MOST_INTERVALS, Phase, SampleStep, Samples, StepEnd};
 use super::problem::Problem;
-use super::stretch::{Request, Stretch};
+use super::stretch::{Ended, Found, Stretch};
 use crate::mechanics::rocker::Rocker;
-use crate::numerics::ode::collocation::{GAPS, INTERVALS, SampledStep, mean, sampled_step};
-use crate::numerics::ode::control::Part;
-use crate::numerics::ode::gauss_rule::NODES;
+use crate::numerics::ode::control::{Part, Tolerance};
+use crate::numerics::ode::one_angle::{HIGHEST_ORDER, LEAST_ORDER, OneAngle, Turning};
+use crate::numerics::ode::taylor::MARGIN;
+use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::powers::Powers;
+use crate::numerics::polynomial::track::Track;
+use crate::numerics::scalar::Scalar;
+use rocking_ground::{Segment, Timeline};
+use wide::f64x2;
 
-impl Crests {
-    /// The first and last share of the step between which the angle may have a crest above `peak`.
-    fn above(&self, peak: f64) -> Option<[f64; 2]> {
-        let (mut crest, mut passed): (Option<[f64; 2]>, f64) = (None, 0.0);
-        for ((largest, may_turn), gap) in self.largest.iter().zip(&self.may_turn).zip(&GAPS) {
-            if *may_turn && *largest > peak {
-                let from = crest.map_or(passed, |[from, _]| from);
-                crest = Some([from, passed + gap]);
-            }
-            passed += gap;
-        }
-        crest
-    }
-}
+/// Share of the tolerance below which all errors of a stretch must lie for the next stretch to try a lower order: an order is worth a factor of about a
+/// hundred in the error of a step from sample to sample; larger, orders would go down and up again.
+const FINE_ENOUGH: f64 = 1e-3;
 
-/// Bounds of an angle all through a step of length `h` `[s]` from `start` on a side, out being positive: where it may have crests, and the share
-/// of the step from which on the block may land or overturn, if it may.
-fn bounds(
+/// A walk from sample to sample.
+struct Walk<'p> {
+    ground: &'p Timeline,
     rocker: Rocker,
-    [start, sign]: [f64; 2],
-    h: f64,
-    step: &SampledStep,
+    tolerance: Tolerance,
+    /// Angle from which on the block has overturned `[rad]`.
     overturned: f64,
-) -> (Crests, Option<f64>) {
-    let mut angles = [sign * start; NODES + 2];
-    let later = step.theta.0.iter().chain(&step.end[..1]);
-    angles[1..].iter_mut().zip(later).for_each(|(angle, theta)| *angle = sign * theta);
-    let widest = angles.windows(2).fold(0.0f64, |widest, pair| widest.max((pair[1] - pair[0]).abs()));
-    // Between nodes angles, and accelerations with them, are others.
-    let (bound, square) = (rocker.acceleration_bound(step.strongest), (h * WIDEST_GAP) * (h * WIDEST_GAP));
-    let acceleration = step.acceleration + bound * (widest + 0.125 * square * bound);
-    let mut crests = Crests { largest: [0.0; GAPS.len()], may_turn: [false; GAPS.len()] };
-    let (mut doubtful_from, mut passed, mut rose) = (None, 0.0, false);
-    for (index, (pair, gap)) in angles.windows(2).zip(&GAPS).enumerate() {
-        let &[from, to] = pair else { continue };
-        // A rate is off its mean between two nodes by half of what it may change: most often the angle is monotonic.
-        let bend = 0.5 * (h * gap) * (h * gap) * acceleration;
-        let (rises, falls) = (to - from > bend, from - to > bend);
-        let slack = bend * if rises || falls { SLACK } else { SAG };
-        let least = if index == 0 && rises { from } else { from.min(to) - slack };
-        let most = from.max(to) + slack;
-        // Where it is monotonic it is largest at an end. A crest is where it may turn, or between a rise and a fall.
-        crests.largest[index] = most;
-        crests.may_turn[index] = !(rises || falls && !rose);
-        rose = rises;
-        if !(least > 0.0 && most < overturned) {
-            doubtful_from = doubtful_from.or(Some(passed));
-        }
-        passed += gap;
-    }
-    (crests, doubtful_from)
+    /// The block's gap, with its side and the roots at the start.
+    gap: Gap,
+    /// What a gap can resolve at the start `[rad]`.
+    resolution: f64,
+    /// Whether a ground at rest is left to closed forms.
+    has_closed_forms: bool,
+
+    place: Place,
+    intervals: usize,
+    /// Whether some interval needed the order.
+    needs_order: bool,
+    /// Largest size of the angle `[rad]`.
+    peak: f64,
+    /// The steps, where rows are recorded.
+    steps: Option<&'p mut Vec<SampleStep>>,
 }
 
-/// What an angle sags between two nodes, as a share of what it moves there by its acceleration from rest.
-const SAG: f64 = 0.25;
-
-/// Share of the same by which nodes, which are less accurate than the end of a step, may lie elsewhere: many times what they do, at tolerances
-/// looser than 1e-4 about as much, which is less than those.
-const SLACK: f64 = 1.0 / 16.0;
-
-/// Intervals of the longest step.
-const MOST: usize = INTERVALS[INTERVALS.len() - 1];
-
-/// When a height with this rate and acceleration falls to zero; infinite where it does not `[s]`.
-fn fall_time(height: f64, rate: f64, acceleration: f64) -> f64 {
-    let square = rate * rate - 2.0 * acceleration * height;
-    let speed = square.sqrt() - rate;
-    if square >= 0.0 && speed > 0.0 { 2.0 * height / speed } else { f64::INFINITY }
+/// Where a walk is.
+#[derive(Clone, Copy)]
+struct Place {
+    /// `[s]`
+    t: f64,
+    segment: usize,
+    /// Rate `[rad/s]`.
+    omega: f64,
+    /// Its rate belongs to an interval.
+    angle: Turning,
 }
 
-/// The place of the largest number of intervals that is no more than this; `None` if it is less than all.
-fn place_of(intervals: f64) -> Option<usize> {
-    INTERVALS.iter().rposition(|own| *own as f64 <= intervals)
+/// Why a walk ends.
+#[derive(PartialEq)]
+enum End {
+    /// The order is too low for the next interval.
+    Coarse,
+    /// The block has landed.
+    Landed,
+    /// A stretch of another kind follows.
+    Over,
 }
 
 impl Phase {
-    /// Passes several samples of a record in one step, if nothing can happen in it.
-    pub(super) fn step_over_samples(&mut self, problem: &Problem) -> bool {
-        let Some(samples) = &mut self.samples else { return false };
-        if self.t != problem.ground[self.segment].start || self.held_until > self.t || self.gaps[0].start_roots > 0 {
-            return false;
-        }
-        if samples.pause > 0 {
-            samples.pause -= 1;
-            return false;
-        }
-        let rocker = samples.rocker;
-        match self.longest_sample_step(problem, rocker) {
-            Ok(step) => {
-                self.work.multi_sample_steps += 1;
-                self.work.steps += 1;
-                self.stretch = Kind::Samples(step);
-                true
-            }
-            Err(pause) => {
-                if let Some(samples) = &mut self.samples {
-                    samples.pause = pause - 1;
-                }
-                false
-            }
-        }
-    }
-
-    /// The longest step that the errors of the last ones allow and in which nothing happens; if there is none, the samples to pass before the next
-    /// attempt.
+    /// Passes samples of a record up to a landing, if any can be passed.
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
-    fn longest_sample_step(&mut self, problem: &Problem, rocker: Rocker) -> Result<SampleStep, usize> {
+    pub(super) fn step_over_samples(&mut self, problem: &Problem, rocker: Rocker) -> Found {
         let start = self.integrator.start();
-        let x = [start[0], start[1]];
-        let sign = self.gaps[0].across.sign;
-        let timeline = problem.ground;
-        let (first, t) = (self.segment, self.t);
-        let known = timeline.samples(first, INTERVALS[self.pace.intervals]);
-        let mut place = place_of(known.len() as f64 - 1.0).ok_or(INTERVALS[0])?;
-        let length = |intervals: usize| timeline[first + intervals - 1].end - t;
-        // Where it lands with its mean acceleration no attempt is worth its cost.
-        let (all, dt) = (&known[..=INTERVALS[place]], length(1));
-        let landing = fall_time(sign * x[0], sign * x[1], sign * rocker.acceleration(x[0], mean(all))) / dt;
-        place = place.min(place_of(BEFORE_LANDING * landing).ok_or(landing.max(1.0) as usize)?);
-        loop {
-            let intervals = INTERVALS[place];
-            let h = length(intervals);
-            let step = sampled_step(&rocker, x, &known[..=intervals], h / intervals as f64, problem.tolerance);
-            self.work.rhs_calls += NODES * step.rounds;
-            let allowed = place_of(intervals as f64 * step.factor_wanted()).unwrap_or(0);
-            let tried = &mut self.pace.intervals;
-            if step.error > 1.0 {
-                place = allowed.min(place.checked_sub(1).ok_or(MOST)?);
-                *tried = place;
-                continue;
-            }
-            let (crests, doubtful_from) = bounds(rocker, [x[0], sign], h, &step, problem.scene.options.overturn_angle);
-            let Some(share) = doubtful_from else {
-                // A step cut short says nothing against a longer one.
-                *tried = if place < *tried { (*tried).max(allowed) } else { allowed };
-                return Ok(SampleStep { intervals, last_segment: first + intervals - 1, x: step.end, crests });
+        let (theta, omega) = (start[0], start[1]);
+        let (sin, cos) = Scalar::sin_cos(theta);
+        self.sample_steps.clear();
+        let mut walk = Walk {
+            ground: problem.ground,
+            rocker,
+            tolerance: problem.tolerance,
+            overturned: problem.scene.options.overturn_angle,
+            gap: self.gaps[0],
+            resolution: self.resolution(start),
+            has_closed_forms: self.pendulum.is_some(),
+            place: Place {
+                t: self.t,
+                segment: self.segment,
+                omega,
+                angle: Turning { theta, rate: 0.0, circle: f64x2::new([cos, sin]) },
+            },
+            intervals: 0,
+            needs_order: false,
+            peak: theta.abs(),
+            steps: problem.records_rows().then_some(&mut self.sample_steps),
+        };
+        let mut order = self.pace.order.max(LEAST_ORDER);
+        let end = loop {
+            let end = match order {
+                3 => walk.pass::<3>(),
+                4 => walk.pass::<4>(),
+                5 => walk.pass::<5>(),
+                6 => walk.pass::<6>(),
+                7 => walk.pass::<7>(),
+                8 => walk.pass::<8>(),
+                9 => walk.pass::<9>(),
+                10 => walk.pass::<10>(),
+                11 => walk.pass::<11>(),
+                _ => walk.pass::<HIGHEST_ORDER>(),
             };
-            place = place_of(share * intervals as f64).ok_or(INTERVALS[0])?;
+            if !(end == End::Coarse && order < HIGHEST_ORDER) {
+                break end;
+            }
+            order += 1;
+        };
+        self.pace.order = if walk.needs_order || end == End::Coarse { order } else { order - 1 };
+        if walk.intervals == 0 {
+            return Found::Nothing;
         }
+        self.work.multi_sample_steps += 1;
+        self.work.steps += walk.intervals;
+        self.work.rhs_calls += order * walk.intervals;
+        let Place { t, segment, omega, angle } = walk.place;
+        let x = [angle.theta, omega];
+        self.stretch = Kind::Samples(Samples { until: t, last_segment: segment, x, peak: walk.peak });
+        if end != End::Landed {
+            return Found::Stretch(None);
+        }
+        self.closing = PerBlock::filled(self.gaps[0].interface, 1);
+        Found::Stretch(Some(Ended::Closing))
     }
 
-    /// Visits the steps from sample to sample that the request asks for, then returns to the step over all of them.
-    pub(super) fn refine_samples(
-        &mut self,
-        problem: &Problem,
-        step: SampleStep,
-        request: Request,
-        visit: &mut dyn FnMut(&mut Stretch),
-    ) {
-        let (first, last, t) = (self.segment, step.last_segment, self.t);
-        if request.is_whole {
-            self.visit_samples(problem, last, visit);
-        } else if let Some(crest) = step.crests.above(request.known_peak) {
-            let [from, until] = crest.map(|share| share * step.intervals as f64);
-            self.skip_samples(problem, from);
-            self.visit_samples(problem, last.min(first + until as usize), visit);
-        }
-        (self.t, self.segment, self.stretch) = (t, first, Kind::Samples(step));
+    /// Writes the state at a time of the stretch into `inside`.
+    pub(super) fn state_in_samples(&mut self, t: f64) {
+        let index = self.sample_steps.partition_point(|step| step.t <= t).saturating_sub(1);
+        let Some(SampleStep { t: from, h, start, weights }) = self.sample_steps.get(index) else { return };
+        let series = OneAngle::expand::<HIGHEST_ORDER>(weights, *start);
+        let [theta, rate] = series.track(1.0, start.theta).with_slope((t - from) / h);
+        self.inside.copy_from_slice(&[theta, rate / h]);
+    }
+
+    /// Visits steps of the method over the same samples, then returns to the stretch of all of them.
+    pub(super) fn refine_samples(&mut self, problem: &Problem, samples: Samples, visit: &mut dyn FnMut(&mut Stretch)) {
+        let (t, segment, gap) = (self.t, self.segment, self.gaps[0]);
+        self.visit_samples(problem, samples.until, visit);
+        (self.t, self.segment, self.gaps[0]) = (t, segment, gap);
+        self.stretch = Kind::Samples(samples);
         self.forces.forget();
     }
 
-    /// Steps over most of these intervals, to visit what comes after them.
-    fn skip_samples(&mut self, problem: &Problem, intervals: f64) {
-        let (Some(place), Some(samples)) = (place_of(intervals), self.samples) else { return };
-        let (timeline, first, start) = (problem.ground, self.segment, self.integrator.start());
-        let (x, dt) = ([start[0], start[1]], timeline[first].end - self.t);
-        let next = first + INTERVALS[place];
-        let step = sampled_step(&samples.rocker, x, timeline.samples(first, INTERVALS[place]), dt, problem.tolerance);
-        self.work.rhs_calls += NODES * step.rounds;
-        if step.error <= 1.0 {
-            (self.t, self.segment) = (timeline[next].start, next);
-            self.integrator.restart(self.t, &step.end);
-            self.integrator.enter(&timeline[next]);
-        }
-    }
-
-    /// Visits the steps from sample to sample up to the end of a segment.
-    fn visit_samples(&mut self, problem: &Problem, last: usize, visit: &mut dyn FnMut(&mut Stretch)) {
+    /// Visits the steps from sample to sample up to a time `[s]`.
+    fn visit_samples(&mut self, problem: &Problem, until: f64, visit: &mut dyn FnMut(&mut Stretch)) {
         let (mut wanted, mut longest) = (f64::INFINITY, f64::INFINITY);
         loop {
-            let (t, segment_end) = (self.t, problem.ground[self.segment].end);
-            let most = longest.min(segment_end - t);
-            let attempt = self.integrator.attempt(t, wanted, most, problem.tolerance);
+            let t = self.t;
+            let last = problem.ground[self.segment].end.min(until);
+            let attempt = self.integrator.attempt(t, wanted, longest.min(last - t), problem.tolerance);
             wanted = attempt.wanted;
             if !attempt.is_good() {
                 self.work.rejected += 1;
@@ -211,14 +171,14 @@ impl Phase {
             let h = attempt.h;
             self.integrator.accept();
             self.work.steps += 1;
-            let end = if h == segment_end - t { segment_end } else { t + h };
+            let end = if h == last - t { last } else { t + h };
             self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
             visit(&mut Stretch { end, ended: None, is_coarse: false, inside: self });
             self.advance(problem);
-            if end == segment_end {
-                if self.segment == last {
-                    return;
-                }
+            if end == until {
+                return;
+            }
+            if end == problem.ground[self.segment].end {
                 self.segment += 1;
                 self.integrator.enter(&problem.ground[self.segment]);
             }
@@ -226,8 +186,106 @@ impl Phase {
     }
 }
 
-/// The longest time between nodes, as a share of a step.
-const WIDEST_GAP: f64 = GAPS[GAPS.len() / 2];
+impl Walk<'_> {
+    /// Steps from sample to sample with series of an order. The place is held in local variables, which stay in registers.
+    fn pass<const ORDER: usize>(&mut self) -> End {
+        let &mut Walk { ground, rocker, tolerance, overturned, .. } = self;
+        let sign = self.gap.across.sign;
+        let Place { mut t, mut segment, mut omega, mut angle } = self.place;
+        let (mut peak, mut needs_order) = (self.peak, self.needs_order);
+        // Rate at the start, in this unit `[1/s]`: that of the step before.
+        let (mut rate, mut unit) = (omega, 1.0);
+        let end = loop {
+            let span = &ground[segment];
+            let h = span.end - t;
+            let Some(weights) = rocker.weights(span, t, h) else { break End::Over };
+            angle.rate = rate * (unit * h);
+            let step = OneAngle::expand::<ORDER>(&weights, angle);
+            let (end, per_second) = (step.end, 1.0 / h);
+            let omega_end = end.rate * per_second;
+            let allowed = [tolerance.scale(omega, omega_end), tolerance.scale(angle.theta, end.theta)];
+            let errors = [MARGIN * step.last * per_second, MARGIN * step.last / (ORDER + 1) as f64];
+            let is_good = errors[0] <= allowed[0] && errors[1] <= allowed[1];
+            if !is_good {
+                break End::Coarse;
+            }
+            let (out, out_end) = (sign * angle.theta, sign * end.theta);
+            let largest = if out > out_end { out } else { out_end };
+            let may_overturn = largest + angle.rate.abs() + step.change >= overturned;
+            if may_overturn {
+                break End::Over;
+            }
+            needs_order |= errors[0] > FINE_ENOUGH * allowed[0] || errors[1] > FINE_ENOUGH * allowed[1];
+            // Where the rate keeps its sign the angle goes one way.
+            let is_simple = angle.rate.abs() > step.change && out > 0.0 && out_end > 0.0;
+            let mut landing = None;
+            if is_simple {
+                peak = if largest > peak { largest } else { peak };
+            } else {
+                let track = step.track(sign, angle.theta);
+                match examine(&track, self.gap.start_roots, self.resolution, peak) {
+                    Touch::Grazes => break End::Over,
+                    Touch::Lands(share, crest) => {
+                        let [_, rate] = track.with_slope(share);
+                        (landing, peak) = (Some([share, sign * rate]), crest);
+                    }
+                    Touch::Clears(crest) => peak = crest,
+                }
+                self.gap.start_roots = if out_end > self.resolution { 0 } else { self.gap.start_roots };
+            }
+            if let Some(steps) = &mut self.steps {
+                steps.push(SampleStep { t, h, start: angle, weights });
+            }
+            self.intervals += 1;
+            if let Some([landing, rate]) = landing {
+                t = if landing == 1.0 { span.end } else { t + landing * h };
+                (omega, angle.theta) = (rate * per_second, 0.0);
+                break End::Landed;
+            }
+            (angle, omega, t) = (end, omega_end, span.end);
+            (rate, unit) = (end.rate, per_second);
+            let next = segment + 1;
+            let goes_on = next < ground.len() && !self.stops_at(&ground[next], t);
+            segment += usize::from(goes_on);
+            if !goes_on || self.intervals == MOST_INTERVALS {
+                break End::Over;
+            }
+        };
+        self.place = Place { t, segment, omega, angle };
+        (self.peak, self.needs_order) = (peak, needs_order);
+        end
+    }
 
-/// Share of the time to a landing at constant acceleration that a step may take.
-const BEFORE_LANDING: f64 = 0.95;
+    /// Whether a segment does not continue a record.
+    #[inline(always)]
+    fn stops_at(&self, next: &Segment, t: f64) -> bool {
+        next.jumps || self.has_closed_forms && next.is_quiet() || next.end <= t
+    }
+}
+
+/// What the gap does in a step.
+enum Touch {
+    /// It stays open, with the largest size of the angle, or the peak so far `[rad]`.
+    Clears(f64),
+    /// It closes at a share of the step, with the same up to there.
+    Lands(f64, f64),
+    /// Its series comes to zero and goes up from there: whether it touches is left to a step of the method.
+    Grazes,
+}
+
+/// What the gap, which this series gives, does in a step in which the rate may change its sign.
+#[inline(never)] // Rare: its registers are not saved in the loop.
+fn examine(track: &Powers, roots: usize, resolution: f64, peak: f64) -> Touch {
+    let largest = |track: Powers| Track::Powers(track).largest_size(peak);
+    if roots > 0 && track.size() <= resolution {
+        return Touch::Clears(peak);
+    }
+    let Some(landing) = Track::Powers(*track).first_root(roots) else {
+        return Touch::Clears(largest(*track));
+    };
+    let [value, slope] = track.with_slope(landing);
+    if !(slope < 0.0 || value <= resolution) {
+        return Touch::Grazes;
+    }
+    Touch::Lands(landing, largest(track.up_to(landing)))
+}

@@ -13,8 +13,8 @@ use crate::mechanics::margins::Margins;
 use crate::mechanics::mode::Mode;
 use crate::mechanics::pendulum::{self, Pendulum};
 use crate::mechanics::rocker::Rocker;
-use crate::numerics::ode::collocation::GAPS;
 use crate::numerics::ode::control::Part;
+use crate::numerics::ode::one_angle::{Turning, Weights};
 use crate::numerics::per_block::{PerBlock, largest};
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
@@ -27,8 +27,10 @@ pub(crate) struct Phase {
     pub(super) integrator: Box<dyn Integrator>,
     /// The mode on a ground that does not move, where it has one free angle and closed forms are requested.
     pub(super) pendulum: Option<Pendulum>,
-    /// Steps over several samples of a record, where the column is one block and they are requested.
-    pub(super) samples: Option<SampleSteps>,
+    /// The equation of one block, where the column is one and steps over several samples of a record are requested.
+    pub(super) rocker: Option<Rocker>,
+    /// Its steps in the last stretch, where rows are recorded.
+    pub(super) sample_steps: Vec<SampleStep>,
     /// The point of no return, where the column is one block and nothing but the outcome is requested.
     pub(super) fall: Option<Fall>,
     pub(super) dof: usize,
@@ -130,32 +132,30 @@ pub(super) struct Swing {
     pub x: [f64; 2],
 }
 
-/// Steps over several samples, where a phase takes them.
+/// Most steps from sample to sample in one stretch: an outcome that is certain is seen between two stretches.
+pub(super) const MOST_INTERVALS: usize = 32;
+
+/// A step from sample to sample within steps over several, for the rows in it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SampleSteps {
-    pub rocker: Rocker,
-    /// Samples to pass before the next attempt.
-    pub pause: usize,
+pub(super) struct SampleStep {
+    /// Start and length `[s]`.
+    pub t: f64,
+    pub h: f64,
+    /// State at the start, and the weights, in units of the step.
+    pub start: Turning,
+    pub weights: Weights,
 }
 
-/// A step over several samples.
+/// Steps over several samples, as far as they are taken.
 #[derive(Clone, Copy)]
-pub(super) struct SampleStep {
-    pub intervals: usize,
-    /// The segment of the last interval.
+pub(super) struct Samples {
+    /// Time at the end `[s]`, and its segment.
+    pub until: f64,
     pub last_segment: usize,
     /// `[θ, θ̇]` at the end.
     pub x: [f64; 2],
-    pub crests: Crests,
-}
-
-/// Where the angle may turn within a step over several samples, by the spaces between its nodes.
-#[derive(Clone, Copy)]
-pub(super) struct Crests {
-    /// The largest angle that each space may have, out being positive `[rad]`.
-    pub largest: [f64; GAPS.len()],
-    /// Whether the angle may turn in it.
-    pub may_turn: [bool; GAPS.len()],
+    /// Largest size of the angle `[rad]`.
+    pub peak: f64,
 }
 
 /// What the last stretch was.
@@ -167,8 +167,8 @@ pub(super) enum Kind {
     Step(StepEnd),
     /// A swing in closed form.
     Swing(Swing),
-    /// A step over several samples.
-    Samples(SampleStep),
+    /// Steps over several samples.
+    Samples(Samples),
 }
 
 /// Contact forces of a phase, evaluated where they are read.
@@ -249,15 +249,15 @@ impl Phase {
         let links = (1..=blocks).map(|above| open.iter().filter(|interface| **interface < above).count()).collect();
         let pendulum = if dof == 1 && problem.swings_in_closed_form() { integrator.pendulum() } else { None };
         let steps_over_samples = dof == 1 && closed.is_empty() && problem.steps_over_samples();
-        let samples =
-            if steps_over_samples { integrator.rocker().map(|rocker| SampleSteps { rocker, pause: 0 }) } else { None };
+        let rocker = if steps_over_samples { integrator.rocker() } else { None };
         let fall = problem
             .growth()
             .and_then(|growth| Fall::new(&scene.column, options.overturn_angle, growth, integrator.pendulum()?));
         let zeros = || PerBlock::filled(0.0, 2 * dof);
         Phase {
             pendulum,
-            samples,
+            sample_steps: Vec::with_capacity(if rocker.is_some() { MOST_INTERVALS } else { 0 }),
+            rocker,
             fall,
             dof,
             links,

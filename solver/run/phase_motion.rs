@@ -1,6 +1,6 @@
 //! The stretches of a phase: which one comes next, and how it is read.
 //!
-//! The next stretch is the first of these that applies: a free swing in closed form (`swing.rs`), a step over several samples of a record
+//! The next stretch is the first of these that applies: a free swing in closed form (`swing.rs`), steps over several samples of a record
 //! (`multi_sample_step.rs`), a step of the method (`step.rs`).
 
 use super::certainty::verdict;
@@ -8,7 +8,7 @@ use super::error::SolveError;
 use super::phase::{Gap, Kind, Phase, StepEnd, Swing};
 use super::problem::Problem;
 use super::state::{Pace, State};
-use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Request, Stretch};
+use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
 use crate::column::Column;
 use crate::contact::verge_acceleration;
 use crate::numerics::per_block::PerBlock;
@@ -48,10 +48,11 @@ impl Phase {
                 self.integrator.begin(until, &x);
                 (until, self.segment)
             }
-            Kind::Samples(step) => {
-                let end = problem.ground[step.last_segment].end;
-                self.integrator.restart(end, &step.x);
-                (end, step.last_segment)
+            Kind::Samples(samples) => {
+                self.integrator.restart(samples.until, &samples.x);
+                self.integrator.enter(&problem.ground[samples.last_segment]);
+                self.is_outcome_open = problem.prospects.is_some();
+                (samples.until, samples.last_segment)
             }
         };
         (self.t, self.segment) = (t, segment);
@@ -96,8 +97,12 @@ impl Phase {
             {
                 return Ok(ended);
             }
-            if self.step_over_samples(problem) {
-                return Ok(None);
+            if let Some(rocker) = self.rocker
+                && segment.is_straight()
+                && self.held_until <= self.t
+                && let Found::Stretch(ended) = self.step_over_samples(problem, rocker)
+            {
+                return Ok(ended);
             }
             if let Found::Stretch(ended) = self.step(problem, left)? {
                 return Ok(ended);
@@ -157,9 +162,6 @@ impl Flow for Phase {
         self.has_moved = false;
         self.closing.clear();
         self.forces.forget();
-        if let Some(samples) = &mut self.samples {
-            samples.pause = 0;
-        }
     }
 
     fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
@@ -170,7 +172,7 @@ impl Flow for Phase {
             Kind::Instant => self.t,
             Kind::Step(step) => step.end,
             Kind::Swing(swing) => swing.until,
-            Kind::Samples(step) => problem.ground[step.last_segment].end,
+            Kind::Samples(samples) => samples.until,
         };
         Ok(Stretch { end, ended, is_coarse: matches!(self.stretch, Kind::Samples(_)), inside: self })
     }
@@ -187,7 +189,8 @@ impl Inside for Phase {
         match self.stretch {
             Kind::Step(step) => self.state_in_step(step, t),
             Kind::Swing(swing) => self.state_in_swing(&swing, t),
-            Kind::Instant | Kind::Samples(_) => self.inside.copy_from_slice(self.integrator.start()),
+            Kind::Samples(_) => self.state_in_samples(t),
+            Kind::Instant => self.inside.copy_from_slice(self.integrator.start()),
         }
         self.per_block(&self.inside)
     }
@@ -198,11 +201,25 @@ impl Inside for Phase {
             Kind::Step(step) => {
                 let step = *step;
                 for link in 0..self.dof {
-                    raise(&mut peaks[self.gaps[link].blocks()], |known| self.peak_of_step(step, link, known));
+                    let angle = Difference { sign: 1.0, upper: link, lower: None };
+                    raise(&mut peaks[self.gaps[link].blocks()], |known| self.peak_of_step(step, angle, known));
                 }
             }
             Kind::Swing(swing) => raise(&mut peaks[self.gaps[0].blocks()], |known| swing.peak(known)),
-            Kind::Samples(step) => raise(&mut peaks[self.gaps[0].blocks()], |_| step.x[0].abs()),
+            Kind::Samples(samples) => raise(&mut peaks[self.gaps[0].blocks()], |_| samples.peak),
+        }
+    }
+
+    fn raise_gaps(&mut self, gaps: &mut [f64]) {
+        for index in 0..self.dof {
+            let Gap { interface, across, .. } = self.gaps[index];
+            raise(&mut gaps[interface..=interface], |known| match self.stretch {
+                Kind::Instant => known,
+                Kind::Step(step) => self.peak_of_step(step, across, known),
+                // The gap of the one link that moves is its angle.
+                Kind::Swing(swing) => swing.peak(known),
+                Kind::Samples(samples) => samples.peak,
+            });
         }
     }
 
@@ -220,9 +237,9 @@ impl Inside for Phase {
         }
     }
 
-    fn refine(&mut self, problem: &Problem, request: Request, visit: &mut dyn FnMut(&mut Stretch)) {
-        if let Kind::Samples(step) = self.stretch {
-            self.refine_samples(problem, step, request, visit);
+    fn refine(&mut self, problem: &Problem, visit: &mut dyn FnMut(&mut Stretch)) {
+        if let Kind::Samples(samples) = self.stretch {
+            self.refine_samples(problem, samples, visit);
         }
     }
 
@@ -231,11 +248,11 @@ impl Inside for Phase {
     }
 
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
-        let (t, x) = match &self.stretch {
-            Kind::Instant => (self.t, self.integrator.start()),
-            Kind::Step(step) => (step.end, self.integrator.end()),
-            Kind::Swing(swing) => (swing.until, &swing.x[..]),
-            Kind::Samples(step) => (self.t, &step.x[..]),
+        let (t, segment, x) = match &self.stretch {
+            Kind::Instant => (self.t, self.segment, self.integrator.start()),
+            Kind::Step(step) => (step.end, self.segment, self.integrator.end()),
+            Kind::Swing(swing) => (swing.until, self.segment, &swing.x[..]),
+            Kind::Samples(samples) => (samples.until, samples.last_segment, &samples.x[..]),
         };
         self.write_per_block(x, &mut state.theta, &mut state.omega);
         // Angles of interfaces that close are equal to the last bit.
@@ -243,7 +260,7 @@ impl Inside for Phase {
             let below = interface.checked_sub(1).map_or(0.0, |below| state.theta[below]);
             state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
         }
-        (state.t, state.segment) = (t, self.segment);
+        (state.t, state.segment) = (t, segment);
         state.pace = Pace { step: Some(self.wanted), ..self.pace };
         state
     }

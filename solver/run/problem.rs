@@ -20,6 +20,8 @@ pub(crate) struct Problem<'a> {
     pub tolerance: Tolerance,
     /// Nothing but the outcome is requested, and the ground comes to rest before the end.
     pub may_stand: bool,
+    /// Whether the largest gaps are recorded.
+    pub records_gaps: bool,
 }
 
 /// What a run leaves out because the answer is the same without: everything, unless a benchmark measures what each is worth.
@@ -27,7 +29,7 @@ pub(crate) struct Problem<'a> {
 pub struct Skips {
     /// Steps through phases of one free angle on a ground that does not move, which swing in closed form (`Method::Auto` only).
     pub swings: bool,
-    /// Steps from sample to sample of a record, where one block takes up to 32 intervals in one step (`Method::Auto` only).
+    /// Steps of the method from sample to sample of a record, where one block has series of its own (`Method::Auto` only).
     pub samples: bool,
     /// Steps through times at rest.
     pub rests: bool,
@@ -71,6 +73,7 @@ impl<'a> Problem<'a> {
             kappa: scene.restitution.per_interface(&scene.column),
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
             may_stand: prospects.is_some() && ground.last().is_some_and(Segment::is_quiet),
+            records_gaps: false,
         }
     }
 
@@ -89,6 +92,11 @@ impl<'a> Problem<'a> {
         self.scene.options.record_forces && self.is_recorded()
     }
 
+    /// Whether rows are recorded.
+    pub fn records_rows(&self) -> bool {
+        self.scene.output_dt.is_some() && self.is_recorded()
+    }
+
     /// The interfaces whose contact forces are evaluated.
     pub fn interfaces(&self) -> Interfaces {
         if self.records_forces() || !self.skips.forces { Interfaces::All } else { Interfaces::Closed }
@@ -104,7 +112,7 @@ impl<'a> Problem<'a> {
         self.skips.swings && self.scene.options.method == Method::Auto
     }
 
-    /// Whether phases of one block may take several samples of a record in one step.
+    /// Whether phases of one block may take several samples of a record in one stretch.
     pub fn steps_over_samples(&self) -> bool {
         self.skips.samples && self.scene.options.method == Method::Auto
     }

@@ -4,7 +4,7 @@ use super::modes::Modes;
 use super::needs::{InPanel, Needs};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Over, Panel, Request, Stretch};
+use super::stretch::{Over, Panel, Stretch};
 use super::transition::Transition;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
@@ -29,6 +29,8 @@ pub(crate) struct Recorder {
     pattern: Pattern,
     /// Per block `[rad]`.
     peak_theta: PerBlock<f64>,
+    /// Largest sizes of gaps per interface, where they are recorded `[rad]`.
+    largest_gaps: PerBlock<f64>,
     /// Per interface.
     friction_demand: PerBlock<f64>,
     /// The same of impulses at impacts.
@@ -74,6 +76,7 @@ impl Recorder {
             sample_segment: start.segment,
             pattern: start.pattern.clone(),
             peak_theta: list(is_recorded, 0.0),
+            largest_gaps: list(problem.records_gaps, 0.0),
             friction_demand: list(records_forces, 0.0),
             impulse_friction_demand: list(records_forces, 0.0),
             min_normal_force: list(records_forces, f64::INFINITY),
@@ -134,22 +137,24 @@ impl Recorder {
         if !problem.is_recorded() {
             return;
         }
-        if stretch.is_coarse {
-            let is_whole = problem.records_forces() || self.next_row(problem).is_some_and(|t| t < stretch.end);
-            let request = Request { is_whole, known_peak: self.peak_theta[0] };
-            stretch.inside.refine(problem, request, &mut |finer| self.read_inside(problem, finer));
-        }
-        self.read_inside(problem, stretch);
-    }
-
-    /// Records rows, peaks and forces of a stretch.
-    fn read_inside(&mut self, problem: &Problem, stretch: &mut Stretch) {
         while let Some(t) = self.next_row(problem).filter(|t| *t < stretch.end) {
             let (theta, omega) = stretch.inside.state_at(t);
             self.record_row(problem, t, theta.to_vec(), omega.to_vec());
         }
         stretch.inside.raise_peaks(&mut self.peak_theta);
-        let Some(mut needs) = self.needs.take_if(|_| !stretch.is_coarse) else { return };
+        if !self.largest_gaps.is_empty() {
+            stretch.inside.raise_gaps(&mut self.largest_gaps);
+        }
+        if !stretch.is_coarse {
+            self.read_forces(problem, stretch);
+        } else if problem.records_forces() {
+            stretch.inside.refine(problem, &mut |finer| self.read_forces(problem, finer));
+        }
+    }
+
+    /// Records the forces of a stretch.
+    fn read_forces(&mut self, problem: &Problem, stretch: &mut Stretch) {
+        let Some(mut needs) = self.needs.take() else { return };
         needs.begin(stretch.inside, stretch.end, &self.peak_theta);
         stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, &mut needs));
         needs.end(stretch.inside);
@@ -188,6 +193,10 @@ impl Recorder {
     fn record_angles(&mut self, theta: &[f64]) {
         for (peak, theta) in self.peak_theta.iter_mut().zip(theta) {
             *peak = if theta.abs() > *peak { theta.abs() } else { *peak };
+        }
+        let mut below = 0.0;
+        for (largest, theta) in self.largest_gaps.iter_mut().zip(theta) {
+            *largest = largest.max((theta - std::mem::replace(&mut below, *theta)).abs());
         }
     }
 
@@ -310,6 +319,7 @@ impl Recorder {
             events: self.events,
             impacts: self.impacts,
             peak_theta: self.peak_theta.to_vec(),
+            largest_gaps: self.largest_gaps.to_vec(),
             time_in_mode,
             friction_demand: self.friction_demand.to_vec(),
             impulse_friction_demand: self.impulse_friction_demand.to_vec(),

@@ -95,6 +95,8 @@ impl Inside for Rest {
     /// Nothing moves.
     fn raise_peaks(&mut self, _: &mut [f64]) {}
 
+    fn raise_gaps(&mut self, _: &mut [f64]) {}
+
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
         let (column, end, (mut t, first)) = (&problem.scene.column, self.until.0, self.since);
         for segment in &problem.ground[first..=self.last] {

@@ -64,6 +64,7 @@ pub struct Simulator {
     prospects: Option<Prospects>,
     ground: TimelineCache,
     skips: Skips,
+    records_gaps: bool,
 }
 
 impl Simulator {
@@ -76,6 +77,11 @@ impl Simulator {
     #[doc(hidden)]
     pub fn with_skips(skips: Skips) -> Simulator {
         Simulator { skips, ..Simulator::default() }
+    }
+
+    /// A simulator that records the largest gaps of runs without friction as well.
+    pub(crate) fn recording_gaps() -> Simulator {
+        Simulator { records_gaps: true, ..Simulator::default() }
     }
 
     /// As [`simulate`].
@@ -123,7 +129,8 @@ impl Simulator {
         }
         let lookahead = self.prospects.as_ref().map(Prospects::lookahead).unwrap_or_default();
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
-        let problem = Problem::new(scene, &ground, self.prospects.as_ref(), self.skips);
+        let records_gaps = self.records_gaps;
+        let problem = Problem { records_gaps, ..Problem::new(scene, &ground, self.prospects.as_ref(), self.skips) };
         let mut recorder = Recorder::new(&problem, &transition::initial(&problem), 0);
         match fold(&problem, &mut self.modes, None, &mut recorder, &Unlimited, progress)? {
             Leaving::Over(last, over) => Ok(recorder.finish(&problem, &last, over, &mut self.modes)),

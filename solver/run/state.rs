@@ -89,6 +89,6 @@ impl Hold {
 pub(crate) struct Pace {
     /// Step length suggested by the steps before `[s]`.
     pub step: Option<f64>,
-    /// Place, among [`INTERVALS`](crate::numerics::ode::collocation::INTERVALS), of the number of intervals that the next multi-sample step tries.
-    pub intervals: usize,
+    /// Order of the series of the next steps over several samples.
+    pub order: usize,
 }

@@ -271,9 +271,8 @@ impl Phase {
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
 
-    /// The largest size of a link's angle in the step if it exceeds `known` `[rad]`.
-    pub(super) fn peak_of_step(&mut self, step: StepEnd, link: usize, known: f64) -> f64 {
-        let angle = Difference { sign: 1.0, upper: link, lower: None };
+    /// The largest size of an angle, or of the difference of two, in the step if it exceeds `known` `[rad]`.
+    pub(super) fn peak_of_step(&mut self, step: StepEnd, angle: Difference, known: f64) -> f64 {
         let Excursion { start, end, reach } = self.integrator.excursion(angle);
         if start.abs() + reach <= known {
             return known;
@@ -281,8 +280,9 @@ impl Phase {
         if self.integrator.is_monotonic(angle) {
             return start.abs().max(end.abs());
         }
-        let (x, end) = (self.integrator.start(), self.integrator.end());
-        let control = hermite_control([x[link], x[self.dof + link], end[link], end[self.dof + link]], step.h);
+        let of = |x: &[f64]| [&x[..self.dof], &x[self.dof..]].map(|values| angle.of(values));
+        let ([start, rate], [end, end_rate]) = (of(self.integrator.start()), of(self.integrator.end()));
+        let control = hermite_control([start, rate, end, end_rate], step.h);
         if control.iter().all(|c| c.abs() <= known) {
             return known;
         }

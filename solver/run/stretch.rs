@@ -51,7 +51,7 @@ pub(crate) struct Stretch<'m> {
     pub end: f64,
     /// Why it ended; `None` if the motion continues.
     pub ended: Option<Ended>,
-    /// Whether finer stretches answer what is requested of the inside: of a step over several samples.
+    /// Whether finer stretches tell the forces inside: of steps over several samples.
     pub is_coarse: bool,
     /// What lies between.
     pub inside: &'m mut dyn Inside,
@@ -65,11 +65,14 @@ pub(crate) trait Inside {
     /// Raises the largest angles so far, per block, to those in the stretch `[rad]`.
     fn raise_peaks(&mut self, peaks: &mut [f64]);
 
+    /// Raises the largest sizes of gaps by interface to those inside `[rad]`.
+    fn raise_gaps(&mut self, gaps: &mut [f64]);
+
     /// Calls `note` with the contact forces of panels so short that forces are parabolas over them.
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel));
 
-    /// Visits finer stretches in place of a coarse one, as far as they are requested.
-    fn refine(&mut self, _problem: &Problem, _request: Request, _visit: &mut dyn FnMut(&mut Stretch)) {}
+    /// Visits finer stretches in place of a coarse one.
+    fn refine(&mut self, _problem: &Problem, _visit: &mut dyn FnMut(&mut Stretch)) {}
 
     /// The interfaces (from zero) that close at the end of the stretch, if it ended with a closing.
     fn closing(&self) -> &[usize] {
@@ -88,15 +91,6 @@ pub(crate) struct Panel<'a> {
     pub times: &'a dyn Fn() -> [f64; 2],
     /// How often the motion passes the panel: a swing goes out and comes back.
     pub weight: f64,
-}
-
-/// What a recorder requests of the inside of a multi-sample step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Request {
-    /// Rows or forces: the whole of it.
-    pub is_whole: bool,
-    /// Otherwise crests above this size; infinite where peaks are not recorded `[rad]`.
-    pub known_peak: f64,
 }
 
 /// What moves a column from one event to the next: the column at rest, or a mode.

@@ -293,12 +293,22 @@ impl Ida {
     /// As [`Ida::runs`], with what `made` makes of each run on the thread that has run it.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
-        indices.map_init(Simulator::new, |simulator, index| made(self.run(simulator, index))).collect()
+        let simulator = || if self.needs_rows() { Simulator::new() } else { Simulator::recording_gaps() };
+        indices.map_init(simulator, |simulator, index| made(self.run(simulator, index))).collect()
+    }
+
+    /// Whether runs have rows: up to the horizon of one that is followed, of blocks that slide and fly, and of a column that begins open.
+    fn needs_rows(&self) -> bool {
+        let initial = &self.scene.initial;
+        self.is_followed || self.scene.friction.is_some() || !(initial.theta.is_empty() && initial.omega.is_empty())
     }
 
     fn run(&self, simulator: &mut Simulator, index: usize) -> IdaRun {
         let (record, level, scale) = self.point(index);
-        let run = |scene: Scene| {
+        let run = |mut scene: Scene| {
+            if !self.needs_rows() {
+                scene.output_dt = None;
+            }
             scene.check()?;
             let response = simulator.run(&scene)?;
             let mut found = outcome(&scene, &response);

@@ -11,14 +11,14 @@ mod alone;
 mod coefficients;
 mod series;
 
-pub use coefficients::{MAX_ORDER, reciprocal, turned};
+pub use coefficients::{MAX_ORDER, RECIPROCAL, reciprocal, turned};
 pub use series::SeriesSystem;
 
 use super::control::{Attempt, Part, Tolerance, rough_root, without_remainder};
 use crate::numerics::polynomial::difference::Difference;
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::state_vector::StateVector;
-use coefficients::{NUMBER, RECIPROCAL};
+use coefficients::NUMBER;
 use series::{Series, rate_of};
 use wide::f64x2;
 

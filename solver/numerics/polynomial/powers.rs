@@ -104,12 +104,12 @@ impl Powers {
         self
     }
 
-    /// The polynomial up to a place, which becomes 1.
-    pub fn up_to(mut self, place: f64) -> Powers {
+    /// The part up to `s`, on `[0, 1]` again.
+    pub fn up_to(mut self, s: f64) -> Powers {
         let mut power = 1.0;
-        for coefficient in &mut self.coefficients[1..=self.degree] {
-            power *= place;
-            *coefficient *= power;
+        for c in &mut self.coefficients[1..=self.degree] {
+            power *= s;
+            *c *= power;
         }
         self
     }

@@ -29,6 +29,7 @@ impl Instant<'_> {
         }
         let mut touch = self.touching();
         touch[interface] = Touch::Faces;
+        self.lay_angles(&touch);
         self.stop = self.strike(&touch, EventKind::Impact, &[interface]).err();
     }
 
@@ -50,10 +51,17 @@ impl Instant<'_> {
         self.now.slide[interface] = gaps::slide_of_landing(&chain, corner);
         let mut touch = self.touching();
         touch[interface] = if is_flat { Touch::Faces } else { Touch::Corner(side) };
-        if is_flat {
-            self.now.theta[interface] = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
-        }
+        self.lay_angles(&touch);
         self.stop = self.strike(&touch, EventKind::Landing, &[interface]).err();
+    }
+
+    /// Gives blocks whose faces touch one angle to the last bit: a gap of rounding would be on one side, and open to the other.
+    fn lay_angles(&mut self, touch: &[Touch]) {
+        for (interface, touch) in touch.iter().enumerate() {
+            if *touch == Touch::Faces {
+                self.now.theta[interface] = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
+            }
+        }
     }
 
     /// An impact of all that touches, with the interfaces that close. One without is a jump of velocities that changes the motion.

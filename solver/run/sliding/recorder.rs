@@ -375,6 +375,7 @@ impl<'p> Recorder<'p> {
             events: self.events,
             impacts: self.impacts,
             peak_theta: recorded(self.peak_theta),
+            largest_gaps: Vec::new(),
             time_in_mode: self.time_in_mode,
             friction_demand: recorded(self.friction_demand),
             impulse_friction_demand: recorded(self.impulse_friction_demand),

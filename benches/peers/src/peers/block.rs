@@ -3,7 +3,7 @@
 //! With `s` the side that it leans to and `w = α - s θ` the angle left to its balance, docs/book/model.md, section 3 is
 //!
 //! ```text
-//!     ẅ = p² (sin w + s ẍ_g/g cos w)          rocks while w < α
+//!     ẅ = p² ((1 + ÿ_g/g) sin w + s ẍ_g/g cos w)          rocks while w < α
 //!     at w = α:  ẇ <- -r ẇ,  s <- -s          r = ω⁺/ω⁻
 //! ```
 //!
@@ -31,11 +31,11 @@ impl Block {
         Block { p2, alpha, ratio: eta.unwrap_or(housner), gravity }
     }
 
-    /// `ẅ` with `drive = s ẍ_g / g`.
+    /// `ẅ` with `drive = s ẍ_g / g` and `lift = ÿ_g / g`.
     #[inline(always)]
-    pub fn acceleration(&self, w: f64, drive: f64) -> f64 {
+    pub fn acceleration(&self, w: f64, drive: f64, lift: f64) -> f64 {
         let (sin, cos) = w.sin_cos();
-        self.p2 * (sin + drive * cos)
+        self.p2 * ((1.0 + lift) * sin + drive * cos)
     }
 
     /// Ground acceleration over gravity that opens it.
@@ -79,8 +79,8 @@ impl Pulse {
 pub struct Shaking {
     /// The block.
     pub block: Block,
-    /// Over gravity.
-    pub accel: Vec<f64>,
+    /// To the side and upwards, over gravity.
+    pub accel: Vec<[f64; 2]>,
     /// `[s]`
     pub dt: f64,
 }
@@ -92,16 +92,24 @@ pub struct Ramp {
     pub start: f64,
     /// `[s]`
     pub end: f64,
-    /// At the start.
-    pub value: f64,
+    /// At the start, to the side and upwards.
+    pub value: [f64; 2],
     /// `[1/s]`
-    pub slope: f64,
+    pub slope: [f64; 2],
+}
+
+impl Ramp {
+    /// The accelerations at a time.
+    #[inline(always)]
+    pub fn at(&self, t: f64) -> [f64; 2] {
+        [0, 1].map(|k| self.value[k] + self.slope[k] * (t - self.start))
+    }
 }
 
 impl Shaking {
     /// The intervals.
     pub fn ramps(&self) -> impl Iterator<Item = Ramp> {
-        let value = |pair: &[f64]| (pair[0], (pair[1] - pair[0]) / self.dt);
+        let value = |pair: &[[f64; 2]]| (pair[0], [0, 1].map(|k| (pair[1][k] - pair[0][k]) / self.dt));
         let ramps = self.accel.windows(2).map(value).enumerate();
         ramps.map(|(k, (value, slope))| {
             let [start, end] = [k, k + 1].map(|k| k as f64 * self.dt);
@@ -112,11 +120,14 @@ impl Shaking {
     /// The intervals from the instant in which the block opens, and the side to which it leans then.
     pub fn ramps_from_start(&self) -> (impl Iterator<Item = Ramp>, f64) {
         let uplift = self.block.uplift();
-        let place = self.accel.iter().position(|accel| accel.abs() > uplift).expect("the record opens the block");
-        let sign = self.accel[place].signum();
+        let opens = |[side, up]: &[f64; 2]| side.abs() > uplift * (1.0 + up);
+        let place = self.accel.iter().position(opens).expect("the record opens the block");
+        let sign = self.accel[place][0].signum();
         let cut = move |ramp: Ramp| {
-            let start = ramp.start + ((sign * uplift - ramp.value) / ramp.slope).max(0.0);
-            Ramp { start, value: sign * uplift, ..ramp }
+            let Ramp { value, slope, .. } = ramp;
+            let excess = sign * value[0] - uplift * (1.0 + value[1]);
+            let start = ramp.start + (-excess / (sign * slope[0] - uplift * slope[1])).max(0.0);
+            Ramp { start, value: ramp.at(start), ..ramp }
         };
         let ramps = self.ramps().skip(place - 1).enumerate();
         (ramps.map(move |(k, ramp)| if k == 0 { cut(ramp) } else { ramp }), -sign)

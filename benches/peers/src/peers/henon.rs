@@ -40,7 +40,7 @@ pub fn pulse(method: &impl Integrator, pulse: &Pulse) -> Option<Answer> {
     let Pulse { block, omega, .. } = *pulse;
     let (mut lean, mut impacts, mut h) = (Lean::start(&block, -1.0), Answer::with_capacity(16), 0.0);
     for [start, end, amplitude] in pulse.stretches() {
-        let ground = |t: f64| if amplitude == 0.0 { 0.0 } else { amplitude * (omega * t).sin() };
+        let ground = |t: f64| [if amplitude == 0.0 { 0.0 } else { amplitude * (omega * t).sin() }, 0.0];
         h = stretch(method, &block, ground, [start, end], h, &mut lean, &mut impacts)?;
     }
     impacts.push(lean.theta(&block));
@@ -52,9 +52,9 @@ pub fn record(method: &impl Integrator, shaking: &Shaking) -> Option<Answer> {
     let block = shaking.block;
     let (ramps, side) = shaking.ramps_from_start();
     let (mut lean, mut impacts) = (Lean::start(&block, side), Answer::with_capacity(64));
-    for Ramp { start, end, value, slope } in ramps {
-        let ground = |t: f64| value + slope * (t - start);
-        stretch(method, &block, ground, [start, end], end - start, &mut lean, &mut impacts)?;
+    for ramp in ramps {
+        let Ramp { start, end, .. } = ramp;
+        stretch(method, &block, |t| ramp.at(t), [start, end], end - start, &mut lean, &mut impacts)?;
     }
     impacts.push(lean.theta(&block));
     Some(impacts)
@@ -71,7 +71,7 @@ pub fn hinges(method: &impl Integrator, hinges: &Hinges, t_end: f64) -> Option<A
 fn stretch(
     method: &impl Integrator,
     block: &Block,
-    ground: impl Fn(f64) -> f64,
+    ground: impl Fn(f64) -> [f64; 2],
     [start, end]: [f64; 2],
     mut h: f64,
     lean: &mut Lean,
@@ -80,7 +80,10 @@ fn stretch(
     let mut t = start;
     while t < end {
         let side = lean.side;
-        let acceleration = |t: f64, w: f64| block.acceleration(w, side * ground(t));
+        let acceleration = |t: f64, w: f64| {
+            let [to_side, up] = ground(t);
+            block.acceleration(w, side * to_side, up)
+        };
         let over_time = |t: f64, w: &[f64; 2]| [w[1], acceleration(t, w[0])];
         let beyond = method.integrate::<2, 3>(over_time, [t, end], lean.w, h.min(end - t), block.alpha)?;
         h = beyond.step;

@@ -48,7 +48,7 @@ pub fn pulse(pulse: &Pulse, longest: f64) -> Option<Answer> {
         while t < end {
             let drive = lean.side * amplitude;
             let of = |t: f64| if drive == 0.0 { 0.0 } else { drive * (omega * t).sin() };
-            let slope = |t: f64, w: &[f64; 2]| [w[1], block.acceleration(w[0], of(t))];
+            let slope = |t: f64, w: &[f64; 2]| [w[1], block.acceleration(w[0], of(t), 0.0)];
             let h = longest.min(end - t);
             let w = step(slope, t, &lean.w, h);
             if w[0] > block.alpha {
@@ -72,12 +72,15 @@ pub fn record(shaking: &Shaking, steps: usize) -> Option<Answer> {
     let (ramps, side) = shaking.ramps_from_start();
     let mut lean = Lean::start(&block, side);
     let mut answer = Vec::with_capacity(64);
-    for Ramp { start, end, value, slope: rise } in ramps {
+    for ramp in ramps {
+        let Ramp { start, end, .. } = ramp;
         let mut t = start;
         let longest = (end - start) / steps as f64;
         while t < end {
-            let slope =
-                |t: f64, w: &[f64; 2]| [w[1], block.acceleration(w[0], lean.side * (value + rise * (t - start)))];
+            let slope = |t: f64, w: &[f64; 2]| {
+                let [side, up] = ramp.at(t);
+                [w[1], block.acceleration(w[0], lean.side * side, up)]
+            };
             let h = longest.min(end - t);
             let w = step(slope, t, &lean.w, h);
             if w[0] > block.alpha {

@@ -124,7 +124,7 @@ fn overturns(pulse: &Pulse, longest: f64) -> bool {
             }
             let drive = lean.side * amplitude;
             let of = |t: f64| if drive == 0.0 { 0.0 } else { drive * (omega * t).sin() };
-            let slope = |t: f64, w: &[f64; 2]| [w[1], block.acceleration(w[0], of(t))];
+            let slope = |t: f64, w: &[f64; 2]| [w[1], block.acceleration(w[0], of(t), 0.0)];
             let h = longest.min(end - t);
             let w = step(slope, t, &lean.w, h);
             if w[0] > block.alpha {

@@ -3,8 +3,8 @@
 //! cost less than ending a loop does.
 
 use super::coefficients::{TERMS, reciprocal, turned};
-use crate::numerics::lanes::widest;
 use crate::numerics::state_vector::StateVector;
+use crate::numerics::widest::widest;
 use std::ops::Range;
 use wide::f64x2;
 

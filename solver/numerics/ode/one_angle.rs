@@ -1,0 +1,174 @@
+//! Taylor series of one angle whose weights change linearly in time: a step from sample to sample of a record, without loop, branch or sine.
+//!
+//! With the step as the unit of time, `0 ≤ u ≤ 1`, and `θ = θ_0 + δ`:
+//!
+//! ```text
+//! θ'' = (A + A' u) cos θ + (B + B' u) sin θ
+//!     = (P + P' u) cos δ + (Q + Q' u) sin δ           P = A cos θ_0 + B sin θ_0,   Q = B cos θ_0 - A sin θ_0
+//!
+//! (k+1) S[k+1] =  Σ C[j] Ω[k-j]                       S, C of sin δ and cos δ,  Ω of δ'
+//! (k+1) C[k+1] = -Σ S[j] Ω[k-j]
+//! (k+1) Ω[k+1] = P C[k] + P' C[k-1] + Q S[k] + Q' S[k-1]
+//! ```
+//!
+//! Sine and cosine of the next angle are those of the last one turned by `δ`.
+
+use super::taylor::{BEFORE_LAST, RECIPROCAL, turned};
+use crate::numerics::polynomial::powers::Powers;
+use wide::f64x2;
+
+/// Least and highest order of the rate's series.
+pub const LEAST_ORDER: usize = 3;
+pub const HIGHEST_ORDER: usize = 12;
+
+/// `[A, B]` and `[A', B']` of `(A + A' u) cos θ + (B + B' u) sin θ`: the second derivative of an angle in units of the step.
+pub type Weights = [f64x2; 2];
+
+/// An angle, its rate in units of the step, and its cosine and sine.
+#[derive(Clone, Copy, Debug)]
+pub struct Turning {
+    /// `[rad]`
+    pub theta: f64,
+    /// `[rad]` per step
+    pub rate: f64,
+    /// `[cos θ, sin θ]`
+    pub circle: f64x2,
+}
+
+/// The series of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct OneAngle {
+    /// Coefficients of the rate, from the constant one up to the order.
+    rates: [f64; HIGHEST_ORDER + 1],
+    order: usize,
+    /// State at the end.
+    pub end: Turning,
+    /// The sum over the sizes of the rate's coefficients but the first: no rate in the step is further from that at its start.
+    pub change: f64,
+    /// Size of the rate's last coefficient, or of a share of the one before: of an odd or even function every second one is zero.
+    pub last: f64,
+}
+
+/// Coefficients of `[cos δ, sin δ]` and of `δ'`.
+struct Series {
+    circle: [f64x2; HIGHEST_ORDER + 1],
+    rates: [f64; HIGHEST_ORDER + 1],
+}
+
+impl Series {
+    /// The first three: `cos δ = 1 - Ω_0² u²/2`, `sin δ = Ω_0 u + Ω_1 u²/2`, with `Ω_1 = P`, `2 Ω_2 = P' + Q Ω_0`.
+    #[inline(always)]
+    fn begin(rate: f64, [[p, q], [p_slope, _]]: [[f64; 2]; 2]) -> Series {
+        let mut series = Series { circle: [f64x2::ZERO; HIGHEST_ORDER + 1], rates: [0.0; HIGHEST_ORDER + 1] };
+        series.circle[..3].copy_from_slice(&[
+            f64x2::new([1.0, 0.0]),
+            f64x2::new([0.0, rate]),
+            f64x2::new([-0.5 * rate * rate, 0.5 * p]),
+        ]);
+        series.rates[..3].copy_from_slice(&[rate, p, 0.5 * (p_slope + q * rate)]);
+        series
+    }
+
+    /// What follows from the order `k`, two at least. A step waits for the coefficients one after another, from `Ω` over `sin δ` to `Ω`: they are
+    /// scalars, and what comes last is added last.
+    #[inline(always)]
+    fn extend(&mut self, k: usize, [[p, q], [p_slope, q_slope]]: [[f64; 2]; 2]) {
+        let Series { circle, rates } = self;
+        let ([cos, sin], [cos_before, sin_before]) = (circle[k].to_array(), circle[k - 1].to_array());
+        // That of the constant coefficients, one and zero, is added last.
+        let mut turning = circle[k] * f64x2::splat(rates[0]);
+        for j in 1..k {
+            turning += circle[k - j] * f64x2::splat(rates[j]);
+        }
+        let ([of_cos, of_sin], share) = (turning.to_array(), RECIPROCAL[k + 1]);
+        rates[k + 1] = (p * cos + (p_slope * cos_before + q_slope * sin_before) + q * sin) * share;
+        circle[k + 1] = f64x2::new([-share * of_sin, share * (of_cos + rates[k])]);
+    }
+}
+
+impl OneAngle {
+    /// The series of an order about a state.
+    #[inline(always)]
+    pub fn expand<const ORDER: usize>(weights: &Weights, start: Turning) -> OneAngle {
+        let Turning { theta, rate, circle } = start;
+        let [cos, sin] = circle.to_array().map(f64x2::splat);
+        let weights = [0, 1].map(|k| (cos * weights[k] - turned(weights[k]) * sin).to_array());
+        let mut series = Series::begin(rate, weights);
+        // A piece of code for each order: loops as short as these cost more than their sums.
+        macro_rules! each {
+            ($($order:literal)*) => {$(
+                if $order < ORDER {
+                    series.extend($order, weights);
+                }
+            )*};
+        }
+        each!(2 3 4 5 6 7 8 9 10 11);
+        // `[θ', δ]`, the sum over sizes, and the circle. The last terms, which are the last to be known, come last.
+        let (mut sums, mut change, mut turn) = (f64x2::ZERO, 0.0, f64x2::ZERO);
+        macro_rules! each {
+            ($($order:literal)*) => {$(
+                if $order <= ORDER {
+                    sums += f64x2::splat(series.rates[$order]) * f64x2::new([1.0, RECIPROCAL[$order + 1]]);
+                    change += series.rates[$order].abs();
+                    turn += series.circle[$order];
+                }
+            )*};
+        }
+        each!(1 2 3 4 5 6 7 8 9 10 11 12);
+        let [gained, moved] = sums.to_array();
+        let turn = turn + series.circle[0];
+        let end =
+            Turning { theta: theta + (rate + moved), rate: rate + gained, circle: cos * turn + turned(turn) * sin };
+        let [before, last] = [ORDER - 1, ORDER].map(|order| series.rates[order].abs());
+        let before = BEFORE_LAST * before;
+        OneAngle { rates: series.rates, order: ORDER, end, change, last: if last > before { last } else { before } }
+    }
+
+    /// `sign θ` over the step.
+    #[inline(always)]
+    pub fn track(&self, sign: f64, start: f64) -> Powers {
+        let terms = self.rates[..=self.order].iter().zip(&RECIPROCAL[1..]);
+        Powers::with_terms(sign * start, terms.map(|(rate, reciprocal)| sign * rate * reciprocal))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turning(theta: f64, rate: f64) -> Turning {
+        Turning { theta, rate, circle: f64x2::new([libm::cos(theta), libm::sin(theta)]) }
+    }
+
+    /// One step is as good as a thousand short ones, and each order by what its last coefficient says.
+    #[test]
+    fn a_step_ends_where_many_short_ones_do() {
+        let (theta, rate) = (0.1, -0.05);
+        let weights = [f64x2::new([-0.02, 0.03]), f64x2::new([0.05, -0.01])];
+        let count = 1000.0;
+        let exact = (0..1000).fold(turning(theta, rate), |state, index| {
+            let start = weights[0] + weights[1] * f64x2::splat(f64::from(index) / count);
+            let part =
+                [start * f64x2::splat(1.0 / (count * count)), weights[1] * f64x2::splat(1.0 / (count * count * count))];
+            let Turning { theta, rate, .. } =
+                OneAngle::expand::<6>(&part, turning(state.theta, state.rate / count)).end;
+            turning(theta, rate * count)
+        });
+        let check = |step: OneAngle, order: i32| {
+            let error = (step.end.theta - exact.theta).abs().max((step.end.rate - exact.rate).abs());
+            assert!(error < step.last.max(1e-15), "order {order}: {error:e}, last {:e}", step.last);
+            let [cos, sin] = step.end.circle.to_array();
+            // Of no account: it counts by the weights, which are some thousandths in a step from sample to sample.
+            let turned = (cos - libm::cos(exact.theta)).abs().max((sin - libm::sin(exact.theta)).abs());
+            assert!(turned < 2.0 * step.last.max(1e-15), "order {order}: {turned:e}, last {:e}", step.last);
+            let [angle, slope] = step.track(1.0, theta).with_slope(1.0);
+            assert!((angle - step.end.theta).abs() < 1e-15 && (slope - step.end.rate).abs() < 1e-15);
+            assert!((step.end.rate - rate).abs() <= step.change);
+        };
+        let start = turning(theta, rate);
+        check(OneAngle::expand::<3>(&weights, start), 3);
+        check(OneAngle::expand::<5>(&weights, start), 5);
+        check(OneAngle::expand::<8>(&weights, start), 8);
+        check(OneAngle::expand::<HIGHEST_ORDER>(&weights, start), 12);
+    }
+}
