@@ -215,3 +215,9 @@ def test_a_block_that_the_column_has_not_is_refused() -> None:
     with pytest.raises(rk.StudyError, match=r"`peak_2 > 0.3` needs the column peak_2, and the columns of the table have 1 block"):
         study.fragility("peak_2 > 0.3")
     assert study.fragility("peak_1 > 0.3").statements
+
+
+def test_a_figure_without_a_curve_says_so() -> None:
+    study = rk.ida(rk.Column.prisms(1, half_width=0.2, half_height=0.8), rk.synthetic(range(3), duration=6.0), "pgv", [0.01, 0.02])
+    legend = study.fragility("overturned").plot().get_legend()
+    assert legend is not None and [text.get_text() for text in legend.get_texts()] == ["overturned: no curve"]
