@@ -5,19 +5,30 @@ mod common;
 #[path = "../benches/work_precision/double.rs"]
 mod double;
 
+/// The text of the library's equations once more, for functions that it keeps to itself: its dispatch would compile all linkages of five blocks in
+/// each scalar, a minute for one of them.
+#[allow(clippy::all, dead_code, missing_docs, unused_variables, reason = "generated code is laid out for reading")]
+mod equations {
+    include!(concat!(env!("OUT_DIR"), "/equations.rs"));
+
+    /// Scene constants of the accelerations and of the energies, the ground moving vertically as well: the third of four interfaces closed.
+    pub fn constants<S: Scalar>(column: &Geometry<S>) -> [Vec<S>; 2] {
+        [accelerations_open_1_2_4_of_4(column), energies_open_1_2_4_of_4(column)]
+    }
+}
+
 use double::Double;
 use proptest::prelude::*;
-use rocking::generated::{equations, geometry};
+use rocking::Column;
+use rocking::generated::geometry;
 use rocking::pattern::Pattern;
 use rocking::program::{EnergyProgram, Geometry, Scalar, StepProgram};
 use rocking::scalar::Dual;
-use rocking::{Column, GroundMotion};
 use std::ops::Add;
 
 /// Accelerations of a pattern with three free angles, in any scalar: constants from the column, then the program.
-fn accelerations<S: Scalar>(geometry: &Geometry<S>, mask: usize, x: [S; 6], ground_x: S, gravity: S) -> [S; 3] {
-    let linkage = equations::linkage::<S>(geometry.mass.len(), mask).expect("the build covers it");
-    let constants = (linkage.accelerations[GroundMotion::WithVertical as usize])(geometry);
+fn accelerations<S: Scalar>(geometry: &Geometry<S>, x: [S; 6], ground_x: S, gravity: S) -> [S; 3] {
+    let [constants, _] = equations::constants(geometry);
     let Ok(constants) = <<equations::Dof3 as StepProgram<S>>::Constants>::try_from(constants.as_slice()) else {
         panic!("as many as the program has")
     };
@@ -27,7 +38,6 @@ fn accelerations<S: Scalar>(geometry: &Geometry<S>, mask: usize, x: [S; 6], grou
 
 /// Four blocks, the third interface closed.
 const SIGNS: [i8; 4] = [1, -1, 0, 1];
-const MASK: usize = 0b1011;
 
 fn strategy() -> impl Strategy<Value = (Column, Vec<f64>)> {
     (common::column(4), prop::collection::vec(-1.0f64..1.0, 8))
@@ -56,6 +66,20 @@ fn sines_and_cosines_err_by_less_than_the_last_place() {
     assert!(worst[0] < 0.85 && worst[1] < 0.85, "{worst:?}");
 }
 
+/// What is tested here is what the library runs.
+#[test]
+fn the_constants_are_those_of_the_library() {
+    const MASK: usize = 0b1011;
+    let run = |(column, _): (Column, Vec<f64>)| {
+        let sizes = geometry(&column, &Pattern::from_signs(&SIGNS));
+        let linkage = (rocking::generated::equations::LINKAGES.rectangles)(4, MASK).expect("the build covers it");
+        let theirs = [linkage.accelerations[1](&sizes), (linkage.energies)(&sizes)];
+        prop_assert_eq!(equations::constants(&sizes), theirs);
+        Ok(())
+    };
+    common::runner(20).run(&strategy(), run).expect("equal constants");
+}
+
 /// Derivatives by every column parameter (gravity, pivots, half-heights, masses, inertias), every angle and every rate.
 #[test]
 fn dual_numbers_give_the_derivatives_of_the_right_hand_side() {
@@ -70,8 +94,8 @@ fn dual_numbers_give_the_derivatives_of_the_right_hand_side() {
             Dual::<PARAMETERS>::variable(value, index - 1)
         });
         let state = std::array::from_fn(|i| Dual::variable(x[i], 17 + i));
-        let exact = accelerations(&dual, MASK, state, Dual::constant(ground_x), Dual::constant(gravity));
-        let value = accelerations(&sizes, MASK, x, ground_x, gravity);
+        let exact = accelerations(&dual, state, Dual::constant(ground_x), Dual::constant(gravity));
+        let value = accelerations(&sizes, x, ground_x, gravity);
         for link in 0..3 {
             prop_assert_eq!(exact[link].value, value[link]);
         }
@@ -86,7 +110,7 @@ fn dual_numbers_give_the_derivatives_of_the_right_hand_side() {
                 if parameter >= 17 {
                     x[parameter - 17] += sign * d;
                 }
-                accelerations(&sizes, MASK, x, ground_x, gravity)
+                accelerations(&sizes, x, ground_x, gravity)
             };
             let mut index = 0;
             let mut size = 1.0;
@@ -123,9 +147,8 @@ fn double_doubles_carry_twice_the_digits() {
         let sizes = geometry(&column, &Pattern::from_signs(&SIGNS));
         let (x, _, gravity) = inputs(&random);
         let wide = sizes.lift(Double::from_f64);
-        let exact =
-            accelerations(&wide, MASK, x.map(Double::from_f64), Double::from_f64(0.0), Double::from_f64(gravity));
-        let plain = accelerations(&sizes, MASK, x, 0.0, gravity);
+        let exact = accelerations(&wide, x.map(Double::from_f64), Double::from_f64(0.0), Double::from_f64(gravity));
+        let plain = accelerations(&sizes, x, 0.0, gravity);
         let size = plain.iter().fold(1.0f64, |size, a| size.max(a.abs()));
         let error = (0..3).fold(0.0f64, |e, i| e.max((exact[i].value() - plain[i]).abs()));
         // Rounding times the condition of the mass matrix, up to some 1e5 for these columns.
@@ -133,8 +156,7 @@ fn double_doubles_carry_twice_the_digits() {
 
         // M θ̈ = load, row by row, is what the accelerations solve: the residual of the plain ones against the wide mass matrix
         // is rounding, that of the wide ones nothing a double can hold.
-        let linkage = equations::linkage::<Double>(4, MASK).expect("the build covers it");
-        let constants = (linkage.energies)(&wide);
+        let [_, constants] = equations::constants(&wide);
         type Energies = equations::EnergiesDof3;
         let Ok(constants) = <<Energies as EnergyProgram<Double>>::Constants>::try_from(constants.as_slice()) else {
             panic!("as many as the program has")
@@ -142,7 +164,7 @@ fn double_doubles_carry_twice_the_digits() {
         let still = [x[0], x[1], x[2], 0.0, 0.0, 0.0].map(Double::from_f64);
         let (cos, sin, _) = rocking::program::split::<Double, equations::Dof3>(&still);
         let matrix = <Energies as EnergyProgram<Double>>::mass_matrix(&constants, &cos, &sin);
-        let at = |gravity: Double| accelerations(&wide, MASK, still, Double::from_f64(0.0), gravity);
+        let at = |gravity: Double| accelerations(&wide, still, Double::from_f64(0.0), gravity);
         // At rest the load is proportional to gravity: three times the gravity is three times the acceleration.
         let (gravity, three) = (Double::from_f64(gravity), Double::from_f64(3.0));
         let (once, thrice) = (at(gravity), at(three * gravity));

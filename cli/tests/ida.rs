@@ -270,6 +270,19 @@ fn components_of_a_folder_are_records() {
     let response = simulate(&scene).expect("runs");
     let peak = response.peak_theta[0] / scene.column.slenderness();
     assert!((number(row, "peak_1") / peak - 1.0).abs() < 1e-9, "{row:?} {peak}");
+
+    // No file says H1 or H2: the horizontal ones by the order of their names.
+    std::fs::create_dir(folder.path().join("peer")).expect("made");
+    for (own, name) in [("A_H1", "RSN1_X090"), ("A_H2", "RSN1_X000"), ("A_V", "RSN1_X-UP")] {
+        let from = folder.path().join(format!("records/{own}.csv"));
+        std::fs::copy(from, folder.path().join(format!("peer/{name}.csv"))).expect("copied");
+    }
+    for (component, name) in [("H1", "000"), ("h2", "090")] {
+        let study = format!("{BLOCK}levels = [0.5]\n[records]\nfolder = \"peer\"\ncomponent = \"{component}\"\n");
+        let (is_good, told) = run(folder.path(), &study);
+        assert!(is_good, "{told}");
+        assert_eq!(names(), [format!("peer/RSN1_X{name}.csv")]);
+    }
 }
 
 /// Killed again and again, it comes to the same bytes.
@@ -339,6 +352,27 @@ fn bad_studies_are_refused_with_place_and_remedy() {
             assert!(text.contains(word), "{study}\n{text}\nlacks {word}");
         }
         assert!(!folder.path().join("ida.csv").exists(), "{study}");
+    }
+}
+
+/// Tables without the columns of a state, and tables without anything.
+#[test]
+fn tables_without_what_a_state_needs_are_refused() {
+    let folder = folder();
+    let (is_good, told) = run(folder.path(), &format!("{BLOCK}levels = [0.5]\n[records]\nfolder = \"records\"\n"));
+    assert!(is_good, "{told}");
+    std::fs::write(folder.path().join("empty.csv"), "").expect("written");
+    for (arguments, told) in [
+        (
+            vec!["ida.csv", "--state", "peak_2 > 0.3"],
+            "needs the column peak_2, and the columns of the table have 1 block(s)",
+        ),
+        (vec!["ida.csv", "--state", "slide > 0.1"], "residual_slide_1"),
+        (vec!["empty.csv"], "it is empty"),
+    ] {
+        let output = common::rocking(folder.path(), &[vec!["fragility"], arguments.clone()].concat());
+        let text = String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(!output.status.success() && text.contains(told), "{arguments:?}: {text}");
     }
 }
 

@@ -162,8 +162,9 @@ fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
     let known = keys_of(&schema("study"));
     let of_study = |key: &String| {
         let top = key.split('.').next().unwrap_or_default();
-        ["scene", "measure", "sa_period", "sa_damping", "levels", "free_swing", "records", "fragility"].contains(&top)
-            && !key.starts_with("scene.")
+        let own =
+            ["scene", "measure", "sa_period", "sa_damping", "levels", "free_swing", "trust", "records", "fragility"];
+        own.contains(&top) && !key.starts_with("scene.")
     };
     // Refused with its remedy, and so asked for.
     let known: BTreeSet<String> = known.into_iter().filter(of_study).collect();
@@ -193,6 +194,19 @@ fn the_list_has_units_and_defaults() {
     assert!(line("shape").contains("prism | drum"), "{}", line("shape"));
     assert!(line("blocks").ends_with("default: required"), "{}", line("blocks"));
     assert!(line("accel").contains("list of numbers"));
+    // Long choices stand behind the meaning: a column as wide as they are would push all other meanings off the screen.
+    assert!(
+        line("kind").starts_with("  kind              a name ")
+            && line("kind").contains("`record`: sine-pulse | one-sine")
+    );
+    assert!(line("pga_g").chars().count() < 120, "{}", line("pga_g"));
+    let sweep = succeeds(Path::new("."), &["keys", "sweep"]);
+    for heading in
+        ["[axes.KEY] a range of numbers", "[axes.KEY] the files of a folder", "[axes.KEY] a distribution: one of"]
+    {
+        assert!(sweep.lines().any(|own| own.starts_with(heading)), "{heading}: {sweep}");
+    }
+    assert!(sweep.lines().any(|own| own.starts_with("  lognormal ")), "{sweep}");
     let all = succeeds(Path::new("."), &["keys"]);
     assert!(all.contains("Study files") && all.contains("Sweep files") && all.contains("[fragility]"), "{all}");
 }

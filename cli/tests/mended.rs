@@ -73,7 +73,8 @@ fn an_unreadable_record_does_not_switch_off_the_check_for_unknown_keys() {
     fails(folder.path(), &["sweep", "sweep.toml"], 2, &["pga_gg", "unknown"]);
     assert!(!folder.path().join("sweep.csv").exists());
     write(folder.path().join("sweep.toml"), axes("pga_g")).expect("written");
-    assert!(succeeds(folder.path(), &["sweep", "sweep.toml"]).contains("errors 2"));
+    let told = succeeds(folder.path(), &["sweep", "sweep.toml"]);
+    assert!(told.contains("errors 2") && told.contains("the first error: "), "{told}");
 }
 
 #[test]

@@ -137,6 +137,10 @@ fn bad_distributions_are_refused_with_place_and_remedy() {
         ),
         ("[axes]\nhalf_width = { normal = [0.25, 0.01] }\n".into(), vec!["[sampling]", "samples = 1000"]),
         (format!("{sampling}[axes]\nhalf_width = [0.25]\n"), vec!["no axis is a distribution"]),
+        (
+            format!("{sampling}[axes]\nhalf_width = {{ gumbel = [0.25, 0.01] }}\n"),
+            vec!["axes.half_width", "`gumbel` makes no axis", "normal, lognormal, uniform, discrete"],
+        ),
         (format!("{sampling}[axes]\nhalf_width = {{ normal = [0.25] }}\n"), vec!["1 number(s)", "standard deviation"]),
         (format!("{sampling}[axes]\nhalf_width = {{ lognormal = [-1, 0.2] }}\n"), vec!["a median of -1"]),
         (format!("{sampling}[axes]\nhalf_width = {{ uniform = [0.3, 0.2] }}\n"), vec!["smaller end first"]),

@@ -50,14 +50,20 @@ pub fn generate_moving(max_blocks: usize) -> Result<String, GenerateError> {
     Ok(emit::moving_module(max_blocks, &moving::moving_catalogue(max_blocks)?))
 }
 
-/// The modules that a build for columns of up to `max_blocks` blocks includes, with the names of their files: that of [`generate`] and that
-/// of [`generate_moving`].
+/// Unit tests compile a library once more, with rocking equations of no more blocks than they run: each block more has three times as many modes.
+/// Tests of the whole have all.
+#[cfg(feature = "emit")]
+const UNIT_TEST_MAX_BLOCKS: usize = 3;
+
+/// The modules that a build for columns of up to `max_blocks` blocks includes, with the names of their files: that of [`generate`], the same for
+/// unit tests, of up to three blocks, and that of [`generate_moving`].
 ///
 /// # Errors
 /// As [`catalogue()`].
 #[cfg(feature = "emit")]
-pub fn modules(max_blocks: usize) -> Result<[(&'static str, String); 2], GenerateError> {
-    Ok([("equations", generate(max_blocks)?), ("moving", generate_moving(max_blocks)?)])
+pub fn modules(max_blocks: usize) -> Result<[(&'static str, String); 3], GenerateError> {
+    let of_unit_tests = generate(max_blocks.min(UNIT_TEST_MAX_BLOCKS))?;
+    Ok([("equations", generate(max_blocks)?), ("unit_tests", of_unit_tests), ("moving", generate_moving(max_blocks)?)])
 }
 
 /// The module of one column of given sizes, its scene constants literals, as formatted Rust.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import pickle
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -127,3 +129,22 @@ def test_the_page_is_that_of_the_command_line(scenes: Path, command, tmp_path: P
     command("report", tmp_path / "folder", "--out", tmp_path / "command.html")
     run.report(tmp_path / "python.html")
     assert (tmp_path / "python.html").read_bytes() == (tmp_path / "command.html").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["sweep", "sweep.toml", "--out", "t.parquet"], "t.parquet"),
+        (["merge", "t.parquet", "1.csv"], "t.parquet"),
+        (["plot", "1.parquet"], "1.parquet"),
+        (["record", "r", "--plot", "r.pdf"], "PDF needs a build with `--features pdf`"),
+    ],
+)
+def test_a_build_without_parquet_and_pdf_says_how_to_get_them(arguments: list[str], told: str, tmp_path: Path) -> None:
+    """The wheel is such a build; CI tests the command line with both."""
+    (tmp_path / "s.toml").write_text("[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n")
+    (tmp_path / "sweep.toml").write_text('scene = "s.toml"\n[axes]\neta = [0.8, 0.9]\n')
+    (tmp_path / "1.parquet").write_text("PAR1")
+    run = subprocess.run([sys.executable, "-m", "rocking", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert run.returncode == 2 and told in run.stderr and "--features p" in run.stderr, run.stderr
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["1.parquet", "s.toml", "sweep.toml"]

@@ -207,3 +207,17 @@ def test_a_study_is_pickled_and_runs_in_ranges() -> None:
     again = pickle.loads(pickle.dumps(plan))
     pd.testing.assert_frame_equal(pd.concat([again.table(0, 4), again.table(4, threads=1)]), table)
     assert len(plan) == 9 and plan.levels.tolist() == [0.1, 0.4, 0.9] and "3 record(s)" in repr(plan)
+
+
+def test_a_block_that_the_column_has_not_is_refused() -> None:
+    column = rk.Column.prisms(1, half_width=0.2, half_height=0.8)
+    study = rk.ida(column, rk.synthetic(range(3), duration=6.0), "pgv", [0.3, 5.0])
+    with pytest.raises(rk.StudyError, match=r"`peak_2 > 0.3` needs the column peak_2, and the columns of the table have 1 block"):
+        study.fragility("peak_2 > 0.3")
+    assert study.fragility("peak_1 > 0.3").statements
+
+
+def test_a_figure_without_a_curve_says_so() -> None:
+    study = rk.ida(rk.Column.prisms(1, half_width=0.2, half_height=0.8), rk.synthetic(range(3), duration=6.0), "pgv", [0.01, 0.02])
+    legend = study.fragility("overturned").plot().get_legend()
+    assert legend is not None and [text.get_text() for text in legend.get_texts()] == ["overturned: no curve"]

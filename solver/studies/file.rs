@@ -193,17 +193,27 @@ fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
 
 /// Components of a folder that are asked for.
 struct Wanted<'t> {
-    /// `horizontal` for all of them, `vertical`, or a name: the end of a file's name, or that in the file.
+    /// `horizontal` for all of them, `vertical`, a name: the end of a file's name, or that in the file; or `H1` or `H2`, the horizontal ones by
+    /// the order of their files' names.
     component: &'t str,
     with_vertical: bool,
 }
 
 impl Wanted<'_> {
-    fn takes(&self, component: &Component) -> bool {
+    /// Those of a record that are taken.
+    fn of<'c>(&self, components: &'c [Component]) -> Vec<&'c Component> {
+        let along = |direction: Direction| components.iter().filter(move |own| own.direction == direction);
         match self.component {
-            "horizontal" => component.direction == Direction::Horizontal,
-            "vertical" => component.direction == Direction::Vertical,
-            name => component.is_called(name),
+            "horizontal" => along(Direction::Horizontal).collect(),
+            "vertical" => along(Direction::Vertical).collect(),
+            name => {
+                let called: Vec<&Component> = components.iter().filter(|own| own.is_called(name)).collect();
+                let place = ["H1", "H2"].iter().position(|place| name.eq_ignore_ascii_case(place));
+                match place {
+                    Some(place) if called.is_empty() => along(Direction::Horizontal).skip(place).take(1).collect(),
+                    _ => called,
+                }
+            }
         }
     }
 }
@@ -230,8 +240,8 @@ fn of_folder(
         Ok((group, components))
     });
     let groups = groups.collect::<Result<Vec<_>, SceneFileError>>()?;
-    let lacking = |what: &str, is_there: &dyn Fn(&Component) -> bool| -> Vec<String> {
-        let without = groups.iter().filter(|(_, components)| !components.iter().any(is_there));
+    let lacking = |what: &str, is_there: &dyn Fn(&[Component]) -> bool| -> Vec<String> {
+        let without = groups.iter().filter(|(_, components)| !is_there(components));
         without
             .map(|(group, components)| {
                 let known: Vec<&str> = components.iter().map(|component| component.name.as_str()).collect();
@@ -239,13 +249,14 @@ fn of_folder(
             })
             .collect()
     };
-    let missing = lacking(wanted.component, &|component| wanted.takes(component));
+    let missing = lacking(wanted.component, &|components| !wanted.of(components).is_empty());
     if !missing.is_empty() {
         let key = if table.has("component") { "component" } else { "folder" };
         return Err(refuse(key, missing.join("; "), "choose another component, or name the files with `files`"));
     }
     if wanted.with_vertical {
-        let missing = lacking("vertical", &|component| component.direction == Direction::Vertical);
+        let is_up = |component: &Component| component.direction == Direction::Vertical;
+        let missing = lacking("vertical", &|components| components.iter().any(is_up));
         if !missing.is_empty() {
             return Err(refuse("vertical", missing.join("; "), "leave it out, or add the files"));
         }
@@ -253,7 +264,7 @@ fn of_folder(
     let mut found = Vec::new();
     for (_, components) in &groups {
         let up = components.iter().find(|component| component.direction == Direction::Vertical);
-        for component in components.iter().filter(|component| wanted.takes(component)) {
+        for component in wanted.of(components) {
             let vertical = up.filter(|_| wanted.with_vertical).map(|component| component.record.clone());
             let (name, horizontal) = (component.name.clone(), component.record.clone());
             found.push(StudyRecord { name, horizontal, vertical });

@@ -219,12 +219,21 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
                 (true, true) => stations(&mut inner, template)?,
             };
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
+        } else if is_no_table(&path, template) {
+            let problem = format!("`{}` makes no axis of it", inner.keys().join("`, `"));
+            let remedy = format!("give {{ from, to, steps }}, or a distribution: {}", KINDS.join(", "));
+            return Err(table.wrong(&key, problem, &remedy));
         } else {
             read_axes(&mut inner, &path, template, axes)?;
         }
         inner.close()?;
     }
     Ok(())
+}
+
+/// Whether a name without a point is that of a key within a table, such as `eta`: no keys stand below it.
+fn is_no_table(path: &str, template: &Template) -> bool {
+    !path.contains('.') && template.full_name(path).is_some_and(|name| name.contains('.') && !template.has_table(&name))
 }
 
 fn no_values(table: &Table, key: &str) -> Wrong {

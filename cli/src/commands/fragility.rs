@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Fits, prints, writes and draws.
 pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
-    let Runs { measure, runs, has_peaks, has_slides, .. } = read(&asked.table, asked.measure.as_deref())?;
+    let Runs { measure, runs, peaks, has_slides, .. } = read(&asked.table, asked.measure.as_deref())?;
     let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
     let states = match &asked.state[..] {
         [] => usual_states(),
@@ -27,12 +27,19 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
     };
     for state in &states {
         let lacks = match state {
-            LimitState::Peak { .. } if !has_peaks => Some("peak_1, ...: run the sweep with ask = \"peaks\""),
-            LimitState::Slide { .. } if !has_slides => Some("residual_slide_1, ...: give the scene friction"),
+            LimitState::Peak { .. } if peaks == 0 => {
+                Some("needs the columns peak_1, ...: run the sweep with ask = \"peaks\"".to_string())
+            }
+            LimitState::Peak { block: Some(block), .. } if *block > peaks => {
+                Some(format!("needs the column peak_{block}, and the columns of the table have {peaks} block(s)"))
+            }
+            LimitState::Slide { .. } if !has_slides => {
+                Some("needs the columns residual_slide_1, ...: give the scene friction".to_string())
+            }
             _ => None,
         };
         if let Some(lacks) = lacks {
-            return Err(refused(format!("the state `{state}` needs the columns {lacks}")));
+            return Err(refused(format!("the state `{state}` {lacks}")));
         }
     }
     let mut options = FragilityOptions::default();
@@ -69,7 +76,8 @@ pub struct Runs {
     pub runs: Vec<Observation>,
     /// The first error in the table.
     pub first_error: Option<String>,
-    has_peaks: bool,
+    /// Blocks of which it has peaks.
+    peaks: usize,
     has_slides: bool,
 }
 
@@ -88,6 +96,9 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
             (0..names.len()).filter(|place| is_measure(&names[*place]) || is_measure(&last(&names[*place]))).collect()
         }
     };
+    if names.is_empty() {
+        return Err(refused("it is empty; give the table of a finished study".into()));
+    }
     let known = || names.join(", ");
     let level = match (&measures[..], measure) {
         ([level], _) => *level,
@@ -161,7 +172,7 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
     }
     let measure =
         if is_measure(&names[level]) || measure.is_some() { names[level].clone() } else { last(&names[level]) };
-    Ok(Runs { measure, runs, first_error, has_peaks: !peaks.is_empty(), has_slides: !slides.is_empty() })
+    Ok(Runs { measure, runs, first_error, peaks: peaks.len(), has_slides: !slides.is_empty() })
 }
 
 fn is_measure(name: &str) -> bool {

@@ -68,7 +68,10 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     } else if !asked.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
         let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
-        print(&format!("{tally}{wrote}{probabilities}{fractiles}{drawn}"))?;
+        // Of a table without a result it is told below.
+        let failed = first_error.as_ref().filter(|_| tally.errors < range.len());
+        let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
+        print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{drawn}"))?;
     }
     match first_error {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),

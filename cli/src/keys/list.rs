@@ -21,6 +21,9 @@ struct Key {
     meaning: String,
 }
 
+/// Width of a type beyond which its choices stand behind the meaning: the column of types is as wide as its widest.
+const WIDEST_TYPE: usize = 40;
+
 /// The reference of a kind of file.
 pub fn list(kind: Kind) -> String {
     let schema = kind.schema().to_value();
@@ -153,16 +156,19 @@ fn collect<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut V
     };
     let required = owner.get("required").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
     let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_string();
-    let key = |(name, own): (&String, &'s Value)| Key {
-        name: name.clone(),
-        kind: schema.kind(own, own),
-        unit: text(own, "x-unit"),
-        default: match text(own, "x-default") {
+    let key = |(name, own): (&String, &'s Value)| {
+        let (mut kind, mut meaning) =
+            (schema.kind(own, own), text(own, "description").split_whitespace().collect::<Vec<_>>().join(" "));
+        if kind.chars().count() > WIDEST_TYPE {
+            meaning = format!("{meaning}: {kind}");
+            kind = "a name".into();
+        }
+        let default = match text(own, "x-default") {
             _ if required.iter().any(|required| required.as_str() == Some(name)) => "required".into(),
             default if default.is_empty() => "see below".into(),
             default => default,
-        },
-        meaning: text(own, "description").split_whitespace().collect::<Vec<_>>().join(" "),
+        };
+        Key { name: name.clone(), kind, unit: text(own, "x-unit"), default, meaning }
     };
     let heading = match (path, is_list) {
         ("", _) => "top level".into(),
@@ -176,6 +182,22 @@ fn collect<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut V
         if !is_told {
             let below = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
             collect(schema, own, &below, tables);
+            of_any_name(schema, own, &below, tables);
+        }
+    }
+}
+
+/// Collects the tables that stand below any name, such as the range or the distribution of an axis.
+fn of_any_name<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut Vec<Table>) {
+    let below = schema.alternatives(value).into_iter().find_map(|part| part.get("additionalProperties"));
+    for part in below.map(|below| schema.alternatives(below)).unwrap_or_default() {
+        let before = tables.len();
+        collect(schema, part, path, tables);
+        if let Some(table) = tables.get_mut(before) {
+            let what = part.get("description").and_then(Value::as_str).unwrap_or_default().trim_end_matches('.');
+            let mut letters = what.chars();
+            let first = letters.next().map(|letter| letter.to_lowercase().to_string()).unwrap_or_default();
+            table.heading = format!("[{path}.KEY] {first}{}", letters.as_str());
         }
     }
 }

@@ -27,6 +27,9 @@ pub struct Study {
     /// time after each record
     #[schemars(range(min = 0), extend("x-unit" = "s", "x-default" = "10"))]
     pub free_swing: Option<f64>,
+    /// whether each run is followed by companions, and counts as undecided where its verdict is not determined
+    #[schemars(extend("x-default" = "true"))]
+    pub trust: Option<bool>,
     /// files, a folder, synthetic records; they may be combined
     pub records: Records,
     /// limit states and bands
@@ -68,7 +71,7 @@ pub struct Records {
     /// all record files of a folder, relative to the study
     #[schemars(extend("x-default" = "none"))]
     pub folder: Option<String>,
-    /// of a folder: `horizontal`, `vertical`, or the name of a component
+    /// of a folder: `horizontal` for all, `vertical`, `H1` or `H2` by the order of the files' names, or the end of a file's name
     #[schemars(extend("x-default" = "horizontal"))]
     pub component: Option<String>,
     /// of a folder: the vertical component shakes as well

@@ -141,15 +141,16 @@ pub struct Folder {
 #[schemars(deny_unknown_fields)]
 pub struct Distribution {
     /// mean and standard deviation
-    #[schemars(extend("x-unit" = "of the key"))]
+    #[schemars(extend("x-unit" = "of the key", "x-default" = "one of the four"))]
     pub normal: Option<Vec<f64>>,
     /// median and dispersion
-    #[schemars(extend("x-unit" = "of the key"))]
+    #[schemars(extend("x-unit" = "of the key", "x-default" = "one of the four"))]
     pub lognormal: Option<Vec<f64>>,
     /// both ends
-    #[schemars(extend("x-unit" = "of the key"))]
+    #[schemars(extend("x-unit" = "of the key", "x-default" = "one of the four"))]
     pub uniform: Option<Vec<f64>>,
     /// numbers or names
+    #[schemars(extend("x-default" = "one of the four"))]
     pub discrete: Option<Vec<Value>>,
     /// beside `discrete`: relative frequencies
     #[schemars(extend("x-default" = "equal"))]

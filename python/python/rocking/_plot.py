@@ -79,7 +79,7 @@ def fragility(drawn: "Fragility", ax: "Axes | None" = None, **style: Any) -> "Ax
     known = counts[counts.runs > 0]
     color = style.pop("color", None) or ax._get_lines.get_next_color()  # type: ignore[attr-defined]
     label = style.pop("label", drawn.state)
-    ax.plot(known.level, known.share, "o", ms=4, mfc="none", color=color, label=label if drawn.median is None else None)
+    ax.plot(known.level, known.share, "o", ms=4, mfc="none", color=color, label=f"{label}: no curve" if drawn.median is None else None)
     if drawn.median is not None and len(known):
         levels = np.geomspace(known.level.min(), known.level.max(), 200)
         ax.plot(levels, drawn.probability(levels), color=color, label=f"{label}: median {drawn.median:.3g}, dispersion {drawn.dispersion:.2g}", **style)

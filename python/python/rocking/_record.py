@@ -298,7 +298,7 @@ def records(
     ----------
     component : str
         ``horizontal`` (the default) takes each horizontal component as a record of its own, ``vertical`` the vertical ones, another name those whose
-        file name or header says so (``H1``, ``EW``, ...).
+        file name or header says so (``EW``, ``000``, ...); ``H1`` and ``H2`` are otherwise the horizontal ones by the order of the files' names.
     vertical : bool
         Whether the vertical component of each record shakes as well.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -223,6 +224,9 @@ class Study:
         kind = state.strip().split("_")[0].split()[0] if state.strip() else ""
         if kind.startswith("peak") and columns[4].shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns peak_1, ...: run the sweep with ask = \"peaks\"")
+        blocks, named = columns[4].shape[1], re.match(r"\s*peak_(\d+)", state)
+        if named is not None and int(named[1]) > blocks:
+            raise StudyError(f"the state `{state}` needs the column peak_{named[1]}, and the columns of the table have {blocks} block(s)")
         if kind.startswith("slide") and columns[5].shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: give the scene friction")
         text, statements = _rocking.fragility(*columns, state, replicates, confidence, seed, layout)

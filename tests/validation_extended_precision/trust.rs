@@ -1,21 +1,9 @@
 //! How far runs can be trusted: what companions call determined is what double-doubles say; what is chaotic is called so.
 
-#[path = "../benches/work_precision/double.rs"]
-#[allow(dead_code, reason = "of the benchmark, which needs more")]
-mod double;
-#[path = "../benches/work_precision/impact.rs"]
-mod impact;
-#[path = "../benches/work_precision/reference.rs"]
-#[allow(dead_code, reason = "of the benchmark, which needs more")]
-mod reference;
-#[path = "../benches/work_precision/series.rs"]
-#[allow(dead_code, reason = "of the benchmark, which needs more")]
-mod series;
-
-#[path = "common/stress.rs"]
+#[path = "../common/stress.rs"]
 mod stress;
 
-use reference::{Settings, replay, tightest};
+use crate::reference::{Settings, replay, tightest};
 use rocking::ground::{Synthetic, TextOptions};
 use rocking::trust::{self, Follow, Trust, Verdict};
 use rocking::{Column, Method, Motion, Record, Restitution, Scene, simulate};
@@ -173,7 +161,7 @@ fn verdicts_called_determined_are_those_of_double_doubles() {
 /// Scenes of the short test.
 const SHORT: u64 = 30;
 
-/// The long form: `ROCKING_SCENES=10000 cargo test --release --test trust -- --ignored --nocapture`.
+/// The long form: `ROCKING_SCENES=10000 cargo test --release --test validation_extended_precision trust -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes a fifth of a second per scene"]
 fn verdicts_of_many_long_scenes_called_determined_are_those_of_double_doubles() {

@@ -1,16 +1,17 @@
 //! The double-double reference of the benchmark `work_precision` against closed forms and against itself; runs in doubles against
-//! the reference.
+//! the reference; and how far runs can be trusted ([`trust`]), in the same crate, because the reference takes half a minute to compile.
 
-#[path = "../benches/work_precision/double.rs"]
+#[path = "../../benches/work_precision/double.rs"]
 mod double;
-#[path = "../benches/work_precision/impact.rs"]
+#[path = "../../benches/work_precision/impact.rs"]
 mod impact;
-#[path = "../benches/work_precision/reference.rs"]
+#[path = "../../benches/work_precision/reference.rs"]
 mod reference;
-#[path = "../benches/work_precision/scenes.rs"]
+#[path = "../../benches/work_precision/scenes.rs"]
 mod scenes;
-#[path = "../benches/work_precision/series.rs"]
+#[path = "../../benches/work_precision/series.rs"]
 mod series;
+mod trust;
 
 use double::{Double, ZERO};
 use reference::{Settings, difference, replay, tightest};

@@ -1,0 +1,73 @@
+//! Baked equations and equations of a program's own against those of the library.
+
+use baked_column::{DENSITY, GRAVITY, column, run, scene, six_blocks};
+use rocking::dynamics::Ground;
+use rocking::pattern::{Interface, Pattern};
+use rocking::{Column, DynamicsSource, GroundMotion, Mode, Motion, Scene};
+
+/// All patterns of three blocks, mirror images included, with and without vertical motion: what the baked code gives
+/// differs from hand-written code by rounding.
+#[test]
+fn every_baked_mode_is_the_generic_one() {
+    let column = scene().expect("positive sizes").column;
+    let mut modes = 0;
+    for code in 0..27usize {
+        let pattern = Pattern((0..3).map(|i| Interface::ORDER[code / 3usize.pow(i) % 3]).collect());
+        let dof = pattern.dof();
+        if dof == 0 {
+            continue;
+        }
+        for ground in GroundMotion::ALL {
+            let baked = (column::EQUATIONS.mode)(&column, &pattern, ground).expect("it is this column");
+            let generic = Mode::generic(&column, &pattern).expect("it moves");
+            modes += 1;
+            for sample in 0..50 {
+                let x: Vec<f64> = (0..2 * dof).map(|i| 0.3 * ((7 * sample + 3 * i) as f64).sin()).collect();
+                let gravity = if ground == GroundMotion::Horizontal { GRAVITY } else { 7.0 + 0.1 * sample as f64 };
+                let ground = Ground { x: (sample as f64).cos() * 5.0, gravity };
+                let (a, b) = (baked.derivative(&x, ground), generic.derivative(&x, ground));
+                for (a, b) in a.iter().zip(&b) {
+                    // Accelerations up to some tens; condition of the mass matrices below 1000.
+                    assert!((a - b).abs() < 1e-11, "{pattern}: {a} {b}");
+                }
+                let (a, b) = (baked.contact_forces(&x, ground), generic.contact_forces(&x, ground));
+                for (a, b) in a.iter().zip(&b) {
+                    // Weights of some 1e5 N.
+                    assert!((a.normal - b.normal).abs() < 1e-6 && (a.moment - b.moment).abs() < 1e-6);
+                }
+                let (a, b) = (baked.energy(&x, gravity), generic.energy(&x, gravity));
+                assert!((a.total() - b.total()).abs() < 1e-6 * b.total().abs());
+            }
+        }
+    }
+    assert_eq!(modes, 2 * 26);
+}
+
+#[test]
+fn the_same_solver_runs_baked_equations() {
+    let scene = scene().expect("positive sizes");
+    let baked = run(&scene, DynamicsSource::Supplied(column::EQUATIONS)).expect("solved");
+    let generic = run(&scene, DynamicsSource::Generic).expect("solved");
+    assert!(!baked.used_generic, "nothing fell back to generic equations");
+    // The run's own tolerance is 1e-9; roundings are amplified by some dozens of impacts.
+    for (a, b) in baked.peak_theta.iter().zip(&generic.peak_theta) {
+        assert!((a - b).abs() < 1e-7, "{a} {b}");
+    }
+}
+
+#[test]
+fn another_column_falls_back_and_says_so() {
+    let mut scene = scene().expect("positive sizes");
+    scene.column = Column::equal_blocks(3, 0.4, 1.6, DENSITY, GRAVITY).expect("positive sizes");
+    let response = run(&scene, DynamicsSource::Supplied(column::EQUATIONS)).expect("solved");
+    assert!(response.used_generic);
+}
+
+#[test]
+fn a_build_of_ones_own_has_more_blocks() {
+    let mut scene = Scene::new(Column::equal_blocks(6, 0.4, 2.4, DENSITY, GRAVITY).expect("positive sizes"));
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 7.0, omega: 10.0, start: 0.0 });
+    scene.options.t_end = 2.0;
+    let own = run(&scene, DynamicsSource::Supplied(six_blocks::EQUATIONS)).expect("solved");
+    assert!(!own.used_generic && own.impacts > 0);
+}
