@@ -184,9 +184,10 @@ impl Level {
         // Coefficients of the force in the axes of a link but the last, which is sought.
         let turned = |force: &Vectors, link: &Link| {
             let (mut along, mut turned) = (f64x2::ZERO, f64x2::ZERO);
-            for j in 0..order {
-                along = force[j] * link.real[order - j] + along;
-                turned = force[j] * link.imaginary[order - j] + turned;
+            let directions = link.real[1..=order].iter().rev().zip(link.imaginary[1..=order].iter().rev());
+            for (force, (real, imaginary)) in force.iter().zip(directions) {
+                along = force * real + along;
+                turned = force * imaginary + turned;
             }
             along - across(turned)
         };

@@ -5,7 +5,7 @@
 //! loop
 //!     x⁺  <- impact or acceleration, searched for                  transition.rs, impact.rs, contacts.rs, friction/search.rs
 //!     x⁻  <- everything sticks: without sliding, as above          sticking.rs
-//!            otherwise at rest, or steps until a guard is zero     mover.rs, step.rs
+//!            otherwise at rest, or steps until a guard is zero     mover.rs, series_steps.rs, step.rs
 //!            rows, peaks, forces, work on the way                  recorder.rs
 //! ```
 //!
