@@ -165,16 +165,15 @@ impl<'a> Search<'a> {
         self.tried(&self.first(), is_other)
     }
 
-    /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them.
+    /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them. What no
+    /// longer holds of the others then changes as well.
     pub fn carried(&self, solution: &Solution) -> PerBlock<Joint> {
         let mut joints = solution.joints.clone();
+        let mut is_carried = PerBlock::filled(false, joints.len());
         for interface in 0..joints.len() {
-            let Joint::Corner(side, _, Slip::Slides(direction)) = joints[interface] else { continue };
-            if face(self.column, interface, side, self.now.slide[interface]) != Face::Both {
-                continue;
-            }
-            let on = if direction == side { Face::Upper } else { Face::Lower };
-            joints[interface] = Joint::Corner(side, on, Slip::Slides(direction));
+            let later = self.an_instant_later(interface, joints[interface]);
+            let Some((joint, direction)) = later else { continue };
+            (joints[interface], is_carried[interface]) = (joint, true);
             let holds = self.answer(&joints).is_some_and(|answer| {
                 let along = f64::from(direction) * answer.rates.slide[interface];
                 let is_given = self.given_slip(interface).is_some();
@@ -184,7 +183,29 @@ impl<'a> Search<'a> {
                 joints[interface] = Joint::Free;
             }
         }
+        // Each of the others changes a few times at most: it slides, then parts.
+        let most_changes = if is_carried.contains(&true) { 3 * joints.len() } else { 0 };
+        for _ in 0..most_changes {
+            let Some(answer) = self.answer(&joints) else { break };
+            let others = (0..joints.len()).filter(|i| !is_carried[*i]);
+            let Some((interface, joint)) =
+                others.filter_map(|i| self.required(&joints, &answer, i).map(|joint| (i, joint))).next()
+            else {
+                break;
+            };
+            joints[interface] = self.an_instant_later(interface, joint).map_or(joint, |(later, _)| later);
+        }
         joints
+    }
+
+    /// The state of coinciding corners that slide, once they coincide no more, and the direction of the slide; `None` for all others.
+    fn an_instant_later(&self, interface: usize, joint: Joint) -> Option<(Joint, Sign)> {
+        let Joint::Corner(side, _, Slip::Slides(direction)) = joint else { return None };
+        if face(self.column, interface, side, self.now.slide[interface]) != Face::Both {
+            return None;
+        }
+        let on = if direction == side { Face::Upper } else { Face::Lower };
+        Some((Joint::Corner(side, on, Slip::Slides(direction)), direction))
     }
 
     /// The states with which the search begins: what touches sticks, what slides goes on.
