@@ -219,7 +219,7 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
                 (true, true) => stations(&mut inner, template)?,
             };
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
-        } else if is_no_table(&path, template) {
+        } else if is_no_table(&path) {
             let problem = format!("`{}` makes no axis of it", inner.keys().join("`, `"));
             let remedy = format!("give {{ from, to, steps }}, or a distribution: {}", KINDS.join(", "));
             return Err(table.wrong(&key, problem, &remedy));
@@ -231,9 +231,13 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
     Ok(())
 }
 
+/// Tables of a scene, below which axes may stand.
+const TABLES: [&str; 9] =
+    ["column", "block", "size", "restitution", "friction", "excitation", "initial", "solver", "output"];
+
 /// Whether a name without a point is that of a key within a table, such as `eta`: no keys stand below it.
-fn is_no_table(path: &str, template: &Template) -> bool {
-    !path.contains('.') && template.full_name(path).is_some_and(|name| name.contains('.') && !template.has_table(&name))
+fn is_no_table(path: &str) -> bool {
+    !path.contains('.') && !TABLES.contains(&path)
 }
 
 fn no_values(table: &Table, key: &str) -> Wrong {
