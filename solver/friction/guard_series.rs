@@ -21,29 +21,23 @@ pub struct SeriesSpan<'s> {
     pub fixed: &'s [f64],
     /// Length `[s]`.
     pub h: f64,
-    /// Powers of the length.
-    powers: [f64; COEFFICIENTS],
+    /// Powers of the length ([`powers`]).
+    pub powers: [f64; COEFFICIENTS],
     /// Violation of a condition on forces that is rounding `[N]`.
     pub slack: f64,
     pub overturn_angle: f64,
 }
 
-impl<'s> SeriesSpan<'s> {
-    /// A step of a length `[s]` on a series of these states.
-    pub fn new(
-        series: &'s Series,
-        column: &'s Column,
-        joints: &'s [Joint],
-        fixed: &'s [f64],
-        [h, slack, overturn_angle]: [f64; 3],
-    ) -> SeriesSpan<'s> {
-        let mut powers = [1.0; COEFFICIENTS];
-        for k in 1..powers.len() {
-            powers[k] = powers[k - 1] * h;
-        }
-        SeriesSpan { series, column, joints, fixed, h, powers, slack, overturn_angle }
+/// Powers of a length, from the zeroth on.
+pub fn powers(h: f64) -> [f64; COEFFICIENTS] {
+    let mut powers = [1.0; COEFFICIENTS];
+    for k in 1..powers.len() {
+        powers[k] = powers[k - 1] * h;
     }
+    powers
+}
 
+impl SeriesSpan<'_> {
     /// Values of coordinates over the step, with a constant added.
     #[inline(always)]
     fn of_values(&self, constant: f64, coefficient: impl Fn(usize) -> f64) -> Powers {

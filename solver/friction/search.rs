@@ -162,7 +162,33 @@ impl<'a> Search<'a> {
                 fastest > JUMP_SHARE * self.linear
             }
         };
-        self.tried(&self.first(), is_other)
+        let first = self.first();
+        let found = self.tried(&first, is_other);
+        if found.is_some() || matches!(self.question, Question::Accelerations(_)) {
+            return found;
+        }
+        // Too many to be tried: from all that sticks, then from each slide that comes to rest while the others go on.
+        let sliding = |interface: usize| {
+            let rate = self.now.slide_rate[interface];
+            (rate != 0.0 && first[interface].slip().is_some()).then_some(if rate > 0.0 { 1 } else { -1 })
+        };
+        let with_one_at_rest = |resting: usize| -> PerBlock<Joint> {
+            let joint = |(interface, joint): (usize, &Joint)| match (sliding(interface), *joint) {
+                (Some(direction), Joint::Closed(_)) if interface != resting => Joint::Closed(Slip::Slides(direction)),
+                (Some(direction), Joint::Corner(side, ..)) if interface != resting => {
+                    self.corner(interface, side, Slip::Slides(direction))
+                }
+                (_, joint) => joint,
+            };
+            first.iter().enumerate().map(joint).collect()
+        };
+        let resting = (0..first.len()).filter(|interface| sliding(*interface).is_some());
+        let starts = std::iter::once(first.clone()).chain(resting.map(with_one_at_rest));
+        let solutions = starts.filter_map(|start| self.guided(start));
+        solutions.filter(|found| is_other(&found.joints, &found.answer)).min_by(|a, b| {
+            let energies = [a, b].map(|solution| solution.answer.change.energy(self.column));
+            energies[0].total_cmp(&energies[1])
+        })
     }
 
     /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them. What no

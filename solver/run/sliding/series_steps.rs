@@ -4,7 +4,7 @@ use super::mover::{Mover, RESOLVING, SHORTEST_SHARE};
 use super::recorder::Recorder;
 use super::state::{Ended, State};
 use super::step::Step;
-use crate::friction::guard_series::SeriesSpan;
+use crate::friction::guard_series::{SeriesSpan, powers};
 use crate::friction::guards::{self, Guard};
 use crate::friction::search::force_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
@@ -61,9 +61,16 @@ impl<'p> Mover<'p> {
             wanted = if h < most { h } else { wanted.max(h) };
             self.work.steps += 1;
             let now = smooth.configuration(&x);
-            let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
-            let sizes = [h, slack, options.overturn_angle];
-            let span = SeriesSpan::new(&series, smooth.column, joints, &self.friction.fixed, sizes);
+            let span = SeriesSpan {
+                series: &series,
+                column: smooth.column,
+                joints,
+                fixed: &self.friction.fixed,
+                h,
+                powers: powers(h),
+                slack: force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity)),
+                overturn_angle: options.overturn_angle,
+            };
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
             let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
