@@ -540,6 +540,15 @@ fn hostile_scenes_run_to_their_end() {
     check(Kind::Hostile, 0..300, &HOSTILE);
 }
 
+/// Contacts beside coinciding corners that parted were not decided anew: these scenes ended undetermined.
+#[test]
+fn regression_contacts_beside_corners_that_part_are_decided_anew() {
+    for seed in [760, 1759, 2026, 2522, 2704, 2909] {
+        let response = simulate(&scene(Kind::Everyday, seed)).expect("a run");
+        assert_ne!(response.status, StopReason::Undetermined, "seed {seed}, at {} s", response.t_final);
+    }
+}
+
 /// The seeds of the long form: `ROCKING_SCENES`, a number or `first..end`; 100,000 otherwise.
 fn many() -> std::ops::Range<u64> {
     let text = std::env::var("ROCKING_SCENES").unwrap_or("100000".into());

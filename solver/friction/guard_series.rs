@@ -25,6 +25,7 @@ pub struct SeriesSpan<'s> {
     pub powers: [f64; COEFFICIENTS],
     /// Violation of a condition on forces that is rounding `[N]`.
     pub slack: f64,
+    /// `[rad]`
     pub overturn_angle: f64,
 }
 

@@ -4,8 +4,8 @@
 //! law and the normal force is a pressure, so that an interface has ten states instead of three ([`joint`]). Motions are described by
 //! coordinates that keep the contacts by themselves: an angle for each link, a slide for each interface that slides, two translations for each
 //! that is free ([`chain`]). The equations of motion are rows of d'Alembert's principle ([`rows`]), generated ones where the
-//! build has them ([`generated`]); which state follows an event is searched for among
-//! the admissible ones ([`search`]); what ends a state are zeros of guards ([`guards`]).
+//! build has them ([`generated`]), and Taylor series of a derivation of their own, on which runs step ([`series`]); which state follows an event is searched
+//! for among the admissible ones ([`search`]); what ends a state are zeros of guards ([`guards`]), on series polynomials ([`guard_series`]).
 //!
 //! Time does not pass here: `run/` integrates.
 

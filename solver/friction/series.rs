@@ -1,7 +1,7 @@
 //! Taylor series of a motion in which blocks stick, slide and fly (docs/book/model.md, section 14).
 //!
-//! Vectors are complex numbers, `x + i y`. A block turned clockwise by `θ` has the direction `z = exp(-iθ)` along its faces and `i z` across them. Where
-//! the sum of what its links carry is known, each block's acceleration is linear in second derivatives:
+//! Vectors are complex numbers, `x + i y`. A block turned clockwise by `θ` has the direction `z = exp(-iθ)` along its faces and `i z` across them.
+//! Places of the blocks are sums of constants times `z`, of slides as vectors, and of the coordinates of free interfaces, so that accelerations are linear in second derivatives of these:
 //!
 //! ```text
 //! z' = -i θ' z,      y = u z_face                                    the link's direction, the slide as a vector

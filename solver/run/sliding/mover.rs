@@ -1,4 +1,5 @@
-//! Time passes: at rest until the ground starts the column, in motion by steps of an explicit method until a guard falls to zero.
+//! Time passes: at rest until the ground starts the column, in motion by steps until a guard falls to zero: here those of an explicit method, in
+//! `series_steps.rs` those of Taylor series.
 
 use super::recorder::{Moments, Recorder};
 use super::smooth::{Moment, Smooth};
