@@ -111,11 +111,21 @@ impl<'v> Gaps<'v> {
     }
 }
 
-/// Relative acceleration `[rad/s²]` below which an interface that has just opened is taken to be on the verge, where it is zero.
+/// Relative acceleration `[rad/s²]` below which an interface whose resultant has reached a corner is taken to be on the verge, where it is zero.
 pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
+    RELEASE_TOLERANCE * typical_acceleration(column, accelerations, ground)
+}
+
+/// Relative acceleration `[rad/s²]` below which it is no more than the rounding of the blocks' accelerations.
+pub(crate) fn rounding_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
+    ROUNDING * typical_acceleration(column, accelerations, ground)
+}
+
+/// The largest acceleration of a block `[rad/s²]`, at least that of a falling column.
+fn typical_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
     let height: f64 = column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
     let fall = ground.gravity.abs().max(column.gravity()) / height;
-    RELEASE_TOLERANCE * fall.max(largest(accelerations))
+    fall.max(largest(accelerations))
 }
 
 /// Velocities of the centroids and the blocks' rates, or accelerations.

@@ -10,27 +10,33 @@ use super::problem::Problem;
 use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
 use crate::column::Column;
-use crate::contact::verge_acceleration;
+use crate::contact::{rounding_acceleration, verge_acceleration};
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
+use rocking_codegen::pattern::Interface;
 
 impl Phase {
-    /// Decides how many roots of each gap lie at the start, the state `inside`, by how it came to be open.
-    fn arm(&mut self, column: &Column) {
+    /// Decides how many roots of each gap lie at the start, the state `inside`, by how it came to be open. The acceleration of a gap that is `released` is
+    /// zero but for what integration leaves of it, that of another one only if it is rounding.
+    fn arm(&mut self, column: &Column, released: &[(usize, Interface)]) {
         let (angles, rates) = self.inside.split_at(self.dof);
-        // Whether a gap's acceleration is zero, too, by what rounding and integration leave of one.
-        let mut is_critical = |across: Difference| {
+        let mut is_critical = |interface: usize, across: Difference| {
             self.integrator.start_slope(self.t, &mut self.slope);
             let accelerations = &self.slope[self.dof..];
-            across.of(accelerations).abs() <= verge_acceleration(column, accelerations, self.integrator.ground(self.t))
+            let ground = self.integrator.ground(self.t);
+            let verge = match released.iter().any(|(other, _)| *other == interface) {
+                true => verge_acceleration(column, accelerations, ground),
+                false => rounding_acceleration(column, accelerations, ground),
+            };
+            across.of(accelerations).abs() <= verge
         };
         for gap in self.gaps.iter_mut() {
             let across = gap.across;
             gap.start_roots = match (across.of(angles) == 0.0, across.of(rates) == 0.0) {
                 (false, _) => 0,
                 (true, false) => 1,
-                (true, true) if is_critical(across) => 3,
+                (true, true) if is_critical(gap.interface, across) => 3,
                 (true, true) => 2,
             };
         }
@@ -151,7 +157,7 @@ impl Flow for Phase {
         self.integrator.begin(after.t, &self.inside);
         (self.t, self.segment) = (after.t, after.segment);
         (self.held_until, self.pace) = (after.contact.hold.until, after.pace);
-        self.arm(&problem.scene.column);
+        self.arm(&problem.scene.column, &after.contact.released);
         self.wanted = match self.pace.step {
             Some(step) => step,
             None => self.integrator.first_step(problem.tolerance),
