@@ -367,7 +367,6 @@ const LONGEST_FIRST_STEP: f64 = 1.0;
 impl<D: Dynamics> Steps for TaylorSteps<D> {
     fn begin(&mut self, t: f64, x: &[f64]) {
         self.restart(t, x);
-        self.series.begin();
     }
 
     fn restart(&mut self, _: f64, x: &[f64]) {

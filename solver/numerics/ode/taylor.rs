@@ -78,11 +78,6 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
     }
 
-    /// Forgets how long the steps were: what came before has no bearing on what comes.
-    pub fn begin(&mut self) {
-        self.order = 0;
-    }
-
     /// Forgets the expansion: the equations have changed.
     pub fn forget(&mut self) {
         self.series.forget();
@@ -99,9 +94,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         [wanted, most]: [f64; 2],
         tolerance: Tolerance,
     ) -> Attempt {
-        // Where steps are short, as from sample to sample of a record, about as many orders as the last attempt took.
-        let is_short = wanted >= most && self.order > 0 && 2 * self.order <= self.series.largest_order;
-        self.series.expand(system, t, x, if is_short { self.order.max(MIN_ORDER) } else { self.series.largest_order });
+        // A step that something else cuts short, as the next sample of a record does, takes the orders that it needs.
+        let orders = if wanted >= most { self.first_orders() } else { self.series.largest_order };
+        self.series.expand(system, t, x, orders);
         let (mut target, mut guesses) = (wanted, 0);
         let (h, order, error, next) = loop {
             let h = without_remainder(target, most);
@@ -129,6 +124,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             is_finite = self.end.as_slice().iter().all(|value| value.is_finite());
         }
         if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
+    }
+
+    /// Orders that a step takes in any case, where more are added as it needs them: those of several angles one by one, those of one angle all
+    /// together.
+    fn first_orders(&self) -> usize {
+        if self.series.dof() == 1 { self.series.largest_order.div_ceil(2).max(MIN_ORDER) } else { MIN_ORDER }
     }
 
     /// Order and error of a step: of one that something else cuts short the least order with which it is good.
@@ -191,7 +192,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
 
     /// Writes `[θ̇, θ̈]` at a place into `slope`: the first terms of the series there.
     pub fn slope<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, slope: &mut [f64]) {
-        self.series.expand(system, t, x, self.series.largest_order);
+        self.series.expand(system, t, x, self.first_orders());
         let dof = self.series.dof();
         for (link, driver) in self.series.driver[1].as_ref().iter().enumerate() {
             slope[link] = x.as_slice()[dof + link];
