@@ -57,6 +57,7 @@ pub mod json;
 mod mechanics;
 mod numerics;
 pub mod response;
+mod row_times;
 mod run;
 pub mod run_folder;
 pub mod scene;
@@ -79,6 +80,7 @@ pub use response::{
 pub use rocking_codegen::{GroundMotion, pattern};
 pub use rocking_ground as ground;
 pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordError};
+pub use row_times::RowTimes;
 #[doc(hidden)]
 pub use run::Skips;
 pub use run::certainty::stands as outcome;

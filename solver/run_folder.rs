@@ -85,6 +85,12 @@ pub enum FolderError {
         /// What is wrong.
         problem: String,
     },
+    /// A run has no rows, from which figures and reports are made.
+    #[error("{}: there are no rows; where the run ends before the first of `output.times`, give an earlier one, otherwise {AGAIN}", path.display())]
+    NoRows {
+        /// The file.
+        path: PathBuf,
+    },
 }
 
 /// Remedy for a folder that cannot be read.
@@ -629,6 +635,5 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
             pattern,
         });
     }
-    let none = || FolderError::Damaged { path: path.into(), problem: "there are no rows".into() };
-    if samples.is_empty() { Err(none()) } else { Ok(samples) }
+    if samples.is_empty() { Err(FolderError::NoRows { path: path.into() }) } else { Ok(samples) }
 }

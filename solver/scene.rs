@@ -5,6 +5,7 @@ use crate::friction::{self, Friction};
 use crate::mechanics::generated::Equations;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
+use crate::row_times::{self, RowTimes};
 use rocking_ground::Excitation;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -246,6 +247,9 @@ pub struct Scene {
     /// Interval of the samples returned `[s]`; `None` for none.
     #[serde(default)]
     pub output_dt: Option<f64>,
+    /// Times of the samples returned instead of an interval, ascending, from 0 to the end of the run `[s]`; empty for those of [`Scene::output_dt`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub output_times: Vec<f64>,
     /// Columns that are added to `response.csv`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub output_columns: Vec<OutputColumn>,
@@ -332,6 +336,7 @@ impl Scene {
             initial: Initial::default(),
             options: SolveOptions::default(),
             output_dt: None,
+            output_times: Vec::new(),
             output_columns: Vec::new(),
         }
     }
@@ -363,6 +368,19 @@ impl Scene {
     pub fn end_of_free_swing(&self) -> Option<f64> {
         let swing = FREE_SWING_OF_P / self.column.stack(0).frequency_parameter();
         self.excitation.still_from().map(|still| (still + swing.max(LEAST_FREE_SWING)).ceil())
+    }
+
+    /// Times of the samples returned, by [`Scene::output_dt`] or [`Scene::output_times`].
+    pub fn row_times(&self) -> RowTimes<'_> {
+        match self.output_dt {
+            Some(dt) => RowTimes::Every { dt, end: self.options.t_end },
+            None => RowTimes::At(&self.output_times),
+        }
+    }
+
+    /// Gives samples every `dt` seconds, whatever was asked for before; none for `None`.
+    pub(crate) fn set_rows(&mut self, dt: Option<f64>) {
+        (self.output_dt, self.output_times) = (dt, Vec::new());
     }
 
     fn check_column(&self, faults: &mut Faults) {
@@ -457,10 +475,30 @@ impl Scene {
             let problem = format!("{:e} rad is below what rounding can hold", options.stick_angle);
             faults.note("solver.stick_angle", problem, "give at least 1e-20");
         }
-        let rows = options.t_end / self.output_dt.unwrap_or(f64::INFINITY);
-        if options.t_end.is_finite() && rows * (self.column.len() as f64 + BLOCKS_PER_ROW) > MOST_ROWS_OF_BLOCKS {
-            let problem = format!("{rows:e} rows up to t_end are too many for the memory");
-            faults.note("output.dt", problem, "give output.dt a larger value, or lower solver.t_end");
+        self.check_rows(faults);
+    }
+
+    fn check_rows(&self, faults: &mut Faults) {
+        let (times, end) = (&self.output_times, self.options.t_end);
+        let (key, remedy) = match self.output_dt {
+            Some(_) => ("output.dt", "give output.dt a larger value, or lower solver.t_end"),
+            None => ("output.times", "give fewer times"),
+        };
+        if self.output_dt.is_some() && !times.is_empty() {
+            faults.note("output.times", "`output.dt` is given as well".into(), "remove one of the two");
+        }
+        let rows = self.row_times().count();
+        if end.is_finite() && rows * (self.column.len() as f64 + BLOCKS_PER_ROW) > MOST_ROWS_OF_BLOCKS {
+            faults.note(key, format!("{rows:.3e} rows up to t_end are too many for the memory"), remedy);
+        }
+        let is_within = |t: f64| (0.0..=row_times::last(end)).contains(&t);
+        if let Some(place) = times.iter().position(|t| !is_within(*t)) {
+            let problem = format!("time {} is {} s, and the run lasts from 0 to {end} s", place + 1, times[place]);
+            faults.note("output.times", problem, "give times within the run, or let solver.t_end be later");
+        }
+        if let Some(place) = times.windows(2).position(|pair| pair[0] >= pair[1]) {
+            let problem = format!("time {} is {} s, after {} s", place + 2, times[place + 1], times[place]);
+            faults.note("output.times", problem, "give times in ascending order, each once");
         }
     }
 

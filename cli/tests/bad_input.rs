@@ -282,6 +282,23 @@ fn numbers_out_of_all_range() {
 }
 
 #[test]
+fn times_of_rows_that_no_run_has() {
+    let output = |keys: &str| format!("{SCENE}[output]\n{keys}\n");
+    let refused = |keys: &str, named: &[&str]| {
+        refused(&output(keys), &[named, &["line 11", "`output.times`"]].concat());
+    };
+    refused("times = []", &["the list is empty", "give times in s"]);
+    refused("times = 0.5", &["a list of numbers"]);
+    refused("times = [0.0, \"one\"]", &["number 2 of the list is text", "finite"]);
+    refused("times = [0.0, nan]", &["number 2 of the list is NaN", "finite"]);
+    refused("times = [0.0, 1.5]", &["time 2 is 1.5 s", "from 0 to 1 s", "let solver.t_end be later"]);
+    refused("times = [-0.5, 0.5]", &["time 1 is -0.5 s", "give times within the run"]);
+    refused("times = [0.5, 0.25]", &["time 2 is 0.25 s, after 0.5 s", "ascending"]);
+    refused("times = [0.5, 0.5]", &["time 2 is 0.5 s, after 0.5 s", "each once"]);
+    refused("times = [0.5]\ndt = 0.1", &["`dt` is given as well", "remove one of the two"]);
+}
+
+#[test]
 fn results_that_cannot_be_put_in_place() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");

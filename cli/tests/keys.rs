@@ -75,6 +75,7 @@ fn scenes() -> Vec<String> {
     let mut scenes = vec![format!(
         "{COLUMN}[size]\nalpha = 0.2\n[friction]\nstatic = 0.5\n[restitution]\neta = 0.9\n[initial]\ntheta = [0.1]\n[solver]\nt_end = 1\n[output]\ndt = 0.1\n"
     )];
+    scenes.push(format!("{COLUMN}[solver]\nt_end = 1\n[output]\ntimes = [0, 0.5]\n"));
     scenes.push(format!("{COLUMN}[excitation.station]\nrecord = \"../ground/tests/records/peer/RSN9001\"\n"));
     scenes.push("friction = 0.5\n[[block]]\nwidth = 0.8\nheight = 1\n[[block]]\ndiameter = 0.8\nheight = 1\n".into());
     for (kind, keys) in kinds {

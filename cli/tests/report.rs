@@ -165,6 +165,43 @@ fn a_long_run_is_thinned_between_its_events() {
     }
 }
 
+/// Rows at given times, unevenly apart or a single one, of blocks that stick, slide and fall: figures and page are of what is there.
+#[test]
+fn a_run_with_rows_at_given_times_has_its_figures_and_its_page() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = |friction: &str, amplitude: f64, times: &str| {
+        format!(
+            "{friction}[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"ricker\"\n\
+             amplitude_g = {amplitude}\nfrequency = 1.2\n[solver]\nt_end = 8\n[output]\ntimes = {times}\n"
+        )
+    };
+    for (place, (friction, amplitude)) in
+        [("", 0.5), ("friction = 0.3\n", 0.6), ("", 2.0), ("friction = 0.9\n", 2.0)].into_iter().enumerate()
+    {
+        for (number, (times, told)) in [
+            ("[0.0, 0.125, 0.5, 0.6]", "at 4 times from 0 s to 0.6 s"),
+            ("[0.2, 0.4]", "every 0.2 s, 2 rows"),
+            ("[0.5]", "one row"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let run = run_text(folder.path(), &format!("run-{place}-{number}"), &scene(friction, amplitude, times));
+            assert!(page(&run).contains(told), "{told}");
+            common::succeeds(folder.path(), &["plot", run.to_str().expect("text")]);
+        }
+    }
+    let late = folder.path().join("late.toml");
+    std::fs::write(&late, scene("", 0.5, "[7.9]") + "[initial]\ntheta = [1.0, 1.0]\n").expect("writable");
+    common::succeeds(folder.path(), &["run", "late.toml", "--out", "late"]);
+    let output = common::rocking(folder.path(), &["report", "late"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.code() == Some(2) && said.contains("there are no rows") && said.contains("output.times"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_folder_without_a_run_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");

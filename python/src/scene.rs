@@ -99,7 +99,9 @@ impl Scene {
             let mut scene = (*self.scene).clone();
             scene.options.wanted = wanted;
             scene.options.record_forces = forces;
-            scene.output_dt = scene.output_dt.filter(|_| rows);
+            if !rows {
+                (scene.output_dt, scene.output_times) = (None, Vec::new());
+            }
             Arc::new(scene)
         };
         let mut signals = Signals::new();

@@ -93,6 +93,63 @@ def test_without_rows_and_forces_the_motion_is_the_same(scenes: Path) -> None:
         rk.simulate(scene, wanted="all")
 
 
+@pytest.mark.parametrize("friction", [None, 0.9, 0.2], ids=["without friction", "sticks", "slides"])
+def test_rows_at_given_times_are_those_of_an_interval(friction: float | None) -> None:
+    motion = rk.pulse("ricker", amplitude_g=0.5, frequency=1.2)
+    scene = rk.Scene(rk.Column.prisms(2, half_width=0.4, half_height=1.6), motion, friction=friction, t_end=6, output_dt=0.01)
+    dense = rk.simulate(scene)
+    chosen = np.array([0, 3, 4, 111, 250, 251, 600])
+    for times in (dense.t[chosen], dense.t[chosen].tolist(), tuple(dense.t[chosen]), pd.Series(dense.t[chosen])):
+        run = rk.simulate(scene, t_eval=times)
+        np.testing.assert_array_equal(run.t, np.asarray(times))
+        for name in ("theta", "omega", "ground", "pattern", "slide", "gap", "place", "velocity", "force"):
+            own, expected = getattr(run, name), getattr(dense, name)
+            assert (own is None) == (expected is None), name
+            if own is not None:
+                np.testing.assert_allclose(own, expected[chosen], rtol=1e-12, atol=1e-12, err_msg=name)
+    assert run.impacts == dense.impacts and run.events.equals(dense.events)
+    assert len(rk.simulate(run.scene, rows=False).t) == 0
+    # In any direction, one takes the place of the other.
+    assert run.scene.replace(output_dt=0.01) == scene and pickle.loads(pickle.dumps(run)) == run
+    assert rk.Scene.from_toml(run.scene.toml) == run.scene and run.figures()["time-history"]
+
+
+def test_rows_at_given_times_end_with_the_run() -> None:
+    block = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    assert rk.simulate(block, theta=[0.3], t_end=9, t_eval=[0.1, 0.2, 8.5]).t.tolist() == [0.1, 0.2]
+    assert rk.simulate(block, theta=[0.01], eta=0.2, t_end=9, t_eval=np.arange(10)).theta[-1].tolist() == [0.0]
+    fallen = rk.simulate(block, theta=[1.0], t_end=9, t_eval=[8.0])
+    assert fallen.overturned and fallen.theta.shape == (0, 1) and len(fallen.to_pandas()) == 0 and "<table>" in fallen._repr_html_()
+    with pytest.raises(rk.FolderError, match="no rows"):
+        fallen.figures()
+
+
+@pytest.mark.parametrize(
+    ("times", "told"),
+    [
+        ([], "the list is empty"),
+        (1.0, "a list of numbers"),
+        ([[0.0, 1.0]], "number 1 of the list is a list"),
+        ([0.0, np.nan], "NaN"),
+        ([-1.0], "time 1 is -1 s"),
+        ([0.0, 3.0], "the run lasts from 0 to 2 s"),
+        ([1.0, 0.5], "ascending"),
+        ([1.0, 1.0], "each once"),
+    ],
+)
+def test_times_that_no_run_has_are_refused(times: object, told: str) -> None:
+    with pytest.raises(rk.SceneError, match=told) as refused:
+        rk.simulate(rk.Column.prisms(1, half_width=0.4, half_height=1.6), t_end=2, t_eval=times)  # type: ignore[arg-type]
+    assert refused.value.key == "output.times" and refused.value.line is not None and refused.value.remedy
+
+
+def test_an_interval_and_times_of_rows_exclude_each_other() -> None:
+    block = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    for refuse in (lambda: rk.Scene(block, output_dt=0.1, t_eval=[0.5]), lambda: rk.Scene(block).replace(output_dt=0.1, t_eval=[0.5])):
+        with pytest.raises(rk.SceneError, match="`dt` is given as well"):
+            refuse()
+
+
 def test_friction_brings_slides_and_places() -> None:
     column = rk.Column.prisms(2, half_width=0.4, half_height=0.8)
     motion = rk.pulse("sine-pulse", amplitude_g=0.6, frequency=2)

@@ -5,6 +5,7 @@ use crate::mechanics::dynamics::{Ground, Interfaces};
 use crate::numerics::ode::control::Tolerance;
 use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
+use crate::row_times::RowTimes;
 use crate::scene::{Scene, Wanted};
 use rocking_ground::{Segment, Timeline};
 
@@ -15,6 +16,8 @@ pub(crate) struct Problem<'a> {
     /// Proofs of the outcome, where a run may end with one.
     pub prospects: Option<&'a Prospects>,
     pub skips: Skips,
+    /// Times of the rows that are recorded.
+    pub rows: RowTimes<'a>,
     /// Factor of the plastic relative rate at each interface.
     pub kappa: PerBlock<f64>,
     pub tolerance: Tolerance,
@@ -65,11 +68,13 @@ impl Default for Skips {
 impl<'a> Problem<'a> {
     pub fn new(scene: &'a Scene, ground: &'a Timeline, prospects: Option<&'a Prospects>, skips: Skips) -> Problem<'a> {
         let options = &scene.options;
+        let rows = if options.wanted == Wanted::Everything { scene.row_times() } else { RowTimes::NONE };
         Problem {
             scene,
             ground,
             prospects,
             skips,
+            rows,
             kappa: scene.restitution.per_interface(&scene.column),
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
             may_stand: prospects.is_some() && ground.last().is_some_and(Segment::is_quiet),
@@ -94,7 +99,7 @@ impl<'a> Problem<'a> {
 
     /// Whether rows are recorded.
     pub fn records_rows(&self) -> bool {
-        self.scene.output_dt.is_some() && self.is_recorded()
+        !self.rows.is_none()
     }
 
     /// The interfaces whose contact forces are evaluated.

@@ -163,10 +163,7 @@ impl Recorder {
 
     /// The next output time `[s]`, if there is one up to the end.
     fn next_row(&self, problem: &Problem) -> Option<f64> {
-        let dt = problem.scene.output_dt.filter(|_| problem.is_recorded())?;
-        let t = self.next_sample as f64 * dt;
-        // The last row is not lost to the rounding of a product.
-        (t <= problem.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
+        problem.rows.get(self.next_sample)
     }
 
     fn record_row(&mut self, problem: &Problem, t: f64, theta: Vec<f64>, omega: Vec<f64>) {
@@ -227,7 +224,7 @@ impl Recorder {
         if !problem.is_recorded() {
             return;
         }
-        if problem.scene.output_dt.is_some() {
+        if problem.records_rows() {
             self.pattern.clone_from(&after.pattern);
         }
         if problem.records_forces() {

@@ -143,6 +143,16 @@ impl Reader<'_> {
         }
         if let Some(mut output) = root.table("output").map_err(own)? {
             scene.output_dt = output.number("dt").map_err(own)?.map(|(value, _)| value);
+            if let Some(times) = output.numbers("times").map_err(own)? {
+                if scene.output_dt.is_some() {
+                    return Err(own(output.clash("times", "dt")));
+                }
+                if times.is_empty() {
+                    let remedy = "give times in s, in ascending order, or leave it out";
+                    return Err(own(output.wrong("times", "the list is empty".into(), remedy)));
+                }
+                scene.output_times = times;
+            }
             for name in output.settings("columns").map_err(own)?.unwrap_or_default() {
                 let name = name.to_string();
                 let column = OutputColumn::parse(&name);
@@ -151,7 +161,9 @@ impl Reader<'_> {
             }
             output.close().map_err(own)?;
         }
-        scene.output_dt.get_or_insert(DEFAULT_OUTPUT_DT);
+        if scene.output_times.is_empty() {
+            scene.output_dt.get_or_insert(DEFAULT_OUTPUT_DT);
+        }
         Ok(scene)
     }
 }

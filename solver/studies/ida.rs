@@ -281,7 +281,7 @@ impl Ida {
         // A whole number of intervals between samples: the acceleration has its kinks at their ends.
         let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / p);
         let interval = horizontal.dt() / (horizontal.dt() / longest).ceil();
-        scene.output_dt = Some(interval.max(scene.options.t_end / MOST_ROWS));
+        scene.set_rows(Some(interval.max(scene.options.t_end / MOST_ROWS)));
         Ok(scene)
     }
 
@@ -307,7 +307,7 @@ impl Ida {
         let (record, level, scale) = self.point(index);
         let run = |mut scene: Scene| {
             if !self.needs_rows() {
-                scene.output_dt = None;
+                scene.set_rows(None);
             }
             scene.check()?;
             let response = simulator.run(&scene)?;

@@ -400,7 +400,7 @@ impl Sweep {
     pub fn scene(&self, index: usize) -> Result<Scene, SceneFileError> {
         let keys = self.axes.iter().map(|axis| axis.key.as_str());
         let mut scene = self.template.with(keys.zip(self.settings(index)))?;
-        scene.output_dt = None;
+        scene.set_rows(None);
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,

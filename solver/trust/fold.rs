@@ -44,7 +44,7 @@ impl Fold {
         }
         let mut short = scene.clone();
         short.options.wanted = Wanted::Overturns;
-        short.output_dt = None;
+        short.set_rows(None);
         short.options.record_forces = false;
         let slides = response.motion_at_contacts().is_some();
         let sizes: &[f64] = if slides { &TRIED_WITH_SLIDING } else { &TRIED };

@@ -187,7 +187,7 @@ fn compared(scene: &Scene) -> Scene {
     let mut plain = scene.clone();
     plain.options.wanted = Wanted::Everything;
     plain.options.record_forces = false;
-    plain.output_dt = Some(row_interval(&scene.column, scene.options.t_end));
+    plain.set_rows(Some(row_interval(&scene.column, scene.options.t_end)));
     plain
 }
 

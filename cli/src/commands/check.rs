@@ -209,7 +209,7 @@ struct Findings {
     /// Interfaces, from 1, that the largest horizontal acceleration would open from rest; at the column's own gravity.
     opens: Vec<usize>,
     method: &'static str,
-    rows: Option<u64>,
+    rows: u64,
     /// Warnings of the readers of record files.
     warnings: Vec<String>,
 }
@@ -313,7 +313,7 @@ impl Findings {
             horizontal,
             vertical: component(&scene.excitation.vertical),
             method: scene.options.method.stepper().name(),
-            rows: scene.output_dt.map(|dt| (scene.options.t_end / dt * (1.0 + 4.0 * f64::EPSILON)) as u64 + 1),
+            rows: scene.row_times().count() as u64,
             warnings: scene.excitation.warnings(),
         }
     }
@@ -336,7 +336,7 @@ impl Findings {
             if options.method.name() == self.method { "" } else { " (chosen by auto)" },
             options.rtol,
             options.atol,
-            self.rows.unwrap_or(0)
+            self.rows
         );
         text
     }

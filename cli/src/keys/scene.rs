@@ -292,6 +292,9 @@ pub struct Output {
     /// interval between rows
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s", "x-default" = "0.01"))]
     pub dt: Option<f64>,
+    /// times of the rows in ascending order, from 0 to `t_end`, instead of `dt`
+    #[schemars(length(min = 1), extend("x-unit" = "s", "x-default" = "multiples of dt"))]
+    pub times: Option<Vec<f64>>,
     /// columns that are added: `relative` rotations of the interfaces, displacement of the `top`
     #[schemars(extend("x-unit" = "rad, m", "x-default" = "none"))]
     pub columns: Option<Vec<OutputColumn>>,

@@ -10,7 +10,6 @@ use crate::plot::modes::fill;
 use crate::report::html::script;
 use crate::report::outcome::{changed, closed};
 use rocking::Event;
-use rocking::Record;
 use rocking::column::Shape;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
@@ -140,23 +139,30 @@ struct Ground {
 }
 
 impl Ground {
-    /// Takes the rows as a record that starts from rest, and takes out the mean velocity of the second half of the run where there is any: what a
-    /// record's base line or a harmonic motion that starts from rest would carry away.
+    /// Takes the rows as a record, linear in between, that starts from rest, and takes out the mean velocity of the second half of their time where
+    /// there is any: what a record's base line or a harmonic motion that starts from rest would carry away.
     fn new(results: &Results) -> Ground {
         let rows = &results.response.samples;
+        let (first, last) = (rows[0].t, rows[rows.len() - 1].t);
+        let half = rows.partition_point(|row| row.t < 0.5 * (first + last));
         let (mut displacement, mut drift) = (vec![[0.0; 2]; rows.len()], [0.0; 2]);
         for axis in 0..2 {
-            // Rows are equally far apart: they are a record of the ground.
-            let dt = rows.get(1).map_or(0.0, |row| row.t - rows[0].t);
-            let accel = rows.iter().map(|row| row.ground[axis]).collect();
-            let Ok(record) = Record::new(accel, dt, rows[0].t) else { continue };
-            let velocity = record.velocity();
-            let late = &velocity[rows.len() / 2..];
-            let mean = late.iter().sum::<f64>() / late.len() as f64;
-            let largest = velocity.iter().fold(0.0f64, |largest, v| largest.max(v.abs()));
+            let (mut velocity, mut largest) = (0.0, 0.0f64);
+            let mut own = vec![0.0; rows.len()];
+            for (place, pair) in rows.windows(2).enumerate() {
+                let (h, [a, b]) = (pair[1].t - pair[0].t, [0, 1].map(|side: usize| pair[side].ground[axis]));
+                own[place + 1] = own[place] + h * (velocity + h * (2.0 * a + b) / 6.0);
+                velocity += 0.5 * h * (a + b);
+                largest = largest.max(velocity.abs());
+            }
+            let mean = (own[rows.len() - 1] - own[half]) / (last - rows[half].t);
+            // One row has no mean, and numbers of a folder may be beyond all ground motion.
+            if !own.iter().all(|d| d.is_finite()) || !mean.is_finite() {
+                continue;
+            }
             drift[axis] = if mean.abs() > NO_DRIFT * largest { mean } else { 0.0 };
-            for ((row, place), d) in rows.iter().zip(&mut displacement).zip(record.displacement()) {
-                place[axis] = d - drift[axis] * (row.t - rows[0].t);
+            for ((row, place), d) in rows.iter().zip(&mut displacement).zip(own) {
+                place[axis] = d - drift[axis] * (row.t - first);
             }
         }
         Ground { displacement, drift }

@@ -3,6 +3,7 @@
 use crate::number::{degrees, significant};
 use crate::report::html::definitions;
 use crate::text::escape;
+use rocking::Sample;
 use rocking::run_folder::Results;
 
 /// The provenance of a run.
@@ -18,12 +19,7 @@ pub fn provenance(results: &Results) -> String {
         _ => "supplied by the calling program".to_string(),
     };
     let modes = response.time_in_mode.keys().filter(|mode| *mode != "rest").count();
-    let interval = match results.response.samples.as_slice() {
-        [first, second, ..] => {
-            format!("every {} s, {} rows", significant(second.t - first.t, 6), results.response.samples.len())
-        }
-        _ => "one row".into(),
-    };
+    let interval = intervals(&results.response.samples);
     let rows = [
         ("Version", format!("rocking {}", escape(&results.version))),
         ("Method", format!("<code>{}</code>", escape(&results.method))),
@@ -47,6 +43,19 @@ pub fn provenance(results: &Results) -> String {
         definitions(&rows),
         escape(&file)
     )
+}
+
+/// How far apart rows are, and how many there are.
+fn intervals(rows: &[Sample]) -> String {
+    let [first, second, ..] = rows else { return "one row".into() };
+    let dt = second.t - first.t;
+    // Times are rounded to within a digit of the last one.
+    let is_even = |pair: &[Sample]| ((pair[1].t - pair[0].t) - dt).abs() <= 4.0 * f64::EPSILON * pair[1].t;
+    if rows.windows(2).all(is_even) {
+        return format!("every {} s, {} rows", significant(dt, 6), rows.len());
+    }
+    let last = &rows[rows.len() - 1];
+    format!("at {} times from {} s to {} s", rows.len(), significant(first.t, 6), significant(last.t, 6))
 }
 
 /// A word of a shell's command line.

@@ -45,7 +45,7 @@ def simulate(
     motion, vertical : Motion, Record or mapping
         Ground motion; of a scene, in place of its own.
     rows : bool
-        Whether rows are returned, every ``output_dt`` seconds. Without them a short run takes a fraction of the time.
+        Whether rows are returned, every ``output_dt`` seconds or at the times ``t_eval``. Without them a short run takes a fraction of the time.
     forces : bool
         Whether friction demand and smallest normal forces are found; with friction they always are.
     wanted : str
@@ -63,6 +63,8 @@ def simulate(
     >>> run = simulate(Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2, output_dt=0.5)
     >>> run.t.tolist(), run.theta.shape, run.impacts
     ([0.0, 0.5, 1.0, 1.5, 2.0], (5, 1), 2)
+    >>> simulate(run.scene, t_eval=[0.1, 0.75, 2.0]).t.tolist()
+    [0.1, 0.75, 2.0]
     """
     if not isinstance(column, Scene):
         scene = Scene(column, motion, vertical, **arguments)

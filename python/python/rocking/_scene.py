@@ -48,6 +48,7 @@ class SceneKeys(TypedDict, total=False):
     stick_angle: float
     overturn_angle: float
     output_dt: float
+    t_eval: Numbers
     output_columns: Sequence[str]
     keys: Mapping[str, Any]
 
@@ -59,11 +60,12 @@ ARGUMENTS: dict[str, str] = {
     **{name: f"initial.{name}" for name in ("theta", "omega", "slide", "x", "y", "vx", "vy")},
     **{name: f"solver.{name}" for name in ("t_end", "method", "rtol", "atol", "step", "stick_angle", "overturn_angle")},
     "output_dt": "output.dt",
+    "t_eval": "output.times",
     "output_columns": "output.columns",
 }
 
 #: Keys of which a scene has one.
-ALTERNATIVES = ({"restitution.law", "restitution.eta", "restitution.factors"},)
+ALTERNATIVES = ({"restitution.law", "restitution.eta", "restitution.factors"}, {"output.dt", "output.times"})
 
 
 class Block(Mapping[str, Any]):
@@ -257,8 +259,9 @@ class Scene:
     **arguments
         Every other key of a scene file: ``title``; ``gravity`` [m/s²]; ``friction``, a coefficient or ``{"static": .., "kinetic": ..}``; ``eta``,
         ``factors`` or ``law`` of impacts; ``theta`` [rad], ``omega`` [rad/s], ``slide`` [m], ``x``, ``y`` [m], ``vx``, ``vy`` [m/s] at t = 0, base first;
-        ``t_end`` [s], ``method``, ``rtol``, ``atol``, ``step`` [s], ``stick_angle`` [rad], ``overturn_angle`` [rad] of the solver; ``output_dt`` [s], the
-        interval of the rows, and ``output_columns``, of ``relative`` and ``top``. ``keys`` takes any others under their dotted names.
+        ``t_end`` [s], ``method``, ``rtol``, ``atol``, ``step`` [s], ``stick_angle`` [rad], ``overturn_angle`` [rad] of the solver; the interval
+        ``output_dt`` of the rows [s] or their times ``t_eval`` [s], ascending, shape (rows,); ``output_columns``, of ``relative`` and ``top``. ``keys`` takes
+        any others under their dotted names.
 
     Raises
     ------
@@ -340,11 +343,13 @@ class Scene:
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
             if motion is not None:
                 _put(keys, f"excitation.{name}", motion)
-        for key, value in _dotted(arguments):
-            for group in ALTERNATIVES:
-                if key in group:
-                    for other in group - {key}:
-                        _put(keys, other, None)
+        given = list(_dotted(arguments))
+        # Those of the scene make room for those given; of two that are given the reader refuses one.
+        for group in ALTERNATIVES:
+            if any(key in group for key, _ in given):
+                for key in group:
+                    _put(keys, key, None)
+        for key, value in given:
             _put(keys, key, value)
         return Scene._of(keys, self._file)
 

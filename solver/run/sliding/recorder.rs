@@ -303,10 +303,7 @@ impl<'p> Recorder<'p> {
 
     /// The next output time `[s]`, if there is one up to the end.
     fn next_row(&self) -> Option<f64> {
-        let dt = self.problem.scene.output_dt.filter(|_| self.problem.is_recorded())?;
-        let t = self.samples.len() as f64 * dt;
-        // The last row is not lost to the rounding of a product.
-        (t <= self.problem.scene.options.t_end * (1.0 + 4.0 * f64::EPSILON)).then_some(t)
+        self.problem.rows.get(self.samples.len())
     }
 
     /// The segment of the ground motion at a row that follows those before.
@@ -350,8 +347,8 @@ impl<'p> Recorder<'p> {
         self.work.add(&steps);
         let mut smooth = Smooth::new(self.problem, self.friction, &end);
         let mut moment = smooth.moment(end.configuration);
-        // A run that ends as it begins has one row all the same.
-        if self.samples.is_empty() && self.next_row().is_some() {
+        // A run that ends as it begins has the row of its beginning all the same.
+        if self.samples.is_empty() && self.next_row() == Some(0.0) {
             smooth.answer(end.t, &mut moment);
             self.row(end.t, &moment);
         }

@@ -56,7 +56,7 @@ pub fn without_sliding(scene: &Scene) -> Scene {
     let mut sticking = Scene { friction: None, ..scene.clone() };
     (sticking.options.wanted, sticking.options.record_forces) = (Wanted::Everything, true);
     if scene.options.wanted != Wanted::Everything {
-        sticking.output_dt = None;
+        sticking.set_rows(None);
     }
     sticking
 }
