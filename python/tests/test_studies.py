@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -66,6 +67,47 @@ def test_a_sampled_sweep_has_the_table_of_the_command_line(method: str, command,
     assert len(made) == 128 and made["restitution.eta"].max() <= 1 and made["restitution.eta"].nunique() > 30
     pd.testing.assert_frame_equal(as_read(made), expected, check_exact=True, check_dtype=False)
     pd.testing.assert_frame_equal(pd.concat([sweep.table(0, 50), pickle.loads(pickle.dumps(sweep)).table(50)]), made)
+
+
+def without_blanks(table: pd.DataFrame) -> list[list[object]]:
+    """Columns as lists, blanks as None."""
+    return [[None if pd.isna(value) else value for value in table[name].tolist()] for name in table.columns]
+
+
+@pytest.mark.parametrize("ask", ["outcome", "peaks", "validity", "trust"])
+def test_tables_of_arrow_have_the_values_of_pandas(ask: str) -> None:
+    pa = pytest.importorskip("pyarrow")
+    axes = {"amplitude_uplift": [0.5, 2.0, 9.0], "method": ["auto", "dop853"], "eta": [0.9, 1.5]}
+    with pytest.raises(rk.SceneError):
+        SCENE.replace(eta=1.5)
+    sweep = rk.Sweep(SCENE, axes, ask=ask)
+    table, made = sweep.to_arrow(), sweep.table()
+    assert isinstance(table, pa.Table) and table.column_names == list(made.columns) and table.num_rows == len(sweep) == 12
+    assert list(table.to_pydict().values()) == without_blanks(made)
+    # Points that are refused have blanks, and the reason.
+    assert table["error"].null_count == 6 and table["outcome"].to_pylist().count("error") == 6
+    kinds = {"index": pa.int64(), "excitation.horizontal.amplitude_uplift": pa.float64(), "outcome": pa.dictionary(pa.int32(), pa.string())}
+    assert {name: table.schema.field(name).type for name in kinds} == kinds
+    # Types do not depend on the rows, and parts make the whole.
+    assert sweep.to_arrow(0, 0).schema == table.schema and sweep.to_arrow(0, 0).num_rows == 0
+    assert pa.concat_tables([sweep.to_arrow(0, 5), sweep.to_arrow(5, threads=1)]).to_pydict() == table.to_pydict()
+    assert rk.sweep(SCENE, axes, ask=ask, table="pyarrow").equals(table)
+    with pytest.raises(ValueError, match="give pandas or pyarrow"):
+        rk.sweep(SCENE, axes, table="polars")  # type: ignore[call-overload]
+
+
+def test_a_study_is_a_table_of_arrow() -> None:
+    pa = pytest.importorskip("pyarrow")
+    ida = rk.Ida(COLUMN, rk.synthetic(range(2)), "PGV", [0.1, 2.0], eta=0.9)
+    table = ida.to_arrow()
+    assert isinstance(table, pa.Table) and list(table.to_pydict().values()) == without_blanks(ida.table())
+    pd.testing.assert_frame_equal(rk.Study(table.to_pandas(), ida.measure).stripes, ida.run().stripes)
+
+
+def test_without_pyarrow_the_way_out_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(ModuleNotFoundError, match="pip install pyarrow"):
+        rk.sweep(SCENE, {"amplitude_uplift": [2.0]}, table="pyarrow")
 
 
 def test_a_sweep_with_friction_asks_for_slides() -> None:

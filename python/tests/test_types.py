@@ -14,6 +14,7 @@ import rocking as rk
 
 PROGRAM = """
 import numpy as np
+import pandas as pd
 import rocking as rk
 from typing_extensions import assert_type
 
@@ -22,9 +23,13 @@ run = rk.simulate(column, rk.pulse("ricker", amplitude_g=0.4, frequency=1.2), et
 assert_type(run, rk.Run)
 assert_type(run.impacts, int)
 study = rk.ida(column, rk.synthetic(range(6)), "PGV", np.linspace(0.05, 2, 20), eta=0.9)
+assert_type(rk.sweep(run.scene, {"eta": [0.9]}), pd.DataFrame)
 assert_type(study.fragility("overturned").median, float | None)
 rk.simulate(column, eat=0.9)  # E: not an argument
 rk.Scene(column, t_end="ten")  # E: not a number
+rk.simulate(column, t_eval=[0.0, 0.5])
+rk.simulate(column, t_eval=0.5)  # E: not a list
+rk.sweep(run.scene, {"eta": [0.9]}, table="polars")  # E: neither pandas nor pyarrow
 """
 
 

@@ -15,11 +15,12 @@ import pandas as pd
 
 from . import _rocking
 from ._errors import StudyError
-from ._frame import frame
+from ._frame import arrow, frame
 from ._record import Array, Record, Records, StudyRecord
 from ._scene import Column, Scene, SceneKeys
 
 if TYPE_CHECKING:
+    import pyarrow
     from matplotlib.axes import Axes
     from typing_extensions import Unpack
 
@@ -95,6 +96,10 @@ class Ida:
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
         """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking ida``."""
         return frame(self._ida.table(start, len(self) if stop is None else stop, threads), start)
+
+    def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
+        """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
+        return arrow(self._ida.table(start, len(self) if stop is None else stop, threads))
 
     def run(self, *, threads: int = 0) -> "Study":
         """All runs."""

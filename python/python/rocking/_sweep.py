@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import pandas as pd
 
 from . import _rocking
-from ._frame import frame
+from ._frame import arrow, frame
 from ._scene import Scene
+
+if TYPE_CHECKING:
+    import pyarrow
 
 
 class Sweep:
@@ -92,6 +95,10 @@ class Sweep:
         """
         return frame(self._sweep.table(start, len(self) if stop is None else stop, threads), start)
 
+    def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
+        """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
+        return arrow(self._sweep.table(start, len(self) if stop is None else stop, threads))
+
     def shard(self, number: int, count: int) -> range:
         """Indices of the ``number``-th (from 1) of ``count`` parts, as ``rocking sweep --shard``."""
         if not 1 <= number <= count:
@@ -117,6 +124,32 @@ class Sweep:
 WITHOUT_KEYS = "<point of a sweep>"
 
 
+@overload
+def sweep(
+    scene: Scene,
+    axes: Mapping[str, Any],
+    *,
+    ask: str = ...,
+    combine: str = ...,
+    sampling: Mapping[str, Any] | None = ...,
+    threads: int = ...,
+    table: Literal["pandas"] = ...,
+) -> pd.DataFrame: ...
+
+
+@overload
+def sweep(
+    scene: Scene,
+    axes: Mapping[str, Any],
+    *,
+    ask: str = ...,
+    combine: str = ...,
+    sampling: Mapping[str, Any] | None = ...,
+    threads: int = ...,
+    table: Literal["pyarrow"],
+) -> "pyarrow.Table": ...
+
+
 def sweep(
     scene: Scene,
     axes: Mapping[str, Any],
@@ -125,8 +158,9 @@ def sweep(
     combine: str = "cartesian",
     sampling: Mapping[str, Any] | None = None,
     threads: int = 0,
-) -> pd.DataFrame:
-    """Runs a sweep; as :class:`Sweep` and :meth:`Sweep.table`.
+    table: Literal["pandas", "pyarrow"] = "pandas",
+) -> "pd.DataFrame | pyarrow.Table":
+    """Runs a sweep; as :class:`Sweep` with :meth:`Sweep.table`, or with :meth:`Sweep.to_arrow` where ``table`` is ``pyarrow``.
 
     >>> from rocking import Column, pulse
     >>> scene = Scene(Column.prisms(1, half_width=0.4, half_height=1.6), pulse("sine-pulse", amplitude_uplift=3, omega_p=5), eta=0.9)
@@ -134,4 +168,7 @@ def sweep(
     >>> bool((drawn.outcome == "overturns").mean() > 0.05)
     True
     """
-    return Sweep(scene, axes, ask=ask, combine=combine, sampling=sampling).table(threads=threads)
+    if table not in ("pandas", "pyarrow"):
+        raise ValueError(f"there is no table of {table!r}; give pandas or pyarrow")
+    plan = Sweep(scene, axes, ask=ask, combine=combine, sampling=sampling)
+    return plan.table(threads=threads) if table == "pandas" else plan.to_arrow(threads=threads)
