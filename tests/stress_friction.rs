@@ -549,6 +549,16 @@ fn regression_contacts_beside_corners_that_part_are_decided_anew() {
     }
 }
 
+/// A contact stuck and slid in turn every 3e-8 s, for ever: hops of 4e-15 rad, far below the least that is followed.
+#[test]
+fn regression_circles_of_states_of_which_none_lasts_end_a_run() {
+    for seed in [21_924, 30_969] {
+        let tally = run(Kind::Hostile, seed);
+        assert!(tally.broken.is_empty(), "{:?}", tally.broken);
+        assert!(tally.most_phases.0 < 1000, "seed {seed}: {} phases", tally.most_phases.0);
+    }
+}
+
 /// The seeds of the long form: `ROCKING_SCENES`, a number or `first..end`; 100,000 otherwise.
 fn many() -> std::ops::Range<u64> {
     let text = std::env::var("ROCKING_SCENES").unwrap_or("100000".into());

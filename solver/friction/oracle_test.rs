@@ -187,13 +187,8 @@ fn compare(seed: u64, cases: usize) {
     assert!(compared.iter().all(|count| *count > 9 * cases / 20), "{compared:?}");
 }
 
+/// Takes seven seconds of one core.
 #[test]
-fn states_found_are_those_of_brute_force() {
-    compare(20_261_123, 1000);
-}
-
-#[test]
-#[ignore = "twenty thousand cases take minutes; run with --ignored"]
 fn states_found_are_those_of_brute_force_in_twenty_thousand_cases() {
     compare(1, 20_000);
 }

@@ -26,6 +26,7 @@ use super::error::SolveError;
 use super::modes::Modes;
 use super::problem::Problem;
 use crate::friction::contact::Coefficients;
+use crate::friction::search::acceleration_scale;
 use crate::response::{Response, StopReason};
 use crate::scene::Scene;
 use mover::Mover;
@@ -34,7 +35,7 @@ use state::{Ended, State};
 use sticking::{Progress, Sticking, Stuck};
 use transition::{start, transition};
 
-/// Events that follow each other within this share of the time, or of a second, count as one instant.
+/// Events that follow each other within this share of the time, or of a second, count as one instant; so do those within a hop of the least height.
 const AT_ONCE: f64 = 1e-12;
 
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
@@ -69,7 +70,9 @@ pub(super) fn run(
     let mut crowd = Crowd::default();
     loop {
         recorder.transition(at.t, &next);
-        let stop = next.stop.or_else(|| crowd.is_stuck(&at).then_some((StopReason::Undetermined, None)));
+        let stop = next
+            .stop
+            .or_else(|| crowd.is_stuck(&at, least_hop(problem, &at)).then_some((StopReason::Undetermined, None)));
         at.configuration = next.after;
         if let Some((reason, place)) = stop {
             return Ok(recorder.finish(at, reason, place, mover.work));
@@ -100,6 +103,14 @@ pub(super) fn run(
     }
 }
 
+/// How long a block takes for a hop of `stick_angle`, the least that is followed, or longer `[s]`. What goes on faster, without rest, is a circle of states of which
+/// none lasts.
+fn least_hop(problem: &Problem, at: &State) -> f64 {
+    let (column, options) = (&problem.scene.column, &problem.scene.options);
+    let acceleration = acceleration_scale(column, &at.configuration, problem.ground_at(at.segment, at.t));
+    (options.stick_angle * column.size() / acceleration).sqrt()
+}
+
 /// The events of one instant.
 #[derive(Default)]
 struct Crowd {
@@ -109,9 +120,10 @@ struct Crowd {
 }
 
 impl Crowd {
-    /// Counts an event; whether there are so many in one instant that they go in a circle.
-    fn is_stuck(&mut self, at: &State) -> bool {
-        let is_at_once = self.count > 0 && at.t - self.first <= AT_ONCE * at.t.max(1.0);
+    /// Counts an event; whether there are so many in one instant, which lasts no longer than a hop, that they go in a circle.
+    fn is_stuck(&mut self, at: &State, hop: f64) -> bool {
+        let instant = hop.max(AT_ONCE * at.t.max(1.0));
+        let is_at_once = self.count > 0 && at.t - self.first <= instant;
         *self = if is_at_once { Crowd { count: self.count + 1, ..*self } } else { Crowd { first: at.t, count: 1 } };
         self.count > EVENTS_AT_ONCE * (at.configuration.joints.len() + 1)
     }
