@@ -184,6 +184,18 @@ fn tapered_blocks_of_no_width() {
 }
 
 #[test]
+fn densities_of_side_views_beside_those_of_solids() {
+    let drum = "[[block]]\nwidth = 0.9\nheight = 1.0\nshape = \"drum\"\n";
+    let prism = |keys: &str| format!("[[block]]\nwidth = 0.5\nheight = 1.8\n{keys}[solver]\nt_end = 1.0\n");
+    let [depth, remedy] = ["`block[2].depth`", "give the depth of the block in m, or its mass"];
+    refused(
+        &format!("{drum}{}", prism("density = 2700.0\n")),
+        &["line 5", depth, "`block[1].mass` is of a solid", remedy],
+    );
+    refused(&format!("{drum}depth = 0.9\n{}", prism("")), &["line 5", "`block[1].depth`", "shape = \"prism\""]);
+}
+
+#[test]
 fn drums_that_are_thrown_by_halves() {
     let thrown = |keys: &str| format!("friction = 0.5\n{DRUMS}[initial]\n{keys}\n");
     let all = "x = [0.0, 0.0]\ny = [0.9, 2.6]\nvx = [0.0, 0.0]\nvy = [0.0, 0.0]";

@@ -77,7 +77,10 @@ fn scenes() -> Vec<String> {
     )];
     scenes.push(format!("{COLUMN}[solver]\nt_end = 1\n[output]\ntimes = [0, 0.5]\n"));
     scenes.push(format!("{COLUMN}[excitation.station]\nrecord = \"../ground/tests/records/peer/RSN9001\"\n"));
-    scenes.push("friction = 0.5\n[[block]]\nwidth = 0.8\nheight = 1\n[[block]]\ndiameter = 0.8\nheight = 1\n".into());
+    scenes.push(
+        "friction = 0.5\n[[block]]\nwidth = 0.8\nheight = 1\ndepth = 0.8\n[[block]]\ndiameter = 0.8\nheight = 1\n"
+            .into(),
+    );
     for (kind, keys) in kinds {
         for component in ["horizontal", "vertical"] {
             scenes.push(format!("{COLUMN}[excitation.{component}]\nkind = \"{kind}\"\n{keys}"));

@@ -252,7 +252,7 @@ fn widths_heights_and_diameters_are_twice_the_halves() {
 #[test]
 fn the_report_shows_round_blocks_as_round_and_names_them() {
     let folder = folder(
-        "[[block]]\ndiameter = 0.8\nheight = 1.0\n[[block]]\nwidth = 0.7\nheight = 1.0\nname = \"capital\"\n[initial]\ntheta = [0.1, 0.1]\n",
+        "[[block]]\ndiameter = 0.8\nheight = 1.0\n[[block]]\nwidth = 0.7\nheight = 1.0\ndepth = 0.7\nname = \"capital\"\n[initial]\ntheta = [0.1, 0.1]\n",
     );
     succeeds(folder.path(), &["run", "s.toml", "--report"]);
     let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("written");

@@ -271,7 +271,10 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
             cause: Cause::Key,
         }),
         (Some(mut tables), None) if !tables.is_empty() => {
-            tables.iter_mut().map(|table| block(table, derived)).collect()
+            let read = tables.iter_mut().map(|table| block(table, derived));
+            let blocks: Vec<(Block, Look)> = read.collect::<Result<_, _>>()?;
+            check_depths(&tables, &blocks)?;
+            Ok(blocks)
         }
         (None, Some(mut column)) => {
             let (count, place) = match column.number("blocks")? {
@@ -387,7 +390,7 @@ fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
         return Err(table.wrong(
             "depth",
             "a drum is as deep as it is wide".into(),
-            "leave it out, or shape = \"drum\"",
+            "leave it out, or shape = \"prism\"",
         ));
     }
     let amount = match (table.positive("density")?, table.positive("mass")?) {
@@ -437,6 +440,22 @@ fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<(Block, Look),
     check_range(table, &block)?;
     table.close()?;
     Ok((block, Look { name, shape }))
+}
+
+/// Whether densities are all of side views, or all of solids: a mass of a metre's depth beside that of a whole drum is a mistake.
+fn check_depths(tables: &[Table], blocks: &[(Block, Look)]) -> Result<(), Wrong> {
+    let has_density = |table: &Table| !table.has("mass");
+    let is_solid = |table: &Table, look: &Look| look.shape == Shape::Drum || table.has("depth");
+    let mut of_density = tables.iter().zip(blocks).filter(|(table, _)| has_density(table));
+    let Some((solid, _)) = of_density.clone().find(|(table, (_, look))| is_solid(table, look)) else { return Ok(()) };
+    match of_density.find(|(table, (_, look))| !is_solid(table, look)) {
+        Some((side_view, _)) => {
+            let solid = solid.dotted("mass");
+            let problem = format!("the block has a mass for each metre of depth, and `{solid}` is of a solid");
+            Err(side_view.wrong("depth", problem, "give the depth of the block in m, or its mass"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The homogeneous body from which inertia and centroid follow.
