@@ -1,0 +1,107 @@
+//! The folder of a run: `response.csv`, `events.json` and `summary.json`, written and read back.
+//!
+//! The three files hold all of a run: scene, column, history and events. Figures and reports are made of them alone, so that those of an old
+//! run, or of one on another machine, are the same.
+//!
+//! ```
+//! use rocking::run_folder::{Folder, Results, Run};
+//!
+//! let scene = rocking::Scene::from_toml("[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n", "two.toml".as_ref())?;
+//! let response = rocking::simulate(&scene)?;
+//! # let path = std::env::temp_dir().join(format!("rocking-run-folder-{}", std::process::id()));
+//! Folder::create(&path)?.write(&Run::new(&scene, &response))?;
+//! assert!(Results::read(&path)?.response == response);
+//! # std::fs::remove_dir_all(&path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod read;
+mod write;
+
+pub use read::{Options, Results};
+pub use write::{Folder, Run};
+
+use serde::{Deserialize, Serialize};
+use std::io::Error;
+use std::path::PathBuf;
+
+/// The files of a run, in the order in which they are put in place: the summary last, as a sign that the others are there.
+const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
+
+/// The range of the angles of a run and its companions over time; of runs whose companions do not agree to the end.
+pub const COMPANIONS: &str = "companions.csv";
+
+/// Columns of [`BlockState`], one per block or interface each.
+const STATE_COLUMNS: [&str; 7] = ["x", "y", "vx", "vy", "normal", "tangential", "moment"];
+
+/// The scene file as it was read: a run's folder says all that the run was.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+pub struct SceneText {
+    /// The path by which the file was named.
+    pub file: PathBuf,
+    /// Its text.
+    pub text: String,
+}
+
+/// Why a folder is refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// The folder or a file of it cannot be written.
+    #[error("{}: {source}; choose a folder that can be written to", path.display())]
+    Write {
+        /// The folder or file.
+        path: PathBuf,
+        /// What the system says.
+        source: Error,
+    },
+    /// A folder has the name of a file.
+    #[error("{}: a folder has this name; choose a folder that can be written to", path.display())]
+    Taken {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file cannot be read.
+    #[error("{}: {source}; {AGAIN}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: Error,
+    },
+    /// A file is not the JSON of a run.
+    #[error("{}: {source}; {AGAIN}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with its line.
+        source: serde_json::Error,
+    },
+    /// A row of `response.csv` is none of a run.
+    #[error("{}: line {line}: {problem}; {AGAIN}", path.display())]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A file holds what no run writes.
+    #[error("{}: {problem}; {AGAIN}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A run has no rows, from which figures and reports are made.
+    #[error("{}: there are no rows; where the run ends before the first of `output.times`, give an earlier one, otherwise {AGAIN}", path.display())]
+    NoRows {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// Remedy for a folder that cannot be read.
+const AGAIN: &str = "give the folder of a finished `rocking run`, or run the scene again";

@@ -1,0 +1,290 @@
+//! Writes the folder of a run: files under names of their own, put in place when all are there.
+
+use super::read::text;
+use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
+use crate::column::{Column, Stack};
+use crate::friction::Friction;
+use crate::json::Explicit;
+use crate::response::{BlockState, Event, Response, Sample};
+use crate::scene::{Initial, Look, OutputColumn, Restitution, Scene, SolveOptions};
+use crate::sweep::Fate;
+use crate::trust::Trust;
+use rocking_ground::{Description, Motion};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Error, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A finished run, to be written.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Run<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its response.
+    pub response: &'a Response,
+    /// The file of the scene; empty for a scene without one.
+    pub scene_text: SceneText,
+    /// Duration of the computation `[s]`.
+    pub wall_seconds: f64,
+    /// Warnings about the records of the scene and about the run.
+    pub warnings: Vec<String>,
+    /// What its companions say; `None` for a run without.
+    pub trust: Option<&'a Trust>,
+    /// Names of files in the folder that were made of an earlier run, and are removed.
+    pub outdated: Vec<String>,
+}
+
+impl<'a> Run<'a> {
+    /// A run with its warnings, without scene file, duration, or outdated files.
+    pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
+        let mut warnings = scene.excitation.warnings();
+        warnings.extend(cut(scene, response));
+        warnings.extend(response.warnings(None));
+        let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, vec![COMPANIONS.into()]);
+        Run { scene, response, scene_text, wall_seconds, warnings, trust: None, outdated }
+    }
+
+    fn summary(&self) -> Summary<'_> {
+        let Run { scene, response, .. } = *self;
+        let components = [("horizontal", &scene.excitation.horizontal), ("vertical", &scene.excitation.vertical)];
+        let peak = |motion: &Option<Motion>| {
+            let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
+            peaks.map_or(0.0, |[acceleration, ..]| acceleration)
+        };
+        let stacks = |quantity: fn(&Stack) -> f64| -> Vec<f64> {
+            (0..scene.column.len()).map(|block| quantity(&scene.column.stack(block))).collect()
+        };
+        Summary {
+            title: &scene.title,
+            version: env!("CARGO_PKG_VERSION"),
+            scene: &self.scene_text,
+            response,
+            overturned_at: response.overturned_at(),
+            outcome: Fate::of(response).name(),
+            peaks: response.peaks(&scene.column),
+            alpha: stacks(|stack| stack.slenderness()),
+            p: stacks(|stack| stack.frequency_parameter()),
+            trust: self.trust,
+            method: scene.options.method.stepper().name(),
+            wall_seconds: self.wall_seconds,
+            warnings: &self.warnings,
+            options: &scene.options,
+            column: &scene.column,
+            looks: &scene.looks,
+            friction: scene.friction.as_ref(),
+            restitution: &scene.restitution,
+            excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
+            peak_ground_acceleration: components.map(|(_, motion)| peak(motion)),
+            initial: &scene.initial,
+        }
+    }
+
+    /// The text of `summary.json`.
+    ///
+    /// # Errors
+    /// That of the serializer, which a scene and its response do not cause.
+    pub fn summary_json(&self) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(&Explicit(&self.summary()))
+    }
+}
+
+/// The warning of a run that ends before its ground motion; a motion without end has none, as it must be cut somewhere.
+fn cut(scene: &Scene, response: &Response) -> Option<String> {
+    let still = scene.excitation.still_from().filter(|_| response.truncated)?;
+    let end = scene.options.t_end;
+    Some(format!(
+        "the ground motion is cut: it lasts until t = {still:.4} s, and the run ends at solver.t_end = {end} s; the outcome holds up to then \
+         (leave t_end out for a run to the end of the motion and a free swing)"
+    ))
+}
+
+/// `summary.json` as it is written.
+#[derive(Serialize)]
+struct Summary<'a> {
+    title: &'a str,
+    version: &'a str,
+    scene: &'a SceneText,
+    #[serde(flatten)]
+    response: &'a Response,
+    /// `[s]`
+    overturned_at: Option<f64>,
+    /// As in the table of a sweep.
+    outcome: &'a str,
+    /// Largest `|θ|` of each block over the slenderness of the stack that begins with it, as in the table of a sweep, dimensionless.
+    peaks: Vec<f64>,
+    /// Slenderness of the stack above each interface `[rad]`.
+    alpha: Vec<f64>,
+    /// Frequency parameter of these stacks `[rad/s]`.
+    p: Vec<f64>,
+    trust: Option<&'a Trust>,
+    method: &'a str,
+    wall_seconds: f64,
+    warnings: &'a [String],
+    options: &'a SolveOptions,
+    column: &'a Column,
+    #[serde(skip_serializing_if = "<[Look]>::is_empty")]
+    looks: &'a [Look],
+    friction: Option<&'a Friction>,
+    restitution: &'a Restitution,
+    excitation: BTreeMap<&'a str, Option<Description<'a>>>,
+    /// Horizontal and vertical, until `t_end` `[m/s²]`; the peak of the rows may be lower.
+    peak_ground_acceleration: [f64; 2],
+    initial: &'a Initial,
+}
+
+/// The folder of a run's results, proved to be writable.
+#[derive(Debug)]
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// Makes the folder where it is missing, and tries it before any work is done.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] or [`FolderError::Taken`]
+    pub fn create(path: &Path) -> Result<Folder, FolderError> {
+        std::fs::create_dir_all(path).map_err(|source| FolderError::Write { path: path.into(), source })?;
+        let folder = Folder(path.into());
+        folder.draft(|_| Ok(()))?;
+        match FILES.iter().map(|name| path.join(name)).find(|file| file.is_dir()) {
+            Some(path) => Err(FolderError::Taken { path }),
+            None => Ok(folder),
+        }
+    }
+
+    /// Writes the files of a run: none is put in place before all are written.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`]
+    pub fn write(&self, run: &Run) -> Result<(), FolderError> {
+        let Run { scene, response, .. } = *run;
+        let summary = run.summary();
+        let drafts = [
+            self.draft(|file| history(file, scene, &response.samples))?,
+            self.draft(|file| events(file, &response.events))?,
+            self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&summary)).map_err(Into::into))?,
+        ];
+        let band = run.trust.filter(|trust| !trust.reaches_the_end()).map(|trust| &trust.band);
+        let band = band
+            .filter(|band| !band.is_empty())
+            .map(|band| self.draft(|file| file.write_all(band.to_csv().as_bytes())));
+        let band = band.transpose()?.map(|draft| (COMPANIONS, draft));
+        let failed = |path: &Path, source: Error| FolderError::Write { path: path.into(), source };
+        for path in run.outdated.iter().map(|name| self.0.join(name)).filter(|path| path.is_file()) {
+            std::fs::remove_file(&path).map_err(|error| failed(&path, error))?;
+        }
+        for (name, draft) in band.into_iter().chain(FILES.into_iter().zip(drafts)) {
+            let path = self.0.join(name);
+            std::fs::rename(&draft.0, &path).map_err(|error| failed(&path, error))?;
+        }
+        Ok(())
+    }
+
+    /// The text of `summary.json`.
+    ///
+    /// # Errors
+    /// [`FolderError::Read`]
+    pub fn summary(&self) -> Result<String, FolderError> {
+        text(&self.0.join("summary.json"))
+    }
+
+    /// A file in the folder under a name of its own, with all that `write` writes.
+    fn draft(&self, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<Draft, FolderError> {
+        let filled = || {
+            let (draft, file) = Draft::create(&self.0)?;
+            let mut writer = BufWriter::new(file);
+            write(&mut writer)?;
+            writer.flush()?;
+            Ok(draft)
+        };
+        filled().map_err(|source| FolderError::Write { path: self.0.clone(), source })
+    }
+}
+
+/// A file that is removed unless it was renamed.
+struct Draft(PathBuf);
+
+impl Draft {
+    fn create(folder: &Path) -> std::io::Result<(Draft, File)> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let name = format!(".rocking-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+            let path = folder.join(name);
+            match File::create_new(&path) {
+                Ok(file) => return Ok((Draft(path), file)),
+                // A process that was killed may have had the same number.
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // An error leaves a file behind, which harms nothing; after a renaming there is none to remove.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+/// A JSON list, one event per line.
+fn events(mut file: impl Write, events: &[Event]) -> std::io::Result<()> {
+    for (index, event) in events.iter().enumerate() {
+        file.write_all(if index == 0 { b"[\n" } else { b",\n" })?;
+        serde_json::to_writer(&mut file, &Explicit(event))?;
+    }
+    file.write_all(if events.is_empty() { b"[]\n" } else { b"\n]\n" })
+}
+
+fn numbers_of(state: &BlockState) -> [f64; 7] {
+    let BlockState { place: [x, y], velocity: [vx, vy], force } = *state;
+    [x, y, vx, vy, force.normal, force.tangential, force.moment]
+}
+
+/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates, and where
+/// blocks slid or flew, [`STATE_COLUMNS`] after these; at the end the columns that the scene asks for.
+fn history(mut file: impl Write, scene: &Scene, samples: &[Sample]) -> std::io::Result<()> {
+    let blocks = scene.column.len();
+    let mut columns = vec!["theta", "omega"];
+    if samples.iter().any(|sample| !sample.slide.is_empty()) {
+        columns.extend(["slide", "gap"]);
+    }
+    if samples.iter().any(|sample| !sample.blocks.is_empty()) {
+        columns.extend(STATE_COLUMNS);
+    }
+    write!(file, "t")?;
+    columns.iter().try_for_each(|name| (1..=blocks).try_for_each(|block| write!(file, ",{name}_{block}")))?;
+    write!(file, ",ground_x,ground_y,pattern")?;
+    for column in &scene.output_columns {
+        match column {
+            OutputColumn::Relative => (1..=blocks).try_for_each(|interface| write!(file, ",phi_{interface}"))?,
+            OutputColumn::Top => write!(file, ",top_x,top_y")?,
+        }
+    }
+    writeln!(file)?;
+    for sample in samples {
+        // `{:?}` is the shortest text that reads back to the same bits.
+        write!(file, "{:?}", sample.t)?;
+        let angles = sample.theta.iter().chain(&sample.omega).chain(&sample.slide).chain(&sample.gap);
+        angles.copied().try_for_each(|number| write!(file, ",{number:?}"))?;
+        if !sample.blocks.is_empty() {
+            let states: Vec<[f64; 7]> = sample.blocks.iter().map(numbers_of).collect();
+            (0..7).try_for_each(|at| states.iter().try_for_each(|state| write!(file, ",{:?}", state[at])))?;
+        }
+        sample.ground.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
+        // A pattern with a comma is quoted.
+        let quote = if blocks > 1 { "\"" } else { "" };
+        write!(file, ",{quote}{}{quote}", sample.pattern)?;
+        for column in &scene.output_columns {
+            let numbers = match column {
+                OutputColumn::Relative => sample.relative_angles(),
+                OutputColumn::Top => sample.top_displacement(&scene.column).to_vec(),
+            };
+            numbers.iter().try_for_each(|number| write!(file, ",{number:?}"))?;
+        }
+        writeln!(file)?;
+    }
+    Ok(())
+}
