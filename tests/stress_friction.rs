@@ -557,6 +557,9 @@ fn regression_circles_of_states_of_which_none_lasts_end_a_run() {
         assert!(tally.broken.is_empty(), "{:?}", tally.broken);
         assert!(tally.most_phases.0 < 1000, "seed {seed}: {} phases", tally.most_phases.0);
     }
+    // Faces that strike and land in turn every 2e-6 s, by gaps of 4e-11 rad.
+    let tally = run(Kind::Hostile, 65_713);
+    assert!(tally.broken.is_empty(), "{:?}", tally.broken);
 }
 
 /// The seeds of the long form: `ROCKING_SCENES`, a number or `first..end`; 100,000 otherwise.

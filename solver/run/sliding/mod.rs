@@ -35,8 +35,11 @@ use state::{Ended, State};
 use sticking::{Progress, Sticking, Stuck};
 use transition::{start, transition};
 
-/// Events that follow each other within this share of the time, or of a second, count as one instant; so do those within a hop of the least height.
+/// Events that follow each other within this share of the time, or of a second, count as one instant.
 const AT_ONCE: f64 = 1e-12;
+
+/// So do those within so many hops of the least height: what goes on faster, without rest, is a circle of states of which none lasts.
+const HOPS_AT_ONCE: f64 = 3.0;
 
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
 const EVENTS_AT_ONCE: usize = 16;
@@ -103,12 +106,11 @@ pub(super) fn run(
     }
 }
 
-/// How long a block takes for a hop of `stick_angle`, the least that is followed, or longer `[s]`. What goes on faster, without rest, is a circle of states of which
-/// none lasts.
+/// How long a block takes for a hop of `stick_angle`, the least that is followed, or longer `[s]`.
 fn least_hop(problem: &Problem, at: &State) -> f64 {
     let (column, options) = (&problem.scene.column, &problem.scene.options);
     let acceleration = acceleration_scale(column, &at.configuration, problem.ground_at(at.segment, at.t));
-    (options.stick_angle * column.size() / acceleration).sqrt()
+    (8.0 * options.stick_angle * column.size() / acceleration).sqrt()
 }
 
 /// The events of one instant.
@@ -120,9 +122,9 @@ struct Crowd {
 }
 
 impl Crowd {
-    /// Counts an event; whether there are so many in one instant, which lasts no longer than a hop, that they go in a circle.
+    /// Counts an event; whether there are so many in one instant that they go in a circle.
     fn is_stuck(&mut self, at: &State, hop: f64) -> bool {
-        let instant = hop.max(AT_ONCE * at.t.max(1.0));
+        let instant = (HOPS_AT_ONCE * hop).max(AT_ONCE * at.t.max(1.0));
         let is_at_once = self.count > 0 && at.t - self.first <= instant;
         *self = if is_at_once { Crowd { count: self.count + 1, ..*self } } else { Crowd { first: at.t, count: 1 } };
         self.count > EVENTS_AT_ONCE * (at.configuration.joints.len() + 1)
