@@ -91,7 +91,8 @@ fn a_sweep_has_a_column_of_trust_on_request() {
     let folder = folder("trust-sweep");
     let sweep = "scene = \"chaotic.toml\"\nask = \"trust\"\n\n[axes]\namplitude = [0.01, 0.37]\n";
     std::fs::write(folder.join("sweep.toml"), sweep).expect("a file");
-    succeeds(&folder, &["sweep", "sweep.toml", "--out", "table.csv"]);
+    let told = succeeds(&folder, &["sweep", "sweep.toml", "--out", "table.csv"]);
+    assert!(told.contains("the outcome of 1 run(s) is not determined (column trust)"), "{told}");
     let table = text(folder.join("table.csv"));
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     let column = |name: &str| rows[0].iter().position(|own| *own == name).expect("a column");

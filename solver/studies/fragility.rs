@@ -262,6 +262,7 @@ impl Fragility {
     /// whether it is monotonic, undecided runs.
     pub fn statements(&self) -> Vec<String> {
         let mut told = vec![self.fit_in_words()];
+        told.extend(self.extrapolation());
         if let Some(bands) = &self.bands {
             let Bands { confidence, replicates, fitted, .. } = bands;
             let percent = 100.0 * confidence;
@@ -318,6 +319,17 @@ impl Fragility {
             told.push(format!("{} undecided run(s) are left out", self.undecided()));
         }
         told
+    }
+
+    /// The warning of a median beyond the levels that were run.
+    fn extrapolation(&self) -> Option<String> {
+        let Fit::Lognormal { median, .. } = self.fit else { return None };
+        let levels = || self.counts.iter().filter(|count| count.runs > 0).map(|count| count.level);
+        let (lowest, highest) = (levels().fold(f64::INFINITY, f64::min), levels().fold(0.0, f64::max));
+        (!(lowest..=highest).contains(&median)).then(|| {
+            let [lowest, highest] = [lowest, highest].map(brief);
+            format!("extrapolated: the median lies beyond the levels of the runs, {lowest} to {highest}")
+        })
     }
 
     fn fit_in_words(&self) -> String {
@@ -576,6 +588,13 @@ mod tests {
         assert_eq!(overturning(&all(|_, level| level > 0.5, 3)).fit, Fit::Step { never_to: 0.4, always_from: 0.8 });
         assert_eq!(overturning(&all(|_, level| level > 0.5, 1)).fit, Fit::OneRecord);
         assert_eq!(overturning(&all(|_, _| false, 1)).fit, Fit::Never { up_to: 1.6 });
+        // One of six records at the highest level, half of them beyond.
+        let rare = overturning(&all(|record, level| level > 0.8 && record < 2 || level > 0.5 && record == 0, 6));
+        let told = rare.statements();
+        assert!(
+            told[1].starts_with("extrapolated: the median lies beyond the levels of the runs, 0.2 to 1.6"),
+            "{told:?}"
+        );
         let falling = overturning(&all(|record, level| level < 0.3 || level < 1.0 && record == 0, 3));
         assert_eq!((falling.fit, falling.falls.len()), (Fit::Falling, 2));
         assert_eq!(falling.resurrections, ["r0", "r1", "r2"]);

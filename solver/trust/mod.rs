@@ -50,7 +50,7 @@ const MOST_ROWS: f64 = 5_000.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Trust {
-    /// The verdict in words as far as it is determined: `stands`, `overturns`, `collapses`, or `not determined`; `ends undetermined` where no motion follows
+    /// The verdict in words as far as it is determined: `stands`, `stands up to the end of the run` where the ground still moves then, `overturns`, `collapses`, or `not determined`; `ends undetermined` where no motion follows
     /// from the laws of contact.
     pub outcome: String,
     /// Whether the verdict of the run is determined: certain within the horizon, and that of all companions.
@@ -162,6 +162,7 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
     let outcome = match (verdict, determined) {
         (Verdict::Undetermined, _) => verdict.words(),
         (_, false) => "not determined",
+        (Verdict::Stands, true) if response.truncated => "stands up to the end of the run",
         (verdict, true) => verdict.words(),
     };
     Ok(Trust {

@@ -302,6 +302,8 @@ struct Tally {
     errors: usize,
     /// Rows whose ground motion goes on after the run, and that did not overturn before; counted above by outcome.
     truncated: usize,
+    /// Rows whose outcome is not determined, of sweeps that ask for trust; counted above by outcome.
+    not_determined: usize,
 }
 
 impl Tally {
@@ -310,11 +312,12 @@ impl Tally {
         let (mut tally, mut first_error) = (Tally::default(), None);
         let mut reader = csv::Reader::from_path(path)?;
         let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
-        let [outcome, truncated] = [OUTCOME, TRUNCATED].map(|name| reader.headers().map(|own| place(own, name)));
-        let (outcome, truncated) = (outcome?, truncated?);
+        let headers = reader.headers()?;
+        let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(|name| place(headers, name));
         for row in reader.records() {
             let row = row?;
             tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
+            tally.not_determined += usize::from(trust.and_then(|place| row.get(place)) == Some(NOT_DETERMINED));
             *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
                 name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
                 name if name == Fate::Rocks.name() => &mut tally.rocks,
@@ -344,6 +347,9 @@ impl std::fmt::Display for Tally {
             }
         }
         writeln!(f, ", errors {errors}")?;
+        if self.not_determined > 0 {
+            writeln!(f, "the outcome of {} run(s) is not determined (column {TRUST})", self.not_determined)?;
+        }
         if self.truncated > 0 {
             writeln!(
                 f,

@@ -67,7 +67,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
 fn caption(motion: &DrawnRun, largest: f64) -> String {
     let mut caption = String::from(
         "Energy relative to the moving ground, potential above that of the column at rest; impacts are the drops of the \
-         total. Masses of blocks given by density are per metre of thickness, and so is their energy.",
+         total. Of prisms with a density and no depth, masses are per metre of thickness, and so is the energy.",
     );
     if motion.overturned() {
         caption.push_str(" Curves leave the panel where the column falls.");

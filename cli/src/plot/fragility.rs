@@ -81,7 +81,10 @@ pub fn fragility(label: &str, states: &[Fragility], paper: &Paper) -> Figure {
         .collect();
     let bands = states.iter().filter_map(|state| state.bands.as_ref()).find(|bands| !bands.levels.is_empty());
     let bands = bands.map_or(String::new(), |bands| format!(" Shaded are {} % bands.", 100.0 * bands.confidence));
-    let caption = format!("Fragility over {label}. {}. Marks are raw shares.{bands}", curves.join(". "));
+    let has_marks =
+        |state: &Fragility| state.counts.iter().any(|count| count.runs >= FEWEST_RUNS && count.share().is_some());
+    let marks = if states.iter().any(has_marks) { " Marks are raw shares." } else { "" };
+    let caption = format!("Fragility over {label}. {}.{marks}{bands}", curves.join(". "));
     Figure::new("fragility", caption, sheet)
 }
 
