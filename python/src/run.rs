@@ -11,6 +11,7 @@ use rocking::dynamics::ContactForce;
 use rocking::json::Explicit;
 use rocking::pattern::Pattern;
 use rocking::run_folder::{Folder, Results, Run};
+use rocking::trust::{Band, Trust, Verdict};
 use rocking::{BlockState, Event, Sample, StopReason};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -22,17 +23,22 @@ pub struct Response {
     pub scene: Arc<rocking::Scene>,
     pub origin: Arc<Origin>,
     pub response: rocking::Response,
+    /// What its companions say; `None` for a run without.
+    pub trust: Option<Trust>,
     /// Duration of the computation `[s]`.
     pub seconds: f64,
 }
 
 /// A response as it is pickled; rows are numbers one after another.
 #[derive(Serialize, Deserialize)]
-struct Pickled<S, R, E> {
+struct Pickled<S, R, E, T> {
     scene: S,
     origin: Origin,
     response: R,
     events: E,
+    trust: T,
+    /// The text of `companions.csv`.
+    band: String,
     seconds: f64,
     /// Bytes of the JSON are followed by those of so many rows.
     rows: usize,
@@ -66,6 +72,7 @@ impl Response {
         let mut run = Run::new(&self.scene, &self.response);
         run.scene_text = self.origin.scene_text();
         run.wall_seconds = self.seconds;
+        run.trust = self.trust.as_ref();
         run
     }
 
@@ -252,6 +259,18 @@ impl Response {
         self.run().warnings
     }
 
+    /// What the companions say in a line; `None` for a run without.
+    #[getter]
+    fn trust(&self) -> Option<String> {
+        self.trust.as_ref().map(Trust::sentence)
+    }
+
+    /// Whether companions say that the verdict is not determined. A run that ends undetermined says so itself.
+    #[getter]
+    fn is_open(&self) -> bool {
+        self.trust.as_ref().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined)
+    }
+
     /// The text of `summary.json`.
     fn summary(&self) -> PyResult<String> {
         self.run().summary_json().map_err(error::json)
@@ -277,6 +296,8 @@ impl Response {
             origin: (*self.origin).clone(),
             response: Explicit(&self.response),
             events,
+            trust: self.trust.as_ref().map(Explicit),
+            band: self.trust.as_ref().map_or_else(String::new, |trust| trust.band.to_csv()),
             seconds: self.seconds,
             rows: self.samples().len(),
             with_slides: self.has_slides(),
@@ -305,7 +326,7 @@ impl Response {
         let (length, rest) = state.split_first_chunk::<8>().ok_or_else(damaged)?;
         let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
         let (json, rows) = rest.split_at_checked(length).ok_or_else(damaged)?;
-        let read: Pickled<rocking::Scene, rocking::Response, Vec<Event>> =
+        let read: Pickled<rocking::Scene, rocking::Response, Vec<Event>, Option<Trust>> =
             serde_json::from_slice(json).map_err(error::json)?;
         let blocks = read.scene.column.len();
         let mut numbers = rows.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes));
@@ -335,7 +356,12 @@ impl Response {
             (sample.slide, sample.gap, sample.blocks) = (slide, gap, states);
             response.samples.push(sample);
         }
-        Ok(Response { scene: Arc::new(read.scene), origin: Arc::new(read.origin), response, seconds: read.seconds })
+        let mut trust = read.trust;
+        if let Some(trust) = &mut trust {
+            trust.band = Band::from_csv(&read.band, blocks).map_err(|_| damaged())?;
+        }
+        let (scene, origin) = (Arc::new(read.scene), Arc::new(read.origin));
+        Ok(Response { scene, origin, response, trust, seconds: read.seconds })
     }
 
     fn equals(&self, other: &Response) -> bool {

@@ -1,18 +1,22 @@
 //! Scenes, read from the keys of a scene file.
 
 use crate::error;
-use crate::interrupt::Signals;
+use crate::interrupt::{INTERVAL, Signals};
 use crate::keys::to_toml;
 use crate::record::Record;
 use crate::run::Response;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking::run_folder::SceneText;
+use rocking::trust::{Follow, Trust, follow_run_observed};
 use rocking::{Motion, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Instant;
 
 /// A scene that has passed the checks of the reader.
@@ -40,6 +44,38 @@ impl Origin {
 struct Pickled<S, O> {
     scene: S,
     origin: O,
+}
+
+/// What the companions of a run say. The pool is of the call, as that of a sweep is: a process that forks later inherits none. Its threads have no
+/// interpreter, so this one looks for signals while they run.
+fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) -> PyResult<Trust> {
+    let pool = rayon::ThreadPoolBuilder::new().build();
+    let pool = pool.map_err(|failed| PyOSError::new_err(failed.to_string()))?;
+    let mut signals = Signals::new();
+    let is_ended = AtomicBool::new(false);
+    let progress = |_| match is_ended.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let followed = py.detach(|| {
+        std::thread::scope(|scope| {
+            let (running, finished) = channel::<()>();
+            let (pool, progress) = (&pool, &progress);
+            let companions = scope.spawn(move || {
+                // Dropped at the end, also that of a panic.
+                let _running = running;
+                pool.install(|| follow_run_observed(scene, response, Follow::default(), progress))
+            });
+            while finished.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
+                if signals.poll().is_break() {
+                    is_ended.store(true, Ordering::Relaxed);
+                }
+            }
+            companions.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
+    });
+    signals.finish()?;
+    followed.map_err(|failed| error::solve(py, &failed))
 }
 
 /// The text of a scene file.
@@ -80,9 +116,9 @@ impl Scene {
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
     }
 
-    /// Runs the scene.
-    #[pyo3(signature = (rows, forces, wanted))]
-    fn run(&self, py: Python<'_>, rows: bool, forces: bool, wanted: &str) -> PyResult<Response> {
+    /// Runs the scene, and its companions where trust is asked for.
+    #[pyo3(signature = (rows, forces, wanted, trust))]
+    fn run(&self, py: Python<'_>, rows: bool, forces: bool, wanted: &str, trust: bool) -> PyResult<Response> {
         let wanted = match wanted {
             "everything" => Wanted::Everything,
             "outcome" => Wanted::Outcome,
@@ -92,6 +128,10 @@ impl Scene {
                 return Err(PyValueError::new_err(problem));
             }
         };
+        if trust && wanted != Wanted::Everything {
+            // Such a run ends early: there is nothing to compare up to its end.
+            return Err(PyValueError::new_err("trust is of a whole run; leave `wanted` out, or trust"));
+        }
         let is_as_read = rows && forces && wanted == Wanted::Everything;
         let scene = if is_as_read {
             self.scene.clone()
@@ -110,7 +150,8 @@ impl Scene {
         let seconds = start.elapsed().as_secs_f64();
         signals.finish()?;
         let response = result.map_err(|failed| error::solve(py, &failed))?;
-        Ok(Response { scene, origin: self.origin.clone(), response, seconds })
+        let trust = trust.then(|| follow(py, &scene, &response)).transpose()?;
+        Ok(Response { scene, origin: self.origin.clone(), response, trust, seconds })
     }
 
     #[getter]

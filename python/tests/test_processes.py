@@ -88,6 +88,7 @@ print("finished")
 """
 CALLS = {
     "run": "rk.simulate(scene, method='rk4', step=1e-8)",
+    "companions": "rk.simulate(scene, method='rk4', step=3e-6, t_end=2, output_dt=1.0, trust=True)",
     "sweep": "rk.sweep(scene.replace(t_end=20, output_dt=1.0), {'amplitude_g': {'from': 0.2, 'to': 0.9, 'steps': 10000000}}, ask='peaks')",
     "study": "rk.ida(scene, rk.synthetic(range(2000), duration=8.0), 'pgv', [x / 500 for x in range(1, 3000)])",
 }

@@ -2,10 +2,11 @@
 //!
 //! Outcomes are not monotonic: a column that overturns with 1 % more may stand with 2 % more, and what lies between two changes tried is not known.
 
+use super::cancellation;
 use super::companions::shaken;
 use super::verdict::Verdict;
 use crate::response::Response;
-use crate::run::Simulator;
+use crate::run::SolveError;
 use crate::scene::{Scene, Wanted};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -37,10 +38,18 @@ pub struct Turn {
 }
 
 impl Fold {
-    /// Looks for the smallest change that makes another verdict; `None` for a scene without ground motion.
-    pub(super) fn search(scene: &Scene, response: &Response, verdict: Verdict) -> Option<Fold> {
+    /// Looks for the smallest change that makes another verdict; `None` for a scene without ground motion. `run` runs a scene.
+    ///
+    /// # Errors
+    /// [`SolveError::Cancelled`]
+    pub(super) fn search(
+        scene: &Scene,
+        response: &Response,
+        verdict: Verdict,
+        run: impl Fn(&Scene) -> Result<Response, SolveError> + Sync,
+    ) -> Result<Option<Fold>, SolveError> {
         if scene.excitation.horizontal.is_none() && scene.excitation.vertical.is_none() {
-            return None;
+            return Ok(None);
         }
         let mut short = scene.clone();
         short.options.wanted = Wanted::Overturns;
@@ -49,19 +58,24 @@ impl Fold {
         let slides = response.motion_at_contacts().is_some();
         let sizes: &[f64] = if slides { &TRIED_WITH_SLIDING } else { &TRIED };
         let turn = |change: f64| {
-            let changed = shaken(&short, 1.0 + change)?;
-            let verdict_there = Verdict::of(Simulator::new().run(&changed).ok()?.status);
-            (verdict_there != verdict).then_some(Turn { change, verdict: verdict_there })
+            let Some(changed) = shaken(&short, 1.0 + change) else { return Ok(None) };
+            let run = run(&changed);
+            if let Some(cancelled) = cancellation(&run) {
+                return Err(cancelled);
+            }
+            let verdict_there = run.ok().map(|run| Verdict::of(run.status)).filter(|there| *there != verdict);
+            Ok(verdict_there.map(|verdict| Turn { change, verdict }))
         };
         let mut tried = Vec::new();
         for size in sizes {
             tried.push(*size);
-            let turns: Vec<Turn> = [*size, -size].into_par_iter().filter_map(turn).collect();
+            let both: Result<Vec<Option<Turn>>, SolveError> = [*size, -size].into_par_iter().map(turn).collect();
+            let turns: Vec<Turn> = both?.into_iter().flatten().collect();
             if !turns.is_empty() {
-                return Some(Fold { tried, turns });
+                return Ok(Some(Fold { tried, turns }));
             }
         }
-        Some(Fold { tried, turns: Vec::new() })
+        Ok(Some(Fold { tried, turns: Vec::new() }))
     }
 
     /// In words: `overturns with 0.5 % more shaking`.

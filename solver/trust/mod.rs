@@ -38,6 +38,7 @@ use crate::scene::{Scene, Wanted};
 use history::Comparison;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
 use verdict::lost_block;
 
 /// Interval between the rows that are compared, as a share of `1/p` of the stack that rocks fastest.
@@ -133,10 +134,27 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
 /// # Errors
 /// [`SolveError`] where the scene does not run.
 pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<Trust, SolveError> {
+    follow_run_observed(scene, response, asked, |_| ControlFlow::Continue(()))
+}
+
+/// As [`follow_run`], with a function that is called with the times of all these runs, from several threads and in no order, and may end them.
+///
+/// # Errors
+/// [`SolveError`] where the scene does not run; [`SolveError::Cancelled`] where the function ends a run.
+pub fn follow_run_observed(
+    scene: &Scene,
+    response: &Response,
+    asked: Follow,
+    progress: impl Fn(f64) -> ControlFlow<()> + Sync,
+) -> Result<Trust, SolveError> {
+    let run = |scene: &Scene| Simulator::new().run_observed(scene, &progress);
     let plain = compared(scene);
-    let own = Simulator::new().run(&plain)?;
-    let run = |change: Change| (change, change.scene(&plain).map(|changed| Simulator::new().run(&changed)));
-    let runs: Vec<_> = Change::all(scene).into_par_iter().map(run).collect();
+    let own = run(&plain)?;
+    let changed = |change: Change| (change, change.scene(&plain).map(|changed| run(&changed)));
+    let runs: Vec<_> = Change::all(scene).into_par_iter().map(changed).collect();
+    if let Some(cancelled) = runs.iter().find_map(|(_, run)| run.as_ref().and_then(cancellation)) {
+        return Err(cancelled);
+    }
     // A scene that cannot be changed so, as it would be out of range, has no such companion.
     let runs: Vec<_> = runs.into_iter().filter_map(|(change, run)| Some((change, run?.ok()))).collect();
     let companions: Vec<Companion> = runs
@@ -155,7 +173,7 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
     let same_verdict = companions.iter().all(|one| one.verdict == Some(verdict));
     let block = lost_block(response);
     let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| lost_block(run) == block));
-    let certain_at = certain_at(scene, response)?;
+    let certain_at = certain_at(scene, response, run)?;
     let determined = same_verdict && horizon >= certain_at && verdict != Verdict::Undetermined;
     let (amplification, grows_on) = companions::amplification(&companions);
     let all = || std::iter::once(&own).chain(runs.iter().filter_map(|(_, run)| run.as_ref()));
@@ -177,7 +195,7 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
         amplification,
         grows_on,
         same_block,
-        fold: if asked.fold && determined { Fold::search(scene, response, verdict) } else { None },
+        fold: if asked.fold && determined { Fold::search(scene, response, verdict, run)? } else { None },
         band: if asked.band { Band::of(all(), scene.column.len()) } else { Band::default() },
         companions,
     })
@@ -197,8 +215,17 @@ fn row_interval(column: &Column, t_end: f64) -> f64 {
     (ROW_INTERVAL_OF_P / fastest).min(0.01 * t_end).max(t_end / MOST_ROWS)
 }
 
+/// The error of a run that was ended from outside; a run that fails otherwise is a companion that agrees with nothing.
+fn cancellation(run: &Result<Response, SolveError>) -> Option<SolveError> {
+    run.as_ref().err().filter(|error| matches!(error, SolveError::Cancelled { .. })).cloned()
+}
+
 /// When the verdict of a run was certain `[s]`.
-fn certain_at(scene: &Scene, response: &Response) -> Result<f64, SolveError> {
+fn certain_at(
+    scene: &Scene,
+    response: &Response,
+    run: impl Fn(&Scene) -> Result<Response, SolveError>,
+) -> Result<f64, SolveError> {
     let may_be_proved = matches!(response.status, StopReason::AtRest | StopReason::EndOfTime);
     // Where blocks slide there is no such proof.
     if !may_be_proved || response.motion_at_contacts().is_some() {
@@ -206,7 +233,7 @@ fn certain_at(scene: &Scene, response: &Response) -> Result<f64, SolveError> {
     }
     let mut outcome = scene.clone();
     (outcome.friction, outcome.options.wanted) = (None, Wanted::Outcome);
-    Ok(Simulator::new().run(&outcome)?.t_final.min(response.t_final))
+    Ok(run(&outcome)?.t_final.min(response.t_final))
 }
 
 impl Trust {

@@ -13,10 +13,11 @@ from ._errors import FolderError, RecordError, RockingError, SceneError, SolveEr
 from ._motion import Motion, pulse, total
 from ._record import Record, Records, StudyRecord, records, synthetic
 from ._rocking import MAX_BLOCKS, MEASURES, __version__
-from ._run import Run, simulate
+from ._run import Run, simulate, trust
 from ._scene import Block, Column, Scene
 from ._study import Fragility, Ida, Study, ida
 from ._sweep import Sweep, sweep
+from ._trust import Trust
 
 __all__ = [
     "Block",
@@ -39,6 +40,7 @@ __all__ = [
     "StudyError",
     "StudyRecord",
     "Sweep",
+    "Trust",
     "__version__",
     "ida",
     "pulse",
@@ -47,4 +49,5 @@ __all__ = [
     "sweep",
     "synthetic",
     "total",
+    "trust",
 ]

@@ -47,7 +47,7 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
     room = 0.08 * (high - low or 1.0)
     below.set(xlabel="t [s]", ylabel="θ / α", ylim=(low - 2 * room, high + room), xlim=(drawn.t[0], drawn.t[-1] or 1.0))
     below.legend(frameon=False, ncols=min(shares.shape[1] + 1, 6), loc="upper right", fontsize="small")
-    above.set_title(drawn.scene.title or f"{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")
+    above.set_title(drawn.scene.title or f"{drawn._lead}{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")
     return np.array([above, below])
 
 
