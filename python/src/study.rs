@@ -73,7 +73,8 @@ impl Ida {
         sa_period: Option<f64>,
         sa_damping: Option<f64>,
     ) -> PyResult<Ida> {
-        let intensity = intensity(measure, sa_period, sa_damping)?;
+        let intensity = intensity(measure, sa_period, sa_damping)
+            .map_err(|refused| error::of_study(py, &refused.value(py).to_string()))?;
         let records = records.iter().map(|record| record.record.clone()).collect();
         let ida = studies::Ida::new((*scene.scene).clone(), records, intensity, levels);
         let ida = match free_swing {

@@ -6,6 +6,7 @@ import pickle
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
@@ -227,9 +228,10 @@ def test_bad_studies_are_refused() -> None:
         ((records, "pgx", [1.0]), "no measure `pgx`"),
         ((records, "sa", [1.0]), "sa_period"),
     ):
-        with pytest.raises((rk.StudyError, ValueError), match=text):
+        with pytest.raises(rk.StudyError, match=text):
             rk.ida(COLUMN, *arguments)
     study = rk.ida(COLUMN, records, "sa_g", [0.1, 1.0], sa_period=0.5)
+    assert rk.Ida(COLUMN, records, "pgv", [0.1, 1.0]).simulate(1).t_final > 0.0
     assert study.measure == "sa_g(0.5)" and study.label.startswith("Sa(0.5 s")
     with pytest.raises(rk.StudyError, match="no state `falling`"):
         study.fragility("falling")
@@ -263,3 +265,13 @@ def test_a_figure_without_a_curve_says_so() -> None:
     study = rk.ida(rk.Column.prisms(1, half_width=0.2, half_height=0.8), rk.synthetic(range(3), duration=6.0), "pgv", [0.01, 0.02])
     legend = study.fragility("overturned").plot().get_legend()
     assert legend is not None and [text.get_text() for text in legend.get_texts()] == ["overturned: no curve"]
+
+
+def test_the_figure_of_a_study_leaves_runs_out_that_are_not_determined() -> None:
+    levels = [0.1, 0.2, 0.3, 0.4]
+    outcomes = ["rocks", "not-determined", "undetermined", "overturns"]
+    table = pd.DataFrame({"record": "a", "pga": levels, "outcome": outcomes, "peak_1": [0.4, 8.6, 7.5, 9.0]})
+    axes = rk.Study(table, measure="pga").plot()
+    drawn = axes.lines[0].get_xdata()
+    assert axes.get_xlim()[1] < 1.2 and np.isnan(drawn[1:3]).all() and drawn[0] == 0.4 and np.isfinite(drawn[3])
+    plt.close("all")
