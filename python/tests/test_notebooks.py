@@ -16,6 +16,12 @@ NOTEBOOKS = sorted((Path(__file__).resolve().parents[2] / "docs" / "notebooks").
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 
+@pytest.fixture(autouse=True)
+def backend_of_the_kernel(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Kernels draw inline, whatever backend the environment asks for."""
+    monkeypatch.delenv("MPLBACKEND", raising=False)
+
+
 def run(book: Any, folder: Path) -> Any:
     """A copy of a notebook with the outputs of all cells."""
     return NotebookClient(book, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(folder)}}).execute()
