@@ -133,8 +133,9 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
-    let beside = if frame.right() - x > 20.0 { x + 15.0 } else { x - 6.0 };
-    // Where no curve runs: at the end that is asked for, at the other one, or between them.
+    let (right, left) = (x + 15.0, x - 6.0);
+    let sides = if frame.right() - x > 20.0 { [right, left] } else { [left, right] };
+    // Where no curve runs: on the one side of the line or on the other, at the end that is asked for, at the other one, or between them.
     let height = sheet::text_width(&words, style::NOTE);
     let (top, bottom) = ((frame.top + 8.0, Anchor::End), (frame.bottom() - 8.0, Anchor::Start));
     let between = (1..PLACES).map(|place| {
@@ -142,12 +143,16 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
         (frame.top + 8.0 + share * (frame.height - 16.0 - height), Anchor::End)
     });
     let first = if matches!(anchor, Anchor::End) { [top, bottom] } else { [bottom, top] };
-    let is_free = |(y, anchor): &(f64, Anchor)| {
+    let mut places = sides.into_iter().flat_map(|beside| {
+        let along = first.into_iter().chain(between.clone());
+        along.map(move |(y, anchor)| (beside, y, anchor))
+    });
+    let is_free = |(beside, y, anchor): &(f64, f64, Anchor)| {
         let top = if matches!(anchor, Anchor::End) { *y } else { y - height };
         let size = f64::from(style::NOTE);
-        sheet.is_free(&Frame { left: beside - size, top, width: size + 4.0, height })
+        beside + 4.0 < sheet.width && sheet.is_free(&Frame { left: beside - size, top, width: size + 4.0, height })
     };
-    let (y, anchor) = first.into_iter().chain(between).find(is_free).unwrap_or(first[0]);
+    let (beside, y, anchor) = places.find(is_free).unwrap_or((sides[0], first[0].0, first[0].1));
     sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);
 }
 
