@@ -9,7 +9,6 @@ import pickle
 import signal
 import subprocess
 import sys
-import threading
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
@@ -17,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rocking as rk
+from beside import ticks_during
 
 BLOCK = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.56), rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0), eta=0.9)
 
@@ -56,13 +56,7 @@ def test_threads_run_side_by_side_with_the_same_results() -> None:
 def test_the_lock_is_released() -> None:
     """A thread counts while another one computes."""
     scene = BLOCK.replace(keys={"solver.method": "rk4", "solver.step": 1e-6, "output.dt": 1.0, "solver.t_end": 2.0})
-    worker = threading.Thread(target=rk.simulate, args=(scene,))
-    worker.start()
-    ticks = 0
-    while worker.is_alive():
-        time.sleep(1e-3)
-        ticks += 1
-    assert ticks > 20, f"{ticks} ticks"
+    assert ticks_during(lambda: rk.simulate(scene)) > 20
 
 
 @pytest.mark.parametrize("method", ["fork", "spawn"])

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import pickle
-import threading
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rocking as rk
+from beside import ticks_during
 
 # Slender drums in long harmonic motion: chaotic after some ten seconds.
 DRUMS = rk.Scene(
@@ -79,10 +78,5 @@ def test_trust_is_of_a_whole_run() -> None:
 
 
 def test_the_lock_is_released_while_companions_run() -> None:
-    worker = threading.Thread(target=rk.trust, args=(BLOCK.replace(method="rk4", step=1e-5),))
-    worker.start()
-    ticks = 0
-    while worker.is_alive():
-        time.sleep(1e-3)
-        ticks += 1
-    assert ticks > 20, f"{ticks} ticks"
+    scene = BLOCK.replace(method="rk4", step=1e-5)
+    assert ticks_during(lambda: rk.trust(scene)) > 20

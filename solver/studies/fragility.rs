@@ -588,7 +588,7 @@ mod tests {
         assert_eq!(overturning(&all(|_, level| level > 0.5, 3)).fit, Fit::Step { never_to: 0.4, always_from: 0.8 });
         assert_eq!(overturning(&all(|_, level| level > 0.5, 1)).fit, Fit::OneRecord);
         assert_eq!(overturning(&all(|_, _| false, 1)).fit, Fit::Never { up_to: 1.6 });
-        // One of six records at the highest level, half of them beyond.
+        // One of six records at 0.8 and two at 1.6: the curve comes to one half beyond.
         let rare = overturning(&all(|record, level| level > 0.8 && record < 2 || level > 0.5 && record == 0, 6));
         let told = rare.statements();
         assert!(
