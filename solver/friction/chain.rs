@@ -15,6 +15,7 @@ use super::joint::{Configuration, Face, Joint};
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
+use std::ops::Range;
 
 /// Velocities, or accelerations, of the blocks.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -135,7 +136,7 @@ pub(super) fn scaled(a: Vec2, factor: f64) -> Vec2 {
 }
 
 /// An interface, its vectors in the axes of the ground.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Link {
     /// `R(θ_{i-1}) (a, 0)`, zero where the interface is free.
     on_lower: Vec2,
@@ -148,45 +149,39 @@ struct Link {
     is_free: bool,
 }
 
+/// A block, with the interface below it.
+#[derive(Clone, Copy, Debug)]
+struct Placed {
+    link: Link,
+    turn: Turn,
+    /// From the middle of the base to the centroid and to the middle of the top.
+    to_centroid: Vec2,
+    to_top: Vec2,
+    /// Middle of the base, centroid and middle of the top face `[m]`.
+    foot: Vec2,
+    centroid: Vec2,
+    top: Vec2,
+}
+
 /// A column's geometry in one configuration.
 #[derive(Clone, Debug)]
 pub struct Chain<'a> {
     column: &'a Column,
-    links: PerBlock<Link>,
-    /// From the middle of a block's base to its centroid and to the middle of its top.
-    pub to_centroid: PerBlock<Vec2>,
-    to_top: PerBlock<Vec2>,
-    /// Middles of the bases `[m]`.
-    pub foot: PerBlock<Vec2>,
-    /// Middles of the top faces `[m]`.
-    pub top: PerBlock<Vec2>,
-    /// Centroids `[m]`.
-    pub centroid: PerBlock<Vec2>,
-    turns: PerBlock<Turn>,
+    /// Base first, length N.
+    blocks: Vec<Placed>,
 }
 
 impl<'a> Chain<'a> {
     /// The geometry of a configuration.
     pub fn new(column: &'a Column, configuration: &Configuration) -> Chain<'a> {
-        let blocks = column.blocks();
-        let turns: PerBlock<Turn> = configuration.theta.iter().map(|angle| Turn::by(*angle)).collect();
-        let ground = Turn::NONE;
-        let (vectors, link) = (PerBlock::filled([0.0; 2], blocks.len()), Link::default());
-        let mut chain = Chain {
-            column,
-            links: PerBlock::filled(link, blocks.len()),
-            to_centroid: vectors.clone(),
-            to_top: vectors.clone(),
-            foot: vectors.clone(),
-            top: vectors.clone(),
-            centroid: vectors,
-            turns,
-        };
-        let mut below = [0.0, 0.0];
+        let (blocks, ground) = (column.blocks(), Turn::NONE);
+        let mut chain = Chain { column, blocks: Vec::with_capacity(blocks.len()) };
+        let (mut below, mut lower, mut angle_below) = ([0.0, 0.0], ground, 0.0);
         for (i, block) in blocks.iter().enumerate() {
-            let (lower, upper) = (i.checked_sub(1).map_or(ground, |below| chain.turns[below]), chain.turns[i]);
-            let slide = configuration.slide[i];
-            let (a, b, face) = match configuration.joints[i] {
+            let (joint, slide, angle) = (configuration.joints[i], configuration.slide[i], configuration.theta[i]);
+            // Blocks that are joined turn together.
+            let upper = if angle == angle_below { lower } else { Turn::by(angle) };
+            let (a, b, face) = match joint {
                 Joint::Closed(_) => (slide, 0.0, i.checked_sub(1)),
                 Joint::Corner(side, Face::Upper, _) => {
                     let corner = i.checked_sub(1).map_or(0.0, |below| f64::from(side) * blocks[below].top_half_width);
@@ -198,38 +193,35 @@ impl<'a> Chain<'a> {
                 }
                 Joint::Free => (0.0, 0.0, i.checked_sub(1)),
             };
-            let is_free = configuration.joints[i] == Joint::Free;
+            let is_free = joint == Joint::Free;
             let (on_lower, on_upper) = (lower.rotate([a, 0.0]), upper.rotate([b, 0.0]));
-            let along = face.map_or(ground, |face| chain.turns[face]).rotate([1.0, 0.0]);
-            chain.links[i] = Link { on_lower, on_upper, along, face, is_free };
+            let along = if face == Some(i) { upper } else { lower }.rotate([1.0, 0.0]);
+            let link = Link { on_lower, on_upper, along, face, is_free };
             let apart = if is_free { configuration.apart[i] } else { plus(on_lower, on_upper) };
             let foot = plus(below, apart);
             let to_centroid = upper.rotate([0.0, block.centroid_height]);
             let to_top = upper.rotate([0.0, 2.0 * block.half_height]);
-            chain.foot[i] = foot;
-            chain.centroid[i] = plus(foot, to_centroid);
-            below = plus(foot, to_top);
-            chain.top[i] = below;
-            chain.to_centroid[i] = to_centroid;
-            chain.to_top[i] = to_top;
+            let (centroid, top) = (plus(foot, to_centroid), plus(foot, to_top));
+            chain.blocks.push(Placed { link, turn: upper, to_centroid, to_top, foot, centroid, top });
+            (below, lower, angle_below) = (top, upper, angle);
         }
         chain
     }
 
     /// Number of blocks.
     pub fn len(&self) -> usize {
-        self.links.len()
+        self.blocks.len()
     }
 
     /// From the middle of the lower face to the middle of the upper one at an interface (from zero) `[m]`.
     pub fn apart(&self, interface: usize) -> Vec2 {
-        let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.top[below]);
-        [self.foot[interface][0] - below[0], self.foot[interface][1] - below[1]]
+        let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.blocks[below].top);
+        [self.blocks[interface].foot[0] - below[0], self.blocks[interface].foot[1] - below[1]]
     }
 
     /// Rate of [`Chain::apart`] `[m/s]`.
     pub fn apart_rate(&self, interface: usize, rates: &Rates) -> Vec2 {
-        let link = &self.links[interface];
+        let link = &self.blocks[interface].link;
         if link.is_free {
             return rates.apart[interface];
         }
@@ -238,16 +230,53 @@ impl<'a> Chain<'a> {
         plus(turning, scaled(link.along, rates.slide[interface]))
     }
 
+    /// Middle of a block's base `[m]`.
+    pub fn foot(&self, block: usize) -> Vec2 {
+        self.blocks[block].foot
+    }
+
+    /// A block's centroid `[m]`.
+    pub fn centroid(&self, block: usize) -> Vec2 {
+        self.blocks[block].centroid
+    }
+
+    /// Middle of a block's top face `[m]`.
+    pub fn top(&self, block: usize) -> Vec2 {
+        self.blocks[block].top
+    }
+
+    /// From the middle of a block's base to its centroid `[m]`.
+    pub fn to_centroid(&self, block: usize) -> Vec2 {
+        self.blocks[block].to_centroid
+    }
+
     /// Velocities of the blocks for rates of the coordinates, or the part of accelerations that is linear in their second derivatives.
     pub fn motion(&self, rates: &Rates) -> Motion {
         let mut linear = PerBlock::filled([0.0; 2], self.len());
         let mut below = [0.0, 0.0];
         for (i, linear) in linear.iter_mut().enumerate() {
             let foot = plus(below, self.apart_rate(i, rates));
-            *linear = plus(foot, swept(rates.omega[i], self.to_centroid[i]));
-            below = plus(foot, swept(rates.omega[i], self.to_top[i]));
+            *linear = plus(foot, swept(rates.omega[i], self.blocks[i].to_centroid));
+            below = plus(foot, swept(rates.omega[i], self.blocks[i].to_top));
         }
         Motion { linear, angular: rates.omega.clone() }
+    }
+
+    /// Motion of each block, `[x, y, angle]`, for a unit rate of the common angle of these ones.
+    pub fn turned(&self, range: Range<usize>, motion: &mut [[f64; 3]]) {
+        let mut below = [0.0, 0.0];
+        for i in range.clone() {
+            let Placed { link, to_centroid, to_top, .. } = &self.blocks[i];
+            let foot = if i == range.start { link.on_upper } else { plus(link.on_lower, link.on_upper) };
+            let foot = plus(below, swept(1.0, foot));
+            let [x, y] = plus(foot, swept(1.0, *to_centroid));
+            motion[i] = [x, y, 1.0];
+            below = plus(foot, swept(1.0, *to_top));
+        }
+        if let Some(next) = self.blocks.get(range.end) {
+            let [x, y] = plus(below, swept(1.0, next.link.on_lower));
+            motion[range.end..].fill([x, y, 0.0]);
+        }
     }
 
     /// Accelerations of the centroids `[m/s²]` that the rates cause: centripetal ones and those of slides along turning faces.
@@ -255,7 +284,7 @@ impl<'a> Chain<'a> {
         let mut accelerations = PerBlock::filled([0.0; 2], self.len());
         let mut below = [0.0, 0.0];
         for (i, acceleration) in accelerations.iter_mut().enumerate() {
-            let link = &self.links[i];
+            let Placed { link, to_centroid, to_top, .. } = &self.blocks[i];
             let (lower, upper) = (i.checked_sub(1).map_or(0.0, |below| rates.omega[below]), rates.omega[i]);
             let mut foot = below;
             if !link.is_free {
@@ -264,15 +293,15 @@ impl<'a> Chain<'a> {
                 let face = link.face.map_or(0.0, |face| rates.omega[face]);
                 foot = plus(foot, scaled(swept(face, link.along), 2.0 * rates.slide[i]));
             }
-            *acceleration = plus(foot, scaled(self.to_centroid[i], -upper * upper));
-            below = plus(foot, scaled(self.to_top[i], -upper * upper));
+            *acceleration = plus(foot, scaled(*to_centroid, -upper * upper));
+            below = plus(foot, scaled(*to_top, -upper * upper));
         }
         accelerations
     }
 
     /// Velocity of the middle of a block's base in a motion of the blocks `[m/s]`.
     pub fn foot_rate(&self, block: usize, motion: &Motion) -> Vec2 {
-        plus(motion.linear[block], swept(-motion.angular[block], self.to_centroid[block]))
+        plus(motion.linear[block], swept(-motion.angular[block], self.blocks[block].to_centroid))
     }
 
     /// Velocity of the middle of a block's top face in a motion of the blocks `[m/s]`.
@@ -282,12 +311,12 @@ impl<'a> Chain<'a> {
 
     /// From the centroid of a block to the middle of its top face `[m]`.
     pub fn centroid_to_top(&self, block: usize) -> Vec2 {
-        plus(self.to_top[block], scaled(self.to_centroid[block], -1.0))
+        plus(self.blocks[block].to_top, scaled(self.blocks[block].to_centroid, -1.0))
     }
 
     /// Directions along and across the face that carries the contact of an interface, to the right and upwards.
     pub fn axes(&self, interface: usize) -> [Vec2; 2] {
-        let along = self.links[interface].along;
+        let along = self.blocks[interface].link.along;
         [along, [-along[1], along[0]]]
     }
 
@@ -295,24 +324,24 @@ impl<'a> Chain<'a> {
     pub fn on_lower_face(&self, interface: usize, u: f64) -> Vec2 {
         match interface.checked_sub(1) {
             None => [u, 0.0],
-            Some(below) => plus(self.top[below], self.turns[below].rotate([u, 0.0])),
+            Some(below) => plus(self.blocks[below].top, self.blocks[below].turn.rotate([u, 0.0])),
         }
     }
 
     /// The point of contact of a corner at an interface `[m]`.
     pub fn pivot(&self, interface: usize) -> Vec2 {
-        let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.top[below]);
-        plus(below, self.links[interface].on_lower)
+        let below = interface.checked_sub(1).map_or([0.0, 0.0], |below| self.blocks[below].top);
+        plus(below, self.blocks[interface].link.on_lower)
     }
 
     /// The turn of a block; of the ground, none.
     fn turn(&self, block: Option<usize>) -> Turn {
-        block.map_or(Turn::NONE, |block| self.turns[block])
+        block.map_or(Turn::NONE, |block| self.blocks[block].turn)
     }
 
     /// How the blocks of an interface lie to each other.
     pub fn pose(&self, interface: usize) -> Pose {
-        let (lower, upper) = (self.turn(interface.checked_sub(1)), self.turns[interface]);
+        let (lower, upper) = (self.turn(interface.checked_sub(1)), self.blocks[interface].turn);
         Pose { apart: self.apart(interface), lower, upper }
     }
 

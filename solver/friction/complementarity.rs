@@ -104,7 +104,7 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
             let still = vec![0.0; chain.len()];
             let (upper, lower) = (of(&now.omega, Some(interface)), of(&now.omega, below));
             // Ends of the axes are drawn to the centroids, which fall; the ground does not.
-            let foot = scaled(chain.to_centroid[interface], upper * upper);
+            let foot = scaled(chain.to_centroid(interface), upper * upper);
             let top =
                 below.map_or([ground.x, ground.gravity], |below| scaled(chain.centroid_to_top(below), -lower * lower));
             let apart = [foot[0] - top[0], foot[1] - top[1]];
@@ -200,7 +200,7 @@ fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> Motion {
     let interface = contact.corner.interface;
     for (block, sign) in [(Some(interface), 1.0), (interface.checked_sub(1), -1.0)] {
         let Some(block) = block else { continue };
-        let arm = [contact.place[0] - chain.centroid[block][0], contact.place[1] - chain.centroid[block][1]];
+        let arm = [contact.place[0] - chain.centroid(block)[0], contact.place[1] - chain.centroid(block)[1]];
         motion.linear[block] = scaled(axis, sign);
         motion.angular[block] = sign * (axis[0] * arm[1] - axis[1] * arm[0]);
     }

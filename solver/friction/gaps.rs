@@ -127,8 +127,8 @@ pub fn gap_acceleration(
 pub fn place_and_axes(chain: &Chain, corner: Corner) -> (Vec2, [Vec2; 2]) {
     let view = View::of(chain, corner);
     let middle = match (view.frame, corner.face) {
-        (_, Face::Upper) => chain.foot[corner.interface],
-        (Some(below), _) => chain.top[below],
+        (_, Face::Upper) => chain.foot(corner.interface),
+        (Some(below), _) => chain.top(below),
         (None, _) => [0.0, 0.0],
     };
     let axes = [[1.0, 0.0], [0.0, 1.0]].map(|axis| view.turn.rotate(axis));

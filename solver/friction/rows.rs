@@ -16,6 +16,10 @@ use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::elimination::Factors;
 use crate::numerics::per_block::PerBlock;
+use smallvec::SmallVec;
+
+/// Number of coordinates up to which a solution allocates nothing: three blocks have at most nine.
+const USUAL_SIZE: usize = 9;
 
 /// A coordinate of a configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,15 +100,17 @@ impl Answer {
     }
 }
 
+/// A motion of a block: `[x, y]` of the centroid, and its angle.
+type Planar = [f64; 3];
+
 /// The rows of a configuration.
 #[derive(Debug)]
 pub struct Rows<'c, 'a> {
     chain: &'c Chain<'a>,
     coordinates: Vec<Coordinate>,
-    /// Motion of the blocks for a unit rate of each coordinate.
-    columns: Vec<Motion>,
-    /// Direction along which all above a slide is tested; of other coordinates, which are tested along themselves, none.
-    lifted: Vec<Vec2>,
+    /// Motion of each block for a unit rate of each coordinate, coordinate by coordinate; then the virtual motions along which coordinates are tested: their
+    /// own, and of slides those along the lifted face.
+    motions: Vec<Planar>,
     /// Centre or point of each contact `[m]`.
     points: PerBlock<Vec2>,
 }
@@ -113,73 +119,67 @@ impl<'c, 'a> Rows<'c, 'a> {
     /// The rows of these states with these coefficients of kinetic friction; `centres` are the centres of closed contacts on their lower
     /// faces `[m]`.
     pub fn new(chain: &'c Chain<'a>, joints: &[Joint], kinetic: &[f64], centres: &[f64]) -> Rows<'c, 'a> {
-        let coordinates = coordinates(joints);
-        let mut unit = Rates::zero(joints.len());
-        let column = |coordinate: &Coordinate| {
-            coordinate.give(1.0, &mut unit);
-            let motion = chain.motion(&unit);
-            coordinate.give(0.0, &mut unit);
-            motion
-        };
-        let columns: Vec<Motion> = coordinates.iter().map(column).collect();
-        let lifted = |coordinate: &Coordinate| match coordinate {
-            Coordinate::Slide(interface) => {
-                let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
-                let [along, across] = chain.axes(*interface);
-                [along[0] + lift * across[0], along[1] + lift * across[1]]
+        let (coordinates, blocks) = (coordinates(joints), chain.len());
+        let mut motions = vec![[0.0; 3]; 2 * coordinates.len() * blocks];
+        let (columns, tests) = motions.split_at_mut(coordinates.len() * blocks);
+        let both = columns.chunks_exact_mut(blocks).zip(tests.chunks_exact_mut(blocks));
+        for (coordinate, (column, test)) in coordinates.iter().zip(both) {
+            match coordinate {
+                Coordinate::Angle(range) => chain.turned(range.clone(), column),
+                Coordinate::Slide(interface) => {
+                    let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
+                    let [along, across] = chain.axes(*interface);
+                    column[*interface..].fill([along[0], along[1], 0.0]);
+                    test[*interface..].fill([along[0] + lift * across[0], along[1] + lift * across[1], 0.0]);
+                    continue;
+                }
+                Coordinate::Apart(interface, 0) => column[*interface..].fill([1.0, 0.0, 0.0]),
+                Coordinate::Apart(interface, _) => column[*interface..].fill([0.0, 1.0, 0.0]),
             }
-            _ => [0.0; 2],
-        };
-        let lifted = coordinates.iter().map(lifted).collect();
-        Rows { chain, coordinates, columns, lifted, points: points(chain, joints, centres) }
+            test.copy_from_slice(column);
+        }
+        Rows { chain, coordinates, motions, points: points(chain, joints, centres) }
     }
 
-    /// `Σ m_j a_j · δr_j + I_j α_j δθ_j`
-    fn work(&self, row: usize, linear: &[Vec2], angular: Option<&[f64]>) -> f64 {
-        let blocks = self.chain.column().blocks().iter().enumerate();
-        if let Coordinate::Slide(interface) = self.coordinates[row] {
-            let d = self.lifted[row];
-            return blocks
-                .skip(interface)
-                .fold(0.0, |sum, (j, block)| sum + block.mass * (linear[j][0] * d[0] + linear[j][1] * d[1]));
-        }
-        let test = &self.columns[row];
-        blocks.fold(0.0, |sum, (j, block)| {
-            let (a, d) = (linear[j], test.linear[j]);
-            let turning = angular.map_or(0.0, |angular| block.inertia * angular[j] * test.angular[j]);
-            sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + turning
+    /// `Σ m_j a_j · δr_j + I_j α_j δθ_j` of the motion `(a, α)` of each block.
+    #[inline(always)]
+    fn work(&self, test: &[Planar], motion: impl Iterator<Item = Planar>) -> f64 {
+        self.chain.column().blocks().iter().zip(test).zip(motion).fold(0.0, |sum, ((block, d), a)| {
+            sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + block.inertia * a[2] * d[2]
         })
     }
 
-    /// Values of the coordinates for which the rows balance these loads; `None` where the rows do not determine them.
-    fn solve(&self, mut loads: Vec<f64>) -> Option<Vec<f64>> {
-        let size = self.coordinates.len();
+    /// Rates of the coordinates for which the rows balance the loads of these motions; `None` where the rows do not determine them.
+    fn solve(&self, load: impl Fn(usize) -> Planar) -> Option<Rates> {
+        let (size, blocks) = (self.coordinates.len(), self.chain.len());
+        let (columns, tests) = self.motions.split_at(size * blocks);
         let mut factors = Factors::with_size(size);
-        for row in 0..size {
-            for (column, motion) in self.columns.iter().enumerate() {
-                *factors.entry(row, column) = self.work(row, &motion.linear, Some(&motion.angular));
+        let mut values = SmallVec::<[f64; USUAL_SIZE]>::new();
+        for (row, test) in tests.chunks_exact(blocks).enumerate() {
+            for (column, motion) in columns.chunks_exact(blocks).enumerate() {
+                *factors.entry(row, column) = self.work(test, motion.iter().copied());
             }
+            values.push(self.work(test, (0..blocks).map(&load)));
         }
         factors.factorise()?;
-        factors.solve(&mut loads);
-        loads.iter().all(|x| x.is_finite()).then_some(loads)
+        factors.solve(&mut values);
+        values.iter().all(|x| x.is_finite()).then(|| rates(&self.coordinates, &values, blocks))
     }
 
     /// The accelerations at these rates on a moving ground.
     pub fn accelerations(&self, rates_now: &Rates, ground: Ground) -> Option<Answer> {
         let imposed = imposed(self.chain, rates_now, ground);
-        let loads = (0..self.coordinates.len()).map(|row| -self.work(row, &imposed, None)).collect();
-        let rates = rates(&self.coordinates, &self.solve(loads)?, self.chain.len());
+        let rates = self.solve(|block| [-imposed[block][0], -imposed[block][1], 0.0])?;
         Some(accelerated(self.chain, &self.points, rates, &imposed))
     }
 
     /// The velocities after an impact of blocks that move like this before.
     pub fn impact(&self, before: &Motion) -> Option<Answer> {
-        let loads =
-            (0..self.coordinates.len()).map(|row| self.work(row, &before.linear, Some(&before.angular))).collect();
-        let rates = rates(&self.coordinates, &self.solve(loads)?, self.chain.len());
-        let change = self.chain.motion(&rates).less(before);
-        Some(answer(self.chain, &self.points, rates, change))
+        let rates = self.solve(|block| {
+            let [x, y] = before.linear[block];
+            [x, y, before.angular[block]]
+        })?;
+        Some(self.given(rates, before))
     }
 
     /// What contacts transmit in an impact that leaves these rates.
@@ -230,7 +230,7 @@ fn answer(chain: &Chain, points: &[Vec2], rates: Rates, change: Motion) -> Answe
         let (mut force, mut moment) = ([0.0, 0.0], 0.0);
         for (j, block) in blocks.iter().enumerate().skip(interface) {
             let load = change.linear[j].map(|a| block.mass * a);
-            let r = [chain.centroid[j][0] - point[0], chain.centroid[j][1] - point[1]];
+            let r = [chain.centroid(j)[0] - point[0], chain.centroid(j)[1] - point[1]];
             force = [force[0] + load[0], force[1] + load[1]];
             moment += block.inertia * change.angular[j] + r[1] * load[0] - r[0] * load[1];
         }

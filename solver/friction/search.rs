@@ -113,12 +113,7 @@ impl<'a> Search<'a> {
         Search { column, now, touch, friction, question, now_rates, centres, held: OnceCell::new(), linear, slack }
     }
 
-    /// The states that follow; `None` if none is admissible.
-    pub fn solve(&self) -> Option<Solution> {
-        self.solve_from(self.first())
-    }
-
-    /// The same, beginning with these states.
+    /// The states that follow, found from these on; `None` if none is admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let guided = self.guided(first.clone());
         let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));

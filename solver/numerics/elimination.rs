@@ -1,6 +1,11 @@
 //! Small systems of linear equations whose matrix is not symmetric: elimination with partial pivoting. [`eliminate`] serves one system of known size,
 //! [`Factors`] several with one matrix.
 
+use smallvec::SmallVec;
+
+/// Size of a matrix up to which its storage is inline.
+const USUAL_SIZE: usize = 6;
+
 /// `x` of `matrix · x = loads`; `None` where a pivot vanishes or a number is not finite.
 #[inline]
 pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: [f64; SIZE]) -> Option<[f64; SIZE]> {
@@ -40,15 +45,15 @@ pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: 
 pub struct Factors {
     size: usize,
     /// Row by row; factorised, multipliers below the diagonal.
-    entries: Vec<f64>,
+    entries: SmallVec<[f64; USUAL_SIZE * USUAL_SIZE]>,
     /// Row that takes the place of each column's pivot.
-    pivots: Vec<usize>,
+    pivots: SmallVec<[usize; USUAL_SIZE]>,
 }
 
 impl Factors {
     /// Storage for a matrix with so many rows and columns.
     pub fn with_size(size: usize) -> Factors {
-        Factors { size, entries: vec![0.0; size * size], pivots: vec![0; size] }
+        Factors { size, entries: SmallVec::from_elem(0.0, size * size), pivots: SmallVec::from_elem(0, size) }
     }
 
     /// An entry of the matrix, to be written before it is factorised.

@@ -73,7 +73,18 @@ impl Instant<'_> {
         let chain = Chain::new(self.column(), &before);
         let motion = chain.motion(&Rates::of(&before));
         let search = Search::new(self.column(), &before, touch, self.friction, Question::Impact(motion.clone()));
-        let found = if closing.is_empty() { search.solve_otherwise(&before.joints) } else { search.solve() };
+        let found = if closing.is_empty() {
+            search.solve_otherwise(&before.joints)
+        } else {
+            // Most often the interface that closes goes on to its other corner.
+            let mut first = search.first();
+            for &interface in closing {
+                if let (Joint::Corner(side, ..), Touch::Faces) = (before.joints[interface], touch[interface]) {
+                    first[interface] = self.corner(interface, -side, Slip::Sticks);
+                }
+            }
+            search.solve_from(first)
+        };
         let solution = found.ok_or(StopReason::Undetermined)?;
         self.ambiguous += usize::from(solution.is_ambiguous);
         let answer = self.rebounding(&before, touch, &motion, &solution, closing);

@@ -32,7 +32,7 @@ use crate::scene::Scene;
 use mover::Mover;
 use recorder::Recorder;
 use state::{Ended, State};
-use sticking::{Progress, Sticking, Stuck};
+use sticking::{Part, Progress, Sticking, Stuck};
 use transition::{start, transition};
 
 /// Events that follow each other within this share of the time, or of a second, count as one instant.
@@ -65,9 +65,10 @@ pub(super) fn run(
         Stuck::Throughout(response) => return Ok(*response),
         Stuck::Nowhere => start(problem, friction, &at),
         Stuck::Part(part) => {
-            recorder.append(&at, &part);
-            at = part.until;
-            transition(problem, friction, &at, part.ended)
+            let Part { response, column, until, ended } = *part;
+            recorder.append(&column, [&at, &until], response);
+            at = until;
+            transition(problem, friction, &at, ended)
         }
     };
     let mut crowd = Crowd::default();
@@ -82,8 +83,9 @@ pub(super) fn run(
         }
         let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
             Some(part) => {
-                recorder.append(&at, &part);
-                (part.until, part.ended)
+                let Part { response, column, until, ended } = *part;
+                recorder.append(&column, [&at, &until], response);
+                (until, ended)
             }
             None => {
                 let (mut until, ended) = mover.pass(&at, &mut recorder)?;

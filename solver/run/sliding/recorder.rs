@@ -3,7 +3,6 @@
 use super::contacts::{lowest_gap, slide};
 use super::smooth::{Moment, Smooth};
 use super::state::State;
-use super::sticking::Part;
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Motion, Rates};
@@ -122,8 +121,8 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Records an event. Returns the energies before and after it, where it is recorded `[J]`.
-    fn change(&mut self, t: f64, change: &Change) -> [f64; 2] {
+    /// Records an event.
+    fn change(&mut self, t: f64, change: &Change) {
         let Change { kind, interfaces, before, after, impact } = change;
         for (interface, flights) in self.report.flights.iter_mut().enumerate() {
             let has_landed = *kind == EventKind::Landing && interfaces.contains(&interface);
@@ -135,17 +134,10 @@ impl<'p> Recorder<'p> {
             self.impulses(impulses);
         }
         if !self.problem.is_recorded() {
-            return [0.0; 2];
+            return;
         }
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
-        let chains = [before, after].map(|one| Chain::new(self.column(), one));
-        let motions = [0, 1].map(|k| chains[k].motion(&Rates::of([before, after][k])));
-        let energies = [0, 1].map(|k| energy_of(&chains[k], &motions[k]));
-        let block = |block: usize| BlockAtEvent {
-            place: chains[1].centroid[block],
-            velocity_before: motions[0].linear[block],
-            velocity_after: motions[1].linear[block],
-        };
+        let (blocks, _) = self.blocks([before, after]);
         let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
         self.events.push(Event {
             t,
@@ -160,11 +152,23 @@ impl<'p> Recorder<'p> {
             theta: PerBlock::from_slice(&after.theta),
             omega_before: PerBlock::from_slice(&before.omega),
             omega_after: PerBlock::from_slice(&after.omega),
-            blocks: (0..self.column().len()).map(block).collect(),
+            blocks,
             energy_lost: impact.as_ref().map(|(_, share)| *share),
             impulses: impact.as_ref().map_or_else(PerBlock::new, |(impulses, _)| PerBlock::from_slice(impulses)),
         });
-        energies
+    }
+
+    /// The blocks before and after an event, and the energies then `[J]`.
+    fn blocks(&self, states: [&Configuration; 2]) -> (Vec<BlockAtEvent>, [f64; 2]) {
+        let chains = states.map(|one| Chain::new(self.column(), one));
+        let motions = [0, 1].map(|k| chains[k].motion(&Rates::of(states[k])));
+        let block = |block: usize| BlockAtEvent {
+            place: chains[1].centroid(block),
+            velocity_before: motions[0].linear[block],
+            velocity_after: motions[1].linear[block],
+        };
+        let energies = [0, 1].map(|k| energy_of(&chains[k], &motions[k]));
+        ((0..self.column().len()).map(block).collect(), energies)
     }
 
     fn impulses(&mut self, impulses: &[Impulse]) {
@@ -181,9 +185,9 @@ impl<'p> Recorder<'p> {
         self.samples.len()
     }
 
-    /// Records a part in which everything sticks. Its ground's work is what the change of energy leaves, impacts apart.
-    pub fn append(&mut self, from: &State, part: &Part) {
-        let Part { response, column, until, .. } = part;
+    /// Records a part in which everything sticks, of the column with its slides, between two states. Its ground's work is what the change of energy
+    /// leaves, impacts apart.
+    pub fn append(&mut self, column: &Column, [from, until]: [&State; 2], response: Response) {
         self.work.add(&response.work);
         if !self.problem.is_recorded() {
             self.impacts += response.impacts;
@@ -195,15 +199,16 @@ impl<'p> Recorder<'p> {
             let moment = self.moment(sample.t, sticking(&sample.pattern, &sample.theta, &sample.omega));
             self.row(sample.t, &moment);
         }
+        self.impacts += response.impacts;
         let mut lost = 0.0;
-        for event in &response.events {
+        for mut event in response.events {
             let before = sticking(&event.before, &event.theta, &event.omega_before);
             let after = sticking(&event.after, &event.theta, &event.omega_after);
-            let numbers = if event.interfaces.is_empty() { event.interface.as_slice() } else { &event.interfaces[..] };
-            let impact = event.energy_lost.map(|share| (event.impulses.to_vec(), share));
-            let interfaces = numbers.iter().map(|number| number - 1).collect();
-            let [before, after] = self.change(event.t, &Change { kind: event.kind, interfaces, before, after, impact });
-            lost += before - after;
+            let (blocks, energies) = self.blocks([&before, &after]);
+            event.blocks = blocks;
+            lost += energies[0] - energies[1];
+            self.impulses(&event.impulses);
+            self.events.push(event);
         }
         self.report.impact_losses += lost;
         self.report.ground_work += lost + energy(column, &until.configuration) - energy(column, &from.configuration);
@@ -213,8 +218,8 @@ impl<'p> Recorder<'p> {
         for (all, own) in self.min_normal_force.iter_mut().zip(&response.min_normal_force) {
             *all = all.min(*own);
         }
-        for (mode, time) in &response.time_in_mode {
-            *self.time_in_mode.entry(mode.clone()).or_insert(0.0) += time;
+        for (mode, time) in response.time_in_mode {
+            *self.time_in_mode.entry(mode).or_insert(0.0) += time;
             self.report.times.iter_mut().for_each(|times| times.sticking += time);
         }
     }
@@ -326,7 +331,7 @@ impl<'p> Recorder<'p> {
         let blocks = now.theta.len();
         let motion = chain.motion(&Rates::of(now));
         let state = |block: usize| BlockState {
-            place: chain.centroid[block],
+            place: chain.centroid(block),
             velocity: motion.linear[block],
             force: answer.as_ref().map_or_else(Default::default, |answer| answer.contacts[block]),
         };
@@ -395,7 +400,7 @@ fn energy(column: &Column, configuration: &Configuration) -> f64 {
 /// The same, from geometry and motion.
 fn energy_of(chain: &Chain, motion: &Motion) -> f64 {
     let column = chain.column();
-    let lifted = column.blocks().iter().zip(&chain.centroid);
-    let potential: f64 = lifted.map(|(block, place)| block.mass * column.gravity() * place[1]).sum();
+    let lifted = column.blocks().iter().enumerate();
+    let potential: f64 = lifted.map(|(index, block)| block.mass * column.gravity() * chain.centroid(index)[1]).sum();
     motion.energy(column) + potential
 }

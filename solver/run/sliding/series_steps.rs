@@ -141,7 +141,7 @@ fn error(series: &Series, h: f64, tolerance: Tolerance) -> f64 {
         let size = (rate(last) * h).abs().max(BEFORE_LAST * rate(last - 1).abs()) * power;
         let weighted = size * scales[0].max(scales[1]);
         // A number that is not finite is an error of any size.
-        error = if weighted <= error { error } else { weighted };
+        error = if weighted <= error || error.is_nan() { error } else { weighted };
     }
     error
 }

@@ -83,7 +83,7 @@ impl Output for SeriesSpan<'_> {
 }
 
 /// Room made for the moments of a step.
-const USUAL_MOMENTS: usize = 24;
+const USUAL_MOMENTS: usize = 8;
 
 /// An accepted step with what has been evaluated inside it.
 pub struct Step<'s, 'p, O> {
