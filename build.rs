@@ -1,5 +1,5 @@
-//! Derives the equations of motion of columns of up to N blocks and writes them to `OUT_DIR`. N is `ROCKING_MAX_BLOCKS`, or
-//! the largest of the features `blocks-6` to `blocks-8`, or five: a cold release build stays below a minute on two cores.
+//! Derives the equations of motion of columns of up to N blocks and writes them to `OUT_DIR`. N is `ROCKING_MAX_BLOCKS` if that is set, else
+//! the largest enabled feature of `blocks-6` to `blocks-8`, else five. With five, a cold release build takes less than a minute on two cores.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=ROCKING_MAX_BLOCKS");
     println!("cargo::rerun-if-env-changed=ROCKING_DUMP_DIR");
-    // Tests that compare with independent runs are ignored, visibly, where these are not beside the project.
+    // Tests that compare with the independent runs in `../shared` are reported as ignored where that folder does not exist.
     println!("cargo::rustc-check-cfg=cfg(has_shared)");
     if std::path::Path::new("../shared").is_dir() {
         println!("cargo::rustc-cfg=has_shared");

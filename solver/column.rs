@@ -154,7 +154,7 @@ pub(crate) struct Seat {
     pub top: [f64; 2],
 }
 
-/// A column as it is read, before [`Column::new`] and [`Column::displaced`].
+/// A column as it is read from a file, before [`Column::new`] and [`Column::displaced`] check it.
 #[derive(Deserialize)]
 struct Unchecked {
     blocks: Vec<Block>,
@@ -174,32 +174,32 @@ impl TryFrom<Unchecked> for Column {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ColumnError {
-    /// There is nothing to rock.
+    /// There is no block.
     #[error("a column needs at least one block")]
     Empty,
-    /// A size, mass or inertia that no body has.
+    /// A size, mass or inertia that is not a finite number above zero.
     #[error("block {block} (from the base): {quantity} = {value} must be a finite number above zero")]
     NotPositive {
         /// From 1, base first.
         block: usize,
-        /// Which one.
+        /// Name of the quantity.
         quantity: &'static str,
         /// What was given.
         value: f64,
     },
-    /// A block with a size that a face or a centroid does not have.
+    /// A half-width of a face, or a height of a centroid, that is out of range.
     #[error("block {block} (from the base): {quantity} = {value} {problem}")]
     Shape {
         /// From 1, base first.
         block: usize,
-        /// Which one.
+        /// Name of the quantity.
         quantity: &'static str,
         /// What was given.
         value: f64,
         /// What is wrong with it.
         problem: &'static str,
     },
-    /// A list of slides of another length than the column's.
+    /// The number of slides is not that of the interfaces.
     #[error("{slides} slide(s) for {interfaces} interface(s)")]
     SlideCount {
         /// Slides given.
@@ -207,7 +207,7 @@ pub enum ColumnError {
         /// Interfaces of the column.
         interfaces: usize,
     },
-    /// A slide that is no number.
+    /// A slide that is not finite.
     #[error("slide {value} m at interface {interface} is out of range")]
     Slide {
         /// From 1, base first.
@@ -222,10 +222,10 @@ pub enum ColumnError {
         interface: usize,
         /// What was given `[m]`.
         slide: f64,
-        /// Slide at which the contact's length is zero `[m]`.
+        /// Magnitude of the slide at which the contact's length is zero `[m]`.
         limit: f64,
     },
-    /// Gravity must hold the column down.
+    /// Gravity that is not a finite number above zero.
     #[error("gravity = {value} must be a finite number above zero (m/s²)")]
     Gravity {
         /// What was given.
@@ -237,7 +237,8 @@ impl Column {
     /// A column of these blocks, base first, under `gravity [m/s²]`.
     ///
     /// # Errors
-    /// [`ColumnError`] if there is no block, or a number is not finite and above zero.
+    /// [`ColumnError`] if there is no block, a number is not finite and above zero, or a centroid is outside its block. The top block may end in
+    /// an edge.
     pub fn new(blocks: Vec<Block>, gravity: f64) -> Result<Column, ColumnError> {
         if blocks.is_empty() {
             return Err(ColumnError::Empty);
@@ -277,7 +278,7 @@ impl Column {
     }
 
     /// The column with its blocks displaced by these slides `u_i [m]`, base first, length N: block `i` stands `u_i` to the right of the
-    /// block below, the lowest block of the origin on the ground.
+    /// block below, the lowest block `u_1` to the right of the origin on the ground.
     ///
     /// ```
     /// let column = rocking::Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81)?.displaced(vec![0.0, 0.1])?;
@@ -298,7 +299,7 @@ impl Column {
         Ok(self)
     }
 
-    /// `count` equal rectangles that together are `half_width` and `half_height` (of the whole) in half-size `[m]`.
+    /// `count` equal rectangles of this density `[kg/m²]`. `half_width` and `half_height` are those of the whole column `[m]`.
     ///
     /// # Errors
     /// As [`Column::new`].
@@ -322,12 +323,12 @@ impl Column {
         self.blocks.len()
     }
 
-    /// Never: a column has at least one block.
+    /// Always `false`: a column has at least one block.
     pub fn is_empty(&self) -> bool {
         self.blocks.is_empty()
     }
 
-    /// Largest sum of half-height and half-width of a block `[m]`: what lengths are compared with.
+    /// Length scale of the column `[m]`: largest sum of half-height and half-width of a block.
     pub(crate) fn size(&self) -> f64 {
         self.blocks.iter().fold(0.0, |size, block| size.max(block.half_height + block.half_width()))
     }
@@ -347,7 +348,7 @@ impl Column {
         &self.slides
     }
 
-    /// Contact half-width `c_i [m]` of an interface, from zero: half of the length over which its faces overlap; aligned, `c_1 = b_1`,
+    /// Contact half-width `c_i [m]` of an interface, from zero: half of the length over which its faces overlap. For aligned blocks `c_1 = b_1`,
     /// `c_i = min(b_{i-1}, b_i)`.
     pub fn contact_half_width(&self, interface: usize) -> f64 {
         self.seats[interface].half_width
@@ -403,7 +404,7 @@ impl Column {
         self.moment_above(interface)[0] / self.mass_above(interface)
     }
 
-    /// The blocks above an interface (from zero) as one body; that above interface 0 is the whole column.
+    /// The blocks above an interface (from zero) as one body; the stack above interface 0 is the whole column.
     pub fn stack(&self, interface: usize) -> Stack {
         let (contact, offset) = (self.contact_half_width(interface), self.centroid_offset(interface));
         let near = f64::copysign(contact, offset);
@@ -426,7 +427,7 @@ impl Column {
     }
 
     /// Horizontal ground acceleration `[m/s²]` at which the interface (from zero) of the column at rest opens:
-    /// `c_i g / h_Pi` (docs/book/model.md, section 4, the paper's Eq. 1).
+    /// `c_i g / h_Pi` for aligned blocks (docs/book/model.md, section 4, the paper's Eq. 1).
     pub fn uplift_acceleration(&self, interface: usize) -> f64 {
         self.stack(interface).uplift_acceleration()
     }
@@ -449,7 +450,7 @@ impl Column {
 
 /// The seats of the blocks with these slides.
 fn seats(blocks: &[Block], slides: &[f64]) -> Result<Vec<Seat>, ColumnError> {
-    // Ends of each contact on the face below, and the same from the middle of the base above.
+    // Half-length of each contact, and its centre from the middle of the face below.
     let mut centres = Vec::with_capacity(blocks.len());
     for (index, (block, &slide)) in blocks.iter().zip(slides).enumerate() {
         let own = block.bottom_half_width;
@@ -488,8 +489,8 @@ pub struct Stack {
     pub mass: f64,
     /// From the interface to the top `[m]`.
     pub height: f64,
-    /// Lever of the weight: from the centre of gravity to the nearer end of the contact below, `c_i` where the blocks are aligned; below
-    /// zero where the stack does not stand by itself `[m]`.
+    /// Lever of the weight `[m]`: horizontal distance of the centre of gravity from the nearer end of the contact below. It is `c_i` if the
+    /// blocks are aligned, and negative if the stack does not stand by itself.
     pub half_width: f64,
     /// Half-width `c_i` of the contact below `[m]`.
     pub contact_half_width: f64,
@@ -502,7 +503,7 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// `α = atan(c / h_P)` `[rad]`
+    /// `α = atan(c / h_P)` `[rad]`, with `c` the lever of the weight.
     pub fn slenderness(&self) -> f64 {
         libm::atan2(self.half_width, self.centroid_height)
     }
@@ -517,14 +518,14 @@ impl Stack {
         (self.mass * self.gravity * self.radius() / self.inertia).sqrt()
     }
 
-    /// Horizontal ground acceleration at which it opens from rest, `c g / h_P` `[m/s²]` (docs/book/model.md, section 4).
+    /// Horizontal ground acceleration at which the stack tips from rest, `c g / h_P` `[m/s²]`, with `c` the lever (docs/book/model.md, section 4).
     pub fn uplift_acceleration(&self) -> f64 {
         self.half_width * self.gravity / self.centroid_height
     }
 
-    /// Friction coefficient from which on it rocks from rest without sliding under this horizontal acceleration of the ground `[m/s²]`:
-    /// `|T|/N` of a body that pivots about its corner, where the acceleration opens it; for one homogeneous rectangle with `t = b/h`,
-    /// `A = |ẍ_g|/g` it is `(A (1 + 4t²) + 3t) / (4 + t² + 3At)`.
+    /// Least friction coefficient with which the stack rocks from rest without sliding, under this horizontal acceleration of the ground
+    /// `[m/s²]`: `|T|/N` of the body as it begins to pivot about its corner. The acceleration must be large enough to tip the stack. For one
+    /// homogeneous rectangle with `t = b/h`, `A = |ẍ_g|/g` the coefficient is `(A (1 + 4t²) + 3t) / (4 + t² + 3At)`.
     ///
     /// ```
     /// let column = rocking::Column::equal_blocks(1, 0.25, 1.0, 1000.0, 9.81)?;
@@ -538,8 +539,8 @@ impl Stack {
         (push - h * turn) / (1.0 + c * turn)
     }
 
-    /// Housner's ratio `ω⁺/ω⁻` of an impact, `1 - 2 m c² / I_O`; for one homogeneous rectangle `1 - 3/2 sin² α`. Of displaced blocks,
-    /// with the centre of gravity moved over the centre of the contact.
+    /// Housner's ratio `ω⁺/ω⁻` of an impact, `1 - 2 m c² / I_O`; for one homogeneous rectangle `1 - 3/2 sin² α`. For displaced blocks, the
+    /// centre of gravity is taken to be above the centre of the contact.
     pub fn housner_ratio(&self) -> f64 {
         let (lever, contact) = (self.half_width, self.contact_half_width);
         let inertia = self.inertia + self.mass * (contact * contact - lever * lever);

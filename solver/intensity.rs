@@ -1,7 +1,7 @@
 //! Intensity measures under the names that scenes, studies and tables have for them.
 //!
-//! A name is a measure of a record and a unit: SI, gravity, or what opens the base of the column. With `α` and `p` of the whole column as one body, as
-//! `amplitude_uplift` and `omega_p` of pulses:
+//! A name stands for a measure of a record and a unit: SI, gravity, or uplift, the value that opens the base of the column. As for the keys
+//! `amplitude_uplift` and `omega_p` of pulses, `α` and `p` are those of the whole column as one body:
 //!
 //! ```text
 //! pga_uplift = PGA / (g tan α)          pgv_uplift = p PGV / (g tan α)
@@ -23,22 +23,23 @@ pub struct Intensity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IntensityUnit {
-    /// As of the measure: m/s², m/s, m.
+    /// The measure's own SI unit.
     Si,
-    /// Gravity; of accelerations.
+    /// Gravity, for accelerations.
     Gravity,
-    /// What opens the base of the column: `g tan α` of accelerations, `g tan α / p` of velocities.
+    /// What opens the base of the column: `g tan α` for accelerations, `g tan α / p` for velocities.
     Uplift,
 }
 
-/// Names of all intensities; `sa` and `sa_g` are of a period and a damping ratio.
+/// Names of all intensities; `sa` and `sa_g` need a period and a damping ratio.
 pub const NAMES: [&str; 10] = ["pga", "pga_g", "pga_uplift", "pgv", "pgv_uplift", "pgd", "arias", "cav", "sa", "sa_g"];
 
 /// Damping ratio of spectra where none is given.
 pub const DEFAULT_DAMPING: f64 = 0.05;
 
 impl Intensity {
-    /// The intensity of this name; those of spectra have the period `[s]` and the damping ratio of `sa`.
+    /// The intensity of this name; spectral ones take the period `[s]` and the damping ratio from `sa`. `None` for an unknown name, or a spectral one
+    /// without `sa`.
     ///
     /// ```
     /// use rocking::intensity::Intensity;
@@ -82,7 +83,7 @@ impl Intensity {
         }
     }
 
-    /// Size of the unit in the measure of the record, for a column: m/s², m/s, m.
+    /// Value of one unit for a column, in the SI unit of the measure.
     pub fn unit_size(&self, column: &Column) -> f64 {
         let whole = column.stack(0);
         match (self.unit, self.measure) {
@@ -108,13 +109,13 @@ impl Intensity {
                 let unit = if unit == IntensityUnit::Gravity { "g" } else { "m/s²" };
                 format!("Sa({period} s, {} %) [{unit}]", (1e4 * damping).round() / 1e2)
             }
-            // Measures of later versions of the crate of ground motion.
+            // Measures that later versions of the ground motion crate may add.
             (measure, _) => measure.to_string(),
         }
     }
 }
 
-/// As the heading of a column of a table: `pgv`, `sa(0.5)`, `sa_g(0.5 0.02)` with period `[s]` and a damping ratio other than 0.05.
+/// The heading of a table column: `pgv`, `sa(0.5)` with the period `[s]`, `sa_g(0.5 0.02)` with a damping ratio other than 0.05 as well.
 impl std::fmt::Display for Intensity {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.measure {

@@ -6,7 +6,7 @@ use serde::de::Error as _;
 use serde::ser::{self, Serialize, Serializer};
 use serde::{Deserialize, Deserializer};
 
-/// A value, or the serializer of one, whose numbers that are not finite become words.
+/// Wrapper of a value, or of a serializer: numbers that are not finite become words.
 #[derive(Debug)]
 pub struct Explicit<T>(pub T);
 
@@ -150,12 +150,12 @@ impl<'de> Deserialize<'de> for Number {
 /// Reads a number. `null`, which earlier versions wrote for a number that is not finite, is infinite.
 ///
 /// # Errors
-/// The deserializer's own, and any other word than the three above.
+/// The deserializer's own, and any word but the three for numbers that are not finite.
 pub fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Number::deserialize(from).map(|number| number.0)
 }
 
-/// Reads a list of numbers, each as by [`number`].
+/// Reads a list of numbers, each as [`number`] does.
 ///
 /// # Errors
 /// As [`number`].

@@ -42,7 +42,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// Generated code names the library as its users do.
+// Generated code refers to the library as `rocking`, the name that users of the library have for it.
 extern crate self as rocking;
 
 #[cfg(doctest)]

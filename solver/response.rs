@@ -22,9 +22,9 @@ pub enum StopReason {
     AtRest,
     /// The run reached `t_end`.
     EndOfTime,
-    /// It cannot overturn any more, by energy, though it may still rock; only where nothing but the outcome is wanted.
+    /// The energy left cannot overturn the column, which may still rock; only where nothing but the outcome is wanted.
     Stands,
-    /// It overturns before `t_end`, though it has not yet; only where nothing but that is wanted.
+    /// The column is certain to overturn before `t_end`, but has not yet; only for [`crate::Wanted::Overturns`].
     Falls,
     /// A block has slid, or flown, off the one below; only with friction.
     Collapsed,
@@ -57,7 +57,7 @@ pub enum EventKind {
     Impact,
     /// The ground acceleration jumped and the pattern changed with it.
     Jump,
-    /// A sticking contact began to slide; only with friction, as all that follow.
+    /// A sticking contact began to slide; only with friction, like all kinds below.
     Slip,
     /// A sliding contact came to rest.
     Stick,
@@ -98,7 +98,7 @@ pub struct Event {
     /// Pattern after.
     #[serde(serialize_with = "signs", deserialize_with = "pattern")]
     pub after: Pattern,
-    /// Mode before; mirrored patterns have their twin's label.
+    /// Mode before; a pattern and its mirror image have the same label.
     pub mode_before: ModeName,
     /// Mode after.
     pub mode: ModeName,
@@ -110,10 +110,10 @@ pub struct Event {
     pub omega_before: PerBlock<f64>,
     /// Rates after `[rad/s]`, per block.
     pub omega_after: PerBlock<f64>,
-    /// Where the blocks are, base first; empty for a run in which nothing slides or flies.
+    /// Positions and velocities of the blocks, base first; empty for a run in which nothing slides or flies.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub blocks: Vec<BlockAtEvent>,
-    /// Kinetic energy lost over that before, 0 to 1; impacts only.
+    /// Lost share of the kinetic energy before, 0 to 1; impacts only.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "known_number")]
     pub energy_lost: Option<f64>,
     /// Impulses at the interfaces on the stack above, base first, restitution included; impacts only.
@@ -127,9 +127,9 @@ pub struct Event {
 pub struct BlockAtEvent {
     /// Centroid, from the middle of the base of the aligned column `[m]`.
     pub place: [f64; 2],
-    /// Its velocity before `[m/s]`.
+    /// Velocity of the centroid before `[m/s]`.
     pub velocity_before: [f64; 2],
-    /// Its velocity after `[m/s]`.
+    /// Velocity of the centroid after `[m/s]`.
     pub velocity_after: [f64; 2],
 }
 
@@ -188,11 +188,11 @@ pub struct Sample {
     pub ground: [f64; 2],
     /// Interface states.
     pub pattern: Pattern,
-    /// Slides `u_i [m]` per interface, of a free one along the lower face; empty for a run without friction.
+    /// Slides `u_i [m]` per interface, counted along the lower face where the interface is free; empty for a run without friction.
     pub slide: Vec<f64>,
-    /// Gaps of free interfaces `[m]`, zero of others; empty for a run without friction.
+    /// Gap of each interface `[m]`, zero unless the interface is free; empty for a run without friction.
     pub gap: Vec<f64>,
-    /// Where the blocks are and what presses them together; empty for a run in which nothing slides or flies: angles and pattern tell it there.
+    /// Positions, velocities and contact forces of the blocks; empty for a run in which nothing slides or flies: angles and pattern define them.
     pub blocks: Vec<BlockState>,
 }
 
@@ -202,7 +202,7 @@ pub struct Sample {
 pub struct BlockState {
     /// Centroid in the frame of the moving ground, from the middle of the base of the aligned column `[m]`.
     pub place: [f64; 2],
-    /// Its velocity in that frame `[m/s]`.
+    /// Velocity of the centroid in that frame `[m/s]`.
     pub velocity: [f64; 2],
     /// Force of the contact below on the stack above, in the axes of the face that carries the contact; its moment is about the centre of a
     /// closed contact, and about the point of a corner.
@@ -223,11 +223,11 @@ impl Sample {
 pub struct Work {
     /// Steps taken.
     pub steps: usize,
-    /// Steps rejected by their error.
+    /// Steps rejected because of their error.
     pub rejected: usize,
     /// Steps taken once more to end at an event.
     pub repeated: usize,
-    /// Right-hand sides.
+    /// Evaluations of the right-hand side.
     pub rhs_calls: usize,
     /// Evaluations of contact forces within smooth phases.
     pub force_calls: usize,
@@ -246,7 +246,7 @@ pub struct Work {
     /// Stretches of ground motion passed at rest without a step.
     #[serde(alias = "waits")]
     pub rest_stretches: usize,
-    /// Whether the run ended before its time because nothing could start it again, or its outcome was certain.
+    /// Whether the run ended before `t_end` because nothing could start the column again, or because the outcome was certain.
     pub ended_early: bool,
 }
 
@@ -265,7 +265,7 @@ impl Work {
     }
 }
 
-/// A contact problem without admissible pattern, in a run without sliding: a block would fly or slide, and that run cannot follow.
+/// A contact problem without admissible pattern, in a run without sliding: a block would fly or slide, which such a run cannot follow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Separation {
@@ -275,16 +275,16 @@ pub struct Separation {
     pub during: EventKind,
 }
 
-/// What a run with friction reports besides. Lists are per interface, base first.
+/// What a run with friction reports in addition. Lists have one entry per interface, base first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 #[non_exhaustive]
 pub struct SlidingReport {
-    /// Largest size of the slide from the aligned column `[m]`, flights left out.
+    /// Largest magnitude of the slide, counted from the aligned column `[m]`, flights left out.
     pub peak_slide: Vec<f64>,
-    /// Slide at the end `[m]`; of a free interface along the lower face.
+    /// Slide at the end `[m]`, counted along the lower face where the interface is free.
     pub residual_slide: Vec<f64>,
-    /// Length of the way slid `[m]`.
+    /// Length of the path slid `[m]`, back and forth.
     pub way_slid: Vec<f64>,
     /// Time in each kind of contact.
     pub times: Vec<ContactTimes>,
@@ -292,11 +292,11 @@ pub struct SlidingReport {
     pub flights: Vec<usize>,
     /// Largest gap of a flight `[m]`.
     pub highest_flight: f64,
-    /// Work of friction at sliding contacts `[J]`, below zero.
+    /// Work of friction at sliding contacts `[J]`, zero or negative.
     pub friction_work: f64,
     /// Energy lost at impacts `[J]`.
     pub impact_losses: f64,
-    /// Work of the ground's inertial forces on the column `[J]`; where everything sticks, what the change of energy and the losses at impacts leave.
+    /// Work of the ground's inertial forces on the column `[J]`. While everything sticks, it is the change of energy plus the losses at impacts.
     pub ground_work: f64,
     /// Energy at the end less that at the start, relative to the ground `[J]`.
     pub energy_change: f64,
@@ -321,16 +321,15 @@ pub struct ContactTimes {
 
 /// The response of a column to a scene. Lists have N entries, per block or interface, base first.
 ///
-/// Serialised it has neither samples nor events: these are files of their own in the folder of a run ([`crate::run_folder`]).
+/// A serialised response has neither samples nor events: these are separate files in the folder of a run ([`crate::run_folder`]).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Response {
     /// Why the run ended.
     pub status: StopReason,
-    /// When: at overturning, at coming to rest for good, when what is wanted is certain, or `t_end` `[s]`.
+    /// When the run ended `[s]`: at overturning or collapse, at coming to rest for good, when what is wanted is certain, or at `t_end`.
     pub t_final: f64,
-    /// Whether the ground moves on after `t_end`, up to which the column neither overturned nor collapsed: the outcome holds up to then, and
-    /// no longer.
+    /// Whether the column stands at the end of the run and the ground still moves after `t_end`: the outcome then holds up to `t_end` only.
     #[serde(default)]
     pub truncated: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
@@ -343,12 +342,12 @@ pub struct Response {
     pub events: Vec<Event>,
     /// Number of impacts.
     pub impacts: usize,
-    /// Largest size of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
+    /// Largest magnitude of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
     pub peak_theta: Vec<f64>,
-    /// Time spent in each mode `[s]`, mirrored patterns with their twins; `rest` is a mode here, and a column that has come to
-    /// rest for good is in it until `t_end`. Empty where nothing but the outcome is wanted.
+    /// Time spent in each mode `[s]`; a pattern and its mirror image are one mode. `rest` counts as a mode, in which a column that has come to
+    /// rest for good stays until `t_end`. Empty where nothing but the outcome is wanted.
     pub time_in_mode: BTreeMap<String, f64>,
-    /// Largest `|T| / N` per interface, a fall included, dimensionless; infinite where a contact parts with a force along it.
+    /// Largest `|T| / N` per interface, a fall included, dimensionless; infinite if a tangential force acts without compression.
     /// Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
     pub friction_demand: Vec<f64>,
@@ -359,7 +358,7 @@ pub struct Response {
     /// Smallest normal force per interface, a fall included `[N]`. Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
     pub min_normal_force: Vec<f64>,
-    /// Largest sizes of gaps, base first; empty unless a study records them in place of rows `[rad]`.
+    /// Largest magnitude of the relative angle at each interface `[rad]`, base first; empty unless a study records these in place of rows.
     #[serde(skip)]
     pub(crate) largest_gaps: Vec<f64>,
     /// Contact problems without admissible pattern.
@@ -368,10 +367,10 @@ pub struct Response {
     /// blocks slide and fly.
     #[serde(default)]
     pub validity: Option<Validity>,
-    /// What it cost.
+    /// What the run cost.
     #[serde(default)]
     pub work: Work,
-    /// Modes without generated equations in this build ran on the generic ones.
+    /// Whether some mode ran on the generic equations because this build has no generated ones for it.
     pub used_generic: bool,
     /// What slid and flew; `None` for a scene without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -379,13 +378,13 @@ pub struct Response {
 }
 
 impl Response {
-    /// Time of overturning `[s]`.
+    /// Time of overturning `[s]`; `None` unless the run ended with it.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
     }
 
-    /// Largest `|θ|` of each block over the slenderness of the stack that begins with it, base first, dimensionless: above one the block has been past
-    /// its balance. Empty where nothing but the outcome is wanted.
+    /// Largest `|θ|` of each block over the slenderness of the stack from that block up, base first, dimensionless. Above one, the block has been
+    /// past its balance. Empty where nothing but the outcome is wanted.
     pub fn peaks(&self, column: &Column) -> Vec<f64> {
         self.peak_theta.iter().enumerate().map(|(block, peak)| peak / column.stack(block).slenderness()).collect()
     }
@@ -408,8 +407,8 @@ impl Response {
         modes
     }
 
-    /// What a user must know before believing the run: separation and tension, and of a run without sliding where it needs more than a friction
-    /// coefficient; up to the point of no return ([`crate::validity`]).
+    /// What a user must know before believing the run, up to the point of no return ([`crate::validity`]): separations, tension and, if a `friction`
+    /// coefficient is given, contacts that need more. For a scene with friction, the warnings about its sliding instead.
     pub fn warnings(&self, friction: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
         if let Some(sliding) = &self.sliding {
@@ -449,7 +448,7 @@ impl Response {
         self.with_build(warnings)
     }
 
-    /// Largest friction demand and smallest normal force per interface `[N]` that count: up to the point of no return, where that is known.
+    /// Largest friction demand and smallest normal force `[N]` per interface, up to the point of no return if that is known, else of the whole run.
     pub fn counted_forces(&self) -> (Vec<f64>, Vec<f64>) {
         match &self.validity {
             Some(Validity { contacts, .. }) => {
@@ -473,7 +472,7 @@ impl Response {
 }
 
 impl SlidingReport {
-    /// Whether the report is of so many interfaces, with numbers that a run may have written.
+    /// Whether the report has one entry per interface in each list, and finite slides, energies and instants.
     pub(crate) fn is_of(&self, blocks: usize) -> bool {
         let lengths = [&self.peak_slide, &self.residual_slide, &self.way_slid];
         let sums = [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.energy_change];
@@ -529,7 +528,7 @@ impl SlidingReport {
     }
 }
 
-/// The interfaces whose values are as told, in words, and the worst value among them.
+/// The interfaces whose values satisfy `is_told`, in words, and the worst value among these; `None` if no interface does.
 fn worst(values: &[f64], is_told: impl Fn(&f64) -> bool, is_worse: impl Fn(f64, f64) -> bool) -> Option<(String, f64)> {
     let told: Vec<usize> = (0..values.len()).filter(|&index| is_told(&values[index])).collect();
     let first = *told.first()?;
@@ -549,7 +548,7 @@ fn worst(values: &[f64], is_told: impl Fn(&f64) -> bool, is_worse: impl Fn(f64, 
     Some((words, values[at]))
 }
 
-/// A number other than zero for a sentence: four digits or those before the point, whichever are more.
+/// A number other than zero for a sentence: with four digits, or with all digits before the point if these are more.
 fn four_digits(value: f64) -> String {
     let decimals = (3.0 - value.abs().log10().floor()).clamp(0.0, 17.0);
     format!("{value:.*}", decimals as usize)

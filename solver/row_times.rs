@@ -10,7 +10,7 @@ pub enum RowTimes<'a> {
         /// The end.
         end: f64,
     },
-    /// These; none of an empty list.
+    /// The listed times; an empty list means no rows.
     At(&'a [f64]),
 }
 
@@ -18,7 +18,7 @@ impl RowTimes<'_> {
     /// No rows.
     pub const NONE: RowTimes<'static> = RowTimes::At(&[]);
 
-    /// The time of a row `[s]`; `None` behind the last.
+    /// The time of a row `[s]`; `None` after the last row.
     ///
     /// ```
     /// use rocking::RowTimes;
@@ -34,7 +34,7 @@ impl RowTimes<'_> {
         }
     }
 
-    /// Number of rows of a run that lasts to its end, dimensionless; beyond the whole numbers where an interval is that short.
+    /// Number of rows of a run that lasts to its end, dimensionless. An `f64`, since a short interval may give more rows than integers hold.
     pub fn count(self) -> f64 {
         match self {
             RowTimes::Every { dt, end } => (last(end) / dt).floor() + 1.0,
@@ -48,7 +48,7 @@ impl RowTimes<'_> {
     }
 }
 
-/// The latest time of a row of a run that ends then `[s]`: the last row is not lost to the rounding of a product.
+/// The latest time of a row of a run that ends at `end` `[s]`: a little later than `end`, so that rounding of `row · dt` does not lose the last row.
 pub(crate) fn last(end: f64) -> f64 {
     end * (1.0 + 4.0 * f64::EPSILON)
 }

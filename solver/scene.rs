@@ -32,7 +32,7 @@ impl Restitution {
         self.per_interface(column).to_vec()
     }
 
-    /// The same.
+    /// [`Restitution::factors`] as a [`PerBlock`].
     pub(crate) fn per_interface(&self, column: &Column) -> PerBlock<f64> {
         match self {
             Restitution::Plastic => PerBlock::filled(1.0, column.len()),
@@ -42,7 +42,7 @@ impl Restitution {
     }
 }
 
-/// State at `t = 0`: `Initial::default()` with fields of its own.
+/// State at `t = 0`. Start from `Initial::default()` and set fields.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 #[non_exhaustive]
@@ -51,33 +51,33 @@ pub struct Initial {
     pub theta: Vec<f64>,
     /// Rates `[rad/s]`, base first, length N; empty for zero.
     pub omega: Vec<f64>,
-    /// With friction: centroids in the frame of the moving ground, base first, length N `[m]`; empty for blocks that stand as `theta` and the
-    /// column's slides say.
+    /// Horizontal positions of the centroids in the frame of the moving ground, base first, length N `[m]`; only with friction. Empty for blocks
+    /// that stand on each other, as `theta` and the column's slides define.
     #[serde(default)]
     pub x: Vec<f64>,
-    /// Heights of the centroids above the ground `[m]`; given where `x` is.
+    /// Heights of the centroids above the ground `[m]`; given if and only if `x` is.
     #[serde(default)]
     pub y: Vec<f64>,
-    /// Velocities of the centroids `[m/s]`; given where `x` is.
+    /// Horizontal velocities of the centroids `[m/s]`; given if and only if `x` is.
     #[serde(default)]
     pub vx: Vec<f64>,
-    /// Upwards `[m/s]`; given where `x` is.
+    /// Upward velocities of the centroids `[m/s]`; given if and only if `x` is.
     #[serde(default)]
     pub vy: Vec<f64>,
 }
 
-/// Whose right-hand sides are used.
+/// Source of the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DynamicsSource {
-    /// Generated equations, generic ones for what the build has not got.
+    /// Generated equations, generic ones where the build has none.
     #[default]
     Generated,
     /// Hand-written equations for any N.
     Generic,
-    /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones for
-    /// what they have not got. Serialised they are a name, which cannot be read back.
+    /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones where the supplied
+    /// ones have none. Supplied equations are serialised as a name, which cannot be read back.
     #[serde(untagged)]
     Supplied(Equations),
 }
@@ -102,15 +102,15 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns: no rows, events, times in modes, peaks or forces, and the run ends as soon as it is certain that it
-    /// does not ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
+    /// Whether and how the column overturns. There are no rows, events, times in modes, peaks or forces. The run ends as soon as it is certain
+    /// that the column does not overturn ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
-    /// Whether the column overturns, and nothing else: as [`Wanted::Outcome`], and the run of one block, on a ground that will not move upwards
-    /// or downwards, ends as soon as it is certain to overturn as well ([`crate::StopReason::Falls`]); when it will is not known then.
+    /// Whether the column overturns, and nothing else. As [`Wanted::Outcome`]; in addition, the run of one block on a ground without vertical motion
+    /// ends as soon as it is certain that the block overturns ([`crate::StopReason::Falls`]). The time of overturning is then unknown.
     Overturns,
 }
 
-/// How a scene is solved: `SolveOptions::default()` with fields of its own.
+/// How a scene is solved. Start from `SolveOptions::default()` and set fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 #[non_exhaustive]
@@ -131,7 +131,7 @@ pub struct SolveOptions {
     pub overturn_angle: f64,
     /// Generated or generic equations.
     pub dynamics: DynamicsSource,
-    /// Whether friction demand and smallest normal forces are recorded: the default. Without, contact forces are evaluated
+    /// Whether friction demand and smallest normal forces are recorded: the default. If not, contact forces are evaluated
     /// only where a closed interface may open.
     pub record_forces: bool,
     /// What the run is to find.
@@ -167,14 +167,14 @@ const LOOSEST: f64 = 1e-2;
 /// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
 const SHORTEST_RUN: f64 = 1e-9;
 
-/// Free swing after the ground motion where a scene gives no end, in `1/p` of the column as one body: a block within 2e-9 of its balance has
-/// fallen or come back by then.
+/// Free swing after the ground motion where a scene gives no end, in `1/p` of the column as one body: by then even a block within 2e-9 of its
+/// balance has fallen or come back.
 const FREE_SWING_OF_P: f64 = 20.0;
 
 /// Shortest free swing after the ground motion where a scene gives no end `[s]`.
 const LEAST_FREE_SWING: f64 = 10.0;
 
-/// Largest parameters of ground motion, rates and amplitudes: beyond, results leave the range of doubles or take for ever.
+/// Largest magnitude of a parameter of ground motion or of an initial value: beyond, results leave the range of doubles or take for ever.
 pub(crate) const LARGEST: f64 = 1e6;
 
 /// Half-widths and half-heights of blocks `[m]`. A block of 1e-7 m rocks at thousands of radians a second, and its rotation of 1e-9 rad, below
@@ -192,14 +192,14 @@ const MASSES: RangeInclusive<f64> = 1e-30..=1e30;
 /// Larger, and the matrix is singular to rounding.
 const MASS_RATIO: f64 = 1e10;
 
-/// Inertia of a block as a share of `m (b² + h²)`, dimensionless; one third for a rectangle, one with all mass in the corners. Beyond, the mass
-/// matrix loses as many digits.
+/// Inertia of a block as a share of `m (b² + h²)`, dimensionless; one third for a rectangle, one with all mass in the corners. A share outside
+/// this range costs the mass matrix more than six digits.
 const INERTIAS: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// Gravity `[m/s²]`: below, a column takes days to fall; beyond, it rocks thousands of times a second.
 const GRAVITIES: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Length of a run in `1/p` of the stack that rocks fastest, dimensionless: a run has some steps in each, and some microseconds a step.
+/// Largest length of a run in `1/p` of the stack that rocks fastest, dimensionless: a run takes some steps per `1/p`, of some microseconds each.
 const MOST_RADIANS: f64 = 1e7;
 
 /// How a block looks and what it is called, for figures and reports.
@@ -213,9 +213,9 @@ pub struct Look {
     pub shape: Shape,
 }
 
-/// What is simulated: [`Scene::new`] with fields of its own.
+/// What is simulated. Start from [`Scene::new`] and set fields.
 ///
-/// Serialised it has all of its numbers, samples of records included, and reads back as an equal scene. Column and records are checked when
+/// A serialised scene has all of its numbers, samples of records included, and reads back as an equal scene. Column and records are checked when
 /// they are read, all else by [`Scene::check`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -226,13 +226,13 @@ pub struct Scene {
     pub title: String,
     /// The column.
     pub column: Column,
-    /// Looks of the blocks, base first, length N; empty for prisms without names. Nothing is computed from it.
+    /// Looks of the blocks, base first, length N; empty for prisms without names. Looks do not affect the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub looks: Vec<Look>,
-    /// Friction between the blocks: they slide and fly. `None` for the model without, in which contacts hold whatever the force.
+    /// Friction between the blocks, which then slide and fly. `None` for the model without sliding, in which contacts hold whatever the force.
     #[serde(default)]
     pub friction: Option<Friction>,
-    /// Beyond the plastic impact.
+    /// Restitution, beyond the plastic law of impacts.
     #[serde(default)]
     pub restitution: Restitution,
     /// Ground motion.
@@ -244,10 +244,10 @@ pub struct Scene {
     /// Solver options.
     #[serde(default)]
     pub options: SolveOptions,
-    /// Interval of the samples returned `[s]`; `None` for none.
+    /// Interval of the samples returned `[s]`; `None` for the samples at [`Scene::output_times`].
     #[serde(default)]
     pub output_dt: Option<f64>,
-    /// Times of the samples returned instead of an interval, ascending, from 0 to the end of the run `[s]`; empty for those of [`Scene::output_dt`].
+    /// Times of the samples returned if no interval is given, ascending, from 0 to the end of the run `[s]`; empty with [`Scene::output_dt`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub output_times: Vec<f64>,
     /// Columns that are added to `response.csv`.
@@ -255,7 +255,7 @@ pub struct Scene {
     pub output_columns: Vec<OutputColumn>,
 }
 
-/// Columns of `response.csv` that a scene asks for; angles and rates hold all of them.
+/// Columns of `response.csv` that a scene asks for; all can be computed from the other columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -293,7 +293,7 @@ pub struct SceneError {
     pub remedy: String,
 }
 
-/// Why a scene is refused by [`Scene::check`]: all its faults, at least one, at most one a key; a line each.
+/// Why a scene is refused by [`Scene::check`]: all its faults, at least one, at most one per key. Printed with one line per fault.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}", lines(.0))]
 pub struct SceneErrors(Vec<SceneError>);
@@ -305,7 +305,7 @@ impl SceneErrors {
     }
 }
 
-/// A line each.
+/// The faults as text, one line per fault.
 pub(crate) fn lines<T: ToString>(faults: &[T]) -> String {
     faults.iter().map(T::to_string).collect::<Vec<_>>().join("\n")
 }
@@ -315,7 +315,7 @@ pub(crate) fn lines<T: ToString>(faults: &[T]) -> String {
 struct Faults(Vec<SceneError>);
 
 impl Faults {
-    /// Notes a fault; a later one of the same key follows from the first.
+    /// Notes a fault, unless its key has one: a later fault of the same key follows from the first.
     fn note(&mut self, key: &str, problem: String, remedy: &str) {
         if self.0.iter().all(|fault| fault.key != key) {
             self.0.push(SceneError { key: key.into(), problem, remedy: remedy.into() });
@@ -356,7 +356,7 @@ impl Scene {
     }
 
     /// End of the run where a scene file gives none `[s]`: the ground has come to rest, and a free swing of `20/p` of the column as one body, or
-    /// of 10 s if that is longer, has passed; rounded up to a whole second. None for a motion without end.
+    /// of 10 s if that is longer, has passed; rounded up to a whole second. `None` for a motion without end.
     ///
     /// ```
     /// use rocking::{Column, Motion, Scene};
@@ -378,7 +378,7 @@ impl Scene {
         }
     }
 
-    /// Gives samples every `dt` seconds, whatever was asked for before; none for `None`.
+    /// Replaces the times of samples by multiples of `dt` `[s]`; `None` for no samples.
     pub(crate) fn set_rows(&mut self, dt: Option<f64>) {
         (self.output_dt, self.output_times) = (dt, Vec::new());
     }
@@ -582,9 +582,9 @@ impl Scene {
     }
 }
 
-/// Rows of a response, times blocks: a row takes 16 bytes of memory a block, and as much as ten blocks beside, twice while the list grows.
-/// Together 160 MB.
+/// Largest number of rows of a response times `N +` [`BLOCKS_PER_ROW`]. A row takes 16 bytes of memory per block and as much as ten blocks
+/// besides, twice while the list grows: 160 MB in all.
 const MOST_ROWS_OF_BLOCKS: f64 = 5e6;
 
-/// What a row takes beside its blocks, in blocks.
+/// Memory of a row besides that of its blocks, in units of the memory of one block.
 const BLOCKS_PER_ROW: f64 = 10.0;

@@ -1,12 +1,13 @@
 //! What a run without sliding asks of its contacts: friction, compression, no separation.
 //!
-//! Contacts count up to the point of no return: the time from which on some block is past its balance, `|θ_i| > α_i`, and none comes back from there
-//! until the column has overturned. A block that falls slides and parts as it likes; the outcome is known by then. In a run that does not overturn all of it counts.
+//! Contacts count up to the point of no return: from then on some block is past its balance, `|θ_i| > α_i`, and no block comes back over its balance
+//! before the column has overturned. What a falling block does at its contacts does not matter: the outcome is known by then. If the column does not
+//! overturn, the whole run counts.
 
 use crate::json::number;
 use serde::{Deserialize, Serialize};
 
-/// Coefficients of friction of [`ContactNeeds::above`]: from polished stone to what bare stone on stone hardly reaches, dimensionless.
+/// Coefficients of friction for [`ContactNeeds::above`], dimensionless: from polished stone to a value that bare stone on stone hardly reaches.
 pub const COEFFICIENTS: [f64; 4] = [0.3, 0.5, 0.7, 1.0];
 
 /// What the contacts of a run need, up to the point of no return.
@@ -27,7 +28,7 @@ pub struct Validity {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ContactNeeds {
-    /// Largest `|T| / N`, dimensionless; infinite where the contact parts with a force along it.
+    /// Largest `|T| / N`, dimensionless; infinite if a tangential force acts without compression.
     pub friction_demand: Extreme,
     /// Smallest normal force `[N]`.
     pub min_normal_force: Extreme,
@@ -41,10 +42,10 @@ pub struct ContactNeeds {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Extreme {
-    /// In the unit of the quantity.
+    /// The value, in the unit of the quantity.
     #[serde(deserialize_with = "number")]
     pub value: f64,
-    /// When `[s]`.
+    /// The time at which it occurs `[s]`.
     pub t: f64,
     /// Angle of the block above the contact at that time `[rad]`.
     pub theta: f64,
@@ -73,8 +74,8 @@ pub struct Exceedance {
 }
 
 impl Validity {
-    /// Whether the model without sliding holds for joints that are rough enough: no contact parts, none pulls, and some coefficient of friction is
-    /// enough at each.
+    /// Whether the model without sliding holds if the joints are rough enough: there is no separation, no contact pulls, and a finite coefficient of
+    /// friction is enough at each.
     pub fn holds(&self) -> bool {
         let is_pressed = |contact: &ContactNeeds| contact.min_normal_force.value >= 0.0;
         self.separations == 0 && self.contacts.iter().all(is_pressed) && self.largest_demand().is_finite()

@@ -20,7 +20,7 @@ pub struct Arguments {
     pub command: Command,
 }
 
-/// For whoever has never used it.
+/// First steps for a new user, printed after the help.
 const FIRST_STEPS: &str = "To begin: `rocking init` writes scene.toml; put in your column and ground motion, then\n\
     `rocking check scene.toml` and `rocking run scene.toml --report`.";
 
@@ -304,7 +304,7 @@ fn figure(text: &str) -> Result<PathBuf, String> {
     if Picture::of(&file).is_some() { Ok(file) } else { Err(format!("give a name that ends in {ENDINGS}")) }
 }
 
-/// What the names of figures end in.
+/// Accepted endings of the names of figures, in words.
 const ENDINGS: &str =
     if cfg!(feature = "pdf") { ".svg, .png or .pdf" } else { ".svg or .png; PDF needs a build with `--features pdf`" };
 
@@ -453,24 +453,24 @@ impl Shard {
         }
     }
 
-    /// Its points: parts differ by one point at most.
+    /// Points of this part, of `points` in all. The sizes of parts differ by at most one point.
     pub fn points(self, points: usize) -> Range<usize> {
         let edge = |number: usize| (points as u128 * number as u128 / self.count as u128) as usize;
         edge(self.number - 1)..edge(self.number)
     }
 }
 
-/// As in the name of a file.
+/// The form in file names: `2-of-8`.
 impl std::fmt::Display for Shard {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}-of-{}", self.number, self.count)
     }
 }
 
-/// Threads beyond which a number is taken for a mistake: each has a stack.
+/// Largest accepted number of threads. Each thread has a stack; a larger number is taken for a mistake.
 const MOST_THREADS: i64 = 1024;
 
-/// Columns whose modes are listed or derived one by one: 3^12 lines are more than anybody reads.
+/// Largest number of blocks for which modes are listed or derived: the (3^12 - 1)/2 modes of twelve blocks are more than anybody reads.
 const LARGEST_LISTED: i64 = 12;
 
 /// Right-hand sides of the equations of motion.

@@ -35,50 +35,50 @@ pub enum Failure {
     /// A file or folder cannot be read.
     #[error("{}: {}; check the path and its permissions", .0.display(), .1)]
     Input(PathBuf, String),
-    /// A record file must be corrected, or more must be said of it.
+    /// A record file must be corrected, or options such as `--units` must be given for it.
     #[error("{}: {}", .0.display(), with_dashes(&.1.to_string()))]
     Record(PathBuf, RecordError),
     /// No file of a folder is a record: the folder, its number of files, and what is wrong with the first.
     #[error("{}: none of its {} file(s) reads as a record{}; give a folder of record files", .0.display(), .1, .2)]
     NoRecords(PathBuf, usize, String),
-    /// A window of time, as it was given, is none.
+    /// The text of `--trim` is not a window of time: the text, and the reason.
     #[error("--trim {0}: {1}; write two times in s from the first sample as `--trim 2..8`, `2..` or `..8`")]
     Trim(String, String),
     /// An option needs one record and not a folder.
     #[error("--{} is for a single record and {} is a folder; give one of its files", .1, .0.display())]
     FolderOption(PathBuf, &'static str),
-    /// No row of a sweep has a result: the table, its rows, and the first reason.
+    /// No row of a sweep or study has a result: the table, its number of rows, and the first error.
     #[error("{}: none of the {} point(s) has a result; the first says: {}", .0.display(), .1, .2)]
     NoResult(PathBuf, usize, String),
-    /// A table is not the next part of a sweep.
+    /// A table cannot be joined with the other shards: the table, and the reason.
     #[error("{}: {}; give the tables of all shards of one sweep", .0.display(), .1)]
     Shards(PathBuf, String),
-    /// The growing table of a sweep is not as it was written.
+    /// The unfinished table of a sweep cannot be read back: its file, and the reason.
     #[error("{}: {}; remove this file and run the sweep again", .0.display(), .1)]
     Part(PathBuf, String),
-    /// The last points of a sweep are in no table: the sweep, its points, and the rows of the tables.
+    /// The last points of a sweep are in no table: the sweep, its number of points, and the number of rows in the tables.
     #[error("{}: it has {} point(s) and the tables end after {} of them; give the tables of the other shards as well", .0.display(), .1, .2)]
     ShardsMissing(PathBuf, usize, usize),
-    /// A table of Parquet, and a build without it.
+    /// A table is named as Parquet, which this build does not have.
     #[cfg_attr(feature = "parquet", allow(dead_code, reason = "this build has it"))]
     #[error("{}: this build of rocking has no Parquet; build it with `cargo build --release -p rocking-cli --features parquet`, or \
          name a table .csv", .0.display())]
     NoParquet(PathBuf),
-    /// A table, or the sweep of one, makes no overturning spectrum.
+    /// The figures of a table or a sweep cannot be drawn: its file, and the reason.
     #[error("{}: {}", .0.display(), .1)]
     Spectrum(PathBuf, String),
-    /// A table is not one of a study.
+    /// A table of runs cannot be evaluated: the table, and the reason.
     #[error("{}: {}", .0.display(), .1)]
     Study(PathBuf, String),
-    /// A record cannot be measured by a column that is not given.
+    /// `--scale-to` names a measure that needs a column, and no scene is given.
     #[error("--scale-to {0}: that measure is of a column; name its scene with --scene")]
     NoColumn(String),
-    /// A part of a sweep is to be drawn.
+    /// `--plot` is given for a shard, which is a part of a sweep.
     #[error(
         "--plot: a shard is a part of a sweep; `rocking merge` the tables of all shards, then `rocking plot` the merged one"
     )]
     PlotOfShard,
-    /// A figure of so many modes could not be read.
+    /// The modes of a column are too many for a readable figure.
     #[error(
         "--svg: a column of {blocks} blocks has {modes} modes, too many for a figure; draw up to {largest} blocks, or list the \
          modes without --svg"
@@ -90,7 +90,7 @@ pub enum Failure {
     /// States of interfaces that cannot be read.
     #[error("--mode {0}: {1}")]
     States(String, JointsError),
-    /// States of another number of interfaces.
+    /// The number of states differs from the number of interfaces.
     #[error("--mode {given}: {states} state(s) for {blocks} block(s); give one per interface, base first")]
     StateCount { given: String, states: usize, blocks: usize },
     /// States in which nothing moves.
@@ -106,18 +106,18 @@ pub enum Failure {
     Print(String),
 }
 
-/// The library's remedy for a folder that cannot be written.
+/// Remedy in the library's message on a folder that cannot be written; the command line adds its option to this text.
 const CHOOSE: &str = "choose a folder that can be written to";
 
 /// A refused scene with its text.
 #[derive(Debug)]
 pub struct SceneFailure {
     error: SceneFileError,
-    /// To show the place in.
+    /// Text of the scene, in which the fault is shown; `None` if it cannot be shown.
     source_text: Option<NamedSource<String>>,
 }
 
-/// The library names its options; the command line has them with dashes.
+/// Replaces the names of library options (`skip_rows`, in backquotes) by those of the command line (`--skip-rows`).
 pub fn with_dashes(text: &str) -> String {
     let options = ["units", "dt", "lenient", "channel", "skip_rows", "column"];
     options.into_iter().fold(text.to_string(), |text, option| {
@@ -125,7 +125,7 @@ pub fn with_dashes(text: &str) -> String {
     })
 }
 
-/// Makes a failure of a path and of what is wrong with it.
+/// A function that turns an error into a failure of `path`.
 pub fn at<E: ToString>(failure: fn(PathBuf, String) -> Failure, path: &Path) -> impl Fn(E) -> Failure {
     move |problem| failure(path.into(), problem.to_string())
 }
@@ -156,7 +156,7 @@ fn places(error: &SceneFileError) -> &[SceneFileError] {
     }
 }
 
-/// The text with a question mark for each byte of its control characters: places in it stay where they are.
+/// The text with a question mark for each byte of an unsafe character other than a line break, so that byte offsets stay valid.
 fn same_length(text: &str) -> String {
     let shown = |sign: char| match sign {
         '\n' | '\r' | '\t' => sign.into(),
@@ -192,7 +192,7 @@ impl Diagnostic for Report {
     }
 }
 
-/// Lets reports keep their lines whole: a broken line cannot be searched for.
+/// Turns line wrapping off in reports: a search does not find text that is broken across lines.
 pub fn install_report() {
     // An earlier hook would mean that this ran twice; the first one then stays.
     let _ = miette::set_hook(Box::new(|_| {

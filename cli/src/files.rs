@@ -1,4 +1,4 @@
-//! Files read up to a size, and written beside their places and then renamed, so that nothing is ever half there.
+//! Files: read up to a size limit, and written as temporary files that are renamed when complete, so that no file is ever half written.
 
 use std::fs::File;
 use std::io::{BufWriter, Error, ErrorKind, Read, Result, Write};
@@ -12,7 +12,7 @@ pub const LARGEST_RECORD: u64 = 256 << 20;
 /// Largest table of a sweep that is read, row by row [bytes].
 pub const LARGEST_TABLE: u64 = 1 << 40;
 
-/// Refuses what is no regular file, such as a device or a pipe, and what is larger than `largest` bytes, before it is opened.
+/// Refuses a folder, a device or a pipe, and a file of more than `largest` bytes. Does not open the file.
 pub fn check(path: &Path, largest: u64) -> Result<()> {
     let found = std::fs::metadata(path)?;
     let refused = |problem: String| Err(Error::new(ErrorKind::InvalidInput, problem));
@@ -26,7 +26,7 @@ pub fn check(path: &Path, largest: u64) -> Result<()> {
     }
 }
 
-/// A regular file of at most `largest` bytes.
+/// Content of a regular file of at most `largest` bytes.
 pub fn read(path: &Path, largest: u64) -> Result<Vec<u8>> {
     check(path, largest)?;
     let mut bytes = Vec::new();
@@ -34,7 +34,7 @@ pub fn read(path: &Path, largest: u64) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The folder of a file: a bare name has the empty path above it.
+/// Folder of a file. A bare name has an empty parent path; its folder is `.`.
 pub fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
@@ -50,7 +50,7 @@ pub fn fill(folder: &Path, write: impl FnOnce(&mut BufWriter<&mut File>) -> Resu
     Ok(file)
 }
 
-/// Makes a temporary file, which is private, readable for whoever may read its folder.
+/// Makes a temporary file readable for everybody (on Unix): temporary files are created private.
 #[cfg_attr(not(unix), allow(unused_variables, reason = "permissions are those of the folder"))]
 pub fn share(file: &NamedTempFile) -> Result<()> {
     #[cfg(unix)]

@@ -7,7 +7,8 @@ use crate::number::significant;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
-/// One component of the ground motion. `peak` is its largest acceleration in the run `[m/s²]`, named where the description has none.
+/// One component of the ground motion in words. `peak` is the largest acceleration in the run `[m/s²]`.
+/// It is stated if it is above zero and the description has neither amplitude nor peak.
 pub fn words(motion: &Value, gravity: f64, peak: f64) -> String {
     let Value::Object(description) = motion else {
         return "none".into();
@@ -54,7 +55,7 @@ fn acceleration(value: f64, gravity: f64) -> String {
 /// Keys of a record that [`record`] puts into words.
 const OF_A_RECORD: [&str; 7] = ["samples", "dt", "duration", "file", "title", "station", "component"];
 
-/// Whether a key needs no words of its own.
+/// Whether a key is put into words elsewhere: `kind`, and those of [`OF_A_RECORD`] in a record.
 fn is_covered(kind: &str, key: &str) -> bool {
     key == "kind" || (kind == "record" && OF_A_RECORD.contains(&key))
 }
@@ -81,7 +82,7 @@ fn record(description: &Map<String, Value>) -> Vec<String> {
     parts
 }
 
-/// A parameter by its name; nothing for one that says nothing.
+/// A parameter in words; `None` for a value without effect (start 0, phase 0, scale 1) and for null.
 fn parameter(key: &str, value: &Value, gravity: f64) -> Option<String> {
     let number = value.as_f64();
     Some(match (key, number) {

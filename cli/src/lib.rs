@@ -25,7 +25,7 @@ use std::process::ExitCode;
 
 pub use report::page;
 
-/// Carries out the command of the arguments of this process; the status with which the process should exit.
+/// Carries out the command that the arguments of this process name. Returns the status with which the process should exit.
 pub fn main() -> ExitCode {
     execute(arguments::Arguments::parse()).into()
 }
@@ -35,7 +35,7 @@ pub fn main_with<T: Into<OsString> + Clone>(words: impl IntoIterator<Item = T>) 
     match arguments::Arguments::try_parse_from(words) {
         Ok(arguments) => execute(arguments),
         Err(refused) => {
-            // A terminal that is closed cannot be told.
+            // A failure to print is ignored: there is nowhere to report it.
             let _ = refused.print();
             u8::try_from(refused.exit_code()).unwrap_or(2)
         }

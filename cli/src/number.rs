@@ -1,13 +1,13 @@
-//! Numbers for readers: significant digits, no zeros behind them.
+//! Numbers for readers: significant digits, no trailing zeros.
 
-/// The number with so many significant digits; powers of ten where zeros would have to be counted.
+/// The number with `digits` significant digits; with a power of ten (`1e9`) if the rounded magnitude is below 1e-4 or at least 1e7.
 pub fn significant(value: f64, digits: usize) -> String {
     let rounded = format!("{value:.*e}", digits - 1);
     let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
     match exponent {
         _ if value == 0.0 => "0".into(),
         Some(exponent @ -4..=6) => {
-            // Read back: 9.99 with two digits is 10.
+            // The rounded value is read back: 1234.5 with three digits is 1230.
             let value: f64 = rounded.parse().unwrap_or(value);
             trimmed(&format!("{value:.*}", (digits as i32 - 1 - exponent).max(0) as usize))
         }
@@ -18,13 +18,14 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A number with so many digits behind the point, no zeros at their end and no `-0`.
+/// A number with up to `digits` decimals, without trailing zeros; never `-0`.
 pub fn fixed(value: f64, digits: usize) -> String {
     let text = trimmed(&format!("{value:.digits$}"));
     if text == "-0" { "0".into() } else { text }
 }
 
-/// A share of one in percent, with a digit behind the point near nothing and near all; what is not quite either says so.
+/// A share of one in percent. At most one decimal below 9.95 % in magnitude and between 99 and 100 %, otherwise none.
+/// A share just above zero is `< 0.1 %`, a share just below one is `> 99.9 %`.
 pub fn percent(share: f64) -> String {
     match share * 100.0 {
         percent if percent > 0.0 && percent < 0.1 => "< 0.1 %".into(),
@@ -43,7 +44,7 @@ fn trimmed(text: &str) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text.into() }
 }
 
-/// Width of a block in m with so many digits: of base and top, where they differ.
+/// Width of a block in m with `digits` significant digits; widths of base and top if these differ.
 pub fn widths(block: &rocking::Block, digits: usize) -> String {
     let [bottom, top] = [block.bottom_half_width, block.top_half_width].map(|half| significant(2.0 * half, digits));
     if bottom == top { bottom } else { format!("{bottom} to {top}") }

@@ -18,7 +18,7 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(path).map_err(at(Failure::Output, path))
 }
 
-/// Refuses outputs that could not be put in place in the end, that are among the inputs, or twice there: the first would be lost.
+/// Refuses an output that cannot be put in place, that is one of the inputs, or that is named twice (the first would be lost).
 pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     for (place, output) in outputs.iter().enumerate() {
         target(output)?;
@@ -29,7 +29,7 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The place of a file that the user has named, links followed.
+/// Path of a file that the user has named; links of an existing file are followed. An error if no file can be put there.
 pub fn target(path: &Path) -> Result<PathBuf, Failure> {
     let refused = |problem: &str| Err(Failure::File(path.into(), problem.into()));
     let text = path.to_string_lossy();
@@ -45,7 +45,7 @@ pub fn target(path: &Path) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Whether two paths are of one file, be it there or not yet.
+/// Whether two paths name the same file, which need not exist yet.
 fn are_same(a: &Path, b: &Path) -> bool {
     let whole = |path: &Path| {
         let in_folder = || Some(folder_of(path).canonicalize().ok()?.join(path.file_name()?));

@@ -13,16 +13,16 @@ pub struct Progress {
 /// Shorter work needs no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Positions of the bar for each second of a run: it counts whole numbers.
+/// Positions of the bar per second of simulated time: the bar counts in whole numbers.
 const RESOLUTION: f64 = 1000.0;
 
 impl Progress {
-    /// Over a run of `t_end [s]`; `quiet` shows nothing.
+    /// Progress of a run up to the time `t_end [s]`; `quiet` shows nothing.
     pub fn of_run(t_end: f64, quiet: bool) -> Progress {
         Progress::new((t_end * RESOLUTION) as u64, 0, "{wide_bar} {percent}% {eta}", quiet)
     }
 
-    /// Over `count` points of which `known` are there; `quiet` shows nothing.
+    /// Progress over `count` points, `known` of which were computed before; `quiet` shows nothing.
     pub fn of_points(count: usize, known: usize, quiet: bool) -> Progress {
         Progress::new(count as u64, known as u64, "{wide_bar} {human_pos}/{human_len} {per_sec} {eta}", quiet)
     }
@@ -42,7 +42,7 @@ impl Progress {
         self.reached((t * RESOLUTION) as usize);
     }
 
-    /// So many points are there.
+    /// Moves the bar to `position`, the number of points that are done.
     pub fn reached(&self, position: usize) {
         if let Some(bar) = self.bar.as_ref().filter(|_| self.start.elapsed() > PATIENCE) {
             if bar.is_hidden() {

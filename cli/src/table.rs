@@ -24,7 +24,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// By the name of the file: Parquet if it ends in `.parquet`, else CSV. [`Failure::NoParquet`] where the build has none.
+    /// Format by the extension of a file: Parquet for `.parquet`, otherwise CSV. [`Failure::NoParquet`] if this build has no Parquet.
     pub fn of(path: &Path) -> Result<Format, Failure> {
         match path.extension() {
             Some(extension) if extension.eq_ignore_ascii_case("parquet") => {

@@ -14,20 +14,20 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints what a script reads.
+/// Prints a value as JSON, for scripts.
 pub fn json(value: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(&Explicit(value)).map_err(|error| Failure::Print(error.to_string()))?;
     json_text(&text)
 }
 
-/// Prints JSON; what a terminal could obey has the escapes of JSON, which reads back to the same text.
+/// Prints JSON. Characters that a terminal could obey are printed as escapes of JSON, which read back as the same text.
 pub fn json_text(text: &str) -> Result<(), Failure> {
     let escape =
         |sign: char| if is_unsafe(sign) && sign != '\n' { format!("\\u{:04x}", sign as u32) } else { sign.into() };
     print(&(text.chars().map(escape).collect::<String>() + "\n"))
 }
 
-/// Warns, a line each.
+/// Prints each warning as a line on standard error.
 pub fn warn(warnings: &[String]) {
     for warning in warnings {
         eprintln!("warning: {}", printable(warning));

@@ -1,7 +1,7 @@
-//! A column of given sizes: scene constants become literals, and terms that vanish with them leave the code.
+//! A column of given sizes: the scene constants of its accelerations become literals, and terms with a zero constant leave the code.
 //!
-//! Each independent mode has accelerations of its own, since its constants are its own; a mirrored pattern runs the program of its
-//! twin. Meant for columns of a few blocks: the code grows with the number of modes.
+//! Each independent mode has an acceleration program of its own, because its literals differ from those of other modes. A mirrored pattern
+//! runs the program of its mirror image. Meant for columns of a few blocks: the code grows with the number of modes.
 
 use crate::catalogue::{Catalogue, catalogue_of};
 use crate::derivation::Plan;
@@ -46,7 +46,7 @@ impl BakedBlock {
 }
 
 impl BakedColumn {
-    /// A digest of all sizes, bit by bit: FNV-1a over 64 bits (Fowler, Noll & Vo). Columns that differ in a size differ in it.
+    /// Digest of the bits of gravity and all sizes: 64-bit FNV-1a (Fowler, Noll & Vo). Different columns have different digests, but for collisions.
     pub fn digest(&self) -> u64 {
         let of_block = |block: &BakedBlock| [block.half_width, block.half_height, block.mass, block.inertia];
         let sizes = std::iter::once(self.gravity).chain(self.blocks.iter().flat_map(of_block));
@@ -106,7 +106,7 @@ pub struct BakedMode {
     pub label: ModeLabel,
     /// The pattern that the label names.
     pub pattern: Pattern,
-    /// Per ground motion as in [`GroundMotion::ALL`]: the program without vanishing terms, and values of its constants by name.
+    /// Program without vanishing terms, and the values of its constants by name. One entry per ground motion, as in [`GroundMotion::ALL`].
     pub accelerations: [(Program, HashMap<String, f64>); 2],
 }
 
@@ -117,19 +117,19 @@ pub struct BakedCatalogue {
     pub column: BakedColumn,
     /// The independent modes.
     pub modes: Vec<BakedMode>,
-    /// Linkages of the column with their programs: those of energies, weights and contact forces serve every column.
+    /// Linkages of the column with their programs, as for any column. The baked module takes energies, weights and contact forces from here.
     pub shared: Catalogue,
 }
 
 /// Derives the modes of a column of given sizes.
 ///
 /// # Errors
-/// [`GenerateError`] for too many blocks, or a size that is not positive.
+/// [`GenerateError`] if the number of blocks is out of range, or if gravity or a size is not positive and finite.
 pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateError> {
     column.check()?;
     let blocks = column.blocks.len();
     let plans: Vec<Plan> = (1..=blocks).map(Plan::new).collect();
-    // Displaced or tapered blocks are no baked column: its linkages are those of rectangles.
+    // A baked column consists of aligned rectangles, so no linkages of displaced or tapered blocks are needed.
     let shared = catalogue_of(blocks, linkages(blocks), &plans, &[])?;
     let modes = modes(blocks).map(|(label, pattern)| {
         let plan = &plans[pattern.dof() - 1];
@@ -139,7 +139,8 @@ pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateE
     Ok(BakedCatalogue { column: column.clone(), modes: modes.collect(), shared })
 }
 
-/// The accelerations of a pattern with values for the constants: zeros and ones vanish, equal values share a name.
+/// Acceleration program of a pattern, and the values of its constants by name. Constants equal to 0, 1 or -1 vanish from the program, and
+/// constants with equal or opposite values share one name.
 fn bake(column: &BakedColumn, pattern: &Pattern, ground: GroundMotion, form: Form) -> (Program, HashMap<String, f64>) {
     let linkage = pattern.linkage();
     let mut arena = Arena::new();

@@ -19,21 +19,21 @@ pub struct LinkageRecord {
     pub accelerations: [Vec<Constant>; 2],
     /// Scene constants of mass matrix and energies.
     pub energies: Vec<Constant>,
-    /// Scene constants of the weights.
+    /// Scene constants of the weights in the Taylor form of the equations ([`crate::mechanics::WeightForm`]).
     pub series: Vec<Constant>,
-    /// Per interface: index of its program in [`Catalogue::forces`], and its scene constants.
+    /// Contact forces, per interface: index of the program in [`Catalogue::forces`], and the scene constants.
     pub interfaces: Vec<(usize, Vec<Constant>)>,
 }
 
-/// The linkage of links that are any rigid bodies: it serves all patterns with one number of free angles, of tapered and displaced blocks.
+/// The linkage of `n` links that are arbitrary rigid bodies. It serves all patterns of tapered or displaced blocks with `n` free angles.
 ///
-/// Its first body stands on the ground, every other is a link.
+/// The first body stands on the ground, and every other body is one link.
 #[derive(Debug)]
 pub struct CompositeRecord {
     /// The linkage with its constants.
     pub linkage: LinkageRecord,
-    /// Per link: the contact forces at a closed interface inside it. The linkage of those is that of the links alone, the one with the
-    /// interface in two bodies.
+    /// Contact forces at a closed interface inside a link, per link. They are derived without the body on the ground, and with two bodies for
+    /// the link in question: its parts below and above the interface.
     pub inside: Vec<InsideRecord>,
 }
 
@@ -51,17 +51,17 @@ pub struct InsideRecord {
 /// The linkages of all columns up to a size, with the distinct programs that they share.
 #[derive(Debug)]
 pub struct Catalogue {
-    /// Largest column.
+    /// Number of blocks of the largest column.
     pub max_blocks: usize,
     /// All linkages, small columns first.
     pub linkages: Vec<LinkageRecord>,
     /// Linkages of any rigid bodies, by degrees of freedom.
     pub composites: Vec<CompositeRecord>,
-    /// Acceleration programs per ground motion, by degrees of freedom; found by comparison, not assumed.
+    /// Acceleration programs per ground motion, by degrees of freedom. That linkages share them is found by comparison, not assumed.
     pub accelerations: [Vec<Program>; 2],
     /// Programs of mass matrix and energies, by degrees of freedom.
     pub energies: Vec<Program>,
-    /// Programs of the weights, by degrees of freedom.
+    /// Programs of the weights in the Taylor form, by degrees of freedom.
     pub series: Vec<Program>,
     /// Distinct contact-force programs.
     pub forces: Vec<Program>,
@@ -88,8 +88,8 @@ pub fn catalogue(max_blocks: usize) -> Result<Catalogue, GenerateError> {
     catalogue_of(max_blocks, (1..=max_blocks).flat_map(linkages), &plans, &dofs)
 }
 
-/// The catalogue of some linkages, and of any rigid bodies with these numbers of free angles, in the forms planned for their degrees of
-/// freedom.
+/// Catalogue of the given `linkages`, and of links that are arbitrary rigid bodies for each number of free angles in `composite_dofs`.
+/// The forms of the programs with `dof` degrees of freedom are those of `plans[dof - 1]`.
 pub(crate) fn catalogue_of(
     max_blocks: usize,
     linkages: impl Iterator<Item = Linkage>,
@@ -146,14 +146,15 @@ pub(crate) fn catalogue_of(
     })
 }
 
-/// Distinct programs, and the index of each text among them.
+/// Distinct programs, and the index of each by its fingerprint ([`Program::fingerprint`]).
 #[derive(Debug, Default)]
 struct Distinct {
     programs: Vec<Program>,
     known: HashMap<String, usize>,
 }
 
-/// The index of a program among the distinct ones, which gain it if it is new, and its own constants.
+/// Adds `program` to the distinct ones unless an equal one is there. Returns the index of the program or its equal, and the constants of
+/// `program` itself.
 fn enlist(distinct: &mut Distinct, program: Program) -> (usize, Vec<Constant>) {
     let constants = program.constants.clone();
     let index = *distinct.known.entry(program.fingerprint()).or_insert_with(|| {
@@ -167,7 +168,7 @@ fn enlist(distinct: &mut Distinct, program: Program) -> (usize, Vec<Constant>) {
 pub(crate) fn map_in_order<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, |threads| threads.get()).min(items.len().max(1));
     let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
-        // Every thread takes each n-th item: large linkages are neighbours.
+        // Each of n threads takes every n-th item: large linkages are neighbours, and would all go to one thread otherwise.
         let f = &f;
         let share = move |thread: usize| {
             let own = items.iter().enumerate().skip(thread).step_by(threads);

@@ -8,17 +8,17 @@ use crate::optimise::{self, Form, Operations, Parts, Program};
 use crate::pattern::Linkage;
 use crate::symbolic::Arena;
 
-/// The forms of the step programs of one number of degrees of freedom, with the cost of every form.
+/// Forms of the step programs with one number of degrees of freedom: the cheapest ones, and all candidates with their costs.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Forms kept, per ground motion as in [`GroundMotion::ALL`].
+    /// The cheapest form, per ground motion as in [`GroundMotion::ALL`].
     pub forms: [Form; 2],
-    /// All forms that give the same equations, with their operations, per ground motion.
+    /// All forms proved to give the equations of motion, each with its operations, per ground motion.
     pub candidates: [Vec<(Form, Operations)>; 2],
 }
 
 impl Plan {
-    /// Writes all forms for links of one block each, and counts their operations.
+    /// Plan for `dof` links of one block each. Writes every form of the accelerations that is valid, counts operations, keeps the cheapest.
     ///
     /// # Panics
     /// If `dof` is zero: a column at rest has no equations of motion.
@@ -67,7 +67,7 @@ pub struct Derivation {
     pub accelerations: [Program; 2],
     /// Mass matrix and energies.
     pub energies: Program,
-    /// Weights of the equations in second derivatives of sines and cosines.
+    /// Weights in the Taylor form of the equations ([`crate::mechanics::WeightForm`]).
     pub series: Program,
     /// Contact forces per interface, base first.
     pub forces: Vec<Program>,
@@ -95,10 +95,10 @@ pub fn derive(linkage: &Linkage) -> Derivation {
     derive_in_form(linkage, Bodies::Rectangles, &Plan::new(linkage.dof()))
 }
 
-/// From a linkage of such bodies to its programs, in the forms planned for its degrees of freedom.
+/// From a linkage whose blocks are `bodies` to its programs, in the forms of `plan`.
 ///
 /// # Panics
-/// If the linkage has other degrees of freedom than the plan, or the forms do not give its equations.
+/// If no interface is open, or if a form of `plan` does not give the equations of this linkage.
 pub fn derive_in_form(linkage: &Linkage, bodies: Bodies, plan: &Plan) -> Derivation {
     let mut arena = Arena::new();
     let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof(), bodies);
@@ -123,7 +123,8 @@ pub fn derive_in_form(linkage: &Linkage, bodies: Bodies, plan: &Plan) -> Derivat
     Derivation { linkage, arena, symbols, equations, parts, forms, accelerations, energies, series, forces }
 }
 
-/// The contact forces at one interface (from zero) of a linkage of any bodies, and the owner of their constants' formulas.
+/// Arena and program of the contact forces at one interface (from zero) of a linkage of arbitrary rigid bodies. The arena owns the formulas of
+/// the constants.
 pub fn derive_forces(linkage: &Linkage, interface: usize) -> (Arena, Program) {
     let mut arena = Arena::new();
     let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof(), Bodies::Any);

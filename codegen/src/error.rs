@@ -1,8 +1,8 @@
-//! Why nothing was generated, and the limits behind it.
+//! Errors of the generator, and the limits on the number of blocks.
 
 use std::fmt;
 
-/// The largest column that can be generated: beyond it the list of linkages alone is too long for a build.
+/// Largest number of blocks that can be generated. For larger columns, the list of linkages alone is too long for a build.
 pub const LARGEST: usize = 12;
 
 /// The largest column that can be baked: seven blocks have 1093 modes, each with code of its own.
@@ -33,7 +33,7 @@ pub enum GenerateError {
     Programs {
         /// Distinct step programs found.
         found: usize,
-        /// One per number of degrees of freedom.
+        /// Step programs expected: one per number of degrees of freedom.
         expected: usize,
     },
 }

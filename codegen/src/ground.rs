@@ -1,6 +1,6 @@
 //! How the ground moves.
 
-/// Components of the ground's motion: terms that a right-hand side does not need cost nothing.
+/// Components of the ground motion. A program for horizontal motion only has no terms of vertical motion, and so costs less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GroundMotion {
     /// Horizontal motion only: gravity is a scene constant.

@@ -7,8 +7,8 @@
 //! f                  free
 //! ```
 //!
-//! A corner that slides is the upper block's, on the face below. `u` after the state (`+>u`) lets the upper face slide on the corner of the
-//! block below, which has other equations. Combinations of states are written like patterns, base first: `(+>,0<,f)`.
+//! A corner that slides is a corner of the upper block, on the face below. With `u` after the state (`+>u`), the upper face slides on a corner
+//! of the block below, with other equations. Combinations of states are written like patterns, base first: `(+>,0<,f)`.
 
 use crate::pattern::{Interface, Linkage, Pattern};
 use std::fmt;
@@ -36,7 +36,7 @@ pub enum Carrier {
 /// State of an interface with friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Joint {
-    /// Closed, or open on a corner, with a contact.
+    /// In contact: closed, or open on a corner.
     Contact(Interface, Slip, Carrier),
     /// In flight.
     Free,
@@ -52,12 +52,12 @@ impl Joint {
         interfaces.flat_map(contact).chain([Joint::Free]).collect()
     }
 
-    /// Whether the interface turns.
+    /// Whether the interface has a free angle: true unless it is closed.
     pub fn has_angle(self) -> bool {
         !matches!(self, Joint::Contact(Interface::Closed, ..))
     }
 
-    /// Its free translations: one slide, or two in flight.
+    /// Number of free translations: none if the interface sticks, one if it slides, two in flight.
     pub fn translations(self) -> usize {
         match self {
             Joint::Contact(_, Slip::Sticks, _) => 0,
@@ -85,7 +85,7 @@ impl Joint {
             "-" => Interface::Left,
             _ => return None,
         };
-        // Only a corner that slides tells the faces apart.
+        // The suffix `u` is valid only after a corner that slides: in other states the carrying face makes no difference.
         let is_plain = carrier == Carrier::Lower || (interface.is_open() && slip != Slip::Sticks);
         is_plain.then_some(Joint::Contact(interface, slip, carrier))
     }
@@ -147,7 +147,7 @@ impl Joints {
     /// ```
     ///
     /// # Errors
-    /// [`JointsError`] names the entry and the states that there are.
+    /// [`JointsError`] if the text is no list, an entry is no state, or interface 1 slides on a corner of the ground.
     pub fn parse(text: &str) -> Result<Joints, JointsError> {
         let list = text.trim().strip_prefix('(').and_then(|text| text.strip_suffix(')')).ok_or(JointsError::NoList)?;
         let entry = |(index, text): (usize, &str)| {
@@ -170,7 +170,7 @@ impl Joints {
         self.0.iter().map(|joint| joint.translations()).sum()
     }
 
-    /// The pattern of states that all stick; `None` where an interface slides or flies.
+    /// Pattern of the column if all interfaces stick; `None` if one slides or flies.
     pub fn pattern(&self) -> Option<Pattern> {
         let state = |joint: &Joint| match joint {
             Joint::Contact(interface, Slip::Sticks, _) => Some(*interface),
@@ -180,7 +180,7 @@ impl Joints {
         Some(Pattern::from_states(&states))
     }
 
-    /// Which interfaces turn.
+    /// Linkage in which the interfaces with a free angle are open.
     pub fn linkage(&self) -> Linkage {
         Linkage { open: self.0.iter().map(|joint| joint.has_angle()).collect() }
     }
@@ -193,7 +193,7 @@ impl fmt::Display for Joints {
     }
 }
 
-/// How many of the `10^N` combinations of states of `blocks` interfaces leave so many angles and translations free, `[angles][translations]`.
+/// Number of combinations of states by free angles and translations, `[angles][translations]`; `10^N` combinations in all for `N = blocks`.
 pub fn combinations(blocks: usize) -> Vec<Vec<u64>> {
     let mut counts = vec![vec![0; 2 * blocks + 1]; blocks + 1];
     counts[0][0] = 1;

@@ -1,9 +1,9 @@
 //! Derives the equations of motion of every rocking mode of a multi-block column and writes them as Rust.
 //!
 //! The pipeline is [`derive()`] and [`generate`]: linkage of a pattern -> positions of the centroids -> energies ->
-//! Euler-Lagrange -> step-time programs with scene constants hoisted -> Rust text. Interfaces that slide and fly ([`joints`]) have programs by
-//! their numbers of free angles and translations ([`moving`]), derived by d'Alembert's principle. [`report`] prints the same derivations as text
-//! or LaTeX. The crate contains no time stepping and no scenes.
+//! Euler-Lagrange -> step-time programs with scene constants hoisted -> Rust text. States in which interfaces slide or fly ([`joints`]) share
+//! one program per number of free angles and translations ([`moving`]), derived by d'Alembert's principle. [`report`] prints the same
+//! derivations as text or LaTeX. The crate contains no time stepping and no scenes.
 //!
 //! ```
 //! let text = rocking_codegen::generate(2).unwrap();
@@ -40,8 +40,8 @@ pub fn generate(max_blocks: usize) -> Result<String, GenerateError> {
     Ok(emit::module(&catalogue(max_blocks)?))
 }
 
-/// The module of the programs with translations, of interfaces that slide and fly, for columns of up to `max_blocks` blocks, as formatted
-/// Rust; the same text on every run.
+/// The generated module of the programs with translations, as formatted Rust; the same text on every run. These programs serve columns of
+/// up to `max_blocks` blocks, in states in which interfaces slide or fly.
 ///
 /// # Errors
 /// As [`moving::moving_catalogue`].
@@ -50,13 +50,13 @@ pub fn generate_moving(max_blocks: usize) -> Result<String, GenerateError> {
     Ok(emit::moving_module(max_blocks, &moving::moving_catalogue(max_blocks)?))
 }
 
-/// Unit tests compile a library once more, with rocking equations of no more blocks than they run: each block more has three times as many modes.
-/// Tests of the whole have all.
+/// Largest column with rocking equations in unit tests, which compile the library once more. Unit tests run no larger column, and each further
+/// block triples the number of modes. Integration tests have the equations of all columns.
 #[cfg(feature = "emit")]
 const UNIT_TEST_MAX_BLOCKS: usize = 3;
 
-/// The modules that a build for columns of up to `max_blocks` blocks includes, with the names of their files: that of [`generate`], the same for
-/// unit tests, of up to three blocks, and that of [`generate_moving`].
+/// The modules that a build for columns of up to `max_blocks` blocks includes, each as `(file name without extension, text)`:
+/// [`generate`], [`generate`] again for unit tests, with at most three blocks, and [`generate_moving`].
 ///
 /// # Errors
 /// As [`catalogue()`].
@@ -66,7 +66,7 @@ pub fn modules(max_blocks: usize) -> Result<[(&'static str, String); 3], Generat
     Ok([("equations", generate(max_blocks)?), ("unit_tests", of_unit_tests), ("moving", generate_moving(max_blocks)?)])
 }
 
-/// The module of one column of given sizes, its scene constants literals, as formatted Rust.
+/// The module of one column of given sizes, as formatted Rust. The scene constants of its accelerations are literals.
 ///
 /// # Errors
 /// As [`bake::baked_catalogue`].

@@ -6,20 +6,20 @@ use crate::mechanics::moving_links;
 use crate::optimise::{Program, moving_program};
 use crate::symbolic::Arena;
 
-/// Columns of so many blocks have a program for all of their states.
+/// Columns of up to this many blocks have programs for all of their states.
 const ALL_STATES: usize = 3;
 
-/// Larger columns have programs of so many translations: two interfaces that slide, or one in flight.
+/// Larger columns have programs with up to this many translations: two interfaces that slide, or one in flight.
 const FEW_TRANSLATIONS: usize = 2;
 
-/// The program of so many angles and translations.
+/// The program for one number of angles and one number of translations.
 #[derive(Debug)]
 pub struct MovingRecord {
     /// Free angles.
     pub angles: usize,
-    /// Slides, and two for each interface in flight.
+    /// Free translations: one for each interface that slides, two for each interface in flight.
     pub translations: usize,
-    /// Rows of the accelerations, and their loads.
+    /// Computes the linear system of the accelerations: rows of the matrix, and loads.
     pub program: Program,
 }
 
@@ -27,7 +27,7 @@ impl MovingRecord {
     /// Derives the program.
     ///
     /// # Panics
-    /// Without a translation.
+    /// If `translations` is zero.
     pub fn new(angles: usize, translations: usize) -> MovingRecord {
         let mut arena = Arena::new();
         let moving = moving_links(&mut arena, angles, translations);
@@ -35,25 +35,25 @@ impl MovingRecord {
         MovingRecord { angles, translations, program }
     }
 
-    /// Its name in the emitted code.
+    /// Name of the program in the emitted code.
     pub fn name(&self) -> String {
         moving_name(self.angles, self.translations)
     }
 }
 
-/// Name of the program of so many angles and translations.
+/// Name of the program for these numbers of angles and translations.
 pub fn moving_name(angles: usize, translations: usize) -> String {
     format!("Angles{angles}Translations{translations}")
 }
 
-/// Whether the interfaces of some column of `blocks` blocks leave so many angles and translations free. Each interface that turns has one
-/// angle, and up to two translations if it flies; each of the others has up to one, its slide.
+/// Whether a column of `blocks` blocks has a combination of states with these numbers of free angles and translations. An interface with a
+/// free angle has at most two translations (in flight). An interface without one has at most one translation (a slide).
 pub fn is_entered(blocks: usize, angles: usize, translations: usize) -> bool {
     angles <= blocks && translations <= blocks + angles
 }
 
-/// Angles and translations of the programs that a build for columns of up to `max_blocks` blocks has, angles first: all that columns of three
-/// blocks enter, and for larger ones those of one or two translations.
+/// `(angles, translations)` of each program in a build for columns of up to `max_blocks` blocks: all that columns of up to three blocks
+/// need, and for larger columns those with one or two translations.
 ///
 /// ```
 /// assert_eq!(rocking_codegen::moving::covered(1), [(0, 1), (1, 1), (1, 2)]);

@@ -64,7 +64,7 @@ impl Interface {
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Pattern(pub States);
 
-// A derived `clone_from` would not reuse the list.
+// With a derived `Clone`, `clone_from` would not reuse the storage of the list.
 impl Clone for Pattern {
     #[inline]
     fn clone(&self) -> Pattern {
@@ -76,7 +76,7 @@ impl Clone for Pattern {
     }
 }
 
-/// A list of states of interfaces: a slice that owns its entries. Up to 16 need no allocation: patterns change with every impact.
+/// Owned list of interface states, which derefs to a slice. Up to 16 states need no allocation: patterns change with every impact.
 #[derive(PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct States(SmallVec<[Interface; 16]>);
 
@@ -272,7 +272,7 @@ pub fn modes(blocks: usize) -> impl Iterator<Item = (ModeLabel, Pattern)> {
     })
 }
 
-/// Which interfaces are open, whatever the side: `2^N - 1` of them move.
+/// Which interfaces are open, whatever the side. A column of `N` blocks has `2^N - 1` linkages that can move.
 ///
 /// The side enters the equations of motion only through the pivot offsets `p_i = s_i c_i`, which are data.
 /// All patterns of one linkage, mirror images among them, therefore share one derivation.

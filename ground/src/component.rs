@@ -1,9 +1,9 @@
-//! Components of a record by the names of its files, as the databases give them.
+//! Components of a record, recognised by the file names that the databases give.
 
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// Whether a component shakes along the ground.
+/// Direction of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
@@ -14,7 +14,8 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// The direction, by the component in the file's name ([`record_and_component`]) and in the file.
+    /// The direction of a component. It is vertical if `ending`, from the file's name ([`record_and_component`]), or `component`, as the file
+    /// itself states it, names a vertical one.
     pub fn of(ending: &str, component: &str) -> Direction {
         let is_vertical = |name: &str| {
             let name = name.trim().to_ascii_uppercase();
@@ -28,11 +29,12 @@ impl Direction {
     }
 }
 
-/// Ends of file names that name a vertical component, and those that name a horizontal one.
+/// Endings of file names that name a vertical component.
 const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
+/// Endings of file names that name a horizontal component.
 const HORIZONTAL: [&str; 8] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T"];
 
-/// The order of names by the number in them: RSN77 before RSN125.
+/// Sort key of a name by the first number in it: RSN77 comes before RSN125.
 pub fn by_number(name: &str) -> (String, u64, String) {
     let start = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
     let (text, rest) = name.split_at(start);
@@ -40,7 +42,7 @@ pub fn by_number(name: &str) -> (String, u64, String) {
     (text.into(), rest[..end].parse().unwrap_or(u64::MAX), rest.into())
 }
 
-/// The common part of the names of a record's components, and the part that names the component.
+/// Splits a file name into the part that the components of a record have in common and the part that names the component.
 ///
 /// `RSN125_FRIULI.A_A-TMZ-UP.AT2`: RSN125, UP; `XXX0010103040506.EW`: EW; `XX.MIB..HNE.D.ASC`: HNE; `ELC180.AT2`: ELC, 180.
 pub fn record_and_component(file: &str) -> (Cow<'_, str>, &str) {
@@ -77,7 +79,7 @@ fn is_channel_code(part: &str) -> bool {
     )
 }
 
-/// The stem without what names the component, and that.
+/// Splits a stem into the part before the name of the component and that name, which is empty if the stem has none.
 fn component_of_stem(stem: &str) -> (&str, &str) {
     let upper = stem.to_ascii_uppercase();
     let parted = |start: usize| stem[..start].ends_with(['-', '_', ' ', '.']);
@@ -90,7 +92,7 @@ fn component_of_stem(stem: &str) -> (&str, &str) {
     }
     let named = VERTICAL.into_iter().chain(HORIZONTAL).find_map(|ending| {
         let start = upper.strip_suffix(ending)?.len();
-        // One letter, or two, may be part of a name where nothing parts them from it.
+        // Without a separator before it, an ending of one or two letters (`UP` excepted) may be part of a longer name.
         let sure = parted(start) || (ending.len() > 2 || ending == "UP");
         (sure && start > 0 && stem.is_char_boundary(start)).then(|| (common(start), &stem[start..]))
     });

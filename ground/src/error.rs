@@ -79,7 +79,7 @@ pub enum RecordError {
     /// A record of zeros cannot be scaled to a peak.
     #[error("all samples are zero: such a record cannot be scaled to a peak acceleration")]
     Silent,
-    /// A record cannot be scaled to a measure that is zero, or that no factor changes.
+    /// A record cannot be scaled to a target: the value of the measure, the target or the factor is not above zero, or the factor not finite.
     #[error("the record's {measure} is {value}: it cannot be scaled to {target}; choose another record or measure")]
     Unscalable { measure: String, value: f64, target: f64 },
 }

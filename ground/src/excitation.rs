@@ -6,7 +6,7 @@ use crate::segment::Segment;
 use crate::spans::{divide, overlay};
 use serde::{Deserialize, Serialize};
 
-/// Relative error of a time that was made of a start and a number of intervals.
+/// Bound of the relative rounding error of a time that is computed as a start plus a number of intervals.
 const ROUNDING_OF_TIME: f64 = 1e-12;
 
 /// Ground motion in both directions.
@@ -35,13 +35,13 @@ impl Excitation {
         [&self.horizontal, &self.vertical].into_iter().flatten().flat_map(of).collect()
     }
 
-    /// Time from which on the ground does not move any more `[s]`, zero without any motion; none for a motion without end.
+    /// Time from which on both accelerations are zero `[s]`; zero without any motion. It is `None` if a motion has no end.
     pub fn still_from(&self) -> Option<f64> {
         let motions = [&self.horizontal, &self.vertical].into_iter().flatten();
         motions.map(Motion::still_from).try_fold(0.0f64, |last, own| Some(last.max(own?)))
     }
 
-    /// Whether the ground moves after a time `[s]`, by more than the rounding of that time.
+    /// Whether the ground motion ends later than `t` `[s]`, by more than the rounding of `t`, or has no end.
     pub fn moves_after(&self, t: f64) -> bool {
         self.still_from().is_none_or(|still| still > t * (1.0 + ROUNDING_OF_TIME))
     }
@@ -53,7 +53,7 @@ impl Excitation {
         segments
     }
 
-    /// The same into an existing vector.
+    /// Writes the segments of [`Excitation::segments`] into an existing vector.
     pub(crate) fn divide(&self, t_end: f64, segments: &mut Vec<Segment>) {
         let room = |motion: &Option<Motion>| match motion {
             Some(Motion::Record(record)) => record.accel().len(),
@@ -71,7 +71,7 @@ impl Excitation {
         let pieces = |motion: &Option<Motion>| motion.as_ref().map(Motion::pieces).unwrap_or_default();
         let mut alone = |start: f64, end: f64, piece: Piece| push(start, end, piece, Piece::Zero);
         match (&self.horizontal, &self.vertical) {
-            // A record has many pieces: no vector of them is made.
+            // A record has many pieces: they are not collected in a vector first.
             (Some(Motion::Record(record)), None) => divide(record.pieces(), 0.0, t_end, &mut alone),
             (horizontal, None) => divide(pieces(horizontal).into_iter(), 0.0, t_end, &mut alone),
             (horizontal, vertical) => {

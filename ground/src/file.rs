@@ -1,4 +1,4 @@
-//! The bytes of a record file, of regular files of limited size only.
+//! Reads the bytes of a record file. Only regular files of limited size are read.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
@@ -11,10 +11,10 @@ pub const LARGEST_FILE: u64 = 64 << 20;
 /// The content of a record file.
 ///
 /// # Errors
-/// The system's own for a file that cannot be read. [`ErrorKind::InvalidInput`] for a folder, and for a device or a pipe, which may never
-/// end. [`ErrorKind::FileTooLarge`] above [`LARGEST_FILE`].
+/// The error of the system for a file that cannot be read. [`ErrorKind::InvalidInput`] for a folder, a device or a pipe: the last two may
+/// never end. [`ErrorKind::FileTooLarge`] above [`LARGEST_FILE`].
 pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
-    // Before it is opened: to open a pipe waits for its writer.
+    // The kind is checked before the file is opened: opening a pipe waits for its writer.
     let metadata = std::fs::metadata(&path)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "a device or a pipe" };

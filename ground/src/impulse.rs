@@ -1,22 +1,23 @@
-//! Bounds of the impulse of a ground acceleration over a time, and of its part to one side.
+//! Upper bounds of the impulse `∫ |a| dt` of a ground acceleration over a span of time, and of the push: the part of it to one side.
 
 use crate::piece::Piece;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
 
-/// A close upper bound of `exp(-x)`, `x >= 0`: cheaper than the exponential below 0.1.
+/// A close upper bound of `exp(-x)`, `x >= 0`: below 0.1 a fraction that is cheaper than the exponential, above it the exponential itself.
 pub(crate) fn decayed(x: f64) -> f64 {
     if x < 0.1 { 1.0 / (1.0 + x * (1.0 + 0.5 * x)) } else { libm::exp(-x) }
 }
 
 impl Piece {
-    /// A bound of the push to a side, 1 or -1, over `from .. to` `[s]`, in order: the integral of the acceleration to that side, later
-    /// parts discounted `[m/s]`.
+    /// Upper bound `[m/s]` of the push to a side (1 or -1) over `from .. to` `[s]`, `from <= to`. The push is the integral of the acceleration
+    /// to that side, discounted at the rate `decay [1/s]` from `from` on:
     ///
     /// ```text
     ///     ∫ max(side · a(t), 0) exp(-decay (t - from)) dt
     /// ```
     ///
-    /// Exact for sines and cosines; for straight lines without decay; close for wavelets without decay.
+    /// Over 1e-3 rad or more, the bound is exact for sines and cosines, and without decay for Ricker wavelets. Without decay it is exact for
+    /// straight lines. A Gabor wavelet is bounded by its envelope, a sum by the bounds of its terms.
     pub fn push(&self, side: f64, [from, to]: [f64; 2], decay: f64) -> f64 {
         if self.is_short(to - from) {
             let discounted_time = if decay > 0.0 { -libm::expm1(-decay * (to - from)) / decay } else { to - from };
@@ -26,7 +27,7 @@ impl Piece {
             let turned = if side * amplitude < 0.0 { phase + PI } else { phase };
             amplitude.abs() / omega * half_waves(omega * (from - start) + turned, omega * (to - from), decay / omega)
         };
-        // Between the zeros of a wavelet, in `u = omega (t - centre)`, the velocity is monotonic.
+        // Between the zeros of the acceleration, given in `u = omega (t - centre)`, the velocity is monotonic.
         let wavelet = |omega: f64, centre: f64, zeros: &[f64]| {
             let ends = zeros.iter().map(|u| (centre + u / omega).clamp(from, to)).chain([to]);
             let gain = |last: &mut f64, end: f64| Some(self.integrals(std::mem::replace(last, end), end)[0]);
@@ -37,7 +38,7 @@ impl Piece {
             Piece::Linear { .. } => {
                 let [first, last] = [from, to].map(|t| side * self.value(t));
                 let (least, most) = (first.min(last), first.max(last).max(0.0));
-                // Where the sign changes, a triangle.
+                // Where the sign changes, the part to this side is a triangle.
                 let mean = if least < 0.0 { 0.5 * most * (most / (most - least)) } else { 0.5 * (first + last) };
                 let whole = mean * (to - from);
                 if decay > 0.0 { whole.min(most / decay) } else { whole }
@@ -65,7 +66,7 @@ impl Piece {
         }
     }
 
-    /// A bound of `∫ |a| dt` over `from .. to` `[s]`, in order, if it is less than `limit` `[m/s]`.
+    /// Upper bound `[m/s]` of `∫ |a| dt` over `from .. to` `[s]`, `from <= to`. It is `None` if the bound reaches `limit` `[m/s]`.
     pub fn impulse(&self, [from, to]: [f64; 2], limit: f64) -> Option<f64> {
         if self.is_short(to - from) {
             let impulse = (to - from) * self.largest_of_short(f64::abs, [from, to]);
@@ -88,7 +89,7 @@ impl Piece {
             Piece::Zero => 0.0,
             Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
             Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
-            // The bound of the push is one of the size.
+            // For a Gabor wavelet, the bound of the push also bounds `∫ |a| dt`.
             Piece::Gabor { .. } => self.push(1.0, [from, to], 0.0),
             Piece::Sum(ref terms) => terms.iter().map(|term| term.impulse([from, to], limit)).sum::<Option<f64>>()?,
             _ => self.push(1.0, [from, to], 0.0) + self.push(-1.0, [from, to], 0.0),
@@ -96,19 +97,20 @@ impl Piece {
         (impulse < limit).then_some(impulse)
     }
 
-    /// Whether a time `[s]` is so short that integrals follow from values: differences of sines and cosines would be rounding.
+    /// Whether a time `[s]` is so short that integrals are bounded by values of the acceleration: differences of sines and cosines would be
+    /// rounding. Straight lines need no such bound; the terms of a sum decide for themselves.
     fn is_short(&self, time: f64) -> bool {
         !matches!(self, Piece::Zero | Piece::Linear { .. } | Piece::Sum(_)) && self.omega() * time < 1e-3
     }
 
-    /// Largest measure of the acceleration over a short time, from its ends and the bound of its curvature.
+    /// Upper bound of `measured(a)` over a short time: the larger value at the two ends, but at least zero, plus the largest error of a chord.
     fn largest_of_short(&self, measured: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> f64 {
         let at_ends = measured(self.value(from)).max(measured(self.value(to)));
         at_ends.max(0.0) + 0.125 * self.curvature_bound() * (to - from) * (to - from)
     }
 }
 
-/// `∫ max(sin x, 0) exp(-decay (x - from)) dx` over so many radians.
+/// `∫ max(sin x, 0) exp(-decay (x - from)) dx` over `from .. from + radians`.
 fn half_waves(from: f64, radians: f64, decay: f64) -> f64 {
     let from = from - TAU * floor(from * (0.5 * FRAC_1_PI));
     let to = from + radians;
@@ -124,7 +126,7 @@ fn half_waves(from: f64, radians: f64, decay: f64) -> f64 {
         sum += at(from) - left_after(to.min(PI) - from) * end;
     }
     if to > TAU {
-        // Half-waves that begin at τ, 2 τ, ...: whole ones, then a part of the last.
+        // Half-waves that begin at 2π, 4π, ...: the whole ones as a geometric series, then the part of the last one.
         let whole = floor((to - PI) / TAU);
         if whole > 0.0 {
             let count = if whole > 1.0 && decay > 0.0 { lost(whole * TAU) / lost(TAU) } else { whole };
@@ -138,7 +140,7 @@ fn half_waves(from: f64, radians: f64, decay: f64) -> f64 {
     sum / (1.0 + decay * decay)
 }
 
-/// The next whole number below, for numbers within 64 bits: cheaper than a call.
+/// The largest whole number not above `x`, for `x` within 64 bits: cheaper than a call.
 fn floor(x: f64) -> f64 {
     let whole = x as i64 as f64;
     if whole > x { whole - 1.0 } else { whole }
@@ -150,7 +152,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against sums over small steps; of waves the bounds are met.
+        /// Compared with sums over small steps. Sines and cosines attain their bounds.
         #[test]
         fn pushes_are_no_more_than_their_bound(
             omega in prop_oneof![0.3f64..9.0, Just(1e-2), Just(1e-9), Just(1e-17), Just(1e-300)],

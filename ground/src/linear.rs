@@ -50,13 +50,14 @@ impl LinearInterval {
         0.5 * self.h * mean
     }
 
-    /// Largest sizes of velocity `[m/s]` and displacement `[m]`, at the end and wherever a derivative vanishes; not at the start.
+    /// Largest magnitudes of velocity `[m/s]` and displacement `[m]` at the end and where their derivatives vanish. The start is left out.
     pub fn peaks(&self) -> [f64; 2] {
         let largest = |size: fn(&Self, f64) -> f64, places: &[f64]| {
             let inside = places.iter().filter(|tau| **tau > 0.0 && **tau < self.h);
             inside.fold(size(self, self.h).abs(), |largest, tau| largest.max(size(self, *tau).abs()))
         };
-        // Zeros of the velocity: the root without cancellation, and the other from their product. Not a number where there are none.
+        // Zeros of the velocity: `2 q / slope` is the root without cancellation, `v / q` follows from the product of both roots. If the velocity
+        // has no zero, both are NaN.
         let root = (self.a * self.a - 2.0 * self.slope() * self.v).sqrt();
         let q = -0.5 * (self.a + root.copysign(self.a));
         [

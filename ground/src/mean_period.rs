@@ -1,23 +1,24 @@
-//! Mean period of a record from its Fourier amplitudes.
+//! Mean period of a record from its Fourier amplitudes `C_i` at the frequencies `f_i`.
 //!
-//! `T_m = Σ C_i² / f_i / Σ C_i²` over 0.25 Hz ≤ f_i ≤ 20 Hz, the samples padded with zeros so that frequencies are at most 0.05 Hz apart. Rathje,
-//! Abrahamson and Bray (1998), "Simplified frequency content estimates of earthquake ground motions", J. Geotech. 124, 150-159; Rathje et al.
-//! (2004), Earthquake Spectra 20, 119-144.
+//! `T_m = Σ C_i² / f_i / Σ C_i²` over 0.25 Hz ≤ f_i ≤ 20 Hz. The samples are padded with zeros so that neighbouring frequencies are at most
+//! 0.05 Hz apart. Rathje, Abrahamson and Bray (1998), "Simplified frequency content estimates of earthquake ground motions", J. Geotech. 124,
+//! 150-159; Rathje et al. (2004), Earthquake Spectra 20, 119-144.
 
 use crate::record::Record;
 use std::f64::consts::TAU;
 
-/// Frequencies that count `[Hz]`.
+/// Lowest and highest frequency of the sums `[Hz]`.
 const BAND: [f64; 2] = [0.25, 20.0];
 
-/// Largest distance of frequencies `[Hz]`.
+/// Largest distance of neighbouring frequencies `[Hz]`.
 const LARGEST_STEP: f64 = 0.05;
 
-/// Zeros for a sample at most: with shorter intervals the record has no frequency of the band anyway.
+/// Largest padded length per sample of the record, before it is rounded up to a power of two. Only records shorter than 0.3 ms reach it: they
+/// are far shorter than any period of the band.
 const MOST_PADDING: usize = 1 << 16;
 
 impl Record {
-    /// Mean period `[s]`; zero for a record without a frequency of the band, or of zeros.
+    /// Mean period `[s]`. It is zero for a record of zeros, and if no frequency of the transform lies in the band.
     pub(crate) fn mean_period(&self) -> f64 {
         let (samples, dt) = (self.accel(), self.dt());
         let wanted = (1.0 / (LARGEST_STEP * dt)).min((samples.len() * MOST_PADDING) as f64) as usize;
@@ -43,7 +44,7 @@ impl Record {
     }
 }
 
-/// Discrete Fourier transform in place, `X_k = Σ x_j e^(-2πi jk/n)`, of a power of two of complex numbers. Cooley and Tukey (1965).
+/// Discrete Fourier transform in place, `X_k = Σ x_j e^(-2πi jk/n)`. The length is a power of two. Cooley and Tukey (1965).
 fn transform(values: &mut [[f64; 2]]) {
     let size = values.len();
     let bits = size.trailing_zeros();
@@ -95,7 +96,7 @@ mod tests {
         for period in [0.1, 0.32, 1.0, 3.2] {
             let accel = (0..8192).map(|k| (TAU * f64::from(k) * 0.01 / period).sin()).collect();
             let found = Record::new(accel, 0.01, 0.0).expect("valid").mean_period();
-            // Leakage: a sine of 80 s is 1/80 Hz wide.
+            // Leakage: the spectrum of a sine that lasts 80 s is 1/80 Hz wide.
             assert!((found / period - 1.0).abs() < 0.02, "{period}: {found}");
         }
     }

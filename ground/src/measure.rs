@@ -1,9 +1,9 @@
-//! A measure of a record's intensity that grows with the record, to which records are scaled.
+//! Measures of intensity that grow with the amplitude of a record. Records are scaled to them.
 
 use crate::error::RecordError;
 use crate::record::Record;
 
-/// A measure of a record's intensity. Durations and the mean period are none: no factor changes them.
+/// A measure of a record's intensity. Durations and the mean period are left out: a factor does not change them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Measure {
@@ -27,7 +27,7 @@ pub enum Measure {
 }
 
 impl Record {
-    /// The record's size in a measure, in the unit of the measure; `gravity [m/s²]` enters the Arias intensity.
+    /// The value of a measure for this record, in the unit of the measure. `gravity [m/s²]` enters the Arias intensity.
     pub fn measure(&self, measure: Measure, gravity: f64) -> f64 {
         match measure {
             Measure::Pga => self.peak(),
@@ -39,7 +39,7 @@ impl Record {
         }
     }
 
-    /// The factor that gives the record a size `target`, above zero, in a measure.
+    /// The factor that scales the record to the value `target`, above zero, of a measure.
     ///
     /// ```
     /// use rocking_ground::{Measure, Record};
@@ -52,7 +52,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`RecordError::Silent`] for a record of zeros, [`RecordError::Unscalable`] for a size or a target that is not above zero.
+    /// [`RecordError::Silent`] for a record of zeros. [`RecordError::Unscalable`] if the value of the measure, `target` or the factor is not
+    /// above zero, or the factor is not finite.
     pub fn factor_to(&self, measure: Measure, target: f64, gravity: f64) -> Result<f64, RecordError> {
         if self.peak() == 0.0 {
             return Err(RecordError::Silent);
@@ -68,7 +69,7 @@ impl Record {
         Ok(factor)
     }
 
-    /// The record scaled to a size in a measure.
+    /// The record scaled to the value `target` of a measure.
     ///
     /// # Errors
     /// As [`Record::factor_to`], and [`RecordError::Acceleration`] for a product out of range.

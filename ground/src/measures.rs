@@ -11,13 +11,13 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Measures {
-    /// Largest size of the acceleration `[m/s²]`.
+    /// Largest magnitude of the acceleration `[m/s²]`.
     pub pga: f64,
-    /// Time of the first sample with that acceleration `[s]`.
+    /// Time of the first sample with the peak acceleration `[s]`.
     pub pga_time: f64,
-    /// Largest size of the velocity `[m/s]`.
+    /// Largest magnitude of the velocity `[m/s]`.
     pub pgv: f64,
-    /// Largest size of the displacement `[m]`.
+    /// Largest magnitude of the displacement `[m]`.
     pub pgd: f64,
     /// Displacement at the last sample `[m]`.
     pub end_displacement: f64,
@@ -31,9 +31,9 @@ pub struct Measures {
     pub significant_duration_75: f64,
     /// Time in which the Arias intensity grows from 5 % to 95 % `[s]`. Trifunac and Brady (1975), BSSA 65, 581-626.
     pub significant_duration: f64,
-    /// Time at which 5 % are reached `[s]`.
+    /// Time at which the Arias intensity reaches 5 % of its final value `[s]`.
     pub significant_start: f64,
-    /// Time at which 95 % are reached `[s]`.
+    /// Time at which the Arias intensity reaches 95 % of its final value `[s]`.
     pub significant_end: f64,
     /// Time from the first sample to the last `[s]`.
     pub duration: f64,
@@ -77,7 +77,7 @@ impl Record {
         Measures { mean_period: self.mean_period(), ..self.sizes(gravity) }
     }
 
-    /// The same without the mean period, which takes longest.
+    /// The measures of [`Record::measures`] with a mean period of zero, since the mean period takes longest to compute.
     pub(crate) fn sizes(&self, gravity: f64) -> Measures {
         let pga = self.peak();
         let first = self.accel().iter().position(|a| a.abs() == pga).unwrap_or(0);

@@ -1,7 +1,7 @@
 //! Kinds of ground motion, each with its formula and source, as smooth pieces with known ends.
 //!
 //! `a` is the acceleration, `τ = t - start`, and `ω` the angular frequency of the literature, `2π / T_p` for a pulse of period
-//! `T_p`. A pulse begins at `start`, also one whose formula has its origin at the centre.
+//! `T_p`. Every pulse begins at `start`, even if the origin of its formula is at the centre.
 //!
 //! Sources: Makris & Chang (2000), *Earthquake Spectra* 16 (types A, B, C_n); Ricker (1943), *Geophysics* 8, as in Vassiliou & Makris
 //! (2012), *Earthquake Engng Struct. Dyn.* 41 (wavelets); Mavroeidis & Papageorgiou (2003), *Bull. Seismol. Soc. Am.* 93
@@ -41,20 +41,20 @@ pub enum Motion {
     /// `a = amplitude · sin(ωτ + phase)` for `0 <= τ < duration`: a harmonic motion that ends.
     SineBurst { amplitude: f64, omega: f64, start: f64, phase: f64, duration: f64 },
     /// `a = amplitude · (1 - u²) exp(-u²/2)`, `u = ω (t - t_0) / √2`: the symmetric Ricker wavelet of period `T_p`, second derivative
-    /// of a Gaussian. The peak is at `t_0 = start + 6√2/ω`; cut off where `|u| > 6`, below 6e-7 of the amplitude. The ground stops
-    /// where it was.
+    /// of a Gaussian. The peak is at `t_0 = start + 6√2/ω`. The wavelet is cut off where `|u| > 6`: it is below 6e-7 of the amplitude there.
+    /// The ground stops where it was.
     Ricker { amplitude: f64, omega: f64, start: f64 },
     /// `a = amplitude / β · (u² - 3) u exp(-u²/2)`, `u = ω (t - t_0) / √3`, `β = 1.3801`: the antisymmetric Ricker wavelet of period
-    /// `T_p`, third derivative of a Gaussian. `t_0 = start + 6.5√3/ω`; cut off where `|u| > 6.5`, below 2e-7 of the amplitude.
-    /// The ground stops where it was.
+    /// `T_p`, third derivative of a Gaussian. `t_0 = start + 6.5√3/ω`. The wavelet is cut off where `|u| > 6.5`: it is below 2e-7 of the
+    /// amplitude there. The ground stops where it was.
     AntisymmetricRicker { amplitude: f64, omega: f64, start: f64 },
     /// The pulse of Mavroeidis & Papageorgiou (2003), Eq. 3: the ground's velocity is
     /// `velocity / 2 · (1 + cos(ω(t - t_0)/γ)) cos(ω(t - t_0) + phase)` for `|t - t_0| <= πγ/ω`, `t_0 = start + πγ/ω`. `gamma > 1` is the
-    /// number of oscillations; their `A` is `velocity`, their `ν` is `phase`.
+    /// number of oscillations. `A` of the paper is `velocity`, `ν` is `phase`.
     MavroeidisPapageorgiou { velocity: f64, omega: f64, start: f64, phase: f64, gamma: f64 },
     /// Gabor's wavelet: the ground's velocity is `velocity · exp(-(ω(t - t_0)/γ)²) cos(ω(t - t_0) + phase)`,
-    /// `t_0 = start + 4.5γ/ω`; cut off where `|ω(t - t_0)| > 4.5γ`, below 2e-9 of the amplitude. `gamma` is the width of
-    /// the envelope in radians of the wave.
+    /// `t_0 = start + 4.5γ/ω`. The wavelet is cut off where `|ω(t - t_0)| > 4.5γ`: the envelope is below 2e-9 of its peak there. `gamma` is the
+    /// width of the envelope in radians of the wave.
     Gabor { velocity: f64, omega: f64, start: f64, phase: f64, gamma: f64 },
     /// `a = amplitude` for `0 <= τ < duration`: the rectangular pulse. The ground keeps the velocity `amplitude · duration`.
     Rectangular { amplitude: f64, start: f64, duration: f64 },
@@ -137,7 +137,7 @@ impl Motion {
                 (start, 2.0 * reach, Piece::AntisymmetricRicker { amplitude, omega, centre: start + reach })
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
-                // Twice the product of sines and cosines is a sum of them: the derivative of the velocity has three frequencies.
+                // A product of two cosines is a sum of two: the velocity and its derivative have three frequencies.
                 let reach = PI * gamma / omega;
                 let wave =
                     |ratio: f64, share: f64| sine(-0.5 * share * velocity * omega, ratio * omega, start + reach, phase);
@@ -174,7 +174,7 @@ impl Motion {
         smallvec![Span { start, end: start + duration, piece }]
     }
 
-    /// The amplitude `[m/s²]` of a formula that is proportional to it.
+    /// The parameter `amplitude` `[m/s²]`. It is `None` for sums, records, and pulses that are scaled by `velocity`.
     pub fn amplitude_mut(&mut self) -> Option<&mut f64> {
         match self {
             Motion::SinePulse { amplitude, .. }
@@ -234,8 +234,8 @@ impl Motion {
         self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
     }
 
-    /// Time from which on the ground does not move any more `[s]`: the end, of a record without the zeros at its end; none for a motion
-    /// without end.
+    /// Time from which on the acceleration is zero `[s]`: the end of the motion, but for a record the first of the zeros at its end. It is `None`
+    /// for a motion without end.
     ///
     /// ```
     /// use rocking_ground::{Motion, Record};
@@ -251,7 +251,8 @@ impl Motion {
         }
     }
 
-    /// Name and value of the first parameter that is not finite, larger than `largest` in size, or not above its lower bound.
+    /// Name and value of the first parameter that is not finite, exceeds `largest` in magnitude, or is not above its lower bound. It is `None` if
+    /// all parameters are valid. In a sum the name is `term[k].name`, with `k` from 1.
     pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let term = |(index, term): (usize, &Motion)| {
@@ -308,16 +309,16 @@ impl Motion {
     }
 }
 
-/// Name in a scene, value, and lower bound, itself excluded.
+/// Name in a scene, value, and lower bound. The bound itself is not allowed.
 type Parameter = (&'static str, f64, f64);
 
-/// Shortest sampling interval of a motion `[s]`: below, samples of a long record have the same time.
+/// Lower bound of the sampling interval of a motion `[s]`. With shorter intervals, samples of a long record would have the same time.
 const SHORTEST_INTERVAL: f64 = 1e-9;
 
 /// The root of `cos((2n+1)π - φ) + ((2n+1)π - 2φ) sin φ = cos φ` near zero: `tan φ = 1 / ((n + 1/2)π - φ)`.
 fn phase_of_type_c(cycles: u32) -> f64 {
     let turns = (f64::from(cycles) + 0.5) * PI;
-    // The right side changes by φ/turns² at most: each round gains a factor of ten at n = 1, more beyond.
+    // The slope of the right side in φ is about 1/turns²: each round reduces the error by more than ten at n = 1, by more beyond.
     (0..30).fold(0.0, |phase, _| libm::atan(1.0 / (turns - phase)))
 }
 

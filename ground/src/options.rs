@@ -14,11 +14,11 @@ pub struct TextOptions {
     /// Whether a file with fewer samples than it declares, or with another peak than it states, is read with a warning instead of an
     /// error; default false.
     pub lenient: bool,
-    /// Channel of a file that has several: the number that the file gives it, else its place from 1; default the first.
+    /// Channel to read from a file with several: the number that the file gives it, else its place from 1. Default: the first channel.
     pub channel: Option<usize>,
     /// Lines skipped at the beginning of a table; default 0.
     pub skip_rows: usize,
-    /// Column of a table that holds the accelerations: its name, else its number from 1; default the only one that may.
+    /// Column of the accelerations in a table: its name, else its number from 1. Default: the only column that can be the acceleration.
     pub column: Option<String>,
 }
 

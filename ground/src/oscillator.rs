@@ -17,13 +17,15 @@ type State = [f64; 2];
 
 /// Response over an interval in which the ground acceleration is linear.
 struct Interval {
-    /// `ω_d` and `ζ ω` `[rad/s]`.
+    /// `ω_d` `[rad/s]`
     damped: f64,
+    /// `ζ ω` `[1/s]`
     decay: f64,
     q: f64,
     r: f64,
-    /// `A`, `B` `[m]`.
+    /// `A` `[m]`
     cos: f64,
+    /// `B` `[m]`
     sin: f64,
 }
 
@@ -36,7 +38,8 @@ impl Interval {
         [self.q + self.r * tau + swing, self.r + rate]
     }
 
-    /// Largest size of the displacement between two times, of which the ends' states are known `[m]`.
+    /// Largest magnitude `[m]` of the displacement between the times `low` and `high`, from the states at both. Between them the velocity may
+    /// change its sign once.
     fn peak(&self, [mut low, mut high]: [f64; 2], [from, to]: [State; 2]) -> f64 {
         let ends = from[0].abs().max(to[0].abs());
         // Where the velocity keeps its sign, the displacement is largest at an end.
@@ -51,10 +54,10 @@ impl Interval {
     }
 }
 
-/// Parts of a period between two looks at the velocity: it changes its sign at most once within.
+/// Number of evaluations per period. Between two of them the velocity changes its sign at most once.
 const PARTS: f64 = 8.0;
 
-/// Periods at either end of a long interval in which extremes are sought: in between, the response follows the ground.
+/// Number of periods at either end of a long interval that are searched for extremes. Between them, the response follows the ground.
 const SEARCHED_PERIODS: f64 = 4.0;
 
 impl Record {
@@ -85,7 +88,7 @@ impl Record {
             Interval { damped, decay, q, r, cos, sin: (rate - r + decay * cos) / damped }
         };
         let (mut state, mut peak, h) = ([0.0; 2], 0.0_f64, self.dt());
-        // The ground after the record: one period of it has the largest swing.
+        // After the record the ground does not accelerate: one period of free vibration has the largest swing.
         let after = std::iter::once(([0.0, 0.0], period));
         let intervals = self.accel().windows(2).map(|pair| ([pair[0], pair[1]], h)).chain(after);
         for ([a, b], h) in intervals {
@@ -102,7 +105,8 @@ impl Record {
     }
 }
 
-/// Times within an interval of length `h` at which the response is evaluated, the end among them, at most `step` apart near its ends.
+/// Times within an interval of length `h` at which the response is evaluated, the end included. Near both ends of the interval they are at
+/// most `step` apart.
 fn looks(h: f64, step: f64) -> impl Iterator<Item = f64> {
     let count = (h / step).ceil().max(1.0);
     let near = SEARCHED_PERIODS * PARTS;
@@ -128,7 +132,7 @@ mod tests {
         let (slope, period, h) = (3.0, 0.8, 2.0);
         let omega = TAU / period;
         let record = Record::new(vec![0.0, slope * h], h, 0.0).expect("valid");
-        // On the ramp u grows with no turn, as 1 - cos ωτ is never below zero; after it the column swings freely.
+        // On the ramp |u| never decreases, since 1 - cos ωτ is never below zero. After the ramp the oscillator swings freely.
         let (u, v) = (
             -slope / omega.powi(2) * (h - (omega * h).sin() / omega),
             -slope / omega.powi(2) * (1.0 - (omega * h).cos()),
@@ -145,7 +149,7 @@ mod tests {
             let overshoot = 1.0 + (-damping * std::f64::consts::PI / (1.0 - damping * damping).sqrt()).exp();
             for count in [2, 3, 8, 1001] {
                 let record = Record::new(vec![2.0; count], 20.0 / (count - 1) as f64, 0.0).expect("valid");
-                // The ground's stop at the end adds a second swing, which is as large without damping: of size 2a or less.
+                // The stop of the ground at the end starts a second swing, of magnitude 2a or less: without damping as large as the first.
                 let value = record.spectral_acceleration(1.0, damping);
                 let tolerance = if damping == 0.0 { 1e-9 } else { 1e-12 };
                 assert!((value / (2.0 * overshoot) - 1.0).abs() < tolerance, "{damping} {count}: {value}");
@@ -153,7 +157,7 @@ mod tests {
         }
     }
 
-    /// Under a harmonic ground for ever the size is a / √((1-β²)² + (2ζβ)²), β = ω_g/ω.
+    /// Under a harmonic ground acceleration without end, the amplitude of ω² u is a / √((1-β²)² + (2ζβ)²), β = ω_g/ω.
     #[test]
     fn a_long_harmonic_motion_gives_the_steady_amplification() {
         for ratio in [0.5, 1.0, 1.7] {

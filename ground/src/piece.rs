@@ -87,7 +87,7 @@ impl Piece {
         }
     }
 
-    /// Acceleration at `t` and its slope, where the piece is a straight line `[m/s²]`, `[m/s³]`.
+    /// Acceleration at `t` `[m/s²]` and its slope `[m/s³]` if the piece is a straight line, else `None`.
     #[inline(always)]
     pub fn line_at(&self, t: f64) -> Option<[f64; 2]> {
         match *self {
@@ -133,7 +133,7 @@ impl Piece {
                 expand_gaussian(amplitude / BETA, polynomial, u, omega, coefficients);
             }
             Piece::Gabor { velocity, omega, centre, phase, gamma } => {
-                // The velocity is the real part of w = exp(-(u/γ)² + i (u + phase)), of which w' = ω (i - 2u/γ²) w.
+                // The velocity is the real part of `velocity · w`, w = exp(-(u/γ)² + i (u + phase)), with the derivative w' = ω (i - 2u/γ²) w.
                 let u = omega * (t - centre);
                 let (sin, cos) = libm::sincos(u + phase);
                 let size = velocity * libm::exp(-(u / gamma) * (u / gamma));
@@ -186,7 +186,7 @@ impl Piece {
         }
     }
 
-    /// Change of the velocity over `from .. to` `[s]`, and the displacement over it of a ground at rest at `from`: `[m/s]`, `[m]`.
+    /// Change of velocity `[m/s]` over `from .. to` `[s]`, and displacement `[m]` in that time of a ground that is at rest at `from`.
     pub fn integrals(&self, from: f64, to: f64) -> [f64; 2] {
         let h = to - from;
         let sine = |amplitude: f64, omega: f64, start: f64, phase: f64| {
@@ -194,7 +194,7 @@ impl Piece {
             let scale = amplitude / omega;
             [scale * (first.1 - last.1), scale * (h * first.1 - (last.0 - first.0) / omega)]
         };
-        // Velocity and displacement of a wavelet as functions of u, over amplitude / ω and amplitude / ω².
+        // Velocity and displacement of a wavelet as functions of u and exp(-u²/2), in units of amplitude / ω and amplitude / ω².
         let wavelet = |amplitude: f64, omega: f64, centre: f64, functions: fn(f64, f64) -> [f64; 2]| {
             let [first, last] = [from, to].map(|t| {
                 let u = omega * (t - centre);
@@ -215,7 +215,7 @@ impl Piece {
             Piece::AntisymmetricRicker { amplitude, omega, centre } => {
                 wavelet(amplitude / BETA, omega, centre, |u, e| [(1.0 - u * u) * e, u * e])
             }
-            // The displacement has no closed form: Taylor series of a step that they resolve to the last bit.
+            // The displacement has no closed form. It is added up over steps so short that a Taylor series is exact to the last bit.
             Piece::Gabor { .. } => {
                 let count = (self.omega() * h.abs() / SERIES_REACH).ceil().max(1.0) as usize;
                 let (mut coefficients, step) = ([0.0; SERIES_ORDER], h / count as f64);
@@ -239,7 +239,7 @@ impl Piece {
         }
     }
 
-    /// Angular frequency `[rad/s]`, the largest of several; zero for straight lines.
+    /// Angular frequency `[rad/s]`: zero for straight lines, the largest one of a sum; for a Gabor wavelet, that of the envelope is added.
     #[inline]
     pub fn omega(&self) -> f64 {
         match *self {
@@ -251,7 +251,7 @@ impl Piece {
         }
     }
 
-    /// A bound of the second derivative's size `[m/s⁴]`.
+    /// Upper bound of the magnitude of the second derivative `[m/s⁴]`.
     pub fn curvature_bound(&self) -> f64 {
         match *self {
             Piece::Zero | Piece::Linear { .. } => 0.0,
@@ -262,7 +262,7 @@ impl Piece {
             Piece::Ricker { amplitude, omega, .. } => 3.0 * amplitude.abs() * omega * omega,
             // |d²/du² (u³ - 3u) exp(-u²/2)| = |(u⁵ - 10u³ + 15u) exp(-u²/2)| is at most 5.783, at u = 0.617.
             Piece::AntisymmetricRicker { amplitude, omega, .. } => 5.79 / BETA * amplitude.abs() * omega * omega,
-            // Leibniz' rule for the third derivative of exp(-(u/γ)²) cos u; the Gaussian's own are at most 0.858, 2 and 3.91.
+            // Leibniz' rule for the third derivative of exp(-(u/γ)²) cos u. The first three derivatives of exp(-x²) are at most 0.858, 2 and 3.91.
             Piece::Gabor { velocity, omega, gamma, .. } => {
                 let s = 1.0 / gamma;
                 let shape = 1.0 + s * (3.0 * 0.858 + s * (3.0 * 2.0 + s * 3.91));
@@ -277,7 +277,7 @@ impl Piece {
     pub fn jumps_from(&self, before: &Piece, t: f64) -> bool {
         match (before, self) {
             (Piece::Zero, Piece::Zero) => false,
-            // The pieces of a record are many: a shortcut.
+            // A shortcut for records, which have many pieces.
             (
                 &Piece::Linear { value: old, slope: before, start: since },
                 &Piece::Linear { value: new, slope, start },
@@ -298,7 +298,7 @@ impl Piece {
             Piece::Zero => 0.0,
             Piece::Linear { value, .. } => value.abs(),
             Piece::Sine { amplitude, .. } | Piece::Cosine { amplitude, .. } => amplitude.abs(),
-            // Cut off below 1e-6 of the amplitude, which counts as no jump.
+            // Wavelets are cut off below 1e-6 of the amplitude. On this scale the cut counts as no jump.
             Piece::Ricker { amplitude, .. } | Piece::AntisymmetricRicker { amplitude, .. } => amplitude.abs() * 1e6,
             Piece::Gabor { velocity, omega, .. } => (velocity * omega).abs() * 1e6,
             Piece::Sum(ref terms) => terms.iter().map(Piece::size).sum(),
@@ -312,7 +312,7 @@ fn is_jump(old: f64, new: f64, size: f64) -> bool {
     (new - old).abs() > JUMP_TOLERANCE * size
 }
 
-/// Out of line: inlined, a sum of sums would not end.
+/// A function of its own because `value` is always inlined: inlined into itself, it would not end.
 fn total(terms: &[Piece], t: f64) -> f64 {
     terms.iter().map(|term| term.value(t)).sum()
 }
@@ -320,10 +320,10 @@ fn total(terms: &[Piece], t: f64) -> f64 {
 /// Longest step of the series that integrate a Gabor wavelet `[rad]`.
 const SERIES_REACH: f64 = 0.5;
 
-/// Their order: `0.5^24 / 24!` is far below rounding, also where the coefficients grow as a Gaussian's.
+/// Number of coefficients of these series: `0.5^24 / 24!` is far below rounding, even where the coefficients grow like those of a Gaussian.
 const SERIES_ORDER: usize = 24;
 
-/// `1 / n`, from a table where series of steps need it.
+/// `1 / n` for `n >= 1`, from a table for the `n` that the series of a step need.
 #[inline(always)]
 fn reciprocal(n: usize) -> f64 {
     const TABLE: [f64; SERIES_ORDER + 1] = {
@@ -338,7 +338,7 @@ fn reciprocal(n: usize) -> f64 {
     TABLE.get(n).map_or_else(|| 1.0 / n as f64, |reciprocal| *reciprocal)
 }
 
-/// Adds the coefficients of the oscillation with this value and, a quarter of a period later, this one.
+/// Adds the Taylor coefficients of an oscillation that is `value` now and `quarter` a quarter of a period later.
 fn expand_circle(value: f64, quarter: f64, omega: f64, coefficients: &mut [f64]) {
     let (mut now, mut next) = (value, quarter);
     let mut scale = 1.0;
@@ -349,7 +349,8 @@ fn expand_circle(value: f64, quarter: f64, omega: f64, coefficients: &mut [f64])
     }
 }
 
-/// Adds the coefficients of `amplitude · polynomial(τ) · exp(-(u + omega τ)²/2)`, of which the Gaussian has `E' = -u omega E`.
+/// Adds the Taylor coefficients in `τ` of `amplitude · polynomial(τ) · E`, with the Gaussian `E = exp(-(u + omega τ)²/2)`, for which
+/// `E' = -omega (u + omega τ) E`.
 fn expand_gaussian(amplitude: f64, polynomial: [f64; 4], u: f64, omega: f64, coefficients: &mut [f64]) {
     let mut last = [amplitude * libm::exp(-0.5 * u * u), 0.0, 0.0, 0.0];
     for (k, coefficient) in coefficients.iter_mut().enumerate() {

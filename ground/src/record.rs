@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 /// Ground acceleration sampled at equal intervals, linear between samples, zero outside.
 ///
-/// Serialised it has its samples (`accel`) and reads back as an equal record, by the checks of [`Record::new`];
-/// [`Motion::description`](crate::Motion::description) has no samples.
+/// The serialised form has the samples (`accel`). It is read back through the checks of [`Record::new`] and gives an equal record.
+/// [`Motion::description`](crate::Motion::description) leaves the samples out.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Unchecked")]
 pub struct Record {
@@ -21,7 +21,7 @@ pub struct Record {
     dt: f64,
     /// Time of the first sample `[s]`.
     start: f64,
-    /// Factor of the samples since they were read, dimensionless.
+    /// Factor by which the samples have been multiplied since they were read, dimensionless.
     scale: f64,
     source: Source,
     warnings: Vec<String>,
@@ -31,7 +31,7 @@ pub struct Record {
 #[derive(Clone, Debug)]
 struct Accelerations {
     values: Arc<[f64]>,
-    /// Largest size.
+    /// Largest magnitude of the values.
     peak: f64,
 }
 
@@ -82,7 +82,7 @@ impl Serialize for Record {
     }
 }
 
-/// A record as it is read, before [`Record::new`].
+/// A record as it is deserialised, before the checks of [`Record::new`].
 #[derive(Deserialize)]
 struct Unchecked {
     accel: Vec<f64>,
@@ -164,7 +164,7 @@ impl Record {
         &self.warnings
     }
 
-    /// Factor of the samples since they were read, dimensionless.
+    /// Factor by which the samples have been multiplied since they were read, dimensionless.
     pub fn scale(&self) -> f64 {
         self.scale
     }
@@ -189,13 +189,13 @@ impl Record {
         (self.accel.len() - 1) as f64 * self.dt
     }
 
-    /// Time from which on the ground does not move any more `[s]`: the first of the zeros at the end, or the last sample.
+    /// Time from which on the acceleration is zero `[s]`: that of the first of the zeros at the end, or else of the last sample.
     pub(crate) fn still_from(&self) -> f64 {
         let moving = self.accel.iter().rposition(|a| *a != 0.0);
         moving.map_or(self.start, |last| self.time((last + 1).min(self.accel.len() - 1)))
     }
 
-    /// Largest size of the samples `[m/s²]`.
+    /// Largest magnitude of the samples `[m/s²]`.
     pub fn peak(&self) -> f64 {
         self.accel.peak
     }
@@ -218,7 +218,8 @@ impl Record {
         if own == 0.0 { Err(RecordError::Silent) } else { self.scaled(peak / own) }
     }
 
-    /// The samples from `from` to `to`, both included and counted from the first sample `[s]`. The time of the first sample stays.
+    /// The record of the samples from `from` to `to` `[s]`, both included. Both times count from the first sample. The start is unchanged: it
+    /// becomes the time of the first sample that is kept.
     ///
     /// # Errors
     /// [`RecordError::TooShort`] if fewer than two samples are left.
@@ -241,8 +242,8 @@ impl Record {
         Ok(Record { accel: accel.into(), ..self })
     }
 
-    /// The record as a table with headings, which reads back to the same samples and the same interval: time from the first sample
-    /// `[s]`, acceleration `[m/s²]`.
+    /// The record as CSV with headings: time from the first sample `[s]`, acceleration `[m/s²]`. Read back, the text gives the same samples and
+    /// the same interval.
     pub fn to_csv(&self) -> String {
         use std::fmt::Write as _;
         let mut text = String::from("t [s], a [m/s2]\n");

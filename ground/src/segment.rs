@@ -18,7 +18,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// A ground at rest, of no time.
+    /// A segment of zero duration without acceleration.
     pub const QUIET: Segment =
         Segment { start: 0.0, end: 0.0, horizontal: Piece::Zero, vertical: Piece::Zero, jumps: false };
 

@@ -17,13 +17,13 @@ pub struct Span {
 /// The spans of a motion, in order of time, without overlap. Most motions have one.
 pub type Spans = SmallVec<[Span; 1]>;
 
-/// Distance of break points, relative to the time, below which they are one: the ends of two components that end together are rounded
-/// differently. A step across such a gap would be shorter than the resolution of time.
+/// Break points no further apart than this share of the time, or of 1 s if that is more, count as one: the ends of two components that
+/// end together may differ by rounding. A step across such a gap would be shorter than the resolution of time.
 const TIME_TOLERANCE: f64 = 1e-13;
 
-/// Calls `visit(start, end, pieces)` for each span between break points of `motions` in `from .. to` `[s]`, in order of time, with the
-/// piece of each motion, which `visit` may take. The spans of each motion are in order. Finite bounds are break points too; infinite ones
-/// stand for the first and the last break point.
+/// Calls `visit(start, end, pieces)` for each span between neighbouring break points of `motions` in `from .. to` `[s]`, in order of time.
+/// `pieces[k]` is the piece of motion `k`, zero outside its spans; `visit` may move it out. The spans of each motion must be in order.
+/// A finite bound is a break point too. An infinite `from` or `to` stands for the first or the last break point.
 pub fn overlay(motions: &[Spans], from: f64, to: f64, mut visit: impl FnMut(f64, f64, &mut [Piece])) {
     let first = motions.iter().filter_map(|motion| motion.first()).map(|span| span.start).fold(f64::INFINITY, f64::min);
     let mut t = if from.is_finite() { from } else { first };
@@ -60,7 +60,7 @@ pub fn overlay(motions: &[Spans], from: f64, to: f64, mut visit: impl FnMut(f64,
     }
 }
 
-/// The same for one motion between finite bounds; its pieces are moved, not copied.
+/// As [`overlay`], for one motion and finite bounds: calls `visit(start, end, piece)`. The pieces are moved, not copied.
 #[inline(always)]
 pub fn divide(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
     let same = |t: f64| t + TIME_TOLERANCE * t.abs().max(1.0);

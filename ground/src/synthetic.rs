@@ -1,7 +1,7 @@
 //! Synthetic records for demonstrations and tests: filtered noise under an envelope. Nothing of them was ever measured.
 //!
 //! Gaussian white noise under the envelope of Jennings, Housner & Tsai (1968) passes the ground filter of Kanai (1957) and Tajimi (1960)
-//! and the second filter of Clough & Penzien (1975), which takes out what would let the ground drift away:
+//! and the second filter of Clough & Penzien (1975), which removes the low frequencies that would let the ground drift away:
 //!
 //! ```text
 //! w_k = I(t_k) n_k        I = (t/t_1)² | 1 | exp(-c (t - t_2))
@@ -9,7 +9,7 @@
 //! z̈ + 2 ζ ω_f ż + ω_f² z = -a          ẍ_g = z̈,  ω_f = ω / 10
 //! ```
 //!
-//! Both are stepped by Newmark's method with constant average acceleration. The same seed gives the same record on every machine.
+//! Both filters are stepped by Newmark's method with constant average acceleration. The same seed gives the same record on every machine.
 
 use crate::error::RecordError;
 use crate::record::{Record, Source};
@@ -41,17 +41,17 @@ impl Default for Synthetic {
     }
 }
 
-/// End of the envelope's rise, as a share of the duration. This and the next two are those of a moderate earthquake.
+/// End of the envelope's rise, as a share of the duration. This constant and the next two describe a moderate earthquake.
 const RISE_END: f64 = 0.1;
-/// Begin of its decay, as a share of the duration.
+/// Start of the envelope's decay, as a share of the duration.
 const DECAY_START: f64 = 0.4;
-/// Envelope at the end.
+/// Value of the envelope at the end of the record.
 const LAST_ENVELOPE: f64 = 0.01;
 
 /// Frequency of the second filter over that of the first.
 const SECOND_FILTER_RATIO: f64 = 0.1;
 
-/// Samples beyond which a duration and an interval are taken for a mistake.
+/// Number of sampling intervals from which on `duration` and `dt` are taken for a mistake.
 const MOST_SAMPLES: f64 = 1e7;
 
 impl Synthetic {
@@ -66,7 +66,7 @@ impl Synthetic {
     /// ```
     ///
     /// # Errors
-    /// [`RecordError::OutOfRange`] for numbers that make no record.
+    /// [`RecordError::OutOfRange`] for a parameter that is not a finite number above zero, or a duration outside 1 to 1e7 sampling intervals.
     pub fn record(&self) -> Result<Record, RecordError> {
         let numbers = [
             ("pga", self.pga),
@@ -97,7 +97,7 @@ impl Synthetic {
         }
         let title = format!("synthetic, seed {}, {} Hz, damping {}", self.seed, self.frequency, self.damping);
         let source = Source { title, ..Source::default() };
-        // A new record: the factor of the noise is no scale of a record.
+        // A new record, with scale 1: the factor that was applied to the noise does not count.
         let scaled = Record::new(accel, self.dt, 0.0)?.scaled_to_peak(self.pga)?;
         Ok(Record::new(scaled.accel().to_vec(), self.dt, 0.0)?.with_source(source, Vec::new()))
     }
@@ -122,7 +122,7 @@ struct Noise {
 
 impl Noise {
     fn new(seed: u64) -> Noise {
-        // Neighbouring seeds begin far apart: the seed in both halves, and eight numbers skipped.
+        // Sequences of neighbouring seeds must begin far apart: both halves of the state depend on the seed, and eight numbers are skipped.
         let mut generator = Pcg64Mcg::new(u128::from(seed) << 64 | u128::from(!seed));
         (0..8).for_each(|_| {
             generator.next_u64();
@@ -159,7 +159,7 @@ impl Oscillator {
         Oscillator { stiffness: omega * omega, damping: 2.0 * ratio * omega, dt, state: [0.0; 3] }
     }
 
-    /// Goes one interval further. Returns `ÿ` and `-(2 ζ ω ẏ + ω² y)`.
+    /// Advances one interval; `force` is `f` at its end. Returns `ÿ` and `-(2 ζ ω ẏ + ω² y)` there.
     fn driven_by(&mut self, force: f64) -> [f64; 2] {
         let ([y, rate, accel], h) = (self.state, self.dt);
         let (rate_guess, guess) = (rate + 0.5 * h * accel, y + h * rate + 0.25 * h * h * accel);
@@ -184,7 +184,7 @@ mod tests {
         assert!(alike.abs() < 0.2, "neighbouring seeds are correlated: {alike}");
     }
 
-    /// An earthquake leaves the ground without velocity: what remains is a small share of its peak.
+    /// An earthquake leaves the ground without velocity: the velocity at the end is a small share of the peak velocity.
     #[test]
     fn the_ground_comes_to_rest() {
         for seed in 0..20 {

@@ -1,4 +1,4 @@
-//! A ground motion divided in time, with bounds of the motion to come, kept from one run to the next.
+//! A ground motion divided into segments, with bounds of the motion that is still to come. The division is kept from run to run.
 
 use crate::excitation::Excitation;
 use crate::impulse::decayed;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// The timeline of the last ground motion, kept for the next run: a record is divided into segments once for many runs.
 #[derive(Default)]
 pub struct TimelineCache {
-    /// Motion and end `[s]` of the timeline, where it has many segments.
+    /// Ground motion and end `[s]` of the timeline. It is `None` for a timeline of few segments, which is divided anew for each run.
     of: Option<(Excitation, f64)>,
     timeline: Arc<Timeline>,
 }
@@ -18,13 +18,13 @@ pub struct TimelineCache {
 /// Bounds that a [`Timeline`] is to hold of the ground motion to come.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lookahead {
-    /// Whether [`Timeline::impulse_from`] is to be known.
+    /// Whether [`Timeline::impulse_from`] is needed.
     pub impulses: bool,
-    /// Discount rate of [`Timeline::push_from`], where that is to be known `[1/s]`.
+    /// Discount rate of [`Timeline::push_from`] `[1/s]`; `None` if that bound is not needed.
     pub decay: Option<f64>,
 }
 
-/// Segments from which on a timeline is kept: fewer are divided anew in less time than two motions are compared.
+/// Number of segments from which on a timeline is kept. With fewer, dividing the motion anew takes less time than comparing two motions.
 const MANY_SEGMENTS: usize = 16;
 
 impl TimelineCache {
@@ -48,8 +48,8 @@ pub struct Timeline {
     segments: Vec<Segment>,
     /// Bounds of the impulse of both components after each segment `[m/s]`; empty unless requested.
     impulses: Vec<f64>,
-    /// Bounds of the pushes to the left and to the right after each segment, discounted to its end `[m/s]`; infinite before a vertical
-    /// acceleration; empty unless requested.
+    /// Bounds of the pushes to the left and to the right after each segment, discounted to the end of that segment `[m/s]`. They are infinite
+    /// if a later segment has a vertical acceleration. Empty unless requested.
     pushes: Vec<[f64; 2]>,
     /// Discount rate of the pushes `[1/s]`.
     decay: f64,
@@ -65,7 +65,8 @@ impl Deref for Timeline {
 }
 
 impl Timeline {
-    /// A bound of the impulse `∫ |a| dt` of both components from `t` in a segment on, if it is less than `limit` `[m/s]`.
+    /// Upper bound `[m/s]` of the impulse `∫ |a| dt` of both components from `t`, a time in `segment`, to the end. It is `None` if the bound
+    /// reaches `limit` `[m/s]`.
     ///
     /// # Panics
     /// Unless [`Lookahead::impulses`] was requested.
@@ -78,8 +79,8 @@ impl Timeline {
         Some(sum)
     }
 
-    /// A bound of the push to a side, 1 or -1, from `t` in a segment on, later parts discounted ([`Piece::push`]) `[m/s]`; infinite
-    /// where the ground also moves vertically.
+    /// Upper bound `[m/s]` of the push to a side (1 or -1) from `t`, a time in `segment`, to the end, discounted to `t` as in [`Piece::push`].
+    /// It is infinite if this or a later segment has a vertical acceleration.
     ///
     /// # Panics
     /// Unless [`Lookahead::decay`] was requested.
@@ -90,7 +91,8 @@ impl Timeline {
         self.push_in(side, segment, [t, end]) + self.discounted(later, end - t)
     }
 
-    /// A bound of the push to a side within a span of a segment, discounted to its start `[m/s]`.
+    /// Upper bound `[m/s]` of the push to a side within a span of a segment, discounted to the start of the span. It is infinite if the
+    /// segment has a vertical acceleration.
     pub fn push_in(&self, side: f64, segment: usize, span: [f64; 2]) -> f64 {
         let Segment { horizontal, vertical, .. } = &self.segments[segment];
         if *vertical == Piece::Zero { horizontal.push(side, span, self.decay) } else { f64::INFINITY }
@@ -157,7 +159,7 @@ mod tests {
                 (sum(&|a, later| (side * a).max(0.0) * libm::exp(-decay * later)), timeline.push_from(side, first, t))
             });
             let impulse = timeline.impulse_from(first, t, f64::INFINITY).expect("finite");
-            // Straight lines are taken as if they did not lose weight within an interval.
+            // Within one interval, the bounds of straight lines leave the discount out.
             for (exact, bound) in bounds.into_iter().chain([(sum(&|a, _| a.abs()), impulse)]) {
                 assert!(exact <= bound + 0.02 && bound < 1.1 * exact + 0.02, "{first}: {exact} {bound}");
             }

@@ -24,8 +24,8 @@ impl Motion {
         [state.velocity, state.displacement]
     }
 
-    /// Largest sizes of acceleration, velocity and displacement up to `until [s]`: PGA, PGV, PGD. Exact for records and other linear
-    /// pieces, to some millionths for formulas.
+    /// Largest magnitudes of acceleration, velocity and displacement up to `until [s]`: PGA, PGV, PGD. They are exact for records and other
+    /// linear pieces, and accurate to some millionths for formulas (less for a piece of more than 390 rad).
     pub fn peaks(&self, until: f64) -> [f64; 3] {
         let (mut state, mut peaks) = (Travel::default(), [0.0f64; 3]);
         let mut note = |values: [f64; 3]| peaks.iter_mut().zip(values).for_each(|(peak, v)| *peak = peak.max(v.abs()));
@@ -51,10 +51,11 @@ impl Motion {
     }
 }
 
-/// Places per radian at which the peaks of a formula are sought. Between two of them a crest rises by `1/(8 · 256²)` of itself at most.
+/// Number of times per radian at which a formula is evaluated for its peaks. A crest between two of these times exceeds the values at both by
+/// at most `1/(8 · 256²)` of itself.
 const PLACES_PER_RADIAN: f64 = 256.0;
 
-/// Most places per piece: a bound of the time that a harmonic motion without end takes.
+/// Largest number of such times per piece. It bounds the cost of a harmonic motion without end.
 const MOST_PLACES: f64 = 1e5;
 
 /// State of the ground.
@@ -66,13 +67,13 @@ struct Travel {
 }
 
 impl Travel {
-    /// Goes on to `t` without acceleration.
+    /// Advances to `t` without acceleration.
     fn wait_until(&mut self, t: f64) {
         self.displacement += self.velocity * (t - self.t.unwrap_or(t));
         self.t = Some(t);
     }
 
-    /// Goes on to `t` under the acceleration of a piece.
+    /// Advances to `t` under the acceleration of a piece.
     fn move_with(&mut self, piece: &Piece, t: f64) {
         let from = self.t.unwrap_or(t);
         let [velocity, displacement] = piece.integrals(from, t);
@@ -89,7 +90,7 @@ mod tests {
     use crate::{Record, Synthetic};
     use std::f64::consts::{PI, TAU};
 
-    /// Velocity and displacement are integrals: Gauss's rule with three places on small panels between break points.
+    /// Compared with the integrals by Gauss's rule of three points, on small panels between break points.
     #[test]
     fn travel_is_the_integral_of_the_acceleration() {
         for motion in kinds() {

@@ -10,7 +10,7 @@ pub const DEFAULT_GRAVITY: f64 = 9.81;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum AccelerationUnit {
-    /// g: the gravity of the model, so that ratios of the two stay those of the record
+    /// g, taken as the gravity of the model: the ratio of acceleration to gravity stays that of the record
     #[serde(rename = "g")]
     G,
     /// g/1000
@@ -67,13 +67,13 @@ impl AccelerationUnit {
         }
     }
 
-    /// Size of the unit `[m/s²]`, with this size of one g `[m/s²]`.
+    /// Size of the unit `[m/s²]` if one g is `gravity [m/s²]`.
     pub fn in_si(self, gravity: f64) -> f64 {
         let (_, of_gravity, size) = self.definition();
         if of_gravity { gravity * size } else { size }
     }
 
-    /// Symbol, whether the unit is a share of g, and its size, in g or m/s².
+    /// Symbol of the unit; whether the unit is a multiple of g; size of the unit, in g if so, else in m/s².
     fn definition(self) -> (&'static str, bool, f64) {
         match self {
             AccelerationUnit::G => ("g", true, 1.0),

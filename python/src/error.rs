@@ -7,7 +7,7 @@ use rocking::studies::IdaError;
 use rocking::{RecordError, SceneErrors, SceneFileError, SolveError};
 use std::path::Path;
 
-/// An exception of this class with these arguments; the failure of its construction, where that fails.
+/// An exception of this class with these arguments. If it cannot be constructed, the exception is that failure.
 fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
     let made = py.import("rocking._errors").and_then(|module| module.getattr(class)?.call1(arguments));
     made.map_or_else(|failure| failure, PyErr::from_value)
@@ -39,7 +39,7 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
     }
 }
 
-/// Faults of a scene that has no line.
+/// `SceneError` for faults of a scene without line numbers.
 pub fn faults(py: Python<'_>, file: &Path, errors: &SceneErrors) -> PyErr {
     let file = file.display().to_string();
     let made: Vec<PyErr> = errors
@@ -63,7 +63,7 @@ pub fn faults(py: Python<'_>, file: &Path, errors: &SceneErrors) -> PyErr {
     }
 }
 
-/// `SolveError(message, time)`; of a scene that is not valid, `SceneError`.
+/// `SolveError(message, time)`; `SceneError` for a scene that is not valid.
 pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
     let time = match error {
         SolveError::Scene(errors) => return faults(py, Path::new("<scene>"), errors),

@@ -6,10 +6,10 @@ use pyo3::prelude::*;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// Time between two looks for signals: a user does not notice it, and taking the lock costs a millionth of it.
+/// Time between two checks for signals. A user does not notice this time, and taking the lock costs a millionth of it.
 pub const INTERVAL: Duration = Duration::from_millis(50);
 
-/// Looks for signals while the lock is released.
+/// Checks for signals during a computation that has released the lock.
 pub struct Signals {
     last: Instant,
     /// What a handler raised.
@@ -21,7 +21,7 @@ impl Signals {
         Signals { last: Instant::now(), raised: None }
     }
 
-    /// Whether to go on.
+    /// Whether the computation may continue. It breaks once a handler has raised an exception.
     pub fn poll(&mut self) -> ControlFlow<()> {
         if self.last.elapsed() < INTERVAL {
             return ControlFlow::Continue(());

@@ -123,7 +123,7 @@ fn list<'py>(key: &str, items: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
     }
 }
 
-/// As TOML reads it back to the same bits.
+/// A number as text that TOML reads back to the same bits.
 fn float(number: f64) -> String {
     if number.is_nan() { "nan".into() } else { format!("{number:?}") }
 }

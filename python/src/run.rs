@@ -40,7 +40,7 @@ struct Pickled<S, R, E, T> {
     /// The text of `companions.csv`.
     band: String,
     seconds: f64,
-    /// Bytes of the JSON are followed by those of so many rows.
+    /// Number of rows. The bytes of the rows follow those of the JSON.
     rows: usize,
     with_slides: bool,
     with_blocks: bool,
@@ -55,7 +55,7 @@ impl Response {
         &self.response.samples
     }
 
-    /// An array of this shape, of the numbers of all rows.
+    /// An array of this shape. `of` appends the numbers of a row.
     fn rows<'py, S: IntoDimension>(
         &self,
         py: Python<'py>,

@@ -46,8 +46,8 @@ struct Pickled<S, O> {
     origin: O,
 }
 
-/// What the companions of a run say. The pool is of the call, as that of a sweep is: a process that forks later inherits none. Its threads have no
-/// interpreter, so this one looks for signals while they run.
+/// Runs the companions of a run and returns what they say. The pool lives for this call only: a process that is forked later does not inherit it.
+/// Threads of the pool have no interpreter, so the calling thread checks for signals while they run.
 fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) -> PyResult<Trust> {
     let pool = rayon::ThreadPoolBuilder::new().build();
     let pool = pool.map_err(|failed| PyOSError::new_err(failed.to_string()))?;
@@ -62,7 +62,7 @@ fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) 
             let (running, finished) = channel::<()>();
             let (pool, progress) = (&pool, &progress);
             let companions = scope.spawn(move || {
-                // Dropped at the end, also that of a panic.
+                // Dropped when the companions end, by a panic too: that ends the loop below.
                 let _running = running;
                 pool.install(|| follow_run_observed(scene, response, Follow::default(), progress))
             });
@@ -129,7 +129,7 @@ impl Scene {
             }
         };
         if trust && wanted != Wanted::Everything {
-            // Such a run ends early: there is nothing to compare up to its end.
+            // Such a run may end early: there would be no whole run to compare the companions with.
             return Err(PyValueError::new_err("trust is of a whole run; leave `wanted` out, or trust"));
         }
         let is_as_read = rows && forces && wanted == Wanted::Everything;

@@ -55,7 +55,7 @@ pub struct Ida {
     options: FragilityOptions,
 }
 
-/// Runs made together at first.
+/// Number of runs in the first part.
 const FIRST_PART: usize = 16;
 
 #[pymethods]
@@ -183,7 +183,7 @@ fn run_error(py: Python<'_>, failed: &RunError) -> PyErr {
     }
 }
 
-/// Runs of a table as observations. `peaks` and `slides` have the shape (runs, blocks), blanks are not numbers.
+/// Runs of a table as observations. `peaks` and `slides` have the shape (runs, blocks), with NaN for blanks.
 fn observations(
     records: Vec<String>,
     levels: Vec<f64>,
@@ -259,7 +259,7 @@ pub fn fragility(
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
     options.layout = layout(layout_name)?;
-    // One part of one run: the bands are made by the pool's threads.
+    // One part with one item, which computes its bands on the threads of the pool.
     let made = in_parts(py, 0..1, 0, 1, |_| vec![Fragility::of(&runs, state, &options)])?;
     let found = made.first().ok_or_else(|| error::of_study(py, "no curve was made"))?;
     Ok((serde_json::to_string(found).map_err(error::json)?, found.statements()))

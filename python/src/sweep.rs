@@ -1,4 +1,4 @@
-//! Sweeps: the table of a range of points, with the columns of the command line's.
+//! Sweeps: the table of a range of points, with the same columns as that of the command line.
 
 use crate::error;
 use crate::interrupt::INTERVAL;
@@ -26,8 +26,8 @@ pub struct Sweep {
     sweep: rocking::Sweep,
 }
 
-/// Runs a range in parts, on a pool of so many threads (0: as many as the machine has), and looks for signals between them. The pool is of the call: a
-/// process that is forked later has none that is broken.
+/// Runs a range in parts, the first one of `first` items, on a pool of `threads` threads (0: as many as the machine has). Signals are checked
+/// after each part. The pool lives for this call only, so that a process that is forked later does not inherit a broken one.
 pub fn in_parts<T: Send>(
     py: Python<'_>,
     range: Range<usize>,
@@ -43,7 +43,7 @@ pub fn in_parts<T: Send>(
         let start = Instant::now();
         made.extend(py.detach(|| pool.install(|| lines(next..end))));
         py.check_signals()?;
-        // As long as a user waits for the answer to Ctrl-C, and no shorter: threads come together at the end of a part.
+        // A part may last as long as a user waits for the answer to Ctrl-C. Shorter parts waste time: threads wait for each other at the end of each.
         if start.elapsed() < 2 * INTERVAL {
             size *= 2;
         } else if start.elapsed() > 8 * INTERVAL {
@@ -54,7 +54,7 @@ pub fn in_parts<T: Send>(
     Ok(made)
 }
 
-/// A range of the `length` points or runs of a study.
+/// The range `start .. stop`, or an error if it is not within the `length` points or runs of a study.
 pub fn range(start: usize, stop: usize, length: usize) -> PyResult<Range<usize>> {
     if start > stop || stop > length {
         return Err(PyIndexError::new_err(format!("rows {start} to {stop} are not of the {length} rows of the study")));
@@ -62,7 +62,7 @@ pub fn range(start: usize, stop: usize, length: usize) -> PyResult<Range<usize>>
     Ok(start..stop)
 }
 
-/// Points run together at first.
+/// Number of points in the first part.
 const FIRST_PART: usize = 256;
 
 #[pymethods]
@@ -128,7 +128,7 @@ impl Sweep {
     fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], fields: &[Field]) -> Vec<Column> {
         let ask = self.sweep.ask;
         let found = || results.iter().map(|result| result.as_ref().ok());
-        // A run that ends when its outcome is certain has not had all its impacts.
+        // Whether the impacts are reported: a run that ends as soon as its outcome is certain has not had all its impacts.
         let is_counted = |found: &&Outcome| match found.fate {
             Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
             Fate::Overturns => ask != Ask::Overturns,
@@ -173,7 +173,7 @@ impl Sweep {
     }
 }
 
-/// The column of an axis: numbers, or names.
+/// The column of an axis: numbers if all values of the axis are numbers, else names.
 fn axis_values<'s>(axis: &Axis, settings: impl Iterator<Item = &'s Setting>) -> Values {
     let number = |setting: &Setting| match setting {
         Setting::Number(number) => Some(*number),
@@ -186,7 +186,7 @@ fn axis_values<'s>(axis: &Axis, settings: impl Iterator<Item = &'s Setting>) -> 
     Names::of(axis.values.iter().map(Setting::to_string)).column(names.iter().map(String::as_str))
 }
 
-/// `name_1, name_2, ..`: columns of a list that each result has; blank where there is none, and beyond its end.
+/// Columns `name_1, name_2, ..` of a list that each result has. Entries beyond the end of the list, and of failed runs, are blank.
 pub fn per_block<T, E>(
     name: &str,
     blocks: usize,
@@ -201,7 +201,7 @@ pub fn per_block<T, E>(
     (0..blocks).map(of_block).collect()
 }
 
-/// A way to share the levels of a study, by its name.
+/// The layout of the levels of a study, by its name.
 pub fn layout(name: Option<&str>) -> PyResult<Option<rocking::studies::Layout>> {
     match name {
         None => Ok(None),

@@ -11,7 +11,7 @@ pub enum Values {
     Index(Vec<i64>),
     /// Whole numbers with blanks; `("Int64", values, is_blank)`.
     Whole(Vec<i64>, Vec<bool>),
-    /// Numbers, a blank is not a number; `("float", values)`.
+    /// Numbers with NaN for a blank; `("float", values)`.
     Number(Vec<f64>),
     /// Names of a list known beforehand; `("category", codes, names)`, the code of a blank is -1.
     Names(Vec<i32>, Vec<String>),
@@ -32,7 +32,7 @@ impl Column {
         Column { name: name.into(), values }
     }
 
-    /// As Python has it.
+    /// The tuple `(name, kind, ...)` for Python.
     pub fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
         let name = self.name;
         match self.values {
@@ -50,7 +50,7 @@ impl Column {
     }
 }
 
-/// The columns of a table as Python has them.
+/// The list of the tuples of all columns for Python.
 pub fn into_python(py: Python<'_>, columns: Vec<Column>) -> PyResult<Bound<'_, PyList>> {
     let columns = columns.into_iter().map(|column| column.into_python(py)).collect::<PyResult<Vec<_>>>()?;
     PyList::new(py, columns)
@@ -68,7 +68,7 @@ pub fn truth(values: impl Iterator<Item = Option<bool>>) -> Values {
     Values::Truth(values, blanks)
 }
 
-/// Names as places in their list, in which each stands once.
+/// A list of different names, and the place of each name in it.
 pub struct Names {
     names: Vec<String>,
     places: HashMap<String, i32>,
@@ -87,7 +87,7 @@ impl Names {
         known
     }
 
-    /// The column of these names, -1 for a name that is none of them.
+    /// The column of `values` by their places in the list of names; -1 for a value that is not in the list.
     pub fn column<'n>(self, values: impl Iterator<Item = &'n str>) -> Values {
         let codes = values.map(|name| self.places.get(name).copied().unwrap_or(-1)).collect();
         Values::Names(codes, self.names)

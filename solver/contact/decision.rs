@@ -1,4 +1,4 @@
-//! What a contact problem decides: pattern and rates after it, and what its contacts transmitted.
+//! What a contact problem decides: the pattern and the rates from then on, and the impulses of the contacts.
 
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
@@ -13,9 +13,9 @@ pub struct Decision {
     pub omega: PerBlock<f64>,
     /// No pattern was admissible: a block would fly.
     pub separation: bool,
-    /// Kinetic energy lost over that before, 0 to 1.
+    /// Lost share of the kinetic energy before, 0 to 1. Zero where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub energy_lost: f64,
     /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
-    /// contact's centre, restitution included. Empty where rates do not jump.
+    /// contact's centre, restitution included. Empty where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub impulses: PerBlock<ContactForce>,
 }

@@ -18,14 +18,14 @@ pub struct ImpactLaw<'a> {
     pub kappa: &'a [f64],
     /// An interface that would hop by less closes `[rad]`.
     pub stick_angle: f64,
-    /// Whether anybody wants to know impulses and the energy lost; if not, decisions say none.
+    /// Whether decisions have impulses and the energy lost; if not, impulses are empty and the energy lost is zero.
     pub is_recorded: bool,
 }
 
 /// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (docs/book/model.md, section 5).
 ///
-/// `pattern` is the one before, `theta` and `omega` are the blocks' angles and rates before, length N. Angles at closed and
-/// closing interfaces are equal, to rounding; so are angles and rates at the closed ones of the decision.
+/// `pattern` is the pattern before, `theta` and `omega` are the blocks' angles and rates before, length N. The angles of the two blocks at a
+/// closed or closing interface are equal, to rounding; so are the rates at the closed interfaces of the decision.
 ///
 /// # Errors
 /// [`SingularMass`]
@@ -58,7 +58,7 @@ fn impact_at<S: Size>(
     let mut guess = states.clone();
     closing.iter().for_each(|&interface| guess[interface] = states[interface].mirror());
     let mut mechanism = instant.mechanism(guess)?;
-    // Closed ones, closing ones, and those that an earlier impact of the same instant has just opened.
+    // Interfaces without gap: closed, closing, or just opened by an earlier impact of the same instant.
     let free = instant.size.list_of(|interface| instant.gaps.is_rounding(interface));
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
     let mut plastic = project(&mechanism, &before);
@@ -102,13 +102,12 @@ fn impact_at<S: Size>(
     })
 }
 
-/// Kinetic energy lost over that before, 0 to 1.
+/// Lost share of the kinetic energy before, 0 to 1.
 fn share_lost(before: f64, after: f64) -> f64 {
     if before > 0.0 { 1.0 - after / before } else { 0.0 }
 }
 
-/// The decision that these interfaces close, whatever their contacts would rather do: the projection onto the closed pattern,
-/// recorded as a separation.
+/// The decision that these interfaces close, even if that pattern is not admissible: the projection onto it, recorded as a separation.
 pub(crate) fn stick(
     column: &Column,
     pattern: &Pattern,
@@ -136,7 +135,8 @@ pub(crate) fn stick(
     })
 }
 
-/// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`; `None` if nothing rebounds or the model leaves it out.
+/// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`. `None` if nothing rebounds, all factors are one, or the model leaves
+/// restitution out.
 fn restitute<S: Size>(
     mechanism: &Mechanism<S>,
     plastic: &Answer<S>,
@@ -192,7 +192,7 @@ fn restitute<S: Size>(
     for (index, impulse) in gain[..count].iter().enumerate() {
         rates.iter_mut().zip(row_of(index)).for_each(|(rate, share)| *rate += share * impulse);
     }
-    // Set, base first: what rounding left of a factor of zero would be a hop.
+    // Sets the relative rates exactly, base first: with a factor of zero, the rounding of the sum would be a hop.
     for interface in (0..states.len()).filter(|interface| rebounding.contains(interface)) {
         let rebound_rate = kappa[interface] * relative(&plastic.motion, interface);
         rates[above(interface)] = rate_below(&rates, interface) + rebound_rate;
@@ -216,9 +216,8 @@ const ENERGY_ROUNDING: f64 = 1e-12;
 const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 
 /// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (docs/book/model.md, section 5, rest): all of them at
-/// once, judged by the rates and accelerations before any of them is closed. What then hops by less than angles resolve is
-/// closed as well.
-/// Mechanism and rates are then those that are left; answers with their forces.
+/// once, decided by the rates and accelerations before any of them is closed. Interfaces that then hop by less than angles resolve are
+/// closed as well. Mechanism and rates become those with the interfaces closed; returns the accelerations and forces.
 #[inline(always)]
 fn settle<'a, S: Size>(
     instant: &Instant<'a, S>,

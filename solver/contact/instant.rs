@@ -7,16 +7,16 @@ use crate::mechanics::links::{imposed_acceleration, link_acceleration};
 use crate::numerics::per_block::{Size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Share of the largest angle or rate that sums and solves over a dozen blocks may leave of a difference that is zero. Rates
-/// below it are no motion apart: an interface thrown open with one would land in the same instant, for ever.
+/// Difference of two angles or rates that counts as zero, as a share of the largest one: the rounding of sums and solves over a dozen
+/// blocks. An interface that opened with a smaller relative rate would land in the same instant, again and again.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Gaps `[rad]` and rates `[rad/s]` below this are zero whatever they are compared with: columns in free fall come to angles of 1e-60,
-/// whose roundings are no motion. Larger, and the rocking of very slender columns would be cut off.
+/// Gaps `[rad]` and relative rates `[rad/s]` up to this count as zero in any case: columns in free fall come to angles of 1e-60, whose
+/// roundings are no motion. Larger, and the rocking of very slender columns would be cut off.
 const NOTHING: f64 = 1e-40;
 
-/// Share of the largest acceleration, at least that of a falling column, by which a released interface may seem to be driven
-/// back: its instant is known to the integration's tolerance only. Beyond it, something else has changed, and it is examined like the others.
+/// Acceleration by which a released interface may be driven back and still open, as a share of the largest one, at least that of a falling
+/// column: the instant of release is known to the integration's tolerance only. An interface that is driven back faster is examined like any other.
 pub(super) const RELEASE_TOLERANCE: f64 = 1e-6;
 
 /// How one candidate pattern answers a contact problem.
@@ -24,7 +24,7 @@ pub(super) struct Answer<S: Size> {
     /// Rates after an impact, or accelerations, per block.
     pub(super) motion: S::List<f64>,
     pub(super) resultants: S::List<ContactForce>,
-    /// By what the motion differs from that without contacts.
+    /// Difference between the motion and the motion without contacts.
     pub(super) change: Velocities<S>,
 }
 
@@ -78,7 +78,7 @@ impl<'a, S: Size> Instant<'a, S> {
     }
 }
 
-/// The interfaces that a list names.
+/// Interfaces whose entry in the list is true.
 #[inline(always)]
 pub(super) fn chosen(list: &[bool]) -> impl Iterator<Item = usize> {
     list.iter().enumerate().filter(|(_, is_chosen)| **is_chosen).map(|(interface, _)| interface)
@@ -111,12 +111,12 @@ impl<'v> Gaps<'v> {
     }
 }
 
-/// Relative acceleration `[rad/s²]` below which an interface whose resultant has reached a corner is taken to be on the verge, where it is zero.
+/// Relative acceleration `[rad/s²]` up to which an interface whose resultant has reached a corner counts as critical: its acceleration is zero.
 pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
     RELEASE_TOLERANCE * typical_acceleration(column, accelerations, ground)
 }
 
-/// Relative acceleration `[rad/s²]` below which it is no more than the rounding of the blocks' accelerations.
+/// Relative acceleration `[rad/s²]` that may be the rounding of the blocks' accelerations.
 pub(crate) fn rounding_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
     ROUNDING * typical_acceleration(column, accelerations, ground)
 }
@@ -136,7 +136,7 @@ pub(super) struct Velocities<S: Size> {
 }
 
 impl<S: Size> Velocities<S> {
-    /// Less another one.
+    /// These velocities minus others.
     #[inline(always)]
     pub(super) fn less(mut self, other: &Velocities<S>) -> Velocities<S> {
         self.linear.iter_mut().zip(&*other.linear).for_each(|(a, b)| *a = [a[0] - b[0], a[1] - b[1]]);
@@ -145,7 +145,7 @@ impl<S: Size> Velocities<S> {
     }
 }
 
-/// Sizes of a block's velocity and rate.
+/// Magnitudes of a block's velocity (sum over both components) and rate.
 pub(super) fn sizes<S: Size>(motion: &Velocities<S>, block: usize) -> [f64; 2] {
     let [x, y] = motion.linear[block];
     [x.abs() + y.abs(), motion.angular[block].abs()]
@@ -175,7 +175,7 @@ pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], groun
     Answer { change: Velocities { linear: total, angular: motion.clone() }, motion, resultants }
 }
 
-/// Whether an interface is closed, or has only just opened: it may choose its state anew.
+/// Whether an interface may choose its state anew: it is closed, or open without gap and rate.
 #[inline(always)]
 pub(super) fn may_open<'f, S: Size>(
     instant: &'f Instant<S>,

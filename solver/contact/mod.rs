@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(at(-1.001), Pattern::from_signs(&[1, 0, 0]));
     }
 
-    /// A hop that rounding leaves of no rebound would decide the pattern, or go on for ever.
+    /// With a factor of zero nothing rebounds: a hop that is only rounding would decide the pattern, or continue for ever.
     #[test]
     fn a_factor_of_zero_leaves_no_rebound() {
         let column = Column::equal_blocks(3, 0.4, 1.6, 1.0, 9.81).expect("valid");
@@ -92,7 +92,7 @@ mod tests {
                 *rebounds += [0, 1].into_iter().filter(|interface| relative(&after.omega, *interface) != 0.0).count();
             }
         }
-        // With a factor of one an interface goes on in each of the impacts.
+        // With a factor of one, one interface rebounds in each of the impacts.
         assert_eq!(rebounds, [0, 199]);
     }
 }

@@ -9,8 +9,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (docs/book/model.md, section 4): the
-/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion call for. `released` are interfaces, with their
-/// sides, whose resultants have reached a corner in this instant: they open, whatever rounding says of their acceleration.
+/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion require. `released` are interfaces whose resultants have
+/// reached a corner in this instant, with the side of that corner: they open unless they are driven back by more than a tolerance.
 ///
 /// # Errors
 /// [`SingularMass`]

@@ -1,5 +1,5 @@
-//! Search for the admissible pattern of a contact problem: from a guess by setting right what is violated, and by trying all
-//! patterns if that does not lead there (docs/book/model.md, section 5, item 3).
+//! Search for the admissible pattern of a contact problem: from a guess by changing the states whose conditions are violated, and by trying
+//! all patterns if that fails (docs/book/model.md, section 5, item 3).
 
 use super::instant::{Answer, Instant, Mechanism, SingularMass, chosen, relative};
 use crate::numerics::per_block::Size;
@@ -19,10 +19,10 @@ pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
     pub(super) instant: &'i Instant<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
     pub(super) free: &'i [bool],
-    /// Relative motion above which an open interface parts: zero of accelerations, rounding of rates.
+    /// Least relative motion with which an open interface parts: zero for accelerations, above rounding for rates.
     pub(super) least_parting: f64,
     pub(super) answer: F,
-    /// Sizes of the given velocities, or accelerations, of a block, linear and angular: rounding in an answer is a share of them.
+    /// Magnitudes of the given velocities, or accelerations, of a block, linear and angular: the rounding of an answer is a share of these.
     pub(super) given: T,
 }
 
@@ -32,7 +32,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
         f64::from(state.sign()) * relative(&answer.motion, interface) >= self.least_parting
     }
 
-    /// The state that an interface requires instead of its own, if its own is not admissible.
+    /// The state that a violated condition of an interface requires; `None` if the present state is admissible.
     #[inline(always)]
     fn required(&self, state: Interface, answer: &Answer<S>, interface: usize) -> Option<Interface> {
         let contact = answer.resultants[interface];
@@ -74,14 +74,14 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
         chosen(self.free).all(|interface| self.required(states[interface], answer, interface).is_none())
     }
 
-    /// Puts the admissible pattern and its answer, or the nearest one whose opened interfaces part, in the place of a guess and its
-    /// answer; `true` where it is a separation.
+    /// Replaces a guess and its answer by the admissible pattern and its answer. If none is found, takes the nearest pattern tried whose opened
+    /// interfaces part, and returns `true`: a separation.
     #[inline(always)]
     pub(super) fn solve(&self, guess: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
         if self.is_admissible(&guess.states, answer) { Ok(false) } else { self.search(guess, answer) }
     }
 
-    /// The same, where the guess is not admissible.
+    /// [`ContactProblem::solve`] for a guess that is not admissible.
     #[inline(never)]
     fn search(&self, mechanism: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
         let (guess, choices) = (mechanism.states.clone(), chosen(self.free).count());
@@ -105,7 +105,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             let Some((lowest, state)) = lowest else { return Ok(false) };
             visited.push(states.clone());
             if was_visited(&visited, &next) {
-                // All at once goes in circles: one at a time, from the base.
+                // Changing all at once goes in circles: only the lowest one changes.
                 next = states;
                 next[lowest] = state;
             }
@@ -123,7 +123,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             }
             let mut opened = chosen(self.free).filter(|&interface| candidate[interface].is_open());
             let all_part = opened.all(|interface| self.parts(candidate[interface], answer, interface));
-            // In the metric of the masses, half the square.
+            // Half the square of the distance in the metric of the masses.
             let distance = mechanism.posture.kinetic_energy(&answer.change.linear, &answer.change.angular);
             if all_part && nearest.as_ref().is_none_or(|(_, least)| distance < *least) {
                 nearest = Some((candidate, distance));

@@ -8,8 +8,8 @@
 //!                                                corner of the lower block: a = s b_{i-1},   b = u - s b_{i-1}
 //! ```
 //!
-//! with `s` the side and `b` half-widths of the faces; of a free interface `r_i` is a coordinate itself. Velocities are linear in the rates of
-//! angles, slides and free interfaces. Accelerations are the same function of their second derivatives, and what the rates themselves cause.
+//! with `s` the side and `b_i`, `b_{i-1}` the half-widths of the two faces. At a free interface `r_i` itself is a coordinate. Velocities are linear
+//! in the rates of angles, slides and `r_i`. Accelerations are the same linear function of the second derivatives, plus terms of the rates.
 
 use super::joint::{Configuration, Face, Joint};
 use crate::column::Column;
@@ -27,7 +27,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Less another one.
+    /// This motion minus another one.
     pub fn less(&self, other: &Motion) -> Motion {
         let linear = self.linear.iter().zip(&other.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
         Motion { linear, angular: self.angular.iter().zip(&other.angular).map(|(a, b)| a - b).collect() }
@@ -58,13 +58,13 @@ impl Rates {
         Rates { omega: zero.clone(), slide: zero, apart: PerBlock::filled([0.0; 2], blocks) }
     }
 
-    /// Those of a configuration.
+    /// Rates of a configuration.
     pub fn of(configuration: &Configuration) -> Rates {
         let Configuration { omega, slide_rate, apart_rate, .. } = configuration;
         Rates { omega: omega.clone(), slide: slide_rate.clone(), apart: apart_rate.clone() }
     }
 
-    /// Gives a configuration these rates; those of free interfaces only where an interface is free.
+    /// Sets these rates in a configuration; `apart_rate` at free interfaces only.
     pub fn give(&self, configuration: &mut Configuration) {
         configuration.omega.clone_from(&self.omega);
         configuration.slide_rate.clone_from(&self.slide);
@@ -84,10 +84,10 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// None.
+    /// No rotation.
     const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
 
-    /// By an angle `[rad]`.
+    /// Rotation by an angle `[rad]`, clockwise positive.
     fn by(angle: f64) -> Turn {
         let (sin, cos) = libm::sincos(angle);
         Turn { sin, cos }
@@ -104,25 +104,26 @@ impl Turn {
     }
 }
 
-/// How the two blocks of an interface lie to each other.
+/// Relative position of the two blocks of an interface, and their rotations.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
     /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`.
     pub apart: Vec2,
-    /// Turns of the lower block, or of the ground, and of the upper one.
+    /// Rotation of the lower block, or of the ground.
     pub lower: Turn,
+    /// Rotation of the upper block.
     pub upper: Turn,
 }
 
 impl Pose {
-    /// That of a free interface (from zero).
+    /// Pose at a free interface (from zero).
     pub fn of_free(configuration: &Configuration, interface: usize) -> Pose {
         let lower = interface.checked_sub(1).map_or(Turn::NONE, |below| Turn::by(configuration.theta[below]));
         Pose { apart: configuration.apart[interface], lower, upper: Turn::by(configuration.theta[interface]) }
     }
 }
 
-/// Velocity of a point at `r` from a point at rest, of a body that turns clockwise at this rate.
+/// Velocity of a point of a body that turns clockwise at this rate about a point at rest; `r` leads from the point at rest to the other.
 pub(super) fn swept(rate: f64, r: Vec2) -> Vec2 {
     [rate * r[1], -rate * r[0]]
 }
@@ -135,7 +136,7 @@ pub(super) fn scaled(a: Vec2, factor: f64) -> Vec2 {
     [a[0] * factor, a[1] * factor]
 }
 
-/// An interface, its vectors in the axes of the ground.
+/// Geometry of an interface; vectors are in the axes of the ground.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     /// `R(θ_{i-1}) (a, 0)`, zero where the interface is free.
@@ -167,7 +168,7 @@ struct Placed {
 #[derive(Clone, Debug)]
 pub struct Chain<'a> {
     column: &'a Column,
-    /// Base first, length N.
+    /// Blocks, base first, length N.
     blocks: Vec<Placed>,
 }
 
@@ -250,7 +251,8 @@ impl<'a> Chain<'a> {
         self.blocks[block].to_centroid
     }
 
-    /// Velocities of the blocks for rates of the coordinates, or the part of accelerations that is linear in their second derivatives.
+    /// Velocities of the blocks for these rates of the coordinates. For second derivatives in place of rates, the part of the accelerations that is
+    /// linear in them.
     pub fn motion(&self, rates: &Rates) -> Motion {
         let mut linear = PerBlock::filled([0.0; 2], self.len());
         let mut below = [0.0, 0.0];
@@ -334,18 +336,18 @@ impl<'a> Chain<'a> {
         plus(below, self.blocks[interface].link.on_lower)
     }
 
-    /// The turn of a block; of the ground, none.
+    /// Rotation of a block; `None` is the ground, which does not turn.
     fn turn(&self, block: Option<usize>) -> Turn {
         block.map_or(Turn::NONE, |block| self.blocks[block].turn)
     }
 
-    /// How the blocks of an interface lie to each other.
+    /// Pose at an interface (from zero).
     pub fn pose(&self, interface: usize) -> Pose {
         let (lower, upper) = (self.turn(interface.checked_sub(1)), self.blocks[interface].turn);
         Pose { apart: self.apart(interface), lower, upper }
     }
 
-    /// A vector of the ground's axes in the axes of a block, or of the ground.
+    /// Transforms a vector from the axes of the ground to the axes of a block; `None` is the ground.
     pub fn in_block_axes(&self, block: Option<usize>, vector: Vec2) -> Vec2 {
         self.turn(block).rotate_back(vector)
     }

@@ -1,14 +1,14 @@
 //! The contact problem as a linear complementarity problem (Stewart & Trinkle 1996; Anitescu & Potra 1997): states of all interfaces at once.
 //!
-//! Every corner that touches is a contact with a normal force and a tangential one; a closed interface has two contacts, at the ends of its length. With
-//! `g` the change of a gap and `s` that of a slide, velocities after an impact or accelerations,
+//! Every corner that touches is a contact with a normal and a tangential force; a closed interface has two contacts, at its ends. With `g` the change
+//! of a gap and `s` the change of a slide (velocities after an impact, or accelerations),
 //!
 //! ```text
 //! 0 <= λ  ⊥  g >= 0        0 <= β±  ⊥  σ ± s >= 0        0 <= σ  ⊥  μ λ - β⁺ - β⁻ >= 0        force  λ across + (β⁺ - β⁻) along
 //! ```
 //!
-//! and where a slip is given, the force is `λ (across - ε μ along)`. Impacts always have a solution, which Lemke's method finds; accelerations may have none.
-//! The answer is a guess: rounding decides what is critical, so that the search examines it like any other.
+//! Where the direction `ε` of a slip is given, the force is `λ (across - ε μ along)`. Impacts always have a solution, which Lemke's method finds;
+//! accelerations may have none. The solution is only a guess for the search, which examines it like any other: rounding decides critical contacts.
 
 use super::chain::{Chain, Motion, Rates, plus, scaled};
 use super::contact::{Question, Touch};
@@ -19,19 +19,20 @@ use crate::mechanics::kinematics::Vec2;
 use crate::numerics::lemke::lemke;
 use crate::numerics::per_block::PerBlock;
 
-/// Share of the largest change at work below which a gap or a slide does not change.
+/// Change of a gap or a slide that counts as none, as a share of the largest change without contact forces.
 const UNCHANGED: f64 = 1e-9;
 
 /// A corner that touches.
 struct Contact {
     corner: Corner,
     coefficient: f64,
-    /// Direction of its slide, where that is given.
+    /// Direction of the slide, where it is given.
     slip: Option<Sign>,
     /// Changes of slide and gap where no contact transmits a force.
     free: [f64; 2],
-    /// Point and directions along and across the face.
+    /// Point of the contact `[m]`.
     place: Vec2,
+    /// Directions along and across the face.
     axes: [Vec2; 2],
 }
 
@@ -50,7 +51,7 @@ pub fn states(
         let corner = |side: Sign, face: Face| Corner { interface, side, face };
         match *touch {
             Touch::Nothing => Vec::new(),
-            // Faces that lie on each other have one direction.
+            // Faces that lie on each other have the same axes: each corner is one contact.
             Touch::Faces => [-1, 1].into_iter().map(|side| corner(side, on(side))).collect(),
             Touch::Corner(side) if on(side) == Face::Both => {
                 [Face::Lower, Face::Upper].map(|face| corner(side, face)).into()
@@ -103,7 +104,7 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
             let rates = Rates::of(now);
             let still = vec![0.0; chain.len()];
             let (upper, lower) = (of(&now.omega, Some(interface)), of(&now.omega, below));
-            // Ends of the axes are drawn to the centroids, which fall; the ground does not.
+            // Relative to falling blocks: middles of faces accelerate towards the centroids of their blocks, the ground by `(ẍ_g, g + ÿ_g)`.
             let foot = scaled(chain.to_centroid(interface), upper * upper);
             let top =
                 below.map_or([ground.x, ground.gravity], |below| scaled(chain.centroid_to_top(below), -lower * lower));
@@ -113,9 +114,9 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
     }
 }
 
-/// Changes of slide and gap of each contact.
+/// Changes of slide and gap of each contact in the solution; `None` if Lemke's method finds none.
 fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
-    // Forces in units of a mass, so that the matrix is of the order of one.
+    // Forces are in units of the mean mass, so that entries of the matrix are of the order of one.
     let blocks = chain.column().blocks();
     let unit = blocks.iter().map(|block| block.mass).sum::<f64>() / blocks.len() as f64;
     let jacobians: Vec<[Motion; 2]> =
@@ -127,7 +128,7 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
         });
         parts.sum::<f64>()
     };
-    // Forces of each unknown along and across, by contact.
+    // Contact of each unknown, and the force of the unknown along and across the face.
     let mut unknowns: Vec<(usize, [f64; 2])> = Vec::new();
     let mut rows: Vec<(usize, Row)> = Vec::new();
     for (index, contact) in contacts.iter().enumerate() {
@@ -166,7 +167,7 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
             Row::Slide(sign) => {
                 q[row] = sign * contacts[at].free[0];
                 own.iter_mut().zip(&unknowns).for_each(|(entry, unknown)| *entry = sign * change(at, 0, unknown));
-                // The bound of the slide follows both tangential forces.
+                // Plus `σ`, the bound of the slide: the last unknown of the contact.
                 own[if sign > 0.0 { row + 2 } else { row + 1 }] += 1.0;
             }
             Row::Cone => {
@@ -187,13 +188,13 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
 enum Row {
     /// The gap does not close.
     Gap,
-    /// The slide to this side is no faster than its bound.
+    /// The slide away from this side is no faster than the bound `σ`: `σ ± s >= 0`.
     Slide(f64),
     /// The tangential force is within the cone.
     Cone,
 }
 
-/// Virtual motion of the blocks whose work a force of a contact along an axis does: the upper block with it, the lower one against it.
+/// Forces and moments on the blocks of a unit force of a contact along an axis: with the axis on the upper block, against it on the lower one.
 fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> Motion {
     let mut motion =
         Motion { linear: PerBlock::filled([0.0; 2], chain.len()), angular: PerBlock::filled(0.0, chain.len()) };

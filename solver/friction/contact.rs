@@ -1,4 +1,4 @@
-//! A contact problem with friction: what touches, with which coefficients, and what is asked; where a closed contact reaches and what it holds.
+//! A contact problem with friction: what touches, the coefficients, and the question. Also the ends of a contact, and margins of the friction cone.
 
 use super::chain::Motion;
 use super::joint::{Face, Joint, Sign};
@@ -19,9 +19,9 @@ pub enum Touch {
 /// Coefficients of friction per interface, base first, dimensionless.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficients {
-    /// Of contacts that stick.
+    /// Static coefficients, of contacts that stick.
     pub fixed: Vec<f64>,
-    /// Of contacts that slide, and of impacts.
+    /// Kinetic coefficients, of contacts that slide and of impacts.
     pub kinetic: Vec<f64>,
 }
 
@@ -30,19 +30,19 @@ pub struct Coefficients {
 pub enum Question {
     /// Accelerations under this motion of the ground.
     Accelerations(Ground),
-    /// Velocities after an impact of blocks that move like this before.
+    /// Velocities after an impact; the blocks move like this before it.
     Impact(Motion),
 }
 
-/// How far the force at a sticking contact is inside its cone `[N]`: against a slide to the left, and to the right. `phi` is the relative angle
-/// `[rad]`, by which the cones of coinciding corners differ.
+/// How far the force at a sticking contact is inside the friction cone `[N]`: margins against a slide to the left and against a slide to the right.
+/// `phi` is the relative angle `[rad]`: the two cones of coinciding corners are turned against each other by `phi`.
 pub fn cone_margins(joint: Joint, phi: f64, contact: ContactForce, coefficient: f64) -> [f64; 2] {
     let ContactForce { normal, tangential, .. } = contact;
     let (least, most) = match joint {
         Joint::Corner(_, Face::Both, _) => (phi.min(0.0), phi.max(0.0)),
         _ => (0.0, 0.0),
     };
-    // A normal that is turned by an angle to the right: the force in its axes.
+    // Tangential and normal part of the force about a normal that is turned clockwise by an angle.
     let turned = |angle: f64| {
         if angle == 0.0 {
             return [tangential, normal];
@@ -72,7 +72,7 @@ pub fn half_length(column: &Column, interface: usize, slide: f64) -> f64 {
     0.5 * (right - left)
 }
 
-/// Centre of a closed contact on the lower face, from its middle `[m]`.
+/// Centre of a closed contact, from the middle of the lower face `[m]`.
 pub fn centre(column: &Column, interface: usize, slide: f64) -> f64 {
     let [left, right] = ends(column, interface, slide);
     0.5 * (left + right)

@@ -5,8 +5,8 @@ use super::joint::{Face, Sign};
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 
-/// A corner at an interface (from zero), of a side, and the face of the other block that it may stand on: of the upper block if that is the lower
-/// face, of the lower block if it is the upper face.
+/// A corner at an interface (from zero), and the face of the other block that the corner may stand on. For the lower face it is a corner of the upper
+/// block, for the upper face a corner of the lower block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     pub interface: usize,
@@ -24,14 +24,15 @@ impl Corner {
 
 /// A corner seen from a face.
 struct View {
-    /// The block that has the corner, and the block that has the face; `None` for the ground.
+    /// Block that has the corner; `None` for the ground.
     carrier: Option<usize>,
+    /// Block that has the face; `None` for the ground.
     frame: Option<usize>,
-    /// The turn of the face.
+    /// Rotation of the face.
     turn: Turn,
-    /// +1 if the upper block has the corner.
+    /// +1 if the upper block has the corner, -1 if the lower block has it.
     sign: f64,
-    /// From the middle of its own face to the corner `[m]`.
+    /// From the middle of the corner's own face to the corner `[m]`.
     arm: Vec2,
     /// From the middle of the other face to the corner `[m]`.
     place: Vec2,
@@ -65,7 +66,7 @@ impl View {
         self.turn.rotate_back(self.place)
     }
 
-    /// Velocity in the axes of the face, which turn `[m/s]`.
+    /// Velocity relative to the face, in the axes of the face, which turn `[m/s]`.
     fn velocity(&self, apart_rate: Vec2, omega: &[f64]) -> Vec2 {
         let rate = plus(scaled(apart_rate, self.sign), swept(of(self.carrier, omega), self.arm));
         let ([u, v], turning) = (self.position(), of(self.frame, omega));
@@ -79,30 +80,30 @@ fn of(block: Option<usize>, values: &[f64]) -> f64 {
     block.map_or(0.0, |block| values[block])
 }
 
-/// How far a corner is beside the face, and how far above it `[m]`.
+/// How far a corner is beyond the end of the face, negative over the face, and its gap to the face, negative inside the block `[m]`.
 pub fn gap(chain: &Chain, corner: Corner) -> [f64; 2] {
     gap_of_pose(chain.column(), &chain.pose(corner.interface), corner)
 }
 
-/// The same, from how the two blocks lie to each other.
+/// [`gap`] from the pose of the two blocks.
 pub fn gap_of_pose(column: &Column, pose: &Pose, corner: Corner) -> [f64; 2] {
     let view = View::new(column, pose, corner);
     let [u, v] = view.position();
     [u.abs() - view.reach, view.sign * v]
 }
 
-/// Rates of the slide of an interface whose corner touches, and of its gap, for rates of blocks and interface `[m/s]`.
+/// Rates of the slide and of the gap of a corner `[m/s]`, for these rates of the blocks and of the free interface.
 pub fn gap_rate(chain: &Chain, rates: &Rates, corner: Corner) -> [f64; 2] {
     gap_velocity(chain, rates.apart[corner.interface], &rates.omega, corner)
 }
 
-/// The same for a rate of the free interface `[m/s]` and rates of the blocks `[rad/s]`.
+/// [`gap_rate`] from the rate of the free interface's translations `[m/s]` and the rates of the blocks `[rad/s]`.
 pub fn gap_velocity(chain: &Chain, apart_rate: Vec2, omega: &[f64], corner: Corner) -> [f64; 2] {
     let view = View::of(chain, corner);
     view.velocity(apart_rate, omega).map(|v| view.sign * v)
 }
 
-/// Second rates of the slide and of the gap `[m/s²]`, for first and second rates of the free interface and of the blocks' angles.
+/// Second derivatives of slide and gap `[m/s²]`, from first and second derivatives of the free interface's translations and of the blocks' angles.
 pub fn gap_acceleration(
     chain: &Chain,
     [apart_rate, apart_acceleration]: [Vec2; 2],
@@ -135,7 +136,7 @@ pub fn place_and_axes(chain: &Chain, corner: Corner) -> (Vec2, [Vec2; 2]) {
     (plus(middle, view.place), axes)
 }
 
-/// The slide with which an interface whose corner touches is where it is `[m]`.
+/// Slide of an interface that follows from the present position of the corner that touches `[m]`.
 pub fn slide_of_landing(chain: &Chain, corner: Corner) -> f64 {
     let view = View::of(chain, corner);
     let own = match corner.face {
@@ -147,7 +148,7 @@ pub fn slide_of_landing(chain: &Chain, corner: Corner) -> f64 {
     view.sign * (view.position()[0] - f64::from(corner.side) * own)
 }
 
-/// How far a corner of one block of a free interface is inside the other one, at most `[m]`.
+/// Largest depth of a corner of one block inside the other block of a free interface `[m]`; zero if no corner is inside.
 pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize) -> f64 {
     let depth = |corner: Corner| {
         let [beside, above] = gap_of_pose(column, pose, corner);

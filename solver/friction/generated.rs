@@ -1,8 +1,8 @@
-//! Accelerations by generated programs, where this build has one for the free angles and translations of the states.
+//! Accelerations by generated programs, where this build has one for the numbers of free angles and translations of the states.
 //!
-//! A program reads what its links and translations carry at the slides of the moment: sums over the blocks of each link, and the mass above. Between two links,
-//! the contact has one point on the lower face, at `p` from its middle, and `p - u` on the upper one (docs/book/model.md, section 1). States without a
-//! translation run on the equations of displaced blocks.
+//! Inputs of a program are sums over the blocks of each link at the present slides, and the mass that each translation moves. Between two links the
+//! contact is one point: at `p` from the middle of the lower face, `p - u` from the middle of the upper one (docs/book/model.md, section 1). States
+//! without a translation run on the equations of displaced blocks.
 
 use super::chain::Rates;
 use super::joint::{Configuration, Face, Joint, Slip};
@@ -18,14 +18,14 @@ pub struct Generated {
     equations: Equations,
 }
 
-/// Which programs serve.
+/// Equations that serve the states.
 enum Equations {
-    /// Nothing slides or flies: those of the mode.
+    /// Nothing slides or flies: the equations of the mode.
     Sticking(Mode),
     Moving(Box<Moving>),
 }
 
-/// A direction in which what lies above an interface moves.
+/// Direction in which a translation moves everything above its interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Direction {
     /// Along a face that turns with this link (from 1; 0 is the ground).
@@ -49,11 +49,11 @@ struct Moving {
     equations: MovingEquations,
     column: Column,
     joints: Vec<Joint>,
-    /// Slides `[m]`, kept up for interfaces that slide.
+    /// Slides `[m]`; updated at interfaces that slide.
     slide: Vec<f64>,
-    /// Mass of each block and all above `[kg]`, length N + 1: none above the last.
+    /// Mass of each block and all blocks above `[kg]`, length N + 1; the last entry is zero.
     mass_from: Vec<f64>,
-    /// First block of each link, base first, and N.
+    /// First block of each link, base first; the last entry is N.
     starts: Vec<usize>,
     /// Place among the coordinates of the angle of each link.
     angles: Vec<usize>,
@@ -65,7 +65,7 @@ struct Moving {
 
 impl Generated {
     /// Equations for the states of a configuration with these coefficients of kinetic friction; slides of contacts that stick are those of the
-    /// configuration. `None` where the build has none.
+    /// configuration. `None` where the build has no equations for the states, or where a slide puts a block off its support.
     pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Option<Generated> {
         let coordinates = coordinates(&configuration.joints);
         let equations = if coordinates.iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
@@ -77,8 +77,8 @@ impl Generated {
         Some(Generated { coordinates, equations })
     }
 
-    /// Second derivatives of the coordinates ([`coordinates`]) from their values and rates, into `accelerations`; all lists have the length
-    /// of the coordinates. Not numbers where the rows do not determine them.
+    /// Second derivatives of the coordinates ([`coordinates`]) from their values and rates, into `accelerations`; all lists have one entry per
+    /// coordinate. Results are NaN where the rows do not determine them.
     pub fn accelerations(&mut self, values: &[f64], rates: &[f64], ground: Ground, accelerations: &mut [f64]) {
         match &mut self.equations {
             Equations::Sticking(mode) => {
@@ -117,7 +117,7 @@ impl Moving {
                 angles.push(place);
             }
         }
-        // Link of a block, 0 for those that do not turn.
+        // Link of a block, from 1; 0 for blocks that stay with the ground.
         let link = |block: usize| starts.partition_point(|start| *start <= block);
         for (place, coordinate) in coordinates.iter().enumerate() {
             let (interface, direction) = match coordinate {
@@ -191,8 +191,8 @@ impl Moving {
         }
     }
 
-    /// The point of contact of an interface on its lower and on its upper face, from their middles to the right `[m]`; of a free interface
-    /// the middles.
+    /// Contact point of an interface on the lower and on the upper face, each from the middle of the face to the right `[m]`; zeros for a free
+    /// interface.
     fn contact(&self, interface: usize) -> [f64; 2] {
         let (blocks, slide) = (self.column.blocks(), self.slide[interface]);
         let on_lower = match self.joints[interface] {
@@ -204,11 +204,12 @@ impl Moving {
         [on_lower, on_lower - slide]
     }
 
-    /// Moments and lever of a link (from zero) with all masses above in the next pivot, and what of them each translation moves.
+    /// Sets inertia, first moment and lever of a link (from zero), all masses above being in the next pivot, and the first moment that each
+    /// translation moves.
     fn carry(&mut self, link: usize) {
         let (start, end) = (self.starts[link], self.starts[link + 1]);
         let above = self.mass_from[end];
-        // From the pivot, to the right and upwards in the axes of the link.
+        // Middle of a block's base from the pivot, to the right and upwards in the axes of the link.
         let mut base = [-self.contact(start)[1], 0.0];
         let (mut inertia, mut moment) = (0.0, [0.0, 0.0]);
         for (i, block) in self.column.blocks().iter().enumerate().take(end).skip(start) {
@@ -217,7 +218,7 @@ impl Moving {
                 base[0] += on_lower - on_upper;
             }
             for (each, _) in self.translations.iter().enumerate().filter(|(_, each)| each.interface == i) {
-                // All so far stays below; the rest is known when the link is.
+                // Blocks so far do not move with the translation: their moment is subtracted once the moment of the whole link is known.
                 self.lists.carried[each * self.angles.len() + link] = moment;
             }
             let [x, y] = [base[0], base[1] + block.centroid_height];

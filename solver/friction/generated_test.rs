@@ -27,7 +27,7 @@ impl Random {
     }
 }
 
-/// All states of an interface, sliding on either face.
+/// All states of an interface, with corners on either face.
 fn states(interface: usize) -> Vec<Joint> {
     let mut states = vec![Joint::Free];
     for slip in [Slip::Sticks, Slip::Slides(1), Slip::Slides(-1)] {
@@ -53,7 +53,7 @@ pub(super) fn combinations(blocks: usize) -> Vec<Vec<Joint>> {
     })
 }
 
-/// A tapered and displaced column in these states, all else random.
+/// A column of tapered blocks in these states; sizes, slides and motion are random.
 pub(super) fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Column, Configuration) {
     let block = |random: &mut Random| {
         let (bottom, half_height) = (random.within(0.4, 0.6), random.within(0.3, 1.2));
@@ -88,7 +88,8 @@ pub(super) fn random_configuration(random: &mut Random, joints: &[Joint]) -> (Co
     (column, configuration)
 }
 
-/// Largest difference of the two, relative to the largest acceleration; free angles and translations. `None` without a program.
+/// Largest difference between program and rows, relative to the largest acceleration, and the numbers of free angles and translations. `None` if the
+/// build has no program.
 fn difference(random: &mut Random, joints: &[Joint]) -> Option<(f64, (usize, usize))> {
     let (column, configuration) = random_configuration(random, joints);
     compare(random, &column, &configuration)
@@ -172,7 +173,7 @@ fn few_translations(random: &mut Random, blocks: usize) -> Vec<Joint> {
     joints
 }
 
-/// States that stick run on the equations of displaced blocks: the pivots are those of the corners that the slides leave innermost.
+/// States that stick run on the equations of displaced blocks: pivots are the ends of the overlap of two faces.
 #[test]
 fn sticking_states_have_the_accelerations_of_the_rows() {
     let mut random = Random(0x2545_F491_4F6C_DD1D);
@@ -199,7 +200,7 @@ fn sticking_states_have_the_accelerations_of_the_rows() {
     }
 }
 
-/// Times the accelerations of the programs against those of the rows, on the states of one of each.
+/// Times the accelerations by programs and by rows, on eight combinations of states.
 #[test]
 #[ignore = "a measurement: run with --ignored --nocapture, built to run fast"]
 fn speed_of_the_programs_against_the_rows() {

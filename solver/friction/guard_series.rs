@@ -1,7 +1,7 @@
 //! Guards of a step on a Taylor series, as polynomials of the share of the step.
 //!
-//! Every guard of [`super::guards`] but a landing is linear in what the series has: coordinates, forces in the axes of a face, moments, and `u N`. Where a guard is
-//! the lesser of two such functions, both are given.
+//! Every guard of [`super::guards`] but a landing is linear in what the series has (coordinates, forces in the axes of a face, moments, `u N`), or is
+//! the lesser of two such functions. In the second case both are given.
 
 use super::gaps::Corner;
 use super::guards::Guard;
@@ -23,7 +23,7 @@ pub struct SeriesSpan<'s> {
     pub h: f64,
     /// Powers of the length ([`powers`]).
     pub powers: [f64; COEFFICIENTS],
-    /// Violation of a condition on forces that is rounding `[N]`.
+    /// Violation of a condition on forces that counts as rounding `[N]`.
     pub slack: f64,
     /// `[rad]`
     pub overturn_angle: f64,
@@ -57,7 +57,7 @@ impl SeriesSpan<'_> {
         self.of_values(0.0, |k| angle[k])
     }
 
-    /// Visits the polynomials of which a guard is the least; none of a landing.
+    /// Visits the polynomials of a guard: the guard is the lesser of them where there are two. A landing has none.
     pub fn guard(&self, guard: Guard, visit: &mut dyn FnMut(&Powers)) {
         let series = self.series;
         match guard {
@@ -130,7 +130,8 @@ impl SeriesSpan<'_> {
         }
     }
 
-    /// How far the resultant at a closed contact is from the end of a side, times the normal force: the end of the upper and that of the lower face.
+    /// Distance of the resultant at a closed contact from the end of a side, times the normal force: first for the end of the upper face, then of the
+    /// lower one.
     fn tip(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let blocks = self.column.blocks();
         let (side, series) = (f64::from(side), self.series);
@@ -154,8 +155,8 @@ impl SeriesSpan<'_> {
         visit(&self.of_values(sign * beyond, |k| sign * f64::from(side) * slide[k]));
     }
 
-    /// How far a corner of a free interface is to the right of the middle of the other block's face, how far above it, and half of that face's width
-    /// `[m]`.
+    /// Position of a corner of a free interface relative to the face of the other block `[m]`: distance to the right of the face's middle, gap to the
+    /// face, and half of the face's width.
     pub fn gap(&self, corner: Corner) -> ([Powers; 2], f64) {
         let Corner { interface, side, face } = corner;
         let [in_lower, in_upper, turn] = self.pose(interface);
@@ -165,7 +166,7 @@ impl SeriesSpan<'_> {
         let of = |axis: usize| match face {
             Face::Upper => {
                 let arm = [1.0, -1.0][axis] * f64::from(side) * lower;
-                // The corner is below the face: its height above is less than none.
+                // A corner of the lower block is below the upper face: the gap is minus its height above the face.
                 let sign = [1.0, -1.0][axis];
                 self.of_values(0.0, |k| sign * (arm * turn[k][axis] - in_upper[k][axis]))
             }

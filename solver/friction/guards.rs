@@ -15,19 +15,19 @@ use crate::column::Column;
 /// A guard of an interface (from zero), or of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Guard {
-    /// The force at a sticking contact leaves the cone: it slides to this side.
+    /// The force at a sticking contact leaves the cone: the contact begins to slide to this side.
     Cone(usize, Sign),
-    /// A contact parts.
+    /// The normal force of a contact falls to zero.
     Press(usize),
     /// The resultant at a closed contact reaches the end of this side.
     Tip(usize, Sign),
     /// A slide comes to rest.
     Stop(usize),
-    /// A gap of angles closes.
+    /// The relative angle at a corner falls to zero.
     Close(usize),
     /// A corner passes the end of the face it stands on.
     Edge(usize),
-    /// The contact's length falls to zero.
+    /// The length of a contact, or the overlap of the two faces of a free interface, falls to zero.
     Collapse(usize),
     /// A corner of a free interface reaches the other block's face.
     Land(Corner),
@@ -36,12 +36,12 @@ pub enum Guard {
 }
 
 impl Guard {
-    /// Whether its value may start from zero: a gap that has just opened, a slide that has just begun.
+    /// Whether the guard's value may start from zero: a gap that has just opened, a slide that has just begun.
     pub fn may_start_from_zero(self) -> bool {
         matches!(self, Guard::Stop(_) | Guard::Close(_) | Guard::Edge(_) | Guard::Land(..))
     }
 
-    /// Whether its value depends on forces.
+    /// Whether the guard's value depends on forces.
     pub fn needs_forces(self) -> bool {
         matches!(self, Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..))
     }
@@ -81,7 +81,7 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
     guards
 }
 
-/// The value of a guard that depends on angles, slides and free interfaces alone, above zero while nothing happens.
+/// Value of a guard that needs no forces, above zero while nothing happens; infinite for a guard of forces.
 pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle: f64) -> f64 {
     match guard {
         Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
@@ -106,7 +106,7 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
     }
 }
 
-/// The value of a guard that depends on forces, with the static coefficients; `slack` is a violation that is rounding `[N]`.
+/// Value of a guard of forces, with the static coefficients; infinite for any other guard. `slack` is the violation that counts as rounding `[N]`.
 pub fn value_of_forces(
     guard: Guard,
     column: &Column,

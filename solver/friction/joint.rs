@@ -6,9 +6,9 @@
 //! free                             the blocks fly apart
 //! ```
 //!
-//! Slides to the right (+1) and to the left (-1) are told apart: ten states with both sides. The slide `u` of an interface is how far the upper
-//! block has been moved to the right along the face that carries the contact; where the faces lie on each other it is the distance of their
-//! middles.
+//! Slides to the right (+1) and to the left (-1) are different states, as are the two corners: ten states in all. The slide `u` of an interface is
+//! how far the upper block has moved to the right along the face that carries the contact. Where the faces lie on each other, `u` is the distance
+//! between their middles.
 
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
@@ -65,7 +65,7 @@ impl Joint {
         matches!(self, Joint::Closed(Slip::Sticks) | Joint::Corner(_, _, Slip::Sticks))
     }
 
-    /// How the contact resists sliding; none without contact.
+    /// How the contact resists sliding; `None` for a free interface.
     pub fn slip(self) -> Option<Slip> {
         match self {
             Joint::Closed(slip) | Joint::Corner(_, _, slip) => Some(slip),
@@ -83,18 +83,18 @@ pub struct Configuration {
     pub theta: PerBlock<f64>,
     /// Rates `[rad/s]`.
     pub omega: PerBlock<f64>,
-    /// Slides `[m]`; of a free interface the last one, not kept up.
+    /// Slides `[m]`; not updated while an interface is free.
     pub slide: PerBlock<f64>,
     /// Rates of the slides `[m/s]`.
     pub slide_rate: PerBlock<f64>,
-    /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`; of free interfaces only.
+    /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`; valid at free interfaces only.
     pub apart: PerBlock<Vec2>,
     /// Rate of `apart` `[m/s]`.
     pub apart_rate: PerBlock<Vec2>,
 }
 
 impl Configuration {
-    /// A column that sticks in this pattern with the slides that it has.
+    /// Configuration in this pattern in which every contact sticks, with the slides of the column.
     pub fn sticking(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> Configuration {
         let blocks = column.len();
         let mut configuration = Configuration {
@@ -114,8 +114,8 @@ impl Configuration {
         configuration
     }
 
-    /// Places the blocks, which keep their angles, by centroids `[m]` and their velocities `[m/s]`, every interface free; what touches is found where the
-    /// run begins.
+    /// Places the blocks by their centroids `[m]` and the velocities of the centroids `[m/s]`; angles and their rates stay. Every interface becomes
+    /// free: which of them touch is found when the run begins.
     pub fn place(&mut self, column: &Column, [x, y]: [&[f64]; 2], [vx, vy]: [&[f64]; 2]) {
         let (mut top, mut top_rate) = ([0.0, 0.0], [0.0, 0.0]);
         for (i, block) in column.blocks().iter().enumerate() {
@@ -132,7 +132,7 @@ impl Configuration {
         }
     }
 
-    /// The pattern of signs: that of the relative angle where the interface is not closed.
+    /// The pattern: the side of a corner; for a free interface the sign of the relative angle, `+` at zero.
     pub fn pattern(&self) -> Pattern {
         let state = |interface: usize| match self.joints[interface] {
             Joint::Closed(_) => Interface::Closed,
@@ -156,13 +156,13 @@ impl Configuration {
     }
 }
 
-/// Value of a block less that of the one below, which is zero for the ground.
+/// Value of the block above an interface minus the value of the block below; the ground has the value zero.
 pub fn difference(values: &[f64], interface: usize) -> f64 {
     values[interface] - interface.checked_sub(1).map_or(0.0, |below| values[below])
 }
 
-/// Share of a width below which two corners coincide: what some roundings leave of equal widths. Larger, and drums that are nearly equal would be
-/// taken for equal ones, whose corners bear more.
+/// Two corners coincide if their distance is at most this share of the sum of the half-widths: the rounding of equal widths. Larger, and drums that
+/// are nearly equal would count as equal ones, whose coinciding corners carry a force in the sum of two friction cones.
 const COINCIDENCE: f64 = 1e-13;
 
 /// The face that carries a corner of this side, at a slide `[m]`.

@@ -1,11 +1,11 @@
 //! Friction: blocks that stick, slide and fly (docs/book/model.md, sections 13 to 18).
 //!
 //! A contact of the model without sliding transmits whatever force holds its blocks together. Here the tangential force obeys Coulomb's
-//! law and the normal force is a pressure, so that an interface has ten states instead of three ([`joint`]). Motions are described by
-//! coordinates that keep the contacts by themselves: an angle for each link, a slide for each interface that slides, two translations for each
-//! that is free ([`chain`]). The equations of motion are rows of d'Alembert's principle ([`rows`]), generated ones where the
-//! build has them ([`generated`]), and Taylor series of a derivation of their own, on which runs step ([`series`]); which state follows an event is searched
-//! for among the admissible ones ([`search`]); what ends a state are zeros of guards ([`guards`]), on series polynomials ([`guard_series`]).
+//! law and the normal force is a pressure, so that an interface has ten states instead of three ([`joint`]). The coordinates keep the contacts by
+//! themselves: an angle for each link, a slide for each interface that slides, two translations for each free interface ([`chain`]). The equations
+//! of motion exist in three forms: rows of d'Alembert's principle ([`rows`]), generated programs where the build has them ([`generated`]), and Taylor
+//! series with a separate derivation, on which runs step ([`series`]). The states that follow an event are searched for among the admissible ones
+//! ([`search`]). A state ends at the first zero of a guard ([`guards`]); on a series, guards are polynomials ([`guard_series`]).
 //!
 //! Time does not pass here: `run/` integrates.
 
@@ -45,10 +45,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Friction {
-    /// Of contacts that stick.
+    /// Static coefficients, of contacts that stick.
     #[serde(rename = "static")]
     pub fixed: Vec<f64>,
-    /// Of contacts that slide, and of impacts; no larger than that of the same contact while it sticks.
+    /// Kinetic coefficients, of contacts that slide and of impacts; at each contact no larger than the static one.
     pub kinetic: Vec<f64>,
 }
 
@@ -93,10 +93,12 @@ impl Friction {
     }
 }
 
-/// Share of a column's size by which a corner may be below the face on which it lands: what a search for the landing leaves is far less.
+/// Depth inside another block that a corner may have, at a landing and in an initial state, as a share of [`Column::size`].
+/// The search for a landing ends at far smaller depths.
 pub(crate) const DEPTH_SHARE: f64 = 1e-8;
 
-/// The block (from zero) that is placed deepest inside the one below, or in the ground, and how deep `[m]`: centroids `[m]`, angles `[rad]`.
+/// Block (from zero) that reaches deepest into the block below or the ground, and its depth `[m]`. `None` if no depth exceeds [`DEPTH_SHARE`].
+/// `x` and `y` are the centroids `[m]`; `theta` are the angles `[rad]`, empty for zero.
 pub(crate) fn deepest(column: &Column, [x, y]: [&[f64]; 2], theta: &[f64]) -> Option<(usize, f64)> {
     let still = vec![0.0; column.len()];
     let theta = if theta.is_empty() { &still } else { theta };

@@ -1,4 +1,5 @@
-//! The search for contact states against brute force over all of them, by code that shares no formula with it (`tests/common/friction_oracle.rs`).
+//! The search for contact states against brute force over all states, by code that shares no formula with the search
+//! (`tests/common/friction_oracle.rs`).
 
 use super::chain::{Chain, Rates};
 use super::contact::{Coefficients, Question, Touch};
@@ -123,20 +124,20 @@ fn case(random: &mut Uniform, strikes: bool) -> Case {
     Case { column, now, touch, friction, stack, state }
 }
 
-/// Largest difference between the motions of the blocks, relative to the largest of them.
+/// Largest difference between two motions of the blocks, relative to the largest component of `other`, at least 1.
 fn off(own: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
     let size = other.iter().flatten().fold(1.0f64, |size, value| size.max(value.abs()));
     let differences = own.iter().flatten().zip(other.iter().flatten()).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, f64::max) / size
 }
 
-/// Both solve systems of up to nine and twenty rows with condition numbers of some thousands.
+/// Largest relative difference of equal motions: search and oracle solve systems of up to nine and twenty rows, condition numbers of some thousands.
 const SAME: f64 = 1e-8;
 
-/// Margin of a condition, as a share of the problem's scale, within which the two may take different states.
+/// Margin of a condition, as a share of the problem's scale, within which search and oracle may take different states.
 const NEAR: f64 = 1e-7;
 
-/// What the motions of two states differ by at most where the worst margin is smaller than that.
+/// Largest relative difference of motions where the worst margin is below [`NEAR`].
 const NEAR_SAME: f64 = 1e-6;
 
 fn compare(seed: u64, cases: usize) {
@@ -153,7 +154,7 @@ fn compare(seed: u64, cases: usize) {
         } else {
             accelerations(&stack, &state, [ground.x, ground.gravity - 9.81])
         };
-        // Of several answers a rule chooses.
+        // Cases with several answers are not compared: a rule chooses among them. Nor are cases without any.
         let [only] = &found[..] else {
             several[usize::from(strikes)] += 1;
             continue;

@@ -1,14 +1,14 @@
 //! Equations of motion and of impact with friction, row by row (docs/book/model.md, section 14).
 //!
 //! A row is d'Alembert's principle on a virtual motion: `Σ m_j A_j · δr_j + I_j α_j δθ_j = 0`. Angles and the translations of free interfaces are
-//! tested along themselves. A slide of interface `j` is tested along the face lifted by `ε μ` for a unit of slide, on which the contact does no work:
+//! tested along themselves. A slide of interface `j` is tested along its face lifted by `ε μ` for a unit of slide. The contact does no work on that:
 //!
 //! ```text
 //! Σ_{i≥j} m_i A_i · R(θ_face) (1, ε μ) = 0          which is T + ε μ N = 0
 //! ```
 //!
-//! so that no normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations less gravity; in an impact
-//! they are the jumps of velocity, and forces are impulses.
+//! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations less gravity. In an impact `A` are the
+//! jumps of velocity, and forces are impulses.
 
 use super::chain::{Chain, Motion, Rates};
 use super::joint::{Configuration, Joint, Slip};
@@ -33,7 +33,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// Its value and rate in a configuration.
+    /// Value and rate of the coordinate in a configuration.
     pub fn of(&self, configuration: &Configuration) -> [f64; 2] {
         match self {
             Coordinate::Angle(blocks) => [configuration.theta[blocks.start], configuration.omega[blocks.start]],
@@ -42,7 +42,7 @@ impl Coordinate {
         }
     }
 
-    /// Gives it a rate.
+    /// Sets the rate of the coordinate.
     fn give(&self, rate: f64, rates: &mut Rates) {
         match self {
             Coordinate::Angle(range) => rates.omega[range.clone()].fill(rate),
@@ -70,22 +70,22 @@ pub fn coordinates(joints: &[Joint]) -> Vec<Coordinate> {
     coordinates
 }
 
-/// Rates of a configuration for values of its free coordinates.
+/// Rates by block and interface from the rates of the free coordinates.
 pub fn rates(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Rates {
     let mut rates = Rates::zero(blocks);
     coordinates.iter().zip(values).for_each(|(coordinate, value)| coordinate.give(*value, &mut rates));
     rates
 }
 
-/// What the states of all interfaces give: accelerations and forces, or velocities after an impact and impulses.
+/// Result for given states of all interfaces: accelerations and forces, or velocities after an impact and impulses.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// Second derivatives of the coordinates, or their rates after an impact.
     pub rates: Rates,
-    /// Accelerations of the blocks less gravity, or their jumps of velocity.
+    /// Accelerations of the blocks less gravity, or jumps of the blocks' velocities.
     pub change: Motion,
-    /// What the contacts transmit to the stacks above: in the axes of the face that carries the contact, the moment about the centre of a
-    /// closed one and about the point of a corner.
+    /// Forces, or impulses, of the contacts on the stacks above, in the axes of the face that carries the contact. Moments are about the centre of a
+    /// closed contact, and about the point of a corner.
     pub contacts: PerBlock<ContactForce>,
 }
 
@@ -108,8 +108,8 @@ type Planar = [f64; 3];
 pub struct Rows<'c, 'a> {
     chain: &'c Chain<'a>,
     coordinates: Vec<Coordinate>,
-    /// Motion of each block for a unit rate of each coordinate, coordinate by coordinate; then the virtual motions along which coordinates are tested: their
-    /// own, and of slides those along the lifted face.
+    /// Motion of each block for a unit rate of each coordinate, coordinate by coordinate. Then, in the same order, the virtual motion along which each
+    /// coordinate is tested: along the lifted face for a slide, the coordinate's own motion otherwise.
     motions: Vec<Planar>,
     /// Centre or point of each contact `[m]`.
     points: PerBlock<Vec2>,
@@ -173,7 +173,7 @@ impl<'c, 'a> Rows<'c, 'a> {
         Some(accelerated(self.chain, &self.points, rates, &imposed))
     }
 
-    /// The velocities after an impact of blocks that move like this before.
+    /// The velocities after an impact; `before` is the motion of the blocks before it.
     pub fn impact(&self, before: &Motion) -> Option<Answer> {
         let rates = self.solve(|block| {
             let [x, y] = before.linear[block];
@@ -182,14 +182,14 @@ impl<'c, 'a> Rows<'c, 'a> {
         Some(self.given(rates, before))
     }
 
-    /// What contacts transmit in an impact that leaves these rates.
+    /// Result of an impact after which the coordinates have these rates.
     pub fn given(&self, rates: Rates, before: &Motion) -> Answer {
         let change = self.chain.motion(&rates).less(before);
         answer(self.chain, &self.points, rates, change)
     }
 }
 
-/// What second derivatives of the coordinates give, whatever determined them; `centres` as of [`Rows::new`].
+/// Accelerations and forces for given second derivatives of the coordinates; `centres` as in [`Rows::new`].
 pub fn answer_to(
     chain: &Chain,
     joints: &[Joint],

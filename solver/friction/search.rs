@@ -8,8 +8,8 @@
 //! ```
 //!
 //! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
-//! state. Where it goes in circles, it begins anew with the states of a complementarity problem ([`super::complementarity`]); where that has no answer,
-//! combinations are tried one by one, few changes first.
+//! state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
+//! well, all combinations are tried: the admissible one with the fewest changes holds, in an impact the one with the least energy of the change.
 
 use super::chain::{Chain, Rates};
 use super::complementarity;
@@ -29,26 +29,28 @@ pub struct Solution {
     pub joints: PerBlock<Joint>,
     /// Accelerations and forces, or velocities and impulses.
     pub answer: Answer,
-    /// Whether other states were admissible, with another answer.
+    /// Whether other admissible states with another motion were found; `false` where not all combinations were tried.
     pub is_ambiguous: bool,
 }
 
-/// Share of the velocities and impulses at work in an impact below which a condition is violated by rounding only.
+/// Violation of a condition that counts as rounding in an impact, as a share of the velocities and impulses at work.
 const IMPACT_SHARE: f64 = 1e-10;
 
-/// The same of accelerations and forces. A guard asks for twice as much ([`force_slack`]), so that what ends a state is no rounding here.
+/// Violation of a condition that counts as rounding, as a share of the accelerations and forces at work. Guards of forces allow twice this violation
+/// ([`force_slack`]): what ends a state does not count as rounding here.
 pub const ACCELERATION_SHARE: f64 = 1e-11;
 
-/// Share of the speed at work by which an impact must change some velocity to be one.
+/// Least change of some velocity that makes an impact, as a share of the speed at work.
 const JUMP_SHARE: f64 = 1e-9;
 
-/// Combinations that are tried one by one at most; beyond, the search ends without an answer. Three blocks have a thousand.
+/// Largest number of combinations that are tried one by one; beyond it, none is tried. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
 
-/// Coefficient of friction from which on several states may be admissible (docs/book/model.md, section 16): all are tried then.
+/// Coefficient of friction above which several combinations may be admissible (docs/book/model.md, section 16). All are then tried, unless
+/// everything sticks or there are more than [`MOST_BLOCKS_TRIED`] interfaces.
 const AMBIGUOUS_FROM: f64 = 0.8;
 
-/// Most interfaces whose combinations are all tried for a second answer.
+/// Largest number of interfaces for which all combinations are tried to find a second answer.
 const MOST_BLOCKS_TRIED: usize = 3;
 
 /// A contact problem with friction.
@@ -61,14 +63,14 @@ pub struct Search<'a> {
     now_rates: Rates,
     /// Centres of closed contacts on their lower faces `[m]`.
     centres: PerBlock<f64>,
-    /// The geometry of the present states, once a contact parts.
+    /// Geometry of the present states, computed when a contact first parts.
     held: OnceCell<Chain<'a>>,
-    /// The size of accelerations, or velocities.
+    /// Scale of the accelerations `[m/s²]`, or of the velocities `[m/s]`.
     linear: f64,
     slack: Slack,
 }
 
-/// By how much conditions may be violated by rounding: on forces or impulses, on accelerations or velocities, and on angular ones.
+/// Violations that count as rounding: of forces or impulses, of accelerations or velocities, and of angular accelerations or rates.
 #[derive(Clone, Copy, Debug)]
 struct Slack {
     force: f64,
@@ -76,14 +78,14 @@ struct Slack {
     angular: f64,
 }
 
-/// The size of the accelerations at work `[m/s²]`.
+/// Scale of the accelerations at work `[m/s²]`.
 pub fn acceleration_scale(column: &Column, now: &Configuration, ground: Ground) -> f64 {
     let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
     ground.x.abs() + ground.gravity.abs() + 1e-3 * column.gravity() + fastest * fastest * column.size()
 }
 
-/// By how much a force must violate a condition to end a state `[N]`: contacts that are exactly critical, as flat interfaces of equal friction above each
-/// other, do not start to slide by rounding, and what the search for the next states takes for rounding ends none.
+/// Violation of a condition on forces at which a state ends `[N]`. Contacts that are exactly critical, such as flat interfaces of equal friction
+/// above each other, do not start to slide by rounding. What counts as rounding in the search for the next states ends no state.
 pub fn force_slack(column: &Column, now: &Configuration, ground: Ground) -> f64 {
     2.0 * ACCELERATION_SHARE * column.mass() * acceleration_scale(column, now, ground)
 }
@@ -113,7 +115,7 @@ impl<'a> Search<'a> {
         Search { column, now, touch, friction, question, now_rates, centres, held: OnceCell::new(), linear, slack }
     }
 
-    /// The states that follow, found from these on; `None` if none is admissible.
+    /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let guided = self.guided(first.clone());
         let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));
@@ -148,7 +150,7 @@ impl<'a> Search<'a> {
         Some(joints.iter().enumerate().map(carried).collect())
     }
 
-    /// The states that follow if these do not, and of an impact those that change the motion; `None` if there are no others.
+    /// Accelerations: admissible states other than `excluded`. Impact: admissible states that change the motion. `None` if none are found.
     pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
         let is_other = |joints: &[Joint], answer: &Answer| match self.question {
             Question::Accelerations(_) => joints != excluded,
@@ -162,7 +164,7 @@ impl<'a> Search<'a> {
         if found.is_some() || matches!(self.question, Question::Accelerations(_)) {
             return found;
         }
-        // Too many to be tried: from all that sticks, then from each slide that comes to rest while the others go on.
+        // No combination was found, or there are too many: search from all that sticks, then from each slide at rest while the other slides go on.
         let sliding = |interface: usize| {
             let rate = self.now.slide_rate[interface];
             (rate != 0.0 && first[interface].slip().is_some()).then_some(if rate > 0.0 { 1 } else { -1 })
@@ -186,8 +188,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Corners that coincide and begin to slide go on along the face that carries them an instant later, or part where that does not hold them. What no
-    /// longer holds of the others then changes as well.
+    /// The states an instant later: coinciding corners that slide continue along the face that carries them by then, or part where that state does
+    /// not hold. Other interfaces whose conditions no longer hold then change as well.
     pub fn carried(&self, solution: &Solution) -> PerBlock<Joint> {
         let mut joints = solution.joints.clone();
         let mut is_carried = PerBlock::filled(false, joints.len());
@@ -246,15 +248,15 @@ impl<'a> Search<'a> {
         self.touch.iter().enumerate().map(joint).collect()
     }
 
-    /// Whether the direction of a slide is given by the present rate, and which it is.
+    /// Slip with the direction of the present slide rate; `None` in an impact, or where that rate is zero.
     fn given_slip(&self, interface: usize) -> Option<Slip> {
         let rate = self.now.slide_rate[interface];
         let is_given = matches!(self.question, Question::Accelerations(_)) && rate != 0.0;
         is_given.then_some(Slip::Slides(if rate > 0.0 { 1 } else { -1 }))
     }
 
-    /// A corner on the face that carries it. Coinciding corners are two contacts, each corner against the other's face prolonged: they slide
-    /// outwards along the lower face and inwards along the upper one, and part from the other.
+    /// State of a corner on the face that carries it. Coinciding corners are two contacts, each corner against the prolonged face of the other block:
+    /// they slide outwards along the lower face and inwards along the upper one, and part from the other face.
     fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
         let face = match (face(self.column, interface, side, self.now.slide[interface]), slip) {
             (Face::Both, Slip::Slides(direction)) if direction == side => Face::Lower,
@@ -282,7 +284,7 @@ impl<'a> Search<'a> {
         choices
     }
 
-    /// What states give; `None` where they do not determine it.
+    /// Accelerations and forces, or velocities and impulses, in these states; `None` where the rows do not determine them.
     fn answer(&self, joints: &[Joint]) -> Option<Answer> {
         let mut configuration = self.now.clone();
         configuration.joints = PerBlock::from_slice(joints);
@@ -301,7 +303,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// From violated condition to the state that it names, until none is violated.
+    /// Changes states as violated conditions name them, until none is violated. `None` where this goes in circles, takes too many rounds, or comes to
+    /// states without an answer.
     fn guided(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let mut visited: Vec<PerBlock<Joint>> = Vec::new();
         let mut joints = first;
@@ -316,7 +319,7 @@ impl<'a> Search<'a> {
             let mut next = joints.clone();
             required.iter().for_each(|(interface, joint)| next[*interface] = *joint);
             if visited.contains(&next) {
-                // All at once goes in circles: one at a time, from the base.
+                // Changing all at once goes in circles: only one changes, the lowest that leads to a new combination.
                 let one = required.iter().find_map(|(interface, joint)| {
                     let mut next = joints.clone();
                     next[*interface] = *joint;
@@ -329,7 +332,8 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// The best of all admissible combinations that are wanted: few changes first.
+    /// The best of all admissible combinations that are wanted: fewest changes against `first` (not counted in an impact), then least energy of the
+    /// change. `None` if there is none, or with more than [`MOST_TRIED`] combinations.
     fn tried(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
         let choices: Vec<PerBlock<Joint>> = (0..first.len()).map(|i| self.choices(i)).collect();
         let count = choices.iter().fold(1usize, |count, list| count.saturating_mul(list.len()));
@@ -427,7 +431,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The contact of a free interface that would sink in.
+    /// Contact that a free interface must take because a corner would sink in; `None` if no corner does.
     fn sinks(&self, answer: &Answer, interface: usize) -> Option<Joint> {
         let slack = -self.slack.linear;
         match self.touch[interface] {

@@ -1,7 +1,8 @@
 //! Taylor series of a motion in which blocks stick, slide and fly (docs/book/model.md, section 14).
 //!
 //! Vectors are complex numbers, `x + i y`. A block turned clockwise by `θ` has the direction `z = exp(-iθ)` along its faces and `i z` across them.
-//! Places of the blocks are sums of constants times `z`, of slides as vectors, and of the coordinates of free interfaces, so that accelerations are linear in second derivatives of these:
+//! Places of the blocks are sums of constants times `z`, of slides as vectors, and of the coordinates of free interfaces. Accelerations are therefore
+//! linear in the second derivatives of these three:
 //!
 //! ```text
 //! z' = -i θ' z,      y = u z_face                                    the link's direction, the slide as a vector
@@ -11,12 +12,13 @@
 //! Q_i = Q_{i+1} + I_i θ_i'' + e_i T_i + (2 h_i - e_i) T_{i+1} - a N_{i+1} - b N_{i+1}  moment about the middle of block i's base
 //! ```
 //!
-//! `a` and `b` are the places of a contact on the lower and on the upper face; the one along which the contact slides has `u` in it. The rows are
-//! `Q_i - b N_i = 0` of the angle that begins at a corner, `T + ε μ N = 0` of a slide, `F_i = 0` and `Q_i = 0` of a free interface. Order by order, products are
-//! convolutions of what is known, and the unknown second derivatives of the order enter linearly, with the matrix of the lowest order for all: one
-//! factorisation serves the whole series. Forces, and so all guards, are series themselves.
+//! `a` and `b` are the places of a contact on the lower and on the upper face; where the contact slides along a face, that face's place contains `u`.
+//! The rows are `Q_i - b N_i = 0` for an angle that begins at a corner, `T + ε μ N = 0` for a slide, `F_i = 0` and `Q_i = 0` for a free interface.
+//! Products are convolutions of known coefficients. The unknown second derivatives of an order enter linearly, with the matrix of the lowest order
+//! for all orders: one factorisation serves the whole series. Forces are series as well, and so are all guards.
 //!
-//! No formula is shared with the generated programs or with [`super::rows`], which check it. What a step reads of a series is in `series/output.rs`.
+//! The derivation shares no formula with the generated programs or with [`super::rows`]; tests compare it with the rows.
+//! What a step reads of a series is in `series/output.rs`.
 
 mod output;
 
@@ -28,11 +30,12 @@ use crate::numerics::ode::taylor::{reciprocal, turned};
 use crate::numerics::polynomial::bernstein::COEFFICIENTS;
 use wide::f64x2;
 
-/// Most orders of second derivatives: coordinates run two ahead.
+/// Largest number of orders of second derivatives; coordinates have two orders more.
 pub const MOST_ORDERS: usize = COEFFICIENTS - 2;
 
-/// Coefficients of a number, and of a vector, order by order.
+/// Coefficients of a number, order by order.
 type Numbers = [f64; COEFFICIENTS];
+/// Coefficients of a vector, order by order.
 type Vectors = [f64x2; COEFFICIENTS];
 
 const NO_NUMBERS: Numbers = [0.0; COEFFICIENTS];
@@ -44,17 +47,21 @@ pub type InAxes = [f64; 2];
 /// Blocks that turn together.
 #[derive(Clone, Debug)]
 struct Link {
-    /// Place of the angle among the coordinates; none of the ground.
+    /// Place of the angle among the coordinates; `None` for the ground.
     coordinate: Option<usize>,
-    /// `θ`, and `θ'` twice.
+    /// `θ`
     theta: Numbers,
+    /// `θ'`, in both lanes.
     rate: Vectors,
-    /// `z`, its real part twice, and its imaginary part twice.
+    /// `z`
     direction: Vectors,
+    /// Real part of `z`, in both lanes.
     real: Vectors,
+    /// Imaginary part of `z`, in both lanes.
     imaginary: Vectors,
-    /// `z''`, and the part of its next coefficient that lower orders give.
+    /// `z''`
     second: Vectors,
+    /// Part of the next coefficient of `z''` that lower orders give.
     known: f64x2,
 }
 
@@ -66,14 +73,14 @@ enum Translation {
         coordinate: usize,
         /// The link whose face carries the contact.
         face: usize,
-        /// Whether that is the upper block's.
+        /// Whether the face is that of the upper block.
         is_upper: bool,
         /// `ε μ`
         lift: f64,
         /// `u`
         slide: Numbers,
     },
-    /// The blocks fly: two coordinates from this one on.
+    /// The blocks fly: two coordinates, beginning with `coordinate`.
     Apart { coordinate: usize, apart: Vectors },
 }
 
@@ -81,21 +88,26 @@ enum Translation {
 #[derive(Clone, Debug)]
 struct Level {
     joint: Joint,
-    /// Links of the blocks below and above.
+    /// Link of the block below.
     below: usize,
+    /// Link of the block above.
     link: usize,
-    /// Places of the contact on both faces without the slide that moves `[m]`.
+    /// Place of the contact on the lower face, without a slide that changes `[m]`.
     on_lower: f64,
+    /// Place of the contact on the upper face, without a slide that changes `[m]`.
     on_upper: f64,
     translation: Option<Translation>,
     mass: f64,
     inertia: f64,
     centroid_height: f64,
     height: f64,
-    /// `F`, `F conj(z)` in the axes of the lower and of the upper block, and `Q`.
+    /// `F`
     force: Vectors,
+    /// `F conj(z)`, in the axes of the lower block.
     in_lower: Vectors,
+    /// `F conj(z)`, in the axes of the upper block.
     in_upper: Vectors,
+    /// `Q`
     moment: Numbers,
     /// `u N` of a slide.
     lever: Numbers,
@@ -121,8 +133,9 @@ pub struct Series {
     /// `ẍ_g + i (g + ÿ_g)`
     ground: Vectors,
     factors: Factors,
-    /// Residual of each row, then second derivatives of the coordinates.
+    /// Residual of each row.
     rows: Vec<f64>,
+    /// Second derivatives of the coordinates, of one order.
     second: Vec<f64>,
     /// `Σ m v` at the start `[kg m/s]`.
     momentum: f64x2,
@@ -164,7 +177,7 @@ impl Link {
         (self.real[order], self.imaginary[order]) = (f64x2::splat(real), f64x2::splat(imaginary));
     }
 
-    /// `-i Σ_{j < rates} θ'_j z_{last-j}`: the part of a derivative of `z` that so many rates give.
+    /// `-i Σ_{j < rates} θ'_j z_{last-j}`: the part of a coefficient of `z'` that the first `rates` coefficients of `θ'` give.
     #[inline(always)]
     fn turning(&self, rates: usize, last: usize) -> f64x2 {
         let terms = self.rate[..rates].iter().zip(self.direction[..=last].iter().rev());
@@ -173,16 +186,16 @@ impl Link {
 }
 
 impl Level {
-    /// Component across the face along which the contact slides, order by order.
+    /// Normal force: coefficient of an order, across the upper or the lower face.
     fn across(&self, is_upper: bool, order: usize) -> f64 {
         let [_, normal] = if is_upper { self.in_upper[order] } else { self.in_lower[order] }.to_array();
         normal
     }
 
-    /// What lower orders give of the next one.
+    /// Sets `known`: the parts of the coefficients of `order` that lower orders give.
     #[inline(always)]
     fn look_ahead(&mut self, links: &[Link], order: usize) {
-        // Coefficients of the force in the axes of a link but the last, which is sought.
+        // Coefficient of the force in the axes of a link, without the term of the force's own coefficient of this order, which is still unknown.
         let turned = |force: &Vectors, link: &Link| {
             let (mut along, mut turned) = (f64x2::ZERO, f64x2::ZERO);
             let directions = link.real[1..=order].iter().rev().zip(link.imaginary[1..=order].iter().rev());
@@ -211,7 +224,7 @@ impl Level {
 }
 
 impl Series {
-    /// For the states of a configuration with these coefficients of kinetic friction; slides of contacts that stick are those of the configuration.
+    /// Series for the states of a configuration with these coefficients of kinetic friction. Contacts that stick keep the configuration's slides.
     pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Series {
         let Configuration { joints, slide, .. } = configuration;
         let coordinates = coordinates(joints);
@@ -240,7 +253,7 @@ impl Series {
                     apart: NO_VECTORS,
                 }),
             };
-            // A slide that moves is a vector of its own.
+            // A slide that changes is not in the places of the contact: it is a vector of its own, in `translation`.
             let fixed = if joint.sticks() { slide[i] } else { 0.0 };
             let (on_lower, on_upper) = match joint {
                 Joint::Closed(_) => (fixed, 0.0),
@@ -289,8 +302,8 @@ impl Series {
         }
     }
 
-    /// Begins the series about a state, `[values, rates]` of the coordinates; `ground` are coefficients of the horizontal and of the vertical acceleration
-    /// with gravity `[m/s²]`. `None` where the rows do not determine the motion.
+    /// Begins the series about a state `x`, `[values, rates]` of the coordinates. `ground` has the coefficients of the horizontal acceleration and
+    /// of the vertical one with gravity `[m/s²]`. `None` where the rows do not determine the motion.
     pub fn begin(&mut self, x: &[f64], ground: [&[f64]; 2]) -> Option<()> {
         let (values, rates) = x.split_at(self.coordinates.len());
         for (k, own) in self.ground.iter_mut().enumerate() {
@@ -379,8 +392,8 @@ impl Series {
         Some(())
     }
 
-    /// Coefficients of directions, forces and moments of an order, and the residuals of the rows, for these second derivatives of the coordinates; without
-    /// what lower orders and the ground add, only what is linear in them.
+    /// Sets, from the second derivatives of the coordinates, the coefficients of directions, forces and moments of an order, and the residuals of
+    /// the rows. If not `IS_WHOLE`, terms of lower orders and of the ground are left out: the rest is linear in the second derivatives.
     #[inline(always)]
     fn evaluate<const IS_WHOLE: bool>(&mut self, order: usize) {
         let Series { links, levels, second, rows, ground, .. } = self;
@@ -406,7 +419,7 @@ impl Series {
             level.force[order] = (foot + raised * f64x2::splat(level.centroid_height)) * f64x2::splat(level.mass);
             foot += raised * f64x2::splat(level.height);
         }
-        // From the top: force on what is above, and the part of the moment that passes through the interface above.
+        // From the top: force at the interface above, its part along the top face of the block, and the moment about the middle of that face.
         let (mut above, mut along_above, mut passed) = (f64x2::ZERO, 0.0, 0.0);
         for level in levels.iter_mut().rev() {
             let (below, own) = (&links[level.below], &links[level.link]);
@@ -426,7 +439,7 @@ impl Series {
                 + level.centroid_height * (along_own - along_above)
                 + level.height * along_above;
             level.moment[order] = moment;
-            // The contact's distance from the middle of the block's base times the force across it.
+            // Moment of the normal force about the middle of the block's base.
             let mut on_base = level.on_upper * normal_on_upper;
             passed = moment - level.on_lower * normal_on_lower - on_base;
             along_above = along;
@@ -454,7 +467,7 @@ impl Series {
         }
     }
 
-    /// Coordinates and directions two orders ahead of second derivatives.
+    /// Sets the coefficients of coordinates and directions, two orders above those of the second derivatives.
     fn integrate(&mut self, order: usize) {
         let Series { links, levels, second, .. } = self;
         let (first, both) = (reciprocal(order + 1), reciprocal(order + 1) * reciprocal(order + 2));
@@ -475,7 +488,7 @@ impl Series {
         }
     }
 
-    /// Orders of second derivatives that are known; coordinates run two ahead.
+    /// Number of known orders of second derivatives; coordinates have two orders more.
     pub fn orders(&self) -> usize {
         self.orders
     }
@@ -505,7 +518,7 @@ pub enum Values<'s> {
 }
 
 impl Values<'_> {
-    /// That of an order.
+    /// Coefficient of an order.
     #[inline(always)]
     pub fn of(&self, order: usize) -> f64 {
         match self {

@@ -16,7 +16,7 @@ const ORDERS: usize = 14;
 /// 0.02^14 of the first.
 const STEP: f64 = 0.002;
 
-/// Accelerations of the ground `[m/s²]` that change linearly, and what they are after a time.
+/// Horizontal and vertical acceleration of the ground, the latter with gravity: value at the start `[m/s²]` and slope `[m/s³]`.
 const GROUND: [[f64; 2]; 2] = [[3.0, -40.0], [8.0, 25.0]];
 
 fn ground(t: f64) -> Ground {

@@ -22,7 +22,7 @@ struct Body {
 }
 
 impl Body {
-    /// These blocks as one body; without a block, one of no mass and no size.
+    /// These blocks as one body; no blocks give a body without mass and size.
     fn of(column: &Column, blocks: Range<usize>) -> Body {
         let parts = || column.blocks()[blocks.clone()].iter().zip(&column.seats()[blocks.clone()]);
         let mut whole = Body::default();
@@ -48,12 +48,12 @@ impl Body {
     }
 }
 
-/// The links of a pattern: runs of blocks, the one on the ground first, which may be empty.
+/// The links of a pattern, each a run of blocks. The first link stands on the ground and may be empty.
 pub(super) struct Links<'a> {
     column: &'a Column,
     /// Blocks of each link, length dof + 1.
     blocks: Vec<Range<usize>>,
-    /// Pivot offset at the base of each link `[m]`, zero of the one on the ground.
+    /// Pivot offset at the base of each link `[m]`; zero for the link on the ground.
     pivots: Vec<f64>,
 }
 
@@ -71,13 +71,13 @@ impl<'a> Links<'a> {
         Links { column, blocks, pivots }
     }
 
-    /// What the linkage of `dof` links reads.
+    /// Geometry that the linkage of `dof` links reads.
     pub fn whole(&self) -> Geometry<f64> {
         self.geometry(self.blocks.iter().cloned(), self.pivots.clone())
     }
 
-    /// Of an interface (from zero): its equations among those of the linkage or of the links divided there, and what their constants
-    /// read.
+    /// Equations of an interface (from zero), and the geometry that their scene constants read. The equations are one of `whole`, those of the
+    /// linkage, or one of `inside`, those of a link that the interface divides.
     pub fn at_interface(
         &self,
         interface: usize,
@@ -91,7 +91,7 @@ impl<'a> Links<'a> {
             return (whole[link], self.whole());
         }
         if link == 0 {
-            // What is below the interface on the ground does not matter.
+            // Blocks on the ground below the interface do not matter.
             let blocks = std::iter::once(interface..end).chain(self.blocks[1..].iter().cloned());
             return (whole[0], self.geometry(blocks, self.pivots.clone()));
         }

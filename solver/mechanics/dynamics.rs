@@ -36,12 +36,12 @@ pub struct ContactForce {
     pub moment: f64,
 }
 
-/// Where forces are wanted.
+/// Interfaces at which forces are requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interfaces {
-    /// Everywhere.
+    /// All interfaces.
     All,
-    /// At least where an interface is closed.
+    /// At least the closed interfaces.
     Closed,
 }
 
@@ -84,15 +84,15 @@ pub trait Dynamics {
     /// Mass matrix `[kg m²]`, row by row, dof × dof.
     fn mass_matrix(&self, state: &Self::State) -> Vec<f64>;
 
-    /// Mass matrix `[kg m²]` into `matrix`, row by row, of a state whose cosines and sines are given too.
+    /// Writes the mass matrix `[kg m²]` into `matrix`, row by row, for a state whose cosines and sines are given too.
     fn coupling(&self, state: &Self::State, cos: &Self::Links, sin: &Self::Links, matrix: &mut [f64]);
 
-    /// The weights `[C, S]` of the equations `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`, linear in the second derivatives of
-    /// cosines and sines and in the ground's acceleration; of Taylor coefficients, those of the weights.
+    /// The weights `[C, S]` of the equations `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`. They are linear in the second derivatives of
+    /// cosines and sines and in the ground's acceleration: Taylor coefficients of these give Taylor coefficients of the weights.
     fn weights(&self, cos_ddot: &Self::Links, sin_ddot: &Self::Links, ground: Ground) -> [Self::Links; 2];
 
-    /// Contact forces, base first, into `forces` (length N), at all interfaces or only at the closed ones; `derivative` belongs to
-    /// `state` and `ground`.
+    /// Writes contact forces, base first, into `forces` (length N), at all interfaces or at least at the closed ones. `derivative` is that
+    /// of `state` under `ground`.
     fn contact_forces(
         &self,
         state: &Self::State,

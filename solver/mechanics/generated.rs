@@ -42,7 +42,7 @@ use std::sync::OnceLock;
 pub mod equations {
     #[cfg(not(test))]
     include!(concat!(env!("OUT_DIR"), "/equations.rs"));
-    // Of fewer blocks: unit tests compile all of it once more.
+    // Equations of fewer blocks: unit tests compile all of them once more.
     #[cfg(test)]
     include!(concat!(env!("OUT_DIR"), "/unit_tests.rs"));
 }
@@ -59,7 +59,7 @@ pub use equations::{EQUATIONS, MAX_BLOCKS};
 /// Equations that the solver can run on: what a generated module offers as `EQUATIONS`.
 #[derive(Clone, Copy)]
 pub struct Equations {
-    /// What they are, for people.
+    /// Name for people; equal names mean equal equations.
     pub name: &'static str,
     /// The mode of a pattern of a column, `None` where there are no equations for it.
     pub mode: fn(&Column, &Pattern, GroundMotion) -> Option<Mode>,
@@ -77,7 +77,7 @@ impl serde::Serialize for Equations {
     }
 }
 
-/// The same equations are those of the same name.
+/// Equations are equal if their names are.
 impl PartialEq for Equations {
     fn eq(&self, other: &Equations) -> bool {
         self.name == other.name
@@ -146,7 +146,7 @@ pub struct GeneratedMode<P: Program> {
 struct InterfaceForces {
     constants: Vec<f64>,
     forces: ContactForces<f64>,
-    /// Pivot offset `[m]`, zero where the interface is closed. At an open one the resultant acts there.
+    /// Pivot offset `[m]`, zero where the interface is closed. At an open interface the resultant acts at the pivot.
     pivot: f64,
 }
 
@@ -196,21 +196,21 @@ impl<P: Program> GeneratedMode<P> {
         })
     }
 
-    /// Scene constants of mass matrix and energies: computed where they are read.
+    /// Scene constants of mass matrix and energies, computed at the first call.
     fn energy_constants(&self) -> &<Energies<P> as EnergyProgram<f64>>::Constants {
         self.energy_constants.get_or_init(|| fixed((self.energies)(&self.geometry)))
     }
 
-    /// Scene constants of the weights: computed where they are read.
+    /// Scene constants of the weights, computed at the first call.
     fn series_constants(&self) -> &<Series<P> as SeriesProgram<f64>>::Constants {
         self.series_constants.get_or_init(|| fixed((self.series)(&self.geometry)))
     }
 }
 
-/// Sizes that differ by no more than this, relative, are the same: masses and inertias come from sizes by a few roundings.
+/// Relative difference up to which sizes are the same: masses and inertias come from sizes by a few roundings.
 const SAME_SIZE: f64 = 8.0 * f64::EPSILON;
 
-/// Whether a column has these sizes: what its baked equations hold for.
+/// Whether a column has this gravity and these sizes, for which its baked equations hold.
 pub fn is_column(column: &Column, gravity: f64, sizes: &[[f64; 4]]) -> bool {
     let blocks = column.blocks();
     let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_SIZE * b.abs();
@@ -224,8 +224,8 @@ pub fn is_column(column: &Column, gravity: f64, sizes: &[[f64; 4]]) -> bool {
         && blocks.iter().zip(sizes).all(is_block)
 }
 
-/// The mirror image of a program: angles, rates and horizontal ground acceleration negated. Baked modes need it, whose sides
-/// are in their literals; elsewhere the sides are signs of scene constants.
+/// The mirror image of a program: angles, rates and horizontal ground acceleration negated. Baked modes need it, since their literals
+/// contain the sides; elsewhere the sides are signs of scene constants.
 #[derive(Clone, Copy, Debug)]
 pub struct Mirrored<P>(PhantomData<P>);
 
@@ -265,7 +265,7 @@ impl<S: Scalar, P: StepProgram<S>> StepProgram<S> for Mirrored<P> {
     }
 }
 
-/// Constants as the array that their program wants.
+/// Constants as the array type of their program.
 fn fixed<C: for<'a> TryFrom<&'a [f64]>>(constants: Vec<f64>) -> C {
     match C::try_from(&constants) {
         Ok(constants) => constants,

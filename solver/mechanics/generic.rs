@@ -1,8 +1,7 @@
 //! The dynamics of any mode of any number of blocks, written by hand from Jacobians: `M θ̈ = -Jᵀ m (centripetal + ground)`.
 //!
-//! The oracle that generated code is compared with, the baseline that it is timed against, and what a column larger than the
-//! build's runs on. It shares no formula with the generator: a Newton-Euler assembly over blocks with a Cholesky solve, where
-//! the generator differentiates energies.
+//! Generated code is compared with these equations and timed against them, and columns with more blocks than the build has run on them.
+//! They share no formula with the generator: here, a Newton-Euler assembly over blocks with a Cholesky solve; there, derivatives of energies.
 
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces};
 use super::kinematics::{Posture, Vec2};
@@ -19,7 +18,7 @@ pub struct GenericMode {
     pattern: Pattern,
     link: Vec<usize>,
     dof: usize,
-    /// Per free angle, in its link's axes: the first moment of all that it carries about its pivot `[kg m]`.
+    /// First moment per free angle, in its link's axes: of all that the link carries, about the link's pivot `[kg m]`.
     moment: Vec<Vec2>,
     /// Lever per free angle, in its link's axes: from the pivot of its link to the pivot above `[m]`.
     lever: Vec<Vec2>,
@@ -65,8 +64,8 @@ impl Dynamics for GenericMode {
         matrix.copy_from_slice(&self.posture(state).mass_matrix()[..self.dof * self.dof]);
     }
 
-    /// Moments about the pivots of the inertial forces, in the links' axes: what lies below a link accelerates its first
-    /// moment, what lies above pulls at its lever.
+    /// Moments of the inertial forces about the pivots, in the links' axes: links below accelerate a link's first moment, links above pull at
+    /// the end of its lever.
     fn weights(&self, cos_ddot: &Vec<f64>, sin_ddot: &Vec<f64>, ground: Ground) -> [Vec<f64>; 2] {
         let turned = |[u, v]: Vec2, link: usize| {
             [u * cos_ddot[link] + v * sin_ddot[link], v * cos_ddot[link] - u * sin_ddot[link]]
@@ -104,7 +103,7 @@ impl Dynamics for GenericMode {
                 let alpha = link_acceleration(&posture, &mass, &imposed_acceleration(&posture, rates, ground));
                 derivative[self.dof..].copy_from_slice(&alpha[..self.dof]);
             }
-            // The integrator reports a state that is not finite with time and mode.
+            // Not a number: the integrator reports a state that is not finite, with time and mode.
             None => derivative[self.dof..].fill(f64::NAN),
         }
     }

@@ -1,4 +1,4 @@
-//! Margins of a closed interface over a swing of one free angle: trigonometric polynomials, and where they come down to zero.
+//! Margins of a closed interface over a swing of one free angle: trigonometric polynomials, and where they fall to zero.
 
 use super::pendulum::Wave;
 use crate::numerics::ode::taylor::MAX_ORDER;
@@ -18,12 +18,12 @@ pub(crate) struct Harmonics {
 /// `1.2^19 / 19! < 3e-16`. Longer pieces lose digits, shorter ones cost more pieces.
 const LONGEST_WAY: f64 = 0.6;
 
-/// Share of the terms below which their rounding tells on a margin: those of a very slender column, and of any on the verge. Lower, and
-/// its openings are found in the wrong place; higher, and more is searched for that could be computed.
+/// A margin is critical up to this share of its terms, where rounding of the terms decides: in very slender columns, and in any column about
+/// to open. Lower, and openings are found in the wrong place; higher, and more is searched for that could be computed.
 const VERGE: f64 = 1e-9;
 
 impl Harmonics {
-    /// Adds so much of a wave.
+    /// Adds `share` times a wave to the margins.
     #[inline(always)]
     pub fn add(&mut self, share: f64x2, wave: &Wave) {
         let [mean, first @ .., cos, sin] = wave.map(|part| share * f64x2::splat(part));
@@ -33,7 +33,7 @@ impl Harmonics {
         }
     }
 
-    /// The same from an angle further on, of this sine and cosine.
+    /// The same margins from a start that lies further on, by an angle with this sine and cosine.
     pub fn from(&self, (sin, cos): (f64, f64)) -> Harmonics {
         let turned = |[of_cos, of_sin]: [f64x2; 2], sin: f64, cos: f64| {
             let (sin, cos) = (f64x2::splat(sin), f64x2::splat(cos));
@@ -43,12 +43,12 @@ impl Harmonics {
         Harmonics { mean: self.mean, first: turned(self.first, sin, cos), second }
     }
 
-    /// At the start.
+    /// Margins at the start.
     pub fn start(&self) -> f64x2 {
         self.mean + self.first[0] + self.second[0]
     }
 
-    /// Lower bounds on a way of this angle, from value and slope at the start and a bound of the curvature.
+    /// Lower bounds of the margins on a path of this angle, from value and slope at the start and a bound of the curvature.
     fn least(&self, way: f64) -> f64x2 {
         let size = |[of_cos, of_sin]: [f64x2; 2]| of_cos.abs() + of_sin.abs();
         let slope = self.first[1] + f64x2::splat(2.0) * self.second[1];
@@ -57,8 +57,8 @@ impl Harmonics {
         self.start() + rise.fast_min(f64x2::ZERO) - f64x2::splat(0.5 * way * way) * bend
     }
 
-    /// Where on a way of this angle either margin falls to zero, 0 to 1 of it, and its slope there; `None` where it does not, and an error
-    /// where rounding decides about its start.
+    /// First place on a path of this angle where a margin falls to zero, 0 to 1, and the margin's slope there, per path; `None` if neither falls
+    /// to zero. The error [`OnTheVerge`] if rounding decides whether a margin is above zero at the start.
     pub fn opening(&self, way: f64) -> Result<Option<[f64; 2]>, OnTheVerge> {
         let scale = [self.first, self.second].as_flattened().iter().fold(self.mean.abs(), |sum, part| sum + part.abs());
         let clear = self.start() - f64x2::splat(VERGE) * scale;
@@ -85,7 +85,7 @@ impl Harmonics {
         Ok(None)
     }
 
-    /// One side's margin over a way of this angle.
+    /// Margin of one side over a path of this angle, as a polynomial on `[0, 1]`.
     fn powers(&self, way: f64, side: usize) -> Powers {
         let of = |part: f64x2| part.as_array()[side];
         let (first, second) = (self.first.map(of), self.second.map(of));

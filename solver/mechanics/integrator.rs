@@ -1,8 +1,7 @@
 //! The integrator of a mode: steps of one method over the equations of one mode, behind a trait object.
 //!
-//! [`Steps`] is what integrates, [`Forces`] is what knows mechanics. Each pair of method and mode is compiled by itself; a run calls a few
-//! functions per step through the table of the object. An integrator owns the state at the start of its next step and allocates nothing
-//! after it has been built.
+//! [`Steps`] integrates, [`Forces`] knows mechanics. Each pair of method and mode is compiled separately; a run makes a few virtual calls per
+//! step. An integrator owns the state at the start of its next step and allocates nothing after it has been built.
 
 use super::dynamics::{ContactForce, Dynamics, Ground, Interfaces};
 use super::margins::{Margins, Opening};
@@ -19,11 +18,11 @@ use crate::numerics::state_vector::StateVector;
 use rocking_ground::Segment;
 use std::sync::Arc;
 
-/// What integrates. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
+/// The part of an integrator that takes steps. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
 pub(crate) trait Steps {
-    /// Begins at a state; what earlier steps have taught of step lengths is forgotten.
+    /// Begins at a state; step lengths learnt from earlier steps are forgotten.
     fn begin(&mut self, t: f64, x: &[f64]);
-    /// Continues from another state; step lengths learnt so far are kept.
+    /// Continues from another state; step lengths learnt from earlier steps are kept.
     fn restart(&mut self, t: f64, x: &[f64]);
     /// State at the start of the next step.
     fn start(&self) -> &[f64];
@@ -31,9 +30,9 @@ pub(crate) trait Steps {
     fn start_slope(&mut self, t: f64, slope: &mut [f64]);
     /// A first step length for the state at the start `[s]`.
     fn first_step(&self, tolerance: Tolerance) -> f64;
-    /// Attempts a step of the wanted length, or of what the method finds better, and of no more than `most` `[s]`.
+    /// Attempts a step of length `wanted`, or of a length that the method finds better, but of no more than `most` `[s]`.
     fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt;
-    /// Accepts the last attempt: its inside may be read.
+    /// Accepts the last attempt. Then its inside may be read.
     fn accept(&mut self);
     /// Makes the accepted attempt end after `h` `[s]`, at an event.
     fn cut(&mut self, t: f64, h: f64, tolerance: Tolerance);
@@ -41,9 +40,9 @@ pub(crate) trait Steps {
     fn end(&self) -> &[f64];
     /// Continues from the end of the last attempt.
     fn advance(&mut self);
-    /// State inside the last attempt, `s` from 0 to 1 of a part of it.
+    /// Writes the state at `s`, 0 to 1, of the whole last attempt or of its part up to an event.
     fn state_inside(&mut self, part: Part, s: f64, state: &mut [f64]);
-    /// A linear function of the angles inside the step; exactly zero at its start where that is known.
+    /// A linear function of the angles inside the step; exactly zero at its start if `starts_at_zero`.
     fn track(&mut self, angles: Difference, starts_at_zero: bool) -> Track;
     /// An angle, or the difference of two, at the ends of the step, and a bound of it between them.
     fn excursion(&self, angles: Difference) -> Excursion;
@@ -64,7 +63,7 @@ pub(crate) struct Excursion {
     pub reach: f64,
 }
 
-/// What knows mechanics.
+/// The part of an integrator that knows mechanics.
 pub(crate) trait Forces {
     /// Goes over to another segment of ground motion.
     fn enter(&mut self, segment: &Segment);
@@ -72,13 +71,13 @@ pub(crate) trait Forces {
     fn ground(&self, t: f64) -> Ground;
     /// Writes the contact forces at a state into `forces`, base first.
     fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]);
-    /// The same at the end of the last attempt, at `t`.
+    /// Writes the contact forces at the end of the last attempt, which is at `t`, into `forces`.
     fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]);
-    /// Whether a closed interface opens within `reach` `[s]` of the start of the last attempt; `index` is its place among the closed ones.
+    /// Whether a closed interface opens within `reach` `[s]` of the start of the last attempt; `index` counts the closed interfaces, base first.
     fn opening(&self, margins: &Margins, index: usize, reach: f64) -> Opening;
-    /// The closed form of the mode on a ground at rest; `None` unless one angle is free.
+    /// The closed form of a mode with one free angle, on a ground at rest; `None` without a free angle, or if gravity does not drive it.
     fn pendulum(&self) -> Option<Pendulum>;
-    /// The mode, of one free angle, on a ground that moves to the side.
+    /// The equation of a mode with one free angle, on a moving ground; `None` without a free angle.
     fn rocker(&self) -> Option<Rocker>;
     /// Right-hand sides evaluated so far.
     fn rhs_calls(&self) -> usize;
@@ -95,8 +94,9 @@ struct Driven<D: Dynamics> {
     segment: Segment,
     gravity: f64,
     calls: usize,
-    /// State and slope of an evaluation of forces.
+    /// State at which forces are evaluated.
     state: D::State,
+    /// Slope at that state.
     slope: D::State,
 }
 
@@ -148,7 +148,7 @@ pub(crate) struct ExplicitSteps<D: Dynamics, M> {
     fixed: Option<f64>,
     start: D::State,
     slope: D::State,
-    /// The part that the stages of the method belong to.
+    /// The part of the attempt to which the stages of the method belong.
     part: Part,
     /// Dense output of each [`Part`], and whether it is current.
     interpolants: [(Interpolant<D::State>, bool); 2],
@@ -302,7 +302,7 @@ impl<D: Dynamics + Send + Sync, M: Tableau> Forces for ExplicitSteps<D, M> {
 /// A mode under the ground motion of one segment, as equations with Taylor coefficients.
 struct Expanded<D: Dynamics> {
     driven: Driven<D>,
-    /// Coefficients of the horizontal ground acceleration and of the effective gravity.
+    /// Taylor coefficients of the horizontal ground acceleration and of the effective gravity.
     ground: [[f64; MAX_ORDER]; 2],
 }
 
@@ -340,7 +340,7 @@ impl<D: Dynamics> SeriesSystem for Expanded<D> {
 pub(crate) struct TaylorSteps<D: Dynamics> {
     system: Expanded<D>,
     start: D::State,
-    /// A state to be filled.
+    /// Storage for a state inside a step.
     inside: D::State,
     series: Taylor<D::State, D::Links>,
 }
@@ -377,7 +377,7 @@ impl<D: Dynamics> Steps for TaylorSteps<D> {
         self.start.as_slice()
     }
 
-    /// What the next attempt begins with: no work of its own.
+    /// No extra work: the next attempt begins with the same coefficients.
     fn start_slope(&mut self, t: f64, slope: &mut [f64]) {
         let known = self.series.known_at(t, &self.start);
         self.series.slope(&mut self.system, t, &self.start, slope);

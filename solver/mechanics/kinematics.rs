@@ -24,14 +24,14 @@ pub struct Posture<'a, S: Size = Any> {
     pub link: S::List<usize>,
     /// Number of links that move.
     pub dof: usize,
-    /// How the lower block of each interface is turned, length N.
+    /// Turn of the block (or ground) below each interface, length N.
     lower: S::List<Turn>,
     /// Centre of each contact `[m]`, length N.
     contact_centre: S::List<Vec2>,
     /// Centroids `[m]`, length N.
     centroid: S::List<Vec2>,
-    /// From the pivot of link `a` to the centroid of block `j`, or to the next pivot where the block is on a higher link:
-    /// row `j`, column `a - 1`; zero where the link is above the block.
+    /// Levers `[m]`, row `j`, column `a - 1`: from the pivot of link `a` to the centroid of block `j` on that link, or to the next pivot if block
+    /// `j` is on a higher link; zero if link `a` is above the block.
     lever: S::Table<Vec2>,
 }
 
@@ -51,7 +51,7 @@ impl Turn {
         Turn { sin, cos }
     }
 
-    /// How blocks are turned by these angles `[rad]`; those of one link turn together.
+    /// Turns of blocks by these angles `[rad]`. Equal angles of neighbours, as in one link, are evaluated once.
     pub fn all<S: Size>(size: S, theta: &[f64]) -> S::List<Turn> {
         let mut turns = size.list(Turn::NONE);
         for index in 0..size.blocks() {
@@ -88,7 +88,7 @@ impl<'a> Posture<'a> {
 }
 
 impl<'a, S: Size> Posture<'a, S> {
-    /// The geometry where interfaces are in these states and blocks are turned like this.
+    /// The geometry with these states of the interfaces and these turns of the blocks.
     pub(crate) fn of(size: S, column: &'a Column, states: &[Interface], turns: &S::List<Turn>) -> Posture<'a, S> {
         let (mut link, mut dof) = (size.list(0), 0);
         let (mut pivots, mut centroid) = (size.list([0.0, 0.0]), size.list([0.0, 0.0]));
@@ -132,7 +132,7 @@ impl<'a, S: Size> Posture<'a, S> {
         &self.column.blocks()[..self.size.blocks()]
     }
 
-    /// Columns of tables.
+    /// Number of columns of tables.
     #[inline(always)]
     fn width(&self) -> usize {
         self.size.links(self.dof)
@@ -144,7 +144,7 @@ impl<'a, S: Size> Posture<'a, S> {
         &self.lever[block * self.width()..(block + 1) * self.width()]
     }
 
-    /// Rates of the moving links, length dof and more, among the rates of the blocks, length N.
+    /// Rates of the moving links from the rates of the blocks; both lists have length N. Entries beyond dof are zero.
     #[inline(always)]
     pub fn link_rates(&self, block: &[f64]) -> S::List<f64> {
         let mut rates = self.size.list(0.0);
@@ -182,7 +182,7 @@ impl<'a, S: Size> Posture<'a, S> {
         })
     }
 
-    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof; in a matrix wider than dof, the other links have unit mass.
+    /// Mass matrix `Σ m JᵀJ + I` `[kg m²]`, row by row, dof × dof or wider; beyond dof, it has ones on its diagonal.
     #[inline(always)]
     pub fn mass_matrix(&self) -> S::Table<f64> {
         let width = self.width();
@@ -220,7 +220,7 @@ impl<'a, S: Size> Posture<'a, S> {
         }
     }
 
-    /// The mass matrix of many links factorised by its structure, in time proportional to their number (beside that of the levers).
+    /// Factorises the mass matrix of many links by its structure, in time proportional to their number (apart from the sums over levers).
     ///
     /// The lever `q_c` of a link below is the same for all blocks above it: `M_rc = s_r · q_c` for `r > c`, where `s_r = Σ m r_r` over the
     /// blocks from link `r` on. Then `L_rc = s_r · w_c` with
@@ -261,8 +261,8 @@ impl<'a, S: Size> Posture<'a, S> {
         Some(Factorised { lower, width, is_chain: true })
     }
 
-    /// `Jᵀ m v`: what loads per unit mass on the centroids `[m/s²]` and angular loads per unit inertia `[rad/s²]` do on the
-    /// free angles `[N m]`; with velocities, the generalised momenta.
+    /// Generalised loads `Jᵀ m v` on the free angles `[N m]`, from loads per unit mass on the centroids `[m/s²]` and per unit inertia
+    /// `[rad/s²]`. From velocities: generalised momenta.
     #[inline(always)]
     pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> S::List<f64> {
         let mut result = self.size.list(0.0);
@@ -279,8 +279,8 @@ impl<'a, S: Size> Posture<'a, S> {
         result
     }
 
-    /// What the contacts transmit to the stacks above when the blocks are given these accelerations less gravity
-    /// `[m/s²]`, `[rad/s²]`: contact forces. With jumps of velocity: impulses. docs/book/model.md, section 4.
+    /// Contact forces on the stacks above, from accelerations of the blocks less gravity `[m/s²]`, `[rad/s²]`. From jumps of velocity: impulses.
+    /// docs/book/model.md, section 4.
     #[inline(always)]
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
         let blocks = self.blocks();
@@ -313,15 +313,15 @@ impl<'a, S: Size> Posture<'a, S> {
     }
 }
 
-/// Links up to which mass matrices are summed and factorised entry by entry, which takes time proportional to the cube of their number. Beyond,
-/// their structure is used: 40 links take a twentieth of the time. A larger number is slower; a smaller one changes the rounding of columns
-/// that tests hold to the last bit.
+/// Largest number of links whose mass matrix is summed and factorised entry by entry, in time proportional to the cube of that number. Beyond,
+/// the structure of the matrix is used: 40 links take a twentieth of the time. A larger limit is slower; a smaller one changes the
+/// rounding of columns that tests hold to the last bit.
 const MOST_DENSE: usize = 16;
 
 /// Numbers per link of the factor of a chain: `1 / L_rr`, `s_r`, `w_r`.
 const CHAIN_ENTRIES: usize = 5;
 
-/// A mass matrix as `L Lᵀ` (Cholesky). nalgebra's asks for memory, which contact problems are too many and too small for.
+/// A mass matrix as `L Lᵀ` (Cholesky). nalgebra's version allocates, which costs too much for many small contact problems.
 #[derive(Clone, Debug)]
 pub struct Factorised<S: Size = Any> {
     /// `L`, row by row, `1 / L_ii` on its diagonal; of a chain, [`CHAIN_ENTRIES`] per row.
@@ -331,7 +331,7 @@ pub struct Factorised<S: Size = Any> {
 }
 
 impl<S: Size> Factorised<S> {
-    /// Of a symmetric matrix, row by row, width × width; `None` if it is not positive definite.
+    /// Factorises a symmetric matrix, row by row, width × width; `None` if it is not positive definite.
     #[inline(always)]
     pub fn new(mut matrix: S::Table<f64>, width: usize) -> Option<Factorised<S>> {
         for row in 0..width {
@@ -373,7 +373,7 @@ impl<S: Size> Factorised<S> {
         }
     }
 
-    /// The same of a chain, in time proportional to the number of links.
+    /// [`Factorised::solve`] for a chain, in time proportional to the number of links.
     #[inline(never)]
     fn solve_chain(&self, right: &mut [f64]) {
         let rows = || self.lower.chunks_exact(CHAIN_ENTRIES).take(self.width);

@@ -1,4 +1,4 @@
-//! Links: rigid groups of blocks, their first moments, and their accelerations under imposed ones.
+//! Links: rigid groups of blocks, their first moments, and their angular accelerations under imposed accelerations.
 
 use super::dynamics::Ground;
 use super::kinematics::{Factorised, Posture, Vec2};
@@ -6,7 +6,7 @@ use crate::column::Column;
 use crate::numerics::per_block::Size;
 use rocking_codegen::pattern::Pattern;
 
-/// First moments and levers of the links, base first.
+/// Links, base first, in their axes: first moment of all that a link carries about its pivot `[kg m]`, and lever to the next pivot `[m]`.
 pub(crate) fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
     let link = pattern.linkage().link_of_block();
     let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
@@ -35,7 +35,7 @@ pub(crate) fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec
     (moments, levers)
 }
 
-/// Accelerations less gravity: the ground's and those that the rates cause.
+/// Accelerations of the centroids less gravity `[m/s²]`, at zero `θ̈`: the ground's, and the centripetal ones of the rates.
 #[inline(always)]
 pub(crate) fn imposed_acceleration<S: Size>(posture: &Posture<S>, rates: &[f64], ground: Ground) -> S::List<Vec2> {
     let mut acceleration = posture.centripetal(rates);

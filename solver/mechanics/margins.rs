@@ -1,17 +1,16 @@
-//! Margins of closed interfaces over a Taylor step, as series in time: what excludes most steps from a search for openings.
+//! Margins of closed interfaces over a Taylor step, as series in time. They exclude most steps from the search for openings.
 //!
-//! A closed interface opens when the moment about one of its corners, of all that the contact transmits to the stack above, falls to
-//! zero. With `a` the accelerations less gravity and `r` from the corner, that moment is `Σ r × m a + I θ̈` over the blocks above.
-//! Links above contribute nothing but their push on the pivot: about their own pivots their moments vanish, which is their equations
-//! of motion. So, with cosine and sine `c, s` of the link that the interface is in and `x, y` what its upper and lower neighbours
-//! and the ground impose,
+//! A contact transmits to the stack above a moment about each of its corners. A closed interface opens when one of these moments falls to
+//! zero. With `a` the accelerations less gravity and `r` from the corner, the moment is `Σ r × m a + I θ̈` over the blocks above. Links
+//! above contribute only their push on the pivot: by their equations of motion, the moments about their own pivots vanish. So, with `c, s`
+//! the cosine and sine of the link that the interface is in,
 //!
 //! ```text
 //! G = c A + s B + I θ̈,    A, B linear in c̈, s̈ of all links and in the ground's acceleration
 //! ```
 //!
-//! the same form as that of the equations of motion ([`Dynamics::weights`](crate::dynamics::Dynamics::weights)): Taylor coefficients
-//! of `G` take two convolutions, and sums over them bound `G` on the whole step.
+//! which is the form of the equations of motion ([`Dynamics::weights`](crate::dynamics::Dynamics::weights)). Taylor coefficients of `G`
+//! take two convolutions, and sums of them bound `G` on the whole step.
 
 use super::harmonics::Harmonics;
 use super::kinematics::Vec2;
@@ -25,8 +24,8 @@ use crate::numerics::state_vector::StateVector;
 use rocking_codegen::pattern::Pattern;
 use wide::f64x2;
 
-/// Both corners of a closed interface: opening on the right edge, on the left edge. Moments on the left have the opposite sign, so
-/// that both margins are above zero while the interface stays closed.
+/// Both corners of a closed interface, `[right, left]`: opening on the right edge, on the left edge. Moments on the left have the opposite
+/// sign, so that both margins are above zero while the interface stays closed.
 #[derive(Clone, Debug)]
 struct Corners {
     /// The link that the interface is in, from one; zero on the part that stands on the ground.
@@ -41,14 +40,14 @@ struct Corners {
     inertia: f64x2,
 }
 
-/// What series tell of a closed interface.
+/// What the series determine about a closed interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Opening {
     /// It does not open.
     StaysClosed,
     /// It opens at about `s`, 0 to 1, where its margin falls with this slope `[N m]`.
     Opens { s: f64, slope: f64 },
-    /// Its margin must be looked at itself.
+    /// The series do not decide: the margin itself must be evaluated.
     Unclear,
 }
 
@@ -56,7 +55,7 @@ pub(crate) enum Opening {
 #[derive(Clone, Debug)]
 pub(crate) struct Margins {
     corners: Vec<Corners>,
-    /// Per link, in its axes: first moment of all that it carries about its pivot `[kg m]`, and from there to the next pivot `[m]`.
+    /// Per link, in its axes: first moment of all that it carries about its pivot `[kg m]`, and lever from its pivot to the next `[m]`.
     links: Vec<[Vec2; 2]>,
 }
 
@@ -70,8 +69,8 @@ impl Margins {
         }
     }
 
-    /// What the series tell of the closed interface of this index, counted from the base, for a time `reach` from the start of the
-    /// last attempt. `ground` has the coefficients of its horizontal acceleration and of the effective gravity.
+    /// Whether the closed interface of this index (among the closed ones, base first) opens within a time `reach` from the start of the last
+    /// attempt. `ground` has the coefficients of the horizontal ground acceleration and of the effective gravity.
     pub fn opening<V: StateVector, L: StateVector>(
         &self,
         index: usize,
@@ -92,8 +91,8 @@ impl Margins {
         }
     }
 
-    /// The margins of the closed interface of this index over a swing of the only link on a ground that does not move, over the angle
-    /// from its start: below the link it bears the link's push, inside it is part of the pendulum.
+    /// Margins of the closed interface of this index over a swing of the only link, on a ground at rest, as functions of the angle from the
+    /// start of the swing. An interface below the link bears the link's push; one inside the link is part of the pendulum.
     pub fn over_swing(&self, index: usize, gravity: f64, waves: &Waves) -> Harmonics {
         let (corners, [moment, _]) = (&self.corners[index], self.links[0]);
         let [u, v] = corners.base.map(|base| f64x2::splat(-gravity) * base);
@@ -113,7 +112,7 @@ impl Margins {
         margins.from(waves.start)
     }
 
-    /// Taylor terms of both margins at `reach`, up to the series' order; `None` as soon as `is_enough` of an order and its term.
+    /// Taylor terms of both margins at `reach`, of all orders below that of the series; `None` as soon as `is_enough` of an order and its term.
     pub(super) fn terms<V: StateVector, L: StateVector>(
         &self,
         index: usize,
@@ -184,11 +183,11 @@ impl Corners {
         let link = links[interface];
         let first = links.iter().position(|own| *own == link).unwrap_or(0);
         let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
-        // Of a part that stands, any place serves as its pivot.
+        // The part that stands on the ground has no pivot; any place serves as one.
         let pivot_of_link = pivot(first);
         let side = |sign: f64| {
             let (mut base, mut own, mut top, mut inertia) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0);
-            // Centre of the contact of a block of this link, from the link's pivot.
+            // Centre of the contact below a block of this link, from the link's pivot.
             let contact = |block: usize| {
                 let seats = column.seats()[first..block].iter();
                 seats.fold([-pivot_of_link, 0.0], |[u, v], seat| [u + seat.top[0], v + seat.top[1]])
@@ -221,19 +220,19 @@ impl Corners {
     }
 }
 
-/// Order from which on those that follow are bounded by the last three. Lower, and parts of a term that cancel by chance are taken for
-/// a series that has settled; higher, and all of it is computed for nothing.
+/// Order from which on the last three terms bound all that follow. Lower, and a term whose parts cancel by chance is taken for a series that
+/// has settled; higher, and terms are computed for nothing.
 const SETTLED: usize = 5;
 
-/// How many times the last three terms all that follow may be: of a series whose terms fall by a quarter each, it is once and a half.
-/// They fall by more, or the step would not have been accepted. Lower, and an opening late in a long step could be missed.
+/// Bound of all terms that follow, relative to the last three. It is 2 if each term falls by an eighth; those of an accepted step fall by more.
+/// Lower, and an opening late in a long step could be missed.
 const REST: f64 = 2.0;
 
-/// Doubts that a margin falls through between the earliest place that it may be zero at and the place where it seems to be: more means
-/// that it stays close to zero, or comes there twice.
+/// Largest fall of a margin, relative to its error (the doubt), from the earliest place where it may be zero to the place where its
+/// polynomial is zero. A larger fall means that the margin stays close to zero, or comes there twice.
 const CLOSE: f64 = 4.0;
 
-/// What the polynomials `Σ terms[k] s^k` of both margins tell, which are cut off where their method's series is.
+/// Opening of a closed interface, from its two margins as polynomials `Σ terms[k] s^k`, truncated at the order of the integrator's series.
 fn opening_of(terms: &[f64x2]) -> Opening {
     let [start, later @ .., before, last] = terms else { return Opening::Unclear };
     let doubts = before.abs() + last.abs();
@@ -244,7 +243,7 @@ fn opening_of(terms: &[f64x2]) -> Opening {
         let margin = Powers::with_terms(of(&terms[0]), terms[1..].iter().map(of));
         let doubt = of(&doubts);
         let Some(earliest) = Track::Powers(margin.shifted(1.0, -doubt)).first_root(0) else { continue };
-        // What has no root may be touched, and a touch may come before a root.
+        // A margin without a root may still touch zero, and a touch may come before a root.
         let Some(s) = Track::Powers(margin).first_root(0) else { return Opening::Unclear };
         let [_, slope] = margin.with_slope(s);
         if of(&terms[0]) <= doubt || (s - earliest) * -slope > CLOSE * doubt || slope >= -doubt {

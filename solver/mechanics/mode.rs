@@ -190,8 +190,8 @@ impl Mode {
         forces
     }
 
-    /// States at `times` `[s]` (ascending, the first is that of `x`) in this mode alone, under segments of ground motion
-    /// ([`Excitation::segments`](rocking_ground::Excitation::segments)) that cover them: hinges that hold both ways, no events.
+    /// States at `times` `[s]` in this mode alone, without events: open interfaces act as hinges, closed ones stay closed. The times ascend, and
+    /// `x` is the state at the first one. The segments ([`Excitation::segments`](rocking_ground::Excitation::segments)) must cover the times.
     ///
     /// # Errors
     /// [`IntegrateError`]

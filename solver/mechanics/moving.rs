@@ -1,6 +1,6 @@
-//! Programs with translations by their numbers of angles and translations: lists in, accelerations out.
+//! Programs with translations, one for each number of angles and translations: lists in, accelerations out.
 //!
-//! Which program serves is known when a stretch begins. So the lists have no fixed length here, and a program copies them into its arrays.
+//! Which program serves is known only when a stretch begins. So the lists have no fixed length here, and a program copies them into its arrays.
 
 use super::program::{Carried, MovingProgram, MovingState};
 use crate::numerics::elimination::eliminate;
@@ -17,7 +17,7 @@ pub struct MovingLists {
     pub lever: Vec<[f64; 2]>,
     /// Per translation.
     pub mass: Vec<f64>,
-    /// Per translation, and link in it.
+    /// Per translation and link; the links of one translation are adjacent.
     pub carried: Vec<[f64; 2]>,
     /// Per translation.
     pub lift: Vec<f64>,
@@ -62,7 +62,7 @@ impl MovingLists {
     }
 }
 
-/// Second derivatives of the angles, then of the translations, written into a list; whether the rows determine them.
+/// Writes the second derivatives of the angles, then of the translations, into a list. Returns true if the rows determine them.
 pub type MovingEquations = fn(&MovingLists, &mut [f64]) -> bool;
 
 /// The equations of a program. Called by generated modules.

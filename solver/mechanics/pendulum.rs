@@ -1,13 +1,13 @@
 //! One free angle on a ground that does not move: an inverted pendulum, in closed form.
 //!
-//! With `ψ` the angle beyond the unstable balance, out being positive, `q = sin²(ψ/2)` and `v = ψ̇`,
+//! With `ψ` the angle beyond the unstable balance, outwards positive, `q = sin²(ψ/2)` and `v = ψ̇`,
 //!
 //! ```text
 //! ψ¨ = p² sin ψ,      v² = 4 p² (q - κ),      t = (1/p) ∫ du / √((u² - κ) (1 - u²)),   u = sin(ψ/2)
 //! ```
 //!
 //! so the time between two angles is an elliptic integral (Carlson's R_F, DLMF 19.29.4), and the angle at a time a Jacobian elliptic
-//! function (DLMF 22.13). With `κ > 0` the block turns back before the balance, or falls away from it; with `κ < 0` it passes it.
+//! function (DLMF 22.13). With `κ > 0` the block turns back before the balance, or falls away from it; with `κ < 0` it passes the balance.
 //! Each formula keeps its digits where others cancel: near the balance, and for swings of any size.
 
 /// `θ¨ = p² sin(θ - balance)`
@@ -21,19 +21,20 @@ pub(crate) struct Pendulum {
     upright: f64,
 }
 
-/// Where a pendulum is, and where it goes.
+/// A motion of a pendulum, given by its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Swing {
     p: f64,
-    /// `ψ` and `v` at the start.
+    /// `ψ` at the start `[rad]`.
     psi: f64,
+    /// `v` at the start `[rad/s]`.
     v: f64,
     q: f64,
     kappa: f64,
 }
 
 impl Pendulum {
-    /// Of `inertia θ¨ + C cos θ + S sin θ = 0`; `None` where nothing drives it.
+    /// The pendulum `inertia θ¨ + C cos θ + S sin θ = 0`, from `[C, S]`; `None` if both are zero, or one is not finite.
     pub fn new(inertia: f64, [of_cos, of_sin]: [f64; 2]) -> Option<Pendulum> {
         let square = libm::hypot(of_cos, of_sin) / inertia;
         let is_driven = square > 0.0 && square.is_finite();
@@ -41,7 +42,7 @@ impl Pendulum {
         is_driven.then(|| Pendulum { rate: square.sqrt(), balance, upright: square_of_half_sine(balance) })
     }
 
-    /// The angle `ψ` beyond the balance of an angle, with `sign` the side to which it leans, and the other way round.
+    /// Angle `ψ` beyond the balance, of an angle `θ`, with `sign` the side to which the block leans.
     pub fn beyond(&self, theta: f64, sign: f64) -> f64 {
         sign * (theta - self.balance)
     }
@@ -51,17 +52,17 @@ impl Pendulum {
         self.rate
     }
 
-    /// Size of the angle `[rad]` at `distance` short of the balance.
+    /// Magnitude of the angle `θ` at `distance` short of the balance `[rad]`.
     pub fn short_of_balance(&self, distance: f64) -> f64 {
         self.balance.abs() - distance
     }
 
-    /// `θ` of an angle `ψ`.
+    /// Angle `θ` of an angle `ψ`: the inverse of [`Pendulum::beyond`].
     pub fn theta(&self, psi: f64, sign: f64) -> f64 {
         self.balance + sign * psi
     }
 
-    /// The way of a swing to this side, as waves over `ψ`.
+    /// Angle, rate and accelerations of a swing to this side, as functions of `ψ`.
     pub fn waves(&self, swing: &Swing, sign: f64) -> Waves {
         let ((sin, cos), start) = (libm::sincos(self.balance), libm::sincos(swing.psi));
         let square = self.rate * self.rate;
@@ -90,7 +91,7 @@ impl Pendulum {
 /// A trigonometric polynomial of degree two in an angle `ψ`: mean, and shares of `cos ψ`, `sin ψ`, `cos 2ψ`, `sin 2ψ`.
 pub(crate) type Wave = [f64; 5];
 
-/// The way of a swing over the angle `ψ` beyond the balance, places that it does not come to included.
+/// Quantities of a swing as functions of the angle `ψ` beyond the balance, also at angles that the swing does not reach.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Waves {
     /// `cos θ`
@@ -99,7 +100,7 @@ pub(crate) struct Waves {
     pub sin: Wave,
     /// `θ¨ [rad/s²]`
     pub acceleration: Wave,
-    /// `θ̇²`, below zero where the swing does not come `[rad²/s²]`.
+    /// `θ̇²`, below zero at angles that the swing does not reach `[rad²/s²]`.
     pub square_of_rate: Wave,
     /// `(cos θ)¨ [1/s²]`
     pub cos_ddot: Wave,
@@ -120,40 +121,40 @@ impl Swing {
         self.v
     }
 
-    /// Whether it neither turns nor passes the balance, to the last bit: it creeps towards it for ever.
+    /// Whether the swing, to the last bit, neither turns nor passes the balance: it creeps towards the balance for ever.
     pub fn is_endless(&self) -> bool {
         self.kappa == 0.0
     }
 
-    /// Whether it is going to turn.
+    /// Whether the swing is going to turn.
     pub fn turns(&self) -> bool {
         self.kappa > 0.0 && self.v * self.psi < 0.0
     }
 
-    /// Where it turns, if it is going to: `ψ`, at rate zero.
+    /// Angle `ψ` at which the swing is going to turn, with rate zero; `None` if it does not turn.
     pub fn turning_point(&self) -> Option<f64> {
         self.turns().then(|| 2.0 * libm::asin(self.kappa.sqrt()).copysign(self.psi))
     }
 
-    /// How far from the balance it turns at least, where it does: a sine is no larger than its arc.
+    /// Lower bound of the angle between the balance and the turning point `[rad]`, for a swing that turns. From `sin x <= x`.
     pub fn turning_distance(&self) -> f64 {
         2.0 * self.kappa.sqrt()
     }
 
-    /// `sin²(ψ/2)`; that of the start is known, and most swings end where they began.
+    /// `sin²(ψ/2)`. The value at the start is known, and most swings end at the angle where they began.
     fn q_at(&self, psi: f64) -> f64 {
         if psi == self.psi { self.q } else { square_of_half_sine(psi) }
     }
 
-    /// Size of the rate at another angle `ψ` of the swing; `None` if the swing does not come there.
+    /// Magnitude of the rate at an angle `ψ` of the swing; `None` if the swing does not come there.
     pub fn rate_at(&self, psi: f64) -> Option<f64> {
         let square = self.v * self.v + 4.0 * self.p * self.p * (self.q_at(psi) - self.q);
         let is_beyond = self.kappa > 0.0 && psi * self.psi < 0.0;
         (square >= 0.0 && !is_beyond).then(|| square.sqrt())
     }
 
-    /// Time from the turning point (`κ > 0`), or from the balance (`κ < 0`), to an angle that is passed at this rate, signs as those of
-    /// motion and place. Times the pendulum's rate.
+    /// Pendulum's rate times the time from the turning point (`κ > 0`; negative before it) or from the balance (otherwise; of the sign of `ψ`)
+    /// to the angle `ψ`, passed at the rate `v`.
     fn phase(&self, psi: f64, v: f64) -> f64 {
         let (q, kappa) = (self.q_at(psi), self.kappa);
         if kappa > 0.0 {
@@ -164,18 +165,18 @@ impl Swing {
         }
     }
 
-    /// Time until `ψ` is passed, with this size of the rate, inwards (`v < 0`) or outwards; infinite from the balance itself.
+    /// Time `[s]` until `ψ` is passed at the rate `v`, inwards (`v < 0`) or outwards; infinite if the start is the balance itself, at rest.
     pub fn time_to(&self, psi: f64, v: f64) -> f64 {
         if psi == self.psi && v == -self.v {
-            // Out and back.
+            // Out and back to the same angle.
             return 2.0 * self.phase(psi, v).abs() / self.p;
         }
         let gone = self.phase(psi, v) - self.phase(self.psi, self.v);
-        // Without a turning point the phase is a place: it falls inwards.
+        // Without a turning point the phase follows the angle: it decreases where the motion is inwards.
         (if self.kappa > 0.0 { gone } else { gone.abs() }) / self.p
     }
 
-    /// `[ψ, v]` a time later.
+    /// State `[ψ, v]` after this time `[s]`.
     pub fn after(&self, time: f64) -> [f64; 2] {
         let (p, kappa) = (self.p, self.kappa);
         if kappa > 0.0 {
@@ -193,7 +194,7 @@ impl Swing {
     }
 }
 
-/// Spread of the arguments below which the series of [`carlson`] is right to rounding: it leaves out a seventieth of its twelfth power.
+/// Spread of the arguments up to which the series of [`carlson`] is right to rounding: it omits about a seventieth of the spread's twelfth power.
 const SPREAD: f64 = 0.06;
 
 /// `R_F(x, y, z) = ½ ∫₀^∞ dt / √((t + x) (t + y) (t + z))`, arguments not below zero, at most one of them zero (DLMF 19.36).
@@ -205,8 +206,8 @@ fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         if !is_spread {
             let [a, b, c] = [x, y, z].map(|value| 1.0 - value / mean);
             let (second, third) = (a * b - c * c, a * b * c);
-            // By powers of the third symmetric function of what the arguments are off their mean, in powers of the second
-            // (DLMF 19.19.7): a round of the loop costs more than a few more of them.
+            // In the second and third symmetric functions of the arguments' relative deviations from their mean (DLMF 19.19.7), by powers of
+            // the third: another round of the loop costs more than a few more terms.
             let none = 1.0
                 + second
                     * (-1.0 / 10.0
@@ -226,7 +227,7 @@ fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     }
 }
 
-/// Halvings of the modulus in [`jacobi`], which square it: more than the smallest double takes.
+/// Most transformations in [`jacobi`]: more than the smallest double takes, since each squares the modulus.
 const LANDEN: usize = 16;
 
 /// `sn, cn, dn` of `u` with the complementary parameter `m₁ = 1 - m`, above zero: descending Landen's transformation (Bulirsch 1965).
@@ -272,7 +273,7 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_2;
 
-    /// `sin² ⅛`
+    /// `upright` is `sin² ⅛`.
     const PENDULUM: Pendulum = Pendulum { rate: 2.1, balance: 0.25, upright: 0.015_543_789_144_677_61 };
 
     /// `ψ¨ = p² sin ψ` by many small steps of the classic method.
@@ -337,7 +338,7 @@ mod tests {
         }
     }
 
-    /// DLMF 19.36, and more digits by quadrature of 40.
+    /// Values of DLMF 19.36, with more digits from quadrature in 40 digits.
     #[test]
     fn integrals_are_those_of_the_tables() {
         for (arguments, expected) in [

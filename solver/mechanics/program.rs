@@ -5,32 +5,31 @@
 
 pub use crate::numerics::scalar::Scalar;
 
-/// What a column is to the generated equations: sizes with the sides of the open interfaces in the signs of the pivots.
+/// A column as the generated equations read it: its sizes, and the sides of the open interfaces as signs of the pivots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry<S> {
     /// Gravity `[m/s²]`.
     pub gravity: S,
     /// Pivot offsets `s_i c_i [m]`, zero at closed interfaces, length N.
     pub pivot: Vec<S>,
-    /// Half-heights `[m]`, length N; none for links that are any rigid bodies.
+    /// Half-heights `[m]`, length N; empty if links are general rigid bodies.
     pub half_height: Vec<S>,
     /// Masses `[kg]`, length N.
     pub mass: Vec<S>,
     /// Centroidal moments of inertia `[kg m²]`, length N.
     pub inertia: Vec<S>,
-    /// Centroids `[m]` of links that are any rigid bodies, to the right of the centre of the contact below; none for rectangles.
+    /// Centroids of links that are general rigid bodies, to the right of the centre of the contact below `[m]`; empty for rectangles.
     pub centroid_lateral: Vec<S>,
-    /// The same, upwards.
+    /// These centroids, upwards of the same centre `[m]`; empty for rectangles.
     pub centroid_axial: Vec<S>,
-    /// Centres `[m]` of the contacts above links that are any rigid bodies, to the right of the centre of the contact below; none for
-    /// rectangles.
+    /// Centres of contacts above links that are general rigid bodies, to the right of the centre of the contact below `[m]`; empty for rectangles.
     pub top_lateral: Vec<S>,
-    /// The same, upwards.
+    /// These contact centres, upwards of the same centre `[m]`; empty for rectangles.
     pub top_axial: Vec<S>,
 }
 
 impl<S: Scalar> Geometry<S> {
-    /// The same column in another scalar; `lift` is given each size in the order of the fields, base first.
+    /// The same column in another scalar. `lift` is given each value in the order of the fields, base first, but gravity last.
     pub fn lift<T>(&self, mut lift: impl FnMut(S) -> T) -> Geometry<T> {
         let mut all = |values: &[S]| values.iter().map(|value| lift(*value)).collect();
         let (pivot, half_height) = (all(&self.pivot), all(&self.half_height));
@@ -52,7 +51,7 @@ impl<S: Scalar> Geometry<S> {
     }
 }
 
-/// The accelerations of all modes with one number of degrees of freedom. Implemented by generated code.
+/// The accelerations of all modes with the same number of degrees of freedom. Implemented by generated code.
 pub trait StepProgram<S: Scalar> {
     /// Free angles.
     const DOF: usize;
@@ -75,7 +74,7 @@ pub trait StepProgram<S: Scalar> {
 
     /// `θ̈ [rad/s²]` from the cosines and sines of the angles, the rates `[rad/s]`, the horizontal ground acceleration and
     /// the effective gravity `g + ÿ_g [m/s²]`. Programs for horizontal ground motion have gravity among their constants and
-    /// do not read the last one.
+    /// do not read the argument `gravity`.
     fn acceleration(
         constants: &Self::Constants,
         cos: &Self::Vector,
@@ -86,7 +85,7 @@ pub trait StepProgram<S: Scalar> {
     ) -> Self::Vector;
 }
 
-/// The equations of all modes with one number of degrees of freedom in the form
+/// The equations of all modes with the same number of degrees of freedom in the form
 /// `J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0`, with `J` the diagonal of the mass matrix. Implemented by generated code.
 pub trait SeriesProgram<S: Scalar> {
     /// One value per free angle.
@@ -94,8 +93,8 @@ pub trait SeriesProgram<S: Scalar> {
     /// Scene constants, in the order of the program's doc.
     type Constants: for<'a> TryFrom<&'a [S]> + Clone;
 
-    /// The weights `[C, S]` `[N m]`: linear in the second derivatives of cosines and sines `[1/s²]`, the horizontal ground
-    /// acceleration and the effective gravity `[m/s²]`; of Taylor coefficients, those of the weights.
+    /// The weights `[C, S]` `[N m]`: linear in the second derivatives of cosines and sines `[1/s²]`, the horizontal ground acceleration
+    /// and the effective gravity `[m/s²]`. Taylor coefficients of these give Taylor coefficients of the weights.
     fn weights(
         constants: &Self::Constants,
         cos_ddot: &Self::Vector,
@@ -132,7 +131,7 @@ pub fn slope<S: Scalar, P: StepProgram<S>>(
     }
 }
 
-/// Mass matrix and energies of all modes with one number of degrees of freedom. Implemented by generated code.
+/// Mass matrix and energies of all modes with the same number of degrees of freedom. Implemented by generated code.
 pub trait EnergyProgram<S: Scalar> {
     /// One value per free angle.
     type Vector;
@@ -158,16 +157,16 @@ pub trait EnergyProgram<S: Scalar> {
 /// the axes of a link: across its axis to the left, and along it upwards.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<S, const ANGLES: usize, const TRANSLATIONS: usize> {
-    /// Moments of inertia about the pivots of the links, of the link and of all masses above, those in the next pivot `[kg m²]`.
+    /// Moment of inertia of each link about its pivot, with all masses above placed in the next pivot `[kg m²]`.
     pub inertia: [S; ANGLES],
-    /// First moments of the same masses about the same pivots `[kg m]`.
+    /// First moment of the same masses about the same pivot `[kg m]`.
     pub moment: [[S; 2]; ANGLES],
     /// From the pivot of each link to the next one `[m]`; that of the last link is not read.
     pub lever: [[S; 2]; ANGLES],
     /// Masses that the translations move `[kg]`.
     pub mass: [S; TRANSLATIONS],
-    /// Per translation and link: first moment of the mass that the translation moves about the pivot of the link, as far as the link turns
-    /// it, masses above in the next pivot `[kg m]`.
+    /// First moment per translation and link, about the link's pivot: of the mass that the translation moves, as far as the link turns that
+    /// mass, with masses above placed in the next pivot `[kg m]`.
     pub carried: [[[S; 2]; ANGLES]; TRANSLATIONS],
     /// Coefficients of friction with the sign of the slide, dimensionless; zero in flight.
     pub lift: [S; TRANSLATIONS],
@@ -182,9 +181,9 @@ pub struct MovingState<S, const ANGLES: usize, const TRANSLATIONS: usize> {
     pub sin: [S; ANGLES],
     /// Rates of the angles `[rad/s]`.
     pub omega: [S; ANGLES],
-    /// The translations move along `(cos, -sin)`: horizontal components.
+    /// Directions `(cos, -sin)` along which the translations move: horizontal components.
     pub face_cos: [S; TRANSLATIONS],
-    /// Minus the vertical components.
+    /// Minus the vertical components of these directions.
     pub face_sin: [S; TRANSLATIONS],
     /// Rates at which these directions turn `[rad/s]`.
     pub face_omega: [S; TRANSLATIONS],
@@ -221,12 +220,12 @@ pub struct InterfaceEquations<S> {
     pub forces: ContactForces<S>,
 }
 
-/// Generated equations of links that are any rigid bodies, on a body that stands on the ground.
+/// Generated equations of links that are general rigid bodies, on a body that stands on the ground.
 #[derive(Clone, Debug)]
 pub struct CompositeEquations<S> {
     /// The linkage; its first interface is that below the body on the ground.
     pub linkage: LinkageEquations<S>,
-    /// Per link, base first: a closed interface inside it, which divides it in two bodies.
+    /// Per link, base first: equations of a closed interface inside the link, which divides it into two bodies.
     pub inside: Vec<InterfaceEquations<S>>,
 }
 
@@ -248,8 +247,8 @@ pub struct LinkageEquations<S> {
 /// The linkages of a generated module.
 #[derive(Clone, Copy, Debug)]
 pub struct Linkages {
-    /// Of aligned rectangles: by number of blocks and mask of open interfaces.
+    /// Linkages of aligned rectangles, by number of blocks and mask of open interfaces.
     pub rectangles: fn(usize, usize) -> Option<LinkageEquations<f64>>,
-    /// Of links that are any rigid bodies: by their number.
+    /// Linkages of general rigid bodies, by number of links.
     pub composite: fn(usize) -> Option<CompositeEquations<f64>>,
 }

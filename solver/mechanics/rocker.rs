@@ -6,7 +6,7 @@ use crate::numerics::state_vector::StateVector;
 use rocking_ground::Segment;
 use wide::f64x2;
 
-/// One free angle under an effective gravity `g` on a ground that moves to the side by `a`: `θ¨ = cos θ (G g + H a) + sin θ (G' g + H' a)`.
+/// One free angle under effective gravity `g` and horizontal ground acceleration `a`: `θ¨ = cos θ (G g + H a) + sin θ (G' g + H' a)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rocker {
     gravity: f64,
@@ -29,7 +29,7 @@ impl Rocker {
         Some(Rocker { gravity, pulled, shaken: under(Ground { x: 1.0, gravity: 0.0 })? })
     }
 
-    /// The weights in a part of a segment, from `t` on for `h` `[s]`, in units of that part; `None` where the ground's acceleration is not linear.
+    /// Weights in the part of a segment from `t` to `t + h` `[s]`, with `h` as unit of time. `None` if the ground's acceleration is not linear there.
     #[inline(always)]
     pub fn weights(&self, segment: &Segment, t: f64, h: f64) -> Option<Weights> {
         let [a, a_slope] = segment.horizontal.line_at(t)?;

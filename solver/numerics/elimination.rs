@@ -1,12 +1,12 @@
 //! Small systems of linear equations whose matrix is not symmetric: elimination with partial pivoting. [`eliminate`] serves one system of known size,
-//! [`Factors`] several with one matrix.
+//! [`Factors`] several systems with the same matrix.
 
 use smallvec::SmallVec;
 
 /// Size of a matrix up to which its storage is inline.
 const USUAL_SIZE: usize = 6;
 
-/// `x` of `matrix · x = loads`; `None` where a pivot vanishes or a number is not finite.
+/// `x` of `matrix · x = loads`; `None` if a pivot vanishes or the solution is not finite.
 #[inline]
 pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: [f64; SIZE]) -> Option<[f64; SIZE]> {
     for column in 0..SIZE {
@@ -44,9 +44,9 @@ pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: 
 #[derive(Clone, Debug)]
 pub struct Factors {
     size: usize,
-    /// Row by row; factorised, multipliers below the diagonal.
+    /// Entries row by row. Once factorised: multipliers below the diagonal, the upper factor on and above it.
     entries: SmallVec<[f64; USUAL_SIZE * USUAL_SIZE]>,
-    /// Row that takes the place of each column's pivot.
+    /// Per column: the row of its pivot, which is swapped with the row of the column's index.
     pivots: SmallVec<[usize; USUAL_SIZE]>,
 }
 

@@ -1,19 +1,19 @@
-//! Sampled guards: the first instant in a step at which a function of time that was above zero is not any more.
+//! Sampled guards: finds the first instant in a step at which a function of time, above zero before, is zero or below.
 //!
 //! Every guard covers the half-open interval `(start, end]`: a zero at the start belongs to what came before, one at the end to this
 //! step. A guard that is linear in the state is a polynomial, whose roots are isolated on the dense output itself
 //! ([`Track::first_root`](crate::numerics::polynomial::track::Track::first_root)). A guard that is any other function of time is sampled in a
 //! few places, between which a dip is sought by parabolas ([`first_crossing`]).
 //!
-//! Re-arming after a reset that leaves a guard at zero is by rule: the known root at the start (once, twice or three times, as the rate and the
-//! acceleration vanish too) is divided out of the polynomial. The state is never nudged.
+//! After a reset that leaves a guard at zero, the guard is re-armed by rule: its known root at the start is divided out of the polynomial,
+//! twice if the rate vanishes too, three times if the acceleration does as well. The state is never nudged.
 
 use crate::numerics::polynomial::bernstein::{Bernstein, COEFFICIENTS};
 
-/// The root in `(0, 1]` of a function above zero at 0 and not above at 1, to the last bit: inverse quadratic interpolation where it
-/// may be trusted, bisection elsewhere (Chandrupatla 1997), with steps no shorter than the resolution, so that both ends close in.
+/// Root in `(0, 1]`, to the last bit, of a function that is above zero at 0 and not above zero at 1. Inverse quadratic interpolation where its
+/// result can be trusted, otherwise bisection (Chandrupatla 1997). Steps are no shorter than the resolution, so that both ends close in.
 fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
-    // The newest place, the one across the root from it, and the one before.
+    // `a`: the newest place. `b`: the end of the bracket on the other side of the root. `c`, below: the end that `a` replaced.
     let (mut a, mut b) = (1.0f64, 0.0f64);
     let (mut fa, mut fb) = (f(a), f(b));
     let mut share = 0.5;
@@ -46,11 +46,11 @@ fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
     if fa > 0.0 { b } else { a }
 }
 
-/// More than halving a bracket of doubles down to one of them takes.
+/// Most rounds of [`bisect`]: more than halving takes until the bracket is a single double.
 const MOST_ROUNDS: usize = 1100;
 
-/// Degree of the polynomial through the samples of a guard. A guard is as smooth as the step that its method has accepted: a
-/// dozen samples would tell no more, three miss dips.
+/// Degree of the polynomial through the samples of a guard. A guard is as smooth as the accepted step: a dozen samples would show no more
+/// than nine do, three samples miss dips.
 const DEGREE: usize = 8;
 
 /// Where a guard is sampled, 0 to 1: Chebyshev's extrema, so that the polynomial through the samples is nearly the best one.
@@ -67,22 +67,23 @@ const NODES: [f64; DEGREE + 1] = [
     1.0,
 ];
 
-/// Largest size of `Π (s - NODES[k])` over all nodes but the last, on `[0, 1]`, reached at the end: what the last coefficient of
-/// the polynomial weighs. What is left out weighs less as long as coefficients fall; a guard whose coefficients do not is under-sampled.
+/// Largest magnitude on `[0, 1]` of `Π (s - NODES[k])` over all nodes but the last, reached at the end: the weight of the polynomial's
+/// leading coefficient. Omitted terms weigh less as long as coefficients fall; a guard whose coefficients do not fall is under-sampled.
 const LAST_WEIGHT: f64 = 1.0 / 2048.0;
 
-/// Looks between two nodes for a low place of the polynomial.
+/// Parts into which each interval between two nodes is divided in the search for a low place of the polynomial.
 const PLACES_BETWEEN: usize = 8;
 
 /// A guard that changes by less than this share of its smallest value, over start, middle and end, is taken to have no zero in
-/// between: it would have to swing three times as far and back within half a step. Larger, and more dips go unseen; smaller, and most
-/// steps are sampled for nothing.
+/// between: it would have to fall more than twice as far and rise again within half a step. Larger, and more dips go unseen; smaller,
+/// and most steps are sampled for nothing.
 const FAR: f64 = 0.5;
 
-/// The first `s` in `(0, limit]` at which `guard` is not above zero. `start` is its value at zero.
+/// First `s` in `(0, limit]` at which `guard` is not above zero; `start` is its value at zero. Zero if neither `start` nor the first sample
+/// after it is above zero.
 ///
-/// A look at the middle excludes most steps. Otherwise the guard is replaced by the polynomial through nine samples; wherever that
-/// comes down to the error of the replacement, the guard itself is asked, and a sign that has changed is followed up on it.
+/// Start, middle and end exclude most steps. Otherwise a polynomial through nine samples replaces the guard. Where the polynomial falls
+/// to the bound of its error, the guard itself is evaluated, and a change of sign is traced on the guard.
 pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, limit: f64) -> Option<f64> {
     let (end, middle) = (guard(limit), guard(0.5 * limit));
     let (low, high) = (start.min(middle).min(end), start.max(middle).max(end));
@@ -98,7 +99,7 @@ pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, limit: f64)
             _ => guard(NODES[k] * limit),
         };
     }
-    // A start that is not above zero by rounding was examined there; it counts only if the guard stays below.
+    // A start that rounding has put at or below zero has been examined before; it counts only if the next sample is not above zero either.
     if start <= 0.0 && samples[1] <= 0.0 {
         return Some(0.0);
     }
@@ -142,10 +143,10 @@ pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, limit: f64)
     None
 }
 
-/// Rounds in which the lowest place of a dip is looked for: each gains half as many digits again.
+/// Most rounds in the search for the lowest place of a dip: each round raises the number of correct digits by half.
 const DIP_ROUNDS: usize = 8;
 
-/// A place between the outer two of three where the guard is not above zero, if parabolas lead to one from a guess.
+/// Place, with its value, between `left` and `right` where the guard is not above zero; `None` if parabolas from `guess` lead to none.
 fn dip_below(guard: &mut impl FnMut(f64) -> f64, [left, _, right]: [f64; 3], guess: f64) -> Option<(f64, f64)> {
     let step = 0.25 * (guess - left).min(right - guess);
     let mut places = [guess - step, guess, guess + step].map(|s| (s, guard(s)));
@@ -160,7 +161,7 @@ fn dip_below(guard: &mut impl FnMut(f64) -> f64, [left, _, right]: [f64; 3], gue
         }
         let found = (lowest, guard(lowest));
         let fall = b.1 - found.1;
-        // Closer in, around the lower of the two; what is left to fall is less than what has been gained.
+        // The next three places are closer, around the lower of the two. The guard can fall further by less than it has just fallen.
         let (middle, width) = if fall > 0.0 { (found, (lowest - b.0).abs()) } else { (b, 0.5 * (lowest - b.0).abs()) };
         if middle.1 > 4.0 * fall.abs() && middle.1 > 0.0 {
             return None;
@@ -171,7 +172,7 @@ fn dip_below(guard: &mut impl FnMut(f64) -> f64, [left, _, right]: [f64; 3], gue
     None
 }
 
-/// The polynomial through samples at the nodes, and a bound of what it may be off.
+/// The polynomial through samples at the nodes, and a bound of its error.
 fn through(samples: &[f64; DEGREE + 1]) -> (Bernstein, f64) {
     let mut coefficients = [0.0; COEFFICIENTS];
     let mut last = 0.0;
@@ -182,11 +183,11 @@ fn through(samples: &[f64; DEGREE + 1]) -> (Bernstein, f64) {
         last += leading * sample;
     }
     let size = samples.iter().fold(0.0f64, |size, sample| size.max(sample.abs()));
-    // The cardinal polynomials cancel some digits: a thousand roundings.
+    // Sums of the cardinal polynomials lose some digits: a thousand roundings.
     (Bernstein { coefficients, degree: DEGREE }, LAST_WEIGHT * last.abs() + 1e3 * f64::EPSILON * size)
 }
 
-/// Per node the polynomial that is one there and zero at the others, as Bernstein coefficients and by its leading one.
+/// For each node, the polynomial that is one there and zero at all other nodes: its Bernstein coefficients and its leading coefficient.
 const CARDINAL: [([f64; DEGREE + 1], f64); DEGREE + 1] = {
     let mut table = [([0.0; DEGREE + 1], 0.0); DEGREE + 1];
     let mut node = 0;
@@ -215,7 +216,7 @@ const CARDINAL: [([f64; DEGREE + 1], f64); DEGREE + 1] = {
     table
 };
 
-/// Whether a polynomial is above a level throughout, as far as some halvings tell.
+/// True if no more than `halvings` halvings prove that a polynomial is above a level on all of `[0, 1]`.
 fn stays_above(polynomial: &Bernstein, level: f64, halvings: usize) -> bool {
     if polynomial.lower_bound() > level {
         return true;
@@ -228,10 +229,10 @@ fn stays_above(polynomial: &Bernstein, level: f64, halvings: usize) -> bool {
     stays_above(&left, level, halvings - 1) && stays_above(&right, level, halvings - 1)
 }
 
-/// Halvings after which dips are looked for place by place: each costs as much as two places.
+/// Depth of halving in the proof that no dip reaches zero. Beyond it dips are sought place by place: a halving costs as much as two places.
 const HALVINGS: usize = 4;
 
-/// Where the parabola through three places has its extremum, kept between the outer ones.
+/// Place of the extremum of the parabola through three points; the middle place if the extremum is not between the outer two.
 fn vertex([a, b, c]: [f64; 3], [u, v, w]: [f64; 3]) -> f64 {
     let (p, q) = ((b - a) * (v - w), (b - c) * (v - u));
     let vertex = b - 0.5 * ((b - a) * p - (b - c) * q) / (p - q);
@@ -253,13 +254,13 @@ fn crossing_between(guard: &mut impl FnMut(f64) -> f64, above: (f64, f64), below
             })
 }
 
-/// Rounds of Newton's rule with the slope of a series, which is right to some digits: each round brings as many.
+/// Most rounds of Newton's rule with a fixed slope from a series. The slope is right to some digits; each round gains as many.
 const POLISHING_ROUNDS: usize = 8;
 
-/// Change of a root that rounding may leave where the guard is flat.
+/// Largest change of a root that counts as rounding, where a guard is flat and the changes no longer shrink.
 const FLAT: f64 = 1e-11;
 
-/// The zero of a falling guard, from a place that is right to some digits and the slope there; `None` if that was mistaken.
+/// Zero of a falling guard in `(0, reach]`, from an approximate zero `s` and the slope there; `None` if Newton's rule does not converge there.
 pub fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
     let mut last = f64::INFINITY;
     for _ in 0..POLISHING_ROUNDS {

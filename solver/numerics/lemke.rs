@@ -1,17 +1,17 @@
 //! Linear complementarity problems, by Lemke's method: `w = M z + q` with `w >= 0`, `z >= 0` and `w · z = 0`
 //! (Cottle, Pang & Stone, The Linear Complementarity Problem, 1992, section 4.4).
 
-/// Pivots per unknown beyond which the method has lost its way.
+/// Most pivots per unknown. A method that needs more has failed.
 const PIVOTS_PER_UNKNOWN: usize = 20;
 
-/// Share of the largest entry of the entering column below which an entry is no pivot.
+/// An entry is a pivot only if it exceeds this share of the largest entry of the entering column.
 const PIVOT_SHARE: f64 = 1e-11;
 
-/// Share of the largest entry of `q` below which the artificial variable is rounding.
+/// The artificial variable counts as zero up to this share of the largest entry of `q`.
 const LEVEL_SHARE: f64 = 1e-13;
 
-/// Solves `w = M z + q` for `z`, with `M` given row by row; `None` if the method ends on a ray, which says that there is no solution for the matrices
-/// of contact problems without given slips.
+/// Solves `w = M z + q` for `z`, with `M` given row by row. `None` after too many pivots, or if the method ends on a ray: for the matrices of
+/// contact problems without given slips, a ray means that there is no solution.
 pub fn lemke(m: &[f64], q: &[f64]) -> Option<Vec<f64>> {
     let size = q.len();
     if q.iter().all(|value| *value >= 0.0) {
@@ -26,11 +26,11 @@ pub fn lemke(m: &[f64], q: &[f64]) -> Option<Vec<f64>> {
         if left == tableau.artificial() {
             return Some(tableau.solution());
         }
-        // The complement of what has left enters.
+        // The complement of the variable that has left enters.
         entering = if left < size { left + size } else { left - size };
         leaving = match tableau.leaving(entering) {
             Some(row) => row,
-            // A ray on which the artificial variable is nothing but rounding begins at a solution.
+            // If the artificial variable is zero to rounding, the ray begins at a solution.
             None => return (tableau.artificial_level() <= LEVEL_SHARE * largest(q)).then(|| tableau.solution()),
         };
     }
@@ -81,7 +81,7 @@ impl Tableau {
         self.rows[row * self.width + column]
     }
 
-    /// Makes a variable basic in a row; the variable that was so before.
+    /// Makes a variable basic in a row. Returns the variable that was basic there before.
     fn exchange(&mut self, row: usize, entering: usize) -> usize {
         let (width, pivot) = (self.width, self.at(row, entering));
         self.rows[row * width..(row + 1) * width].iter_mut().for_each(|entry| *entry /= pivot);
@@ -96,7 +96,7 @@ impl Tableau {
         std::mem::replace(&mut self.basis[row], entering)
     }
 
-    /// The row that limits an entering variable, ties decided lexicographically, the artificial variable first; `None` if none does.
+    /// Row that limits an entering variable. Ties go to the artificial variable, then are decided lexicographically. `None` if no row limits it.
     fn leaving(&self, entering: usize) -> Option<usize> {
         let largest = (0..self.size).fold(0.0f64, |most, row| most.max(self.at(row, entering).abs()));
         let is_pivot = |row: &usize| self.at(*row, entering) > PIVOT_SHARE * largest;

@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-/// Length up to which a list allocates nothing. A larger one costs every list its room on the stack.
+/// Largest length of a list that allocates nothing. A larger limit would take more of the stack for every list.
 const INLINE_LENGTH: usize = 6;
 
 /// A list with at most one entry per block, interface or link, base first: a slice that owns its entries, without allocation for
@@ -17,7 +17,7 @@ pub struct PerBlock<T: Copy>(Storage<T>);
 
 #[derive(Clone)]
 enum Storage<T: Copy> {
-    /// The first `length` entries count; the others are copies of one of them.
+    /// The first `length` entries are valid; the rest is padding, copies of one of them.
     Inline { entries: [T; INLINE_LENGTH], length: InlineLength },
     /// An empty list, or a long one.
     Heap(Vec<T>),
@@ -198,13 +198,13 @@ impl<'l, T: Copy> IntoIterator for &'l PerBlock<T> {
     }
 }
 
-/// The largest size of some entries.
+/// The largest magnitude of some entries.
 #[inline(always)]
 pub(crate) fn largest(entries: &[f64]) -> f64 {
     entries.iter().fold(0.0, |largest, entry| if entry.abs() > largest { entry.abs() } else { largest })
 }
 
-/// A table of blocks or links against links, row by row.
+/// A table with a row per block or link and a column per link, row by row.
 #[derive(Clone, Debug)]
 pub struct Square<T>(SmallVec<[T; INLINE_LENGTH * INLINE_LENGTH]>);
 
@@ -225,14 +225,14 @@ impl<T> DerefMut for Square<T> {
 pub trait Size: Copy {
     /// A list with one entry per block, interface or link. Entries of links that do not exist keep their fill value.
     type List<T: Copy>: Deref<Target = [T]> + DerefMut + Clone;
-    /// Rows of blocks or links against columns of links.
+    /// A table with a row per block or link and a column per link.
     type Table<T: Copy>: Deref<Target = [T]> + DerefMut + Clone;
 
     /// Number of blocks.
     fn blocks(self) -> usize;
 
-    /// Columns of a table, and links that loops run over, where `moving` links move. A size known at compile time answers with the number
-    /// of blocks, so that no loop branches on it.
+    /// Number of columns of a table, and of links that loops run over, where `moving` links move. A size known at compile time returns the number
+    /// of blocks instead, so that no loop branches on the number of moving links.
     fn links(self, moving: usize) -> usize;
 
     /// A list with an entry per block.
@@ -352,7 +352,7 @@ impl Size for Any {
     }
 }
 
-/// An expression with the size of a column of so many blocks: compiled for up to five of them, and for any.
+/// Evaluates an expression with the size of a column of this many blocks: compiled for each number up to five, and once for any number.
 macro_rules! for_size {
     ($blocks:expr, $size:ident => $body:expr) => {
         match $blocks {

@@ -8,7 +8,7 @@ pub trait Scalar:
 {
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
-    /// The same, where a number is at hand: some know from it how they are computed.
+    /// The nearest value, for use with `self`: a scalar may carry settings of its arithmetic, such as a precision, that constants must share.
     #[inline(always)]
     fn like(self, value: f64) -> Self {
         Self::from_f64(value)
@@ -18,7 +18,7 @@ pub trait Scalar:
     /// Sine and cosine of an angle `[rad]`; odd and even to the last bit, but for the sign of zero.
     fn sin_cos(self) -> (Self, Self);
 
-    /// The same of each angle of a list, into lists as long.
+    /// Writes sine and cosine of each angle `[rad]` into `sin` and `cos`, lists of the same length.
     #[inline(always)]
     fn sin_cos_each(angles: &[Self], sin: &mut [Self], cos: &mut [Self]) {
         for (angle, (sin, cos)) in angles.iter().zip(sin.iter_mut().zip(cos)) {

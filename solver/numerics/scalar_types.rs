@@ -73,7 +73,7 @@ impl<const P: usize> Dual<P> {
         Dual { value, derivative: [0.0; P] }
     }
 
-    /// The parameter with this index. A panic means that there are not so many.
+    /// The parameter with this value and index. Panics if `index` is not below `P`.
     pub fn variable(value: f64, index: usize) -> Dual<P> {
         let mut derivative = [0.0; P];
         derivative[index] = 1.0;

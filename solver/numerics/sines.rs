@@ -1,10 +1,10 @@
 //! Sine and cosine together, in straight-line arithmetic where rocking takes place.
 //!
-//! Up to an eighth of a turn both are the polynomials of Sun's fdlibm (1993). What comes after their first two terms is so small that its
-//! coefficients can be adapted, for one product of sums to do the work of three products (Knuth, The Art of Computer Programming 2, section
-//! 4.6.4): with five products fewer than in `libm`'s order the sums are as exact, and none waits longer. Errors stay below 0.85 units in the
-//! last place (`tests/scalars.rs`). Sine is odd (but for the sign of zero) and cosine even exactly, as only `x²` is expanded. Beyond, where blocks have fallen, `libm`
-//! reduces the angle first.
+//! Up to an eighth of a turn both are the polynomials of Sun's fdlibm (1993). The terms after the first two are so small that their
+//! coefficients can be adapted (Knuth, The Art of Computer Programming 2, section 4.6.4): one product of sums then does the work of three
+//! products. That saves five products against `libm`'s order; the sums are as exact and wait no longer. Errors stay below 0.85 units in the
+//! last place (`tests/scalars.rs`). Sine is exactly odd (but for the sign of zero) and cosine exactly even, since only `x²` is expanded. At
+//! larger angles, where blocks have fallen, `libm` reduces the angle first.
 
 use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
@@ -32,7 +32,7 @@ impl Arithmetic for f64x2 {
 /// The largest angle of the polynomials `[rad]`: the last double whose upper half is that of π/4, where `libm` begins to reduce.
 pub const REACH: f64 = f64::from_bits(0x3fe9_21fb_ffff_ffff);
 
-/// Of `x³, x⁵, ... x¹³` in the sine.
+/// Coefficients of `x³, x⁵, ... x¹³` in the sine.
 const SIN_POWERS: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,
@@ -42,7 +42,7 @@ const SIN_POWERS: [f64; 6] = [
     1.589_690_995_211_55e-10,
 ];
 
-/// Of `x⁴, x⁶, ... x¹⁴` in the cosine.
+/// Coefficients of `x⁴, x⁶, ... x¹⁴` in the cosine.
 const COS_POWERS: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
@@ -62,7 +62,7 @@ const fn adapted(p: [f64; 6]) -> [f64; 6] {
     [p[0], p[1], p[5], a, b, p[2] / p[5] - a * b]
 }
 
-/// The polynomial of adapted coefficients.
+/// Value of the polynomial at `z`, by its adapted coefficients; `square` is `z²`.
 #[inline(always)]
 fn polynomial<S: Arithmetic>(z: S, square: S, [p1, p2, p6, a, b, c]: [S; 6]) -> S {
     p1 + z * p2 + square * p6 * ((z + a) * (square + b) + c)
@@ -74,21 +74,21 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     if is_within_reach(x) { kernels_of_one(x) } else { reduced(x) }
 }
 
-/// Of angles beyond, and of what is no number.
+/// Sine and cosine of angles beyond [`REACH`], infinities and NaN.
 #[cold]
 #[inline(never)]
 fn reduced(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }
 
-/// Whether the polynomials hold.
+/// Whether the polynomials hold for this angle.
 #[inline(always)]
 pub fn is_within_reach(x: f64) -> bool {
-    // As integers, sizes are in the order of the numbers, and what is no number is beyond.
+    // Bits of positive doubles, as integers, are in the order of the numbers; infinity and NaN come after all of them.
     x.abs().to_bits() <= REACH.to_bits()
 }
 
-/// Whether they hold for all of these angles.
+/// Whether the polynomials hold for all of these angles.
 #[inline(always)]
 pub fn are_within_reach(angles: &[f64]) -> bool {
     let mut are_within = true;
@@ -98,17 +98,17 @@ pub fn are_within_reach(angles: &[f64]) -> bool {
     are_within
 }
 
-/// Both polynomials. The sine of a negative zero is a positive one.
+/// Sine and cosine by both polynomials. The sine of negative zero is positive zero.
 #[inline(always)]
 pub fn kernels<S: Arithmetic>(x: S) -> (S, S) {
     let (z, number) = (x * x, S::constant);
     let square = z * z;
-    // One by one: a map over the array is a call, compiled for the plainest instructions.
+    // Entry by entry: a map over the array would be a function call, compiled for the plainest instructions.
     let of = |p: &[f64; 6]| [number(p[0]), number(p[1]), number(p[2]), number(p[3]), number(p[4]), number(p[5])];
     sum(x, z, square, [polynomial(z, square, of(&SIN)), polynomial(z, square, of(&COS))])
 }
 
-/// The same of one angle, sine and cosine side by side.
+/// [`kernels`] of one angle, with sine and cosine side by side in one vector.
 #[inline(always)]
 fn kernels_of_one(x: f64) -> (f64, f64) {
     let (z, of) = (x * x, |index| f64x2::new([SIN[index], COS[index]]));
@@ -117,7 +117,7 @@ fn kernels_of_one(x: f64) -> (f64, f64) {
     sum(x, z, square, polynomial(f64x2::splat(z), f64x2::splat(square), both).to_array())
 }
 
-/// From what the polynomials add to `x` and to `1 - x²/2`.
+/// Sine and cosine from the values of the polynomials: `x + x³ · sin` and `1 - x²/2 + x⁴ · cos`.
 #[inline(always)]
 fn sum<S: Arithmetic>(x: S, z: S, square: S, [sin, cos]: [S; 2]) -> (S, S) {
     let (one, half) = (S::constant(1.0), S::constant(0.5) * z);
@@ -130,7 +130,7 @@ fn sum<S: Arithmetic>(x: S, z: S, square: S, [sin, cos]: [S; 2]) -> (S, S) {
 mod tests {
     use super::*;
 
-    /// Multiplied out they are fdlibm's to the last places.
+    /// Multiplied out, the adapted coefficients are fdlibm's to the last places.
     #[test]
     fn the_polynomials_are_fdlibms() {
         for (adapted, powers) in [(SIN, SIN_POWERS), (COS, COS_POWERS)] {
@@ -141,7 +141,7 @@ mod tests {
         }
     }
 
-    /// Where they meet what `libm` reduces there is no step.
+    /// No step where the polynomials end and `libm`'s reduction begins.
     #[test]
     fn the_polynomials_are_libms_to_the_last_place() {
         let mut x = 1e-30f64;

@@ -1,15 +1,15 @@
-//! States of known or unknown length: what a method of integration moves.
+//! State vectors whose length is known at compile time, or not: what a method of integration advances.
 
 /// A state or a set of free angles: a fixed array where the size is known at compile time, a `Vec` where it is not.
 pub trait StateVector: Clone + Send + Sync {
-    /// As many things of another kind.
+    /// A list of the same length with entries of another type.
     type Of<T: Clone + Send + Sync>: AsRef<[T]> + AsMut<[T]> + Clone + Send + Sync;
 
     /// The components.
     fn as_slice(&self) -> &[f64];
     /// The components, to be written.
     fn as_mut_slice(&mut self) -> &mut [f64];
-    /// One thing for each component.
+    /// A list with the entry `fill` for each component.
     fn each<T: Clone + Send + Sync>(&self, fill: T) -> Self::Of<T>;
 }
 

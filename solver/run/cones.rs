@@ -6,22 +6,22 @@ use super::transition::Transition;
 use crate::column::{Block, Column};
 use crate::friction::contact::Coefficients;
 
-/// Share of a width by which a lower face is taken to be narrower than the block on it.
+/// Share of a width by which an upper block must reach beyond the lower face to count as wider.
 const WIDTH_ROUNDING: f64 = 1e-12;
 
-/// What contacts without sliding may ask for.
+/// Limits of the contact forces in a run without sliding.
 pub(crate) trait Limits {
-    /// Whether there are any.
+    /// Whether there are limits at all.
     const ARE_THERE: bool;
 
-    /// Whether all forces recorded so far are within them.
+    /// Whether all forces recorded so far are within the limits.
     fn hold(&self, record: &Recorder) -> bool;
 
-    /// Whether a transition and its impulses are within them.
+    /// Whether a transition and its impulses are within the limits.
     fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool;
 }
 
-/// Contacts transmit whatever holds the blocks together.
+/// No limits: contacts transmit any force that holds the blocks together.
 pub(crate) struct Unlimited;
 
 impl Limits for Unlimited {
@@ -41,12 +41,12 @@ pub(crate) struct Cones<'a> {
     friction: &'a Coefficients,
     /// Per interface, whether a corner of the lower block may carry the upper face.
     may_be_below: Vec<bool>,
-    /// Rate up to which a block is about to come to rest `[rad/s]`: what moves slower than the last hop does is at rest.
+    /// Rate up to which a block is about to come to rest `[rad/s]`: slower blocks hop no higher than `stick_angle`.
     last_rate: f64,
 }
 
 impl<'a> Cones<'a> {
-    /// Those of a column with the slides that it has; hops up to `stick_angle` `[rad]` are none.
+    /// The cones of a column with its present slides. Impacts of hops up to `stick_angle` `[rad]` are not checked.
     pub fn new(column: &Column, friction: &'a Coefficients, stick_angle: f64) -> Cones<'a> {
         let smallest = |size: f64, block: &Block| size.min(block.half_height.hypot(block.half_width()));
         let size = column.blocks().iter().fold(f64::INFINITY, smallest);
@@ -62,8 +62,8 @@ impl<'a> Cones<'a> {
         }
     }
 
-    /// Whether a demand `|T| / N` in the axes of the lower face is within a coefficient. The face that carries the contact may be turned from that face by
-    /// the relative angle, which the largest angles so far bound.
+    /// Whether a demand `|T| / N`, in the axes of the lower face, is within a coefficient. If the upper face may carry the contact, it is turned
+    /// against the lower face: by no more than the sum of both blocks' largest angles so far, `peaks` `[rad]`.
     fn is_within(&self, interface: usize, demand: f64, coefficient: f64, peaks: &[f64]) -> bool {
         match interface.checked_sub(1).filter(|_| self.may_be_below[interface]) {
             Some(below) => libm::atan(demand) + peaks[interface] + peaks[below] <= libm::atan(coefficient),

@@ -1,7 +1,7 @@
 //! What follows from a column's state at one instant: its energy and the forces between its blocks.
 //!
-//! Histories of blocks that only rock hold angles and rates. Whoever wants energies or contact forces at those times asks here, after the run, and
-//! nobody else pays for them.
+//! The history of a run without slides holds angles and rates only. Energies and contact forces at its times are computed here, on request, after
+//! the run.
 
 use super::rest;
 use crate::column::Column;
@@ -10,7 +10,7 @@ use crate::mechanics::mode::Mode;
 use crate::response::Sample;
 
 impl Sample {
-    /// Energies relative to the moving ground, with gravity `g`: vertical ground motion does work on them.
+    /// Energies relative to the moving ground `[J]`, the potential one in gravity `g` alone: vertical ground motion does work on the blocks.
     pub fn energy(&self, column: &Column) -> Energy {
         let gravity = column.gravity();
         if !self.blocks.is_empty() {
@@ -27,8 +27,8 @@ impl Sample {
             .map_or_else(|| rest::energy(column), |mode| mode.energy(&self.state_of_links(), gravity))
     }
 
-    /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4); of a run in which blocks slide or fly those that it
-    /// recorded.
+    /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4). In a run in which blocks slide or fly, they are those
+    /// that the run recorded.
     pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
         if !self.blocks.is_empty() {
             return self.blocks.iter().map(|state| state.force).collect();
@@ -46,10 +46,10 @@ impl Sample {
         self.theta.iter().zip(below).map(|(own, below)| own - below).collect()
     }
 
-    /// Displacement of the middle of the column's top from its place in the column at rest, to the right and upwards, in the frame of the moving ground
-    /// `[m]`.
+    /// Displacement of the middle of the column's top from its place in the column at rest, to the right and upwards, in the frame of the moving
+    /// ground `[m]`.
     pub fn top_displacement(&self, column: &Column) -> [f64; 2] {
-        // A way across and along a block that has turned clockwise by an angle.
+        // A vector across and along a block, turned clockwise by the angle of the block.
         let turned = |angle: f64, [across, along]: [f64; 2]| {
             let (sin, cos) = (libm::sin(angle), libm::cos(angle));
             [across * cos + along * sin, along * cos - across * sin]
@@ -111,7 +111,7 @@ mod tests {
         let expected = [0.4 - 0.4 * lean.cos() + 3.2 * lean.sin(), 3.2 * lean.cos() + 0.4 * lean.sin() - 3.2];
         assert!((x - expected[0]).abs() < 1e-15 && (y - expected[1]).abs() < 1e-15, "{x} {y}");
         assert_eq!(as_one.relative_angles(), [lean, 0.0]);
-        // The upper one turns back, about its left corner: as the lower one's top leads, and then about the corner.
+        // The upper block stands upright on its left corner, which the top of the lower block carries.
         let upright = sample([lean, 0.0], [0.0; 2], [1, -1]);
         let lower_top = [0.4 - 0.4 * lean.cos() + 1.6 * lean.sin(), 1.6 * lean.cos() + 0.4 * lean.sin()];
         let corner = [lower_top[0] - 0.4 * lean.cos(), lower_top[1] + 0.4 * lean.sin()];
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(rest.energy(&column).kinetic, 0.0);
     }
 
-    /// An upper block that does not turn, on one that is about to: no mode of one link is special.
+    /// The column turns as one, or its upper block alone: a sample has the energies and forces that the mode gives for the free angle.
     #[test]
     fn energies_and_forces_do_not_depend_on_how_the_state_is_told() {
         let column = column();

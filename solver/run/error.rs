@@ -6,17 +6,17 @@ use crate::scene::SceneErrors;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
-    /// The scene is not valid. Scenes from files have been checked.
+    /// The scene is not valid. Scenes from files are checked when they are read.
     #[error(transparent)]
     Scene(#[from] SceneErrors),
-    /// The error demanded cannot be met with steps that still advance the time.
+    /// The tolerances cannot be met with steps long enough to advance the time.
     #[error("at t = {time} s in mode {mode}: the step has fallen to {step:e} s; loosen rtol and atol")]
     StepTooSmall {
         /// `[s]`
         time: f64,
         /// `[s]`
         step: f64,
-        /// Label.
+        /// Label of the mode.
         mode: String,
     },
     /// Numbers have left the range of doubles.
@@ -26,17 +26,17 @@ pub enum SolveError {
     NotFinite {
         /// `[s]`
         time: f64,
-        /// Label.
+        /// Label of the mode.
         mode: String,
     },
-    /// Events follow each other without time going on, and closing what has not moved does not help.
+    /// Events follow each other in one instant without end, although interfaces without a gap have been closed to stop them.
     #[error("at t = {time} s: {events} events in one instant, the last pattern {pattern}; increase stick_angle")]
     Stalled {
         /// `[s]`
         time: f64,
-        /// How many.
+        /// Number of events in this instant after the first.
         events: usize,
-        /// Where it hangs.
+        /// The last pattern.
         pattern: String,
     },
     /// The caller's progress function has stopped the run.
@@ -52,7 +52,7 @@ pub enum SolveError {
     SingularMass {
         /// `[s]`
         time: f64,
-        /// The pattern before.
+        /// The pattern before the contact problem.
         pattern: String,
     },
 }

@@ -1,6 +1,6 @@
 //! The fold: the pseudo-code of the crate's documentation, line by line.
 //!
-//! Where friction is limited, the fold goes on as long as its forces are within the cones ([`super::cones`]), and is broken off where they are not.
+//! With limited friction, the fold continues as long as forces are within the cones ([`super::cones`]), and stops where they are not.
 
 use super::cones::Limits;
 use super::error::SolveError;
@@ -24,7 +24,7 @@ pub(crate) enum Leaving {
     Beyond(Place),
 }
 
-/// Where what follows is beyond the limits. What is recorded reaches up to there.
+/// The place from which on the run is beyond the limits. The record reaches up to this place.
 pub(crate) enum Place {
     /// The start.
     Start,
@@ -38,14 +38,14 @@ pub(crate) enum Place {
 struct Event {
     ended: Ended,
     closing: PerBlock<usize>,
-    /// The record before it.
+    /// The place in the record before the event.
     mark: Mark,
 }
 
-/// Runs a problem from its beginning, or from a state on whose motion is decided, as far as the limits reach.
+/// Runs a problem as far as the limits reach: from its beginning, or from a state whose pattern is decided already.
 ///
 /// # Errors
-/// [`SolveError`]; with limits only that of a cancelled run, as other errors say where a run without sliding is at its end.
+/// [`SolveError`]. With limits, only [`SolveError::Cancelled`]: all other errors count as motions beyond the limits.
 pub(crate) fn fold<L: Limits>(
     problem: &Problem,
     modes: &mut Modes,
@@ -71,10 +71,10 @@ pub(crate) fn fold<L: Limits>(
             Err(error) => return Err(error),
         }
     }
-    // Of a fold with limits.
+    // The event that began the present phase; only noted with limits.
     let mut event: Option<Event> = None;
     let (mut mode, mut motion) = modes.enter(problem, after);
-    // The end of the stretch before, within a phase.
+    // End of the last stretch within the present phase `[s]`, if there is one.
     let mut reached: Option<f64> = None;
     let mut stretches = 0;
     loop {
@@ -141,7 +141,7 @@ pub(crate) fn fold<L: Limits>(
     }
 }
 
-/// The place before the event that began a phase, or the start.
+/// The place before the event that began a phase, or the start. What is recorded from that event on is undone.
 fn before_phase(recorder: &mut Recorder, event: Option<Event>, before: &State) -> Place {
     match event {
         None => Place::Start,

@@ -1,4 +1,4 @@
-//! The motions that runs have entered, kept from one run to the next as long as they are of the same column and options.
+//! The motions that runs have entered. They are kept from one run to the next as long as all that modes depend on (`Basis`) stays the same.
 
 use super::phase::Phase;
 use super::problem::{Problem, Skips};
@@ -43,7 +43,7 @@ struct Entered {
     pattern: Pattern,
     /// Name of its mode.
     name: String,
-    /// `None` where it was dropped: it is built again when it is entered.
+    /// `None` after the phase was dropped; it is built again when the pattern is entered.
     phase: Option<Phase>,
     is_generic: bool,
     /// Whether the present run has entered it.
@@ -51,7 +51,7 @@ struct Entered {
 }
 
 impl Modes {
-    /// Drops what does not hold for a scene; `true` if it does so.
+    /// Drops all motions unless they hold for this scene and these skips; returns whether it did.
     pub fn prepare(&mut self, scene: &Scene, skips: Skips) -> bool {
         let is_horizontal = scene.excitation.vertical.is_none() && skips.vertical;
         let ground = if is_horizontal { GroundMotion::Horizontal } else { GroundMotion::WithVertical };
@@ -85,7 +85,7 @@ impl Modes {
     /// The place of the column at rest among the motions; modes follow.
     pub const REST: usize = 0;
 
-    /// Enters the motion of a state: its place among the motions, and the motion. Scene constants of a mode are computed when it is entered first.
+    /// Enters the motion of a state; returns its place among the motions, and the motion. Scene constants of a mode are computed when first entered.
     pub fn enter(&mut self, problem: &Problem, after: &State) -> (usize, &mut dyn Flow) {
         if after.pattern.lowest_open().is_none() {
             self.rest.enter(problem, after);
@@ -146,7 +146,7 @@ impl Modes {
         entered.map(|(index, entered)| (index + 1, entered.name.as_str()))
     }
 
-    /// Whether a mode that the present run has entered had no generated equations where it asked for them.
+    /// Whether the present run has entered a mode without generated equations, although the options asked for them.
     pub fn used_generic(&self) -> bool {
         self.entered.iter().any(|entered| entered.is_entered && entered.is_generic)
     }

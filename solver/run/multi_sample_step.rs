@@ -1,9 +1,9 @@
-//! Steps from sample to sample of a record as one stretch, for one block: its angle's series is short, and nothing is looked up, stored or called
-//! in between ([`crate::numerics::ode::one_angle`]).
+//! Steps from sample to sample of a record as one stretch, for one block: the series of its angle is short, and needs neither sine nor loop
+//! ([`crate::numerics::ode::one_angle`]).
 //!
-//! The stretch ends with the landing, after [`MOST_INTERVALS`], or before an interval in which the block may overturn or the ground is not linear
-//! in time: steps of the method go on there. Where forces are read, steps of the method pass the same samples once more, and their end is dropped: what
-//! is recorded has no bearing on the run.
+//! The stretch ends at the landing, after [`MOST_INTERVALS`] intervals, or before an interval that is left to steps of the method: the block may
+//! overturn or its gap graze zero, or the ground acceleration jumps or is not linear in time. To record forces, steps of the method pass the same
+//! samples once more. Their end is dropped, so that what is recorded does not affect the run.
 
 use super::phase::{Gap, Kind, MOST_INTERVALS, Phase, SampleStep, Samples, StepEnd};
 use super::problem::Problem;
@@ -19,8 +19,8 @@ use crate::numerics::scalar::Scalar;
 use rocking_ground::{Segment, Timeline};
 use wide::f64x2;
 
-/// Share of the tolerance below which all errors of a stretch must lie for the next stretch to try a lower order: an order is worth a factor of about a
-/// hundred in the error of a step from sample to sample; larger, orders would go down and up again.
+/// The next stretch tries a lower order if all errors of this one are below this share of the tolerance: an order is worth a factor of about a
+/// hundred in the error of a step from sample to sample. If the share were larger, orders would go down and up again.
 const FINE_ENOUGH: f64 = 1e-3;
 
 /// A walk from sample to sample.
@@ -32,22 +32,22 @@ struct Walk<'p> {
     overturned: f64,
     /// The block's gap, with its side and the roots at the start.
     gap: Gap,
-    /// What a gap can resolve at the start `[rad]`.
+    /// Largest gap that is rounding at the start `[rad]`.
     resolution: f64,
     /// Whether a ground at rest is left to closed forms.
     has_closed_forms: bool,
 
     place: Place,
     intervals: usize,
-    /// Whether some interval needed the order.
+    /// Whether some interval had errors too large for a lower order.
     needs_order: bool,
-    /// Largest size of the angle `[rad]`.
+    /// Largest magnitude of the angle so far `[rad]`.
     peak: f64,
-    /// The steps, where rows are recorded.
+    /// The steps taken, if rows are recorded.
     steps: Option<&'p mut Vec<SampleStep>>,
 }
 
-/// Where a walk is.
+/// The place of a walk in time, and the block's state there.
 #[derive(Clone, Copy)]
 struct Place {
     /// `[s]`
@@ -55,7 +55,7 @@ struct Place {
     segment: usize,
     /// Rate `[rad/s]`.
     omega: f64,
-    /// Its rate belongs to an interval.
+    /// The angle with its sine and cosine. Its `rate`, per interval, is set at the start of each step.
     angle: Turning,
 }
 
@@ -66,12 +66,12 @@ enum End {
     Coarse,
     /// The block has landed.
     Landed,
-    /// A stretch of another kind follows.
+    /// The next interval belongs to another stretch.
     Over,
 }
 
 impl Phase {
-    /// Passes samples of a record up to a landing, if any can be passed.
+    /// Steps from sample to sample of a record, up to a landing at most; finds nothing if no interval can be passed.
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn step_over_samples(&mut self, problem: &Problem, rocker: Rocker) -> Found {
         let start = self.integrator.start();
@@ -142,7 +142,7 @@ impl Phase {
         self.inside.copy_from_slice(&[theta, rate / h]);
     }
 
-    /// Visits steps of the method over the same samples, then returns to the stretch of all of them.
+    /// Visits steps of the method over the samples of the stretch, then restores the stretch.
     pub(super) fn refine_samples(&mut self, problem: &Problem, samples: Samples, visit: &mut dyn FnMut(&mut Stretch)) {
         let (t, segment, gap) = (self.t, self.segment, self.gaps[0]);
         self.visit_samples(problem, samples.until, visit);
@@ -193,7 +193,7 @@ impl Walk<'_> {
         let sign = self.gap.across.sign;
         let Place { mut t, mut segment, mut omega, mut angle } = self.place;
         let (mut peak, mut needs_order) = (self.peak, self.needs_order);
-        // Rate at the start, in this unit `[1/s]`: that of the step before.
+        // Rate at the start in units of the step before, and that unit `[1/s]`.
         let (mut rate, mut unit) = (omega, 1.0);
         let end = loop {
             let span = &ground[segment];
@@ -216,7 +216,7 @@ impl Walk<'_> {
                 break End::Over;
             }
             needs_order |= errors[0] > FINE_ENOUGH * allowed[0] || errors[1] > FINE_ENOUGH * allowed[1];
-            // Where the rate keeps its sign the angle goes one way.
+            // If the rate keeps its sign, the angle is monotonic in the step.
             let is_simple = angle.rate.abs() > step.change && out > 0.0 && out_end > 0.0;
             let mut landing = None;
             if is_simple {
@@ -256,7 +256,7 @@ impl Walk<'_> {
         end
     }
 
-    /// Whether a segment does not continue a record.
+    /// Whether a walk stops at `t`, before the segment `next`: the acceleration jumps, closed forms take over, or the segment has no length.
     #[inline(always)]
     fn stops_at(&self, next: &Segment, t: f64) -> bool {
         next.jumps || self.has_closed_forms && next.is_quiet() || next.end <= t
@@ -265,15 +265,15 @@ impl Walk<'_> {
 
 /// What the gap does in a step.
 enum Touch {
-    /// It stays open, with the largest size of the angle, or the peak so far `[rad]`.
+    /// It stays open. The number is the peak so far or the largest magnitude of the angle in the step, whichever is larger `[rad]`.
     Clears(f64),
-    /// It closes at a share of the step, with the same up to there.
+    /// It closes at a share of the step, the first number. The second one is the peak as above, up to there `[rad]`.
     Lands(f64, f64),
     /// Its series comes to zero and goes up from there: whether it touches is left to a step of the method.
     Grazes,
 }
 
-/// What the gap, which this series gives, does in a step in which the rate may change its sign.
+/// What a gap with the series `track` does in a step in which its rate may change sign or it may close.
 #[inline(never)] // Rare: its registers are not saved in the loop.
 fn examine(track: &Powers, roots: usize, resolution: f64, peak: f64) -> Touch {
     let largest = |track: Powers| Track::Powers(track).largest_size(peak);

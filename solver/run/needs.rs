@@ -1,30 +1,30 @@
-//! The account of what contacts need: extremes with time and angle, and how long (`crate::validity`).
+//! The account of what contacts need (`crate::validity`): extremes with time and angle, and times in tension and above friction coefficients.
 //!
-//! What comes after a block has passed its balance is kept apart. It joins the account if a block comes back, and is dropped if the column
-//! overturns.
+//! Panels after a block has passed its balance go to a separate account. It is added to the main one if a block comes back or the column does not
+//! overturn, and is dropped if the column overturns.
 
 use super::stretch::{Inside, Panel};
 use crate::column::Column;
 use crate::numerics::per_block::PerBlock;
 use crate::validity::{COEFFICIENTS, ContactNeeds, Exceedance, Extreme, Span, Validity};
 
-/// Rounds of bisection for the time at which a block passes its balance: the width of a stretch falls below the resolution of doubles.
+/// Rounds of bisection for the time at which a block passes its balance: so many halvings bring a stretch below the resolution of doubles.
 const ROUNDS: usize = 60;
 
 /// What all contacts have needed so far.
 pub(crate) struct Needs {
-    /// Slenderness of the stack from each block on, its balance `[rad]`.
+    /// Balance of each block `[rad]`: the slenderness of the stack from that block up.
     balances: PerBlock<f64>,
     /// End of the last stretch `[s]`.
     last_end: f64,
-    /// Time from which on some block has been past its balance, and none has come back `[s]`; infinite where none is past it.
+    /// Time since which some block has been past its balance and none has come back `[s]`; infinite if no block is past its balance.
     beyond: f64,
     /// Whether each block was past its balance at the end of the last stretch.
     is_past: PerBlock<bool>,
-    /// Whether the time of the present stretch matters: some block has been near its balance.
+    /// Whether the present stretch is examined for `beyond`: by its end, some block has been past its balance.
     is_near: bool,
     counted: Vec<Account>,
-    /// Of the time after `beyond`.
+    /// What the contacts have needed after `beyond`.
     apart: Vec<Account>,
     /// Whether some extreme of the present stretch has no angle yet.
     is_fresh: bool,
@@ -63,14 +63,14 @@ impl Account {
         above: [0.0; COEFFICIENTS.len()],
     };
 
-    /// Whether the contact needs nothing in a panel that is not in the account.
+    /// Whether a panel adds nothing to the account: no new extreme, no tension, no demand above the lowest of [`COEFFICIENTS`].
     fn knows(&self, own: &InPanel) -> bool {
         own.largest_demand <= self.demand.value.min(COEFFICIENTS[0])
             && own.least_normal >= self.normal.value
             && own.least_normal >= 0.0
     }
 
-    /// Adds a panel between two times `[s]` that stands for so many seconds of the run; returns whether an extreme is new.
+    /// Adds a panel between two times `[s]` that counts for `seconds` of the run; returns whether it has a new extreme.
     fn add(&mut self, own: &InPanel, times: [f64; 2], seconds: f64) -> bool {
         let (is_higher, is_lower) = (own.largest_demand > self.demand.value, own.least_normal < self.normal.value);
         let least_at = place(own.normal.map(|normal| -normal), times);
@@ -88,7 +88,7 @@ impl Account {
         is_higher || is_lower
     }
 
-    /// Adds what was kept apart.
+    /// Adds the separate account of a later time.
     fn join(&mut self, other: &Account) {
         if other.demand.value > self.demand.value {
             self.demand = other.demand;
@@ -123,7 +123,7 @@ impl Needs {
         }
     }
 
-    /// Begins a stretch up to a time `[s]`, with the largest angles so far, its own among them `[rad]`.
+    /// Begins a stretch that ends at a time `[s]`. `peaks` are the largest angles so far, those of the stretch included `[rad]`.
     pub fn begin(&mut self, inside: &mut dyn Inside, end: f64, peaks: &[f64]) {
         self.is_near = is_beyond(peaks, &self.balances);
         if self.is_near {
@@ -151,7 +151,7 @@ impl Needs {
         self.last_end = end;
     }
 
-    /// A block is back: what was kept apart counts.
+    /// A block has come back over its balance: the separate account joins the main one.
     fn come_back(&mut self) {
         self.beyond = f64::INFINITY;
         for (counted, apart) in self.counted.iter_mut().zip(&mut self.apart) {
@@ -177,7 +177,7 @@ impl Needs {
             return;
         }
         if times[0] < self.beyond {
-            // Of the panel in which a block passes its balance the start is known to count.
+            // If a block passes its balance within the panel, only the values at the start are sure to be before that.
             let ([demand, ..], [normal, ..]) = (own.demand, own.normal);
             let start =
                 InPanel { demand: [demand; 3], normal: [normal; 3], largest_demand: demand, least_normal: normal };
@@ -204,7 +204,7 @@ impl Needs {
         }
     }
 
-    /// What the contacts of a run need that has overturned or not, up to its end `[s]`, with the times of its separations.
+    /// What the contacts of a run need, by whether it has `overturned`, its end `[s]` and the times of its separations `[s]`.
     pub fn finish(mut self, overturned: bool, end: f64, separations: impl Iterator<Item = f64>) -> Validity {
         let until = if overturned { self.beyond.min(end) } else { end };
         if !overturned {
@@ -237,7 +237,7 @@ fn is_beyond(theta: &[f64], balances: &[f64]) -> bool {
     theta.iter().zip(balances).any(|(theta, balance)| theta.abs() > *balance)
 }
 
-/// Where a quantity with these values at start, middle and end is largest `[s]`: the crest of the parabola through them, or an end.
+/// Time of the largest value of a quantity with these values at start, middle and end `[s]`: the crest of their parabola, or one of the three.
 fn place([a, b, c]: [f64; 3], [from, until]: [f64; 2]) -> f64 {
     let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
     let middle = 0.5 * (from + until);
@@ -254,7 +254,7 @@ fn share_above([a, b, c]: [f64; 3], level: f64) -> f64 {
     let half = |a: f64, b: f64| match (a > level, b > level) {
         (true, true) => 0.5,
         (false, false) => 0.0,
-        // Of an infinite value all of it.
+        // A half with an infinite value counts in full.
         _ if a.is_infinite() || b.is_infinite() => 0.5,
         _ => 0.5 * (a.max(b) - level) / (a - b).abs(),
     };

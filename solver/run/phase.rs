@@ -25,16 +25,16 @@ use std::ops::Range;
 /// The phases of a mode, with storage for them.
 pub(crate) struct Phase {
     pub(super) integrator: Box<dyn Integrator>,
-    /// The mode on a ground that does not move, where it has one free angle and closed forms are requested.
+    /// The mode on a ground at rest, in closed form; `None` unless it has one free angle and closed forms are requested.
     pub(super) pendulum: Option<Pendulum>,
-    /// The equation of one block, where the column is one and steps over several samples of a record are requested.
+    /// The equation of a single block; `None` unless the column is one block and steps over several samples of a record are requested.
     pub(super) rocker: Option<Rocker>,
-    /// Its steps in the last stretch, where rows are recorded.
+    /// Steps from sample to sample in the last stretch, if rows are recorded.
     pub(super) sample_steps: Vec<SampleStep>,
-    /// The point of no return, where the column is one block and nothing but the outcome is requested.
+    /// The point of no return; `None` unless the column is one block and nothing is requested but whether it overturns.
     pub(super) fall: Option<Fall>,
     pub(super) dof: usize,
-    /// Link of each block, base first, from one; zero where it stands on the ground.
+    /// Link of each block, base first, counted from one; zero for a block that stays with the ground.
     pub(super) links: PerBlock<usize>,
     /// The open interfaces, each with the link on it: base first, length `dof`.
     pub(super) gaps: PerBlock<Gap>,
@@ -42,21 +42,22 @@ pub(crate) struct Phase {
     pub(super) closed: PerBlock<usize>,
     /// Margins of the closed interfaces against opening, as formulas.
     pub(super) margins: Margins,
-    /// The same over the last swing.
+    /// Margins of the closed interfaces over the last swing, as waves of its angle.
     pub(super) over_swing: Vec<Harmonics>,
 
     pattern: Pattern,
-    /// Time at the start of the stretch `[s]`, and its segment.
+    /// Time at the start of the stretch `[s]`.
     pub(super) t: f64,
+    /// Segment of the ground motion in which the stretch starts.
     pub(super) segment: usize,
-    /// Until when openings are not examined, after a separation `[s]`.
+    /// End of the hold after a separation `[s]`: interfaces that cannot stay closed are not examined before.
     pub(super) held_until: f64,
     pub(super) pace: Pace,
     /// Step length to attempt next `[s]`.
     pub(super) wanted: f64,
-    /// Bound of the next attempt after a rejected one `[s]`.
+    /// Bound of the step length after a rejected attempt `[s]`; infinite otherwise.
     pub(super) longest: f64,
-    /// Whether the outcome may have become certain since the last stretch, of a run that may end with that.
+    /// Whether to examine if the outcome is certain: the run may end early, and its outcome may have become certain since the last examination.
     pub(super) is_outcome_open: bool,
     /// The last stretch.
     pub(super) stretch: Kind,
@@ -71,20 +72,20 @@ pub(crate) struct Phase {
     pub(super) inside: PerBlock<f64>,
     pub(super) slope: PerBlock<f64>,
     pub(super) work: Work,
-    /// Right-hand sides when the phase began.
+    /// Number of right-hand sides when the work was last taken.
     pub(super) calls: usize,
 }
 
 /// An open interface, its gap `s φ`, and the link on it: blocks that turn as one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
-    /// The interface, which is the lowest block of the link.
+    /// Index of the interface, and of the lowest block of the link.
     pub interface: usize,
-    /// The block above the highest of the link.
+    /// Index after that of the highest block of the link.
     end: usize,
-    /// `s (θ_i - θ_{i-1})` of the moving links.
+    /// The gap `s (θ_i - θ_{i-1})` as a difference of angles of links.
     pub across: Difference,
-    /// Roots of the gap at the start of the step that are known: gap, rate and acceleration zero.
+    /// Known roots of the gap at the start of the step: one if the gap is zero, two if its rate is zero as well, three if its acceleration is, too.
     pub start_roots: usize,
 }
 
@@ -101,7 +102,7 @@ impl Gap {
 pub(super) struct StepEnd {
     /// Length of the step as attempted `[s]`.
     pub attempted: f64,
-    /// Length up to the event, if it was cut there `[s]`.
+    /// Length of the step as taken: up to the event, if there is one `[s]`.
     pub h: f64,
     /// Time at the end `[s]`.
     pub end: f64,
@@ -132,29 +133,32 @@ pub(super) struct Swing {
     pub x: [f64; 2],
 }
 
-/// Most steps from sample to sample in one stretch: an outcome that is certain is seen between two stretches.
+/// Most steps from sample to sample in one stretch: whether the outcome is certain is examined between two stretches only.
 pub(super) const MOST_INTERVALS: usize = 32;
 
-/// A step from sample to sample within steps over several, for the rows in it.
+/// One step from sample to sample of a stretch over several samples, kept for the rows in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SampleStep {
-    /// Start and length `[s]`.
+    /// Start `[s]`.
     pub t: f64,
+    /// Length `[s]`.
     pub h: f64,
-    /// State at the start, and the weights, in units of the step.
+    /// State at the start, with the step as the unit of time.
     pub start: Turning,
+    /// Weights of the equation of motion, with the step as the unit of time.
     pub weights: Weights,
 }
 
 /// Steps over several samples, as far as they are taken.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
-    /// Time at the end `[s]`, and its segment.
+    /// Time at the end `[s]`.
     pub until: f64,
+    /// Segment of the ground motion at the end.
     pub last_segment: usize,
     /// `[θ, θ̇]` at the end.
     pub x: [f64; 2],
-    /// Largest size of the angle `[rad]`.
+    /// Largest magnitude of the angle `[rad]`.
     pub peak: f64,
 }
 
@@ -328,7 +332,7 @@ impl Phase {
         }
     }
 
-    /// Evaluates contact forces at the start of the stretch, unless what is requested of them is known.
+    /// Evaluates contact forces at the start of the stretch, unless all that is requested of them is known.
     pub(super) fn evaluate_start_forces(&mut self, problem: &Problem) {
         let which = problem.interfaces();
         let is_known = match which {

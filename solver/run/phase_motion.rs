@@ -17,8 +17,8 @@ use crate::response::Work;
 use rocking_codegen::pattern::Interface;
 
 impl Phase {
-    /// Decides how many roots of each gap lie at the start, the state `inside`, by how it came to be open. The acceleration of a gap that is `released` is
-    /// zero but for what integration leaves of it, that of another one only if it is rounding.
+    /// Sets how many roots of each gap lie at the start, the state `inside`: by its gap, rate and acceleration there. The acceleration of a gap in
+    /// `released` counts as zero up to the error of integration, that of any other gap only up to rounding.
     fn arm(&mut self, column: &Column, released: &[(usize, Interface)]) {
         let (angles, rates) = self.inside.split_at(self.dof);
         let mut is_critical = |interface: usize, across: Difference| {
@@ -79,7 +79,7 @@ impl Phase {
         self.has_moved = true;
     }
 
-    /// Finds the next stretch; why it ended, if the phase ends with it.
+    /// Finds the next stretch; returns why the phase ends with it, `None` if the phase continues.
     fn find_stretch(&mut self, problem: &Problem) -> Result<Option<Ended>, SolveError> {
         loop {
             let segment = &problem.ground[self.segment];
@@ -94,7 +94,7 @@ impl Phase {
                 if let Some(over) = self.certain_outcome(problem) {
                     return Ok(Some(Ended::Over(over)));
                 }
-                // On a ground at rest it is not going to change but by an event.
+                // On a ground at rest, only an event can make the outcome certain.
                 self.is_outcome_open = !segment.is_quiet();
             }
             let pendulum = if segment.is_quiet() { self.pendulum } else { None };
@@ -116,7 +116,7 @@ impl Phase {
         }
     }
 
-    /// Goes over to the next segment of ground motion; what ends the phase there, if anything.
+    /// Goes over to the next segment of ground motion; returns what ends the phase there, `None` if it continues.
     fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
         self.t = problem.ground[self.segment].end;
         if self.segment + 1 == problem.ground.len() {
@@ -132,7 +132,7 @@ impl Phase {
         None
     }
 
-    /// The outcome, if it is certain. If not, the phase goes on as it would have: the answer is that of a full run.
+    /// The outcome if it is certain, else `None`. The examination does not affect the motion: the answer is that of a full run.
     fn certain_outcome(&self, problem: &Problem) -> Option<Over> {
         let x = self.integrator.start();
         let sign = self.gaps[0].across.sign;
@@ -222,7 +222,7 @@ impl Inside for Phase {
             raise(&mut gaps[interface..=interface], |known| match self.stretch {
                 Kind::Instant => known,
                 Kind::Step(step) => self.peak_of_step(step, across, known),
-                // The gap of the one link that moves is its angle.
+                // Only one link moves: the magnitude of its gap is that of its angle.
                 Kind::Swing(swing) => swing.peak(known),
                 Kind::Samples(samples) => samples.peak,
             });
@@ -234,7 +234,7 @@ impl Inside for Phase {
             Kind::Step(step) => self.forces_in_step(problem, step, note),
             Kind::Swing(swing) => self.forces_in_swing(problem, &swing, note),
             Kind::Samples(_) => {}
-            // Forces at the end of a stretch belong to that stretch.
+            // This instant ends a stretch, with which its forces have been read.
             Kind::Instant if self.has_moved => {}
             Kind::Instant => {
                 self.evaluate_start_forces(problem);
@@ -261,7 +261,7 @@ impl Inside for Phase {
             Kind::Samples(samples) => (samples.until, samples.last_segment, &samples.x[..]),
         };
         self.write_per_block(x, &mut state.theta, &mut state.omega);
-        // Angles of interfaces that close are equal to the last bit.
+        // The blocks at an interface that closes get the same angle to the last bit.
         for &interface in &self.closing {
             let below = interface.checked_sub(1).map_or(0.0, |below| state.theta[below]);
             state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
@@ -272,7 +272,7 @@ impl Inside for Phase {
     }
 }
 
-/// Raises the peaks of the blocks of one link, which have one angle, to what `peak` finds: the least of them decides what is worth finding.
+/// Raises the peaks of one link's blocks, which share an angle, to the result of `peak`. Its argument is the least of them: less does not matter.
 #[inline(always)]
 fn raise(peaks: &mut [f64], peak: impl FnOnce(f64) -> f64) {
     let known = peaks.iter().fold(f64::INFINITY, |known, own| if *own < known { *own } else { known });

@@ -1,4 +1,4 @@
-//! What a run is given and does not change: scene, ground motion, and what follows from them.
+//! The constant input of a run: scene, ground motion, and what follows from them.
 
 use super::certainty::stands::Prospects;
 use crate::mechanics::dynamics::{Ground, Interfaces};
@@ -13,26 +13,26 @@ use rocking_ground::{Segment, Timeline};
 pub(crate) struct Problem<'a> {
     pub scene: &'a Scene,
     pub ground: &'a Timeline,
-    /// Proofs of the outcome, where a run may end with one.
+    /// Bounds for proofs of the outcome; `None` if the run may not end with one.
     pub prospects: Option<&'a Prospects>,
     pub skips: Skips,
     /// Times of the rows that are recorded.
     pub rows: RowTimes<'a>,
-    /// Factor of the plastic relative rate at each interface.
+    /// Restitution factor `κ_i` of the relative rate after a plastic impact, per interface, dimensionless.
     pub kappa: PerBlock<f64>,
     pub tolerance: Tolerance,
-    /// Nothing but the outcome is requested, and the ground comes to rest before the end.
+    /// Whether the run may end once it certainly stands: it has `prospects`, and the last segment of the ground motion is at rest.
     pub may_stand: bool,
     /// Whether the largest gaps are recorded.
     pub records_gaps: bool,
 }
 
-/// What a run leaves out because the answer is the same without: everything, unless a benchmark measures what each is worth.
+/// Work that a run leaves out because its answer is the same without it. By default that is all of it; benchmarks measure the worth of each item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Skips {
-    /// Steps through phases of one free angle on a ground that does not move, which swing in closed form (`Method::Auto` only).
+    /// Steps through phases of one free angle on a ground at rest: their swings have a closed form (`Method::Auto` only).
     pub swings: bool,
-    /// Steps of the method from sample to sample of a record, where one block has series of its own (`Method::Auto` only).
+    /// Steps of the method from sample to sample of a record, for one block: short series of its own replace them (`Method::Auto` only).
     pub samples: bool,
     /// Steps through times at rest.
     pub rests: bool,
@@ -82,7 +82,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Ground motion at an instant, seen from what follows it.
+    /// Ground motion on a segment at a time `[s]`. At a jump, the segment decides which of the two accelerations holds.
     pub fn ground_at(&self, segment: usize, t: f64) -> Ground {
         Ground::at(&self.ground[segment], t, self.scene.column.gravity())
     }
@@ -107,7 +107,7 @@ impl<'a> Problem<'a> {
         if self.records_forces() || !self.skips.forces { Interfaces::All } else { Interfaces::Closed }
     }
 
-    /// How fast one block that may fall early runs away from its balance `[1/s]`; `None` where a run may not end with a fall that is certain.
+    /// Least rate `q` at which a single block runs away from its balance `[1/s]`; `None` if the run may not end with a certain fall.
     pub fn growth(&self) -> Option<f64> {
         self.prospects.and_then(|prospects| prospects.growth)
     }

@@ -33,11 +33,11 @@ pub(crate) struct Recorder {
     largest_gaps: PerBlock<f64>,
     /// Per interface.
     friction_demand: PerBlock<f64>,
-    /// The same of impulses at impacts.
+    /// Friction demand of impulses at impacts, per interface.
     impulse_friction_demand: PerBlock<f64>,
     /// Per interface `[N]`.
     min_normal_force: PerBlock<f64>,
-    /// The same up to the point of no return, with times; where forces are recorded.
+    /// Friction demands and normal forces up to the point of no return, with times; `None` unless forces are recorded.
     needs: Option<Needs>,
     events: Vec<Event>,
     impacts: usize,
@@ -48,7 +48,7 @@ pub(crate) struct Recorder {
     times: Vec<f64>,
 }
 
-/// A place in a record, to which what is recorded after it can be undone. Times in modes stay.
+/// A place in a record, back to which it can be undone; times in modes, largest gaps and needs stay.
 pub(crate) struct Mark {
     samples: usize,
     sample_segment: usize,
@@ -62,7 +62,7 @@ pub(crate) struct Mark {
 }
 
 impl Recorder {
-    /// The record of a run that begins with a state, or goes on from it after so many rows.
+    /// The record of a run that begins with a state; `rows` rows have been recorded before.
     pub fn new(problem: &Problem, start: &State, rows: usize) -> Recorder {
         // Lists of what is not recorded are empty.
         let list = |is_recorded: bool, entry: f64| match is_recorded {
@@ -205,7 +205,7 @@ impl Recorder {
             let least = -crest(normal.map(|normal| -normal));
             let demand = [a, b, c].map(|force| friction(&force));
             let is_finite = demand.iter().all(|demand| demand.is_finite());
-            // Between the places the contact may part with a force along it.
+            // Between the three places the contact may part while a tangential force acts.
             let parts = least <= 0.0 && [a, b, c].iter().any(|force| force.tangential != 0.0);
             let most = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
             self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
@@ -249,7 +249,7 @@ impl Recorder {
         }
     }
 
-    /// Records that a motion, by its place among the modes, is left at `x⁻`.
+    /// Records that the motion at this place among the modes is left at `x⁻`.
     pub fn leave(&mut self, problem: &Problem, mode: usize, before: &State) {
         if !problem.is_recorded() {
             return;
@@ -336,7 +336,7 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
     let all = |values: &[f64]| PerBlock::from_slice(&values[..size.blocks()]);
     let states = |pattern: &Pattern| Pattern::from_states(&pattern.0[..size.blocks()]);
     let numbers = transition.interfaces.iter().map(|interface| interface + 1);
-    // Where nothing strikes, rates do not change but for what is snapped.
+    // Without an impact, rates change by snapping only: the event shows the rates after it on both sides.
     let strikes = !transition.decision.impulses.is_empty();
     let impulses =
         || PerBlock::from_slice(&size.list_of(|interface| Impulse::from(&transition.decision.impulses[interface])));
@@ -359,7 +359,7 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
     }
 }
 
-/// `|T| / N`; infinite where the contact parts and something is still to be held.
+/// `|T| / N`. If the normal force is not positive: zero without a tangential force, infinite with one.
 fn friction(force: &ContactForce) -> f64 {
     match (force.normal > 0.0, force.tangential == 0.0) {
         (true, _) => force.tangential.abs() / force.normal,

@@ -1,9 +1,9 @@
 //! The column at rest: no integration, only the search for the instant at which the ground starts it.
 //!
-//! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (docs/book/model.md, section 4; the paper's Eq. 1). On a piece of ground motion with
-//! a bounded second derivative, a step as long as the parabola through value and slope with that bound stays above zero cannot
-//! jump over a root: the search is conservative and converges quadratically. Under a single sine it begins just before the instant
-//! that its inverse names.
+//! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (docs/book/model.md, section 4; the paper's Eq. 1). On a piece of ground motion with a bounded
+//! second derivative, the parabola with the guard's value and slope that bends down by this bound lies below the guard. A step to the zero of this
+//! parabola cannot jump over a root: the search is conservative and converges quadratically. Under a single sine it begins just before the instant
+//! that the arc sine gives.
 
 use super::error::SolveError;
 use super::problem::Problem;
@@ -21,7 +21,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Places per radian of the ground motion at which contact forces at rest are recorded: a crest is met to one in five hundred.
+/// Places per radian of the ground motion at which contact forces at rest are recorded: a crest is missed by at most one in five hundred.
 const PLACES_PER_RADIAN: f64 = 8.0;
 
 /// Least and most places per segment.
@@ -30,12 +30,13 @@ const PLACES: (f64, f64) = (16.0, 4096.0);
 /// The column at rest, waiting for the ground to start it.
 #[derive(Default)]
 pub(crate) struct Rest {
-    /// Time and segment with which the rest began, and until when openings are not examined, after a separation.
+    /// Time `[s]` and segment at which the rest began.
     since: (f64, usize),
+    /// End of the hold after a separation `[s]`; openings are not examined before.
     held_until: f64,
-    /// Time and segment at the end of the wait, seen from what follows.
+    /// Time `[s]` at the end of the wait, and the segment in which the run continues.
     until: (f64, usize),
-    /// The segment in which the wait ended.
+    /// The last segment of the wait.
     last: usize,
     /// Whether nothing starts the column any more.
     is_final: bool,
@@ -111,14 +112,14 @@ impl Inside for Rest {
         }
     }
 
-    /// A column that stays at rest has been so since the rest began.
+    /// If nothing starts the column any more, the end is the time at which the rest began.
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
         (state.t, state.segment) = if self.is_final { self.since } else { self.until };
         state
     }
 }
 
-/// Calls `note` with contact forces at rest at places of a span of a segment, its ends among them, and the times of the last place and of this one `[s]`.
+/// Calls `note` at places of a span, its ends among them: with contact forces at rest, and the times of the place before and this one `[s]`.
 pub(crate) fn visit_forces(
     column: &Column,
     segment: &Segment,
@@ -135,14 +136,14 @@ pub(crate) fn visit_forces(
     }
 }
 
-/// The horizontal acceleration that opens some interface where nothing else moves `[m/s²]`.
+/// The least horizontal acceleration of the ground that opens some interface, if the ground does not move vertically `[m/s²]`.
 fn least_uplift(column: &Column) -> f64 {
     let lever = |i: usize| column.contact_half_width(i) - column.centroid_offset(i).abs();
     let own = |i: usize| column.gravity() * lever(i) / column.centroid_height(i);
     (0..column.len()).map(own).fold(f64::INFINITY, f64::min)
 }
 
-/// Share of that acceleration below which rounding has no say.
+/// Share of [`least_uplift`] below which rounding cannot open an interface.
 const CLEAR_SHARE: f64 = 1.0 - 1e-9;
 
 /// The first instant in a segment from `t` on at which some interface opens, and its side; `limit` is [`least_uplift`].
@@ -151,7 +152,7 @@ fn earliest_start(problem: &Problem, segment: &Segment, t: f64, limit: f64) -> O
         return by_steps(problem, segment, t);
     }
     if let (Piece::Linear { .. }, Piece::Zero) = (&segment.horizontal, &segment.vertical) {
-        // Of a record, whose stretches are many: the largest acceleration is at an end.
+        // A record has many segments, all linear in time: the largest acceleration of one is at an end.
         let largest = segment.horizontal.value(t).abs().max(segment.horizontal.value(segment.end).abs());
         if largest < CLEAR_SHARE * limit {
             return None;
@@ -163,7 +164,7 @@ fn earliest_start(problem: &Problem, segment: &Segment, t: f64, limit: f64) -> O
     start_before(problem, segment, t + until_sine_is(CLEAR_SHARE * limit, segment, t), segment.end)
 }
 
-/// How long after `t` the ground's acceleration is below `limit` in size at least, where it is one sine; forever if it does not get there.
+/// For how long after `t` the ground's acceleration stays below `limit` in magnitude `[s]`; infinite if always. Zero if it is not a single sine.
 fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
     let (amplitude, omega, turned) = match (&segment.horizontal, &segment.vertical) {
         (&Piece::Sine { amplitude, omega, start, phase }, Piece::Zero) => {
@@ -184,10 +185,10 @@ fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
     (first - before).max(0.0) / omega
 }
 
-/// Steps that a rest is taken in where it is not skipped, per radian of the ground motion and, at least, per second.
+/// Steps of a rest that is not skipped: per radian of the ground motion, and the least number per second.
 const STEPS_PER_RADIAN_AND_SECOND: [f64; 2] = [20.0, 100.0];
 
-/// The same without leaving out anything: step by step, as an integrator would go.
+/// As [`earliest_start`], but nothing is left out: step by step, as an integrator would go.
 fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usize, Interface)> {
     let omega = segment.horizontal.omega().max(segment.vertical.omega());
     let step = 1.0 / (STEPS_PER_RADIAN_AND_SECOND[0] * omega).max(STEPS_PER_RADIAN_AND_SECOND[1]);
@@ -202,8 +203,8 @@ fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usi
     }
 }
 
-/// The first opening between two instants: the first zero of a guard. All are looked at together, at places that none of them can
-/// have passed zero before.
+/// The first opening between two instants: the first zero of a guard. All guards are evaluated at the same places, spaced so that none of them can
+/// pass zero in between.
 fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
     let column = &problem.scene.column;
     let mut t = from;
@@ -265,12 +266,12 @@ pub(crate) fn may_start_at_once(column: &Column, fixed: &[f64], segment: &Segmen
     })
 }
 
-/// Whether some interface cannot stay closed under the acceleration at `t`, seen from a segment.
+/// Whether some interface cannot stay closed under the acceleration that the ground has at `t` in a segment.
 fn is_thrown_open(problem: &Problem, segment: usize, t: f64) -> bool {
     least_margin(problem, segment, t) < 0.0
 }
 
-/// Whether some interface may open under the acceleration at `t`: where rounding may decide, the contact problem does.
+/// Whether some interface may open under the acceleration at `t`. Margins that rounding may decide count: the contact problem decides them.
 pub(crate) fn may_open(problem: &Problem, segment: usize, t: f64) -> bool {
     least_margin(problem, segment, t) < CONTACT_PROBLEM_MARGIN
 }
@@ -321,8 +322,8 @@ impl Shaking {
         }
     }
 
-    /// The guard `c (g + ÿ_g) + s h ẍ_g` of a side (positive `ẍ_g` tips to the left): zero if it falls below zero here, else a time
-    /// before which it does not, `None` if it never does.
+    /// A time within which the guard `c (g + ÿ_g) + s h ẍ_g` of a side does not fall below zero `[s]` (positive `ẍ_g` tips to the left). Zero if it
+    /// falls below zero at this instant, `None` if it never does.
     fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
         let Shaking { t, ground, rates, bends } = self;
         let sign = f64::from(side.sign());

@@ -1,4 +1,4 @@
-//! Runs of scenes: the loop, and what one run leaves for the next.
+//! Runs of scenes, and what one run leaves for the next.
 
 use super::certainty::stands::Prospects;
 use super::cones::Unlimited;
@@ -105,7 +105,7 @@ impl Simulator {
         self.run_valid(scene, &mut progress)
     }
 
-    /// The same with a scene that has been checked.
+    /// As [`Simulator::run_observed`], with a scene that has been checked.
     pub(crate) fn run_valid(
         &mut self,
         scene: &Scene,
@@ -138,7 +138,7 @@ impl Simulator {
         }
     }
 
-    /// A run with friction: that without, as long as no friction is used up and no contact pulls; from there on blocks slide and fly.
+    /// A run with friction: without sliding as long as no friction is used up and no contact pulls; from there on blocks slide and fly.
     fn run_with_friction(
         &mut self,
         scene: &Scene,

@@ -23,7 +23,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// A column of so many blocks that stands, at time zero.
+    /// The column of this many blocks at rest, at time zero.
     pub fn at_rest(blocks: usize) -> State {
         State {
             t: 0.0,
@@ -45,21 +45,21 @@ impl State {
 /// What the laws of contact carry from one event to the next.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactMemory {
-    /// Interfaces that opened in the last instant of an opening because their resultants reached a corner, with their sides: gap, rate and
-    /// acceleration are zero there.
+    /// Interfaces that opened in the instant of the last event because their resultants reached a corner, each with its side. Their gap, rate and
+    /// acceleration are zero in that instant.
     pub released: PerBlock<(usize, Interface)>,
-    /// After a separation: until when closed interfaces that cannot stay closed are not examined.
+    /// Hold after a separation: closed interfaces that cannot stay closed are not examined until it ends.
     pub hold: Hold,
     /// Times of the last two events `[s]`, the latest last.
     pub last_events: [f64; 2],
-    /// Events in this instant but the first.
+    /// Number of events in this instant after the first. Transitions that are not counted leave it as it is.
     pub events_at_once: usize,
 }
 
-/// The time for which a separation is not examined again.
+/// The span of time after a separation in which violated conditions are left alone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hold {
-    /// `[s]`
+    /// End of the hold `[s]`.
     pub until: f64,
     /// Length of the hold `[s]`.
     span: f64,

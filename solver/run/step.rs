@@ -34,8 +34,8 @@ enum Guard {
 /// Newton's rounds when a step is made to end at a zero: the dense output is good to some digits, each round doubles them.
 const NEWTON_ROUNDS: usize = 4;
 
-/// A gap that a step does not widen to this many times its start cannot close in the step either: it would have to move as far. Safety
-/// factor of that bound, below 2 so that rounding cannot make two crests touch.
+/// A gap that moves by less than its value at the start cannot close in the step: value and move together are below this multiple of the value.
+/// Safety factor of the bound, below 2 so that rounding cannot close a gap.
 const CLEAR_GAP_FACTOR: f64 = 1.999;
 
 /// Panels per radian that the fastest link turns in a step: forces vary with sines and squares of rates, and a parabola over a twentieth of
@@ -45,7 +45,7 @@ pub(super) const PANELS_PER_TURN: f64 = 20.0;
 /// Panels per radian of the ground motion.
 const PANELS_PER_RADIAN: f64 = 2.0;
 
-/// Panels beyond which a step of the loosest tolerances is not resolved.
+/// Most panels of a step. Only steps of the loosest tolerances would need more; their forces are not fully resolved.
 const MOST_PANELS: f64 = 64.0;
 
 impl Phase {
@@ -76,7 +76,7 @@ impl Phase {
     #[cold]
     fn check_step(&self, rejected: Attempt) -> Result<(), SolveError> {
         let (time, step) = (self.t, rejected.wanted);
-        // A segment or an event may leave less than the resolution of the time: only an error may not.
+        // The end of a segment or an event may leave less than the resolution of the time for a step. Only an error may not shorten it to that.
         if step > 2.0 * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
             return Ok(());
         }
@@ -89,7 +89,7 @@ impl Phase {
         }
     }
 
-    /// The first event inside the step just accepted, which ends at `end`, and where it is in it, 0 to 1.
+    /// The first event inside the step just accepted, and its place in the step, 0 to 1. The step ends at the time `end` `[s]`.
     fn first_event(&mut self, problem: &Problem, h: f64, end: f64) -> Option<(Guard, f64)> {
         let mut first: Option<(Guard, f64)> = None;
         let mut offer = |guard: Guard, s: Option<f64>| {
@@ -97,7 +97,7 @@ impl Phase {
                 first = Some((guard, s));
             }
         };
-        // An angle is a sum of gaps.
+        // An angle is a sum of gaps: the sum of their bounds bounds all angles.
         let mut reach = 0.0;
         for gap in &self.gaps {
             let Excursion { start, end, reach: moved } = self.integrator.excursion(gap.across);
@@ -131,7 +131,7 @@ impl Phase {
         self.first_opening(problem, h, end, reach).or(first)
     }
 
-    /// The first opening of a closed interface before `reach`; if there is none in the whole step, the margins known at its end are kept.
+    /// The first opening of a closed interface before `reach`. Margins at the end of the step are kept if they are known and the step has no event.
     fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(Guard, f64)> {
         let mut first: Option<(Guard, f64)> = None;
         self.margin_samples.clear();
@@ -154,7 +154,7 @@ impl Phase {
         first
     }
 
-    /// Where the closed interface of this index opens in a step of length and end `[h, end]`, 0 to `reach`.
+    /// The place, 0 to `reach`, at which the closed interface of this index opens. The step has the length and end `[h, end]` `[s]`.
     fn opening_before(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, reach: f64) -> Option<f64> {
         let is_held = self.t < self.held_until;
         let opening = if is_held { Opening::Unclear } else { self.integrator.opening(&self.margins, index, reach * h) };
@@ -203,8 +203,8 @@ impl Phase {
         self.integrator.contact_forces_at_end(end, problem.interfaces(), &mut self.forces.last);
     }
 
-    /// Makes the step end where the guard is zero. `None` if the step, cut there, shows that the dense output was mistaken about a touch: the
-    /// phase goes on from there.
+    /// Makes the step end where the guard is zero. `None` if the guard does not touch zero at the end of the shortened step: the dense output was
+    /// mistaken, and the phase continues from there.
     fn cut_at(&mut self, problem: &Problem, guard: Guard, attempted: f64, s: f64) -> Option<Ended> {
         let t = self.t;
         let mut h = s * attempted;
@@ -231,7 +231,7 @@ impl Phase {
         }
         // The state is that of the last attempt, and so is the time.
         let h = taken;
-        // A mistake that takes no time would be made again: it is a touch.
+        // A mistake that does not advance the time would be repeated: it counts as a touch.
         let is_mistaken = !has_touched && t + h > t;
         self.integrator.accept();
         let segment_end = problem.ground[self.segment].end;
@@ -271,7 +271,7 @@ impl Phase {
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
 
-    /// The largest size of an angle, or of the difference of two, in the step if it exceeds `known` `[rad]`.
+    /// Largest magnitude of an angle, or of the difference of two, in the step `[rad]`; only right if it exceeds `known`.
     pub(super) fn peak_of_step(&mut self, step: StepEnd, angle: Difference, known: f64) -> f64 {
         let Excursion { start, end, reach } = self.integrator.excursion(angle);
         if start.abs() + reach <= known {

@@ -21,12 +21,12 @@ pub(crate) enum Ended {
     Over(Over),
 }
 
-/// What a way of passing time has found.
+/// Result of trying one kind of stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Found {
-    /// No stretch: the way does not apply, or its step was rejected.
+    /// No stretch: this kind does not apply, or its step was rejected.
     Nothing,
-    /// A stretch, and why the phase ends with it; `None` if it continues.
+    /// A stretch, and why the phase ends with it; `None` if the phase continues.
     Stretch(Option<Ended>),
 }
 
@@ -51,9 +51,9 @@ pub(crate) struct Stretch<'m> {
     pub end: f64,
     /// Why it ended; `None` if the motion continues.
     pub ended: Option<Ended>,
-    /// Whether finer stretches tell the forces inside: of steps over several samples.
+    /// Whether contact forces are read from finer stretches instead ([`Inside::refine`]): true for steps over several samples.
     pub is_coarse: bool,
-    /// What lies between.
+    /// The motion between start and end.
     pub inside: &'m mut dyn Inside,
 }
 
@@ -62,10 +62,10 @@ pub(crate) trait Inside {
     /// Angles and rates per block at a time of the stretch `[s]`.
     fn state_at(&mut self, t: f64) -> (PerBlock<f64>, PerBlock<f64>);
 
-    /// Raises the largest angles so far, per block, to those in the stretch `[rad]`.
+    /// Raises `peaks`, the largest magnitude of each block's angle so far `[rad]`, by the angles in the stretch.
     fn raise_peaks(&mut self, peaks: &mut [f64]);
 
-    /// Raises the largest sizes of gaps by interface to those inside `[rad]`.
+    /// Raises `gaps`, the largest magnitude of each interface's gap so far `[rad]`, by the gaps in the stretch.
     fn raise_gaps(&mut self, gaps: &mut [f64]);
 
     /// Calls `note` with the contact forces of panels so short that forces are parabolas over them.
@@ -79,7 +79,7 @@ pub(crate) trait Inside {
         &[]
     }
 
-    /// The state at the end of the stretch, `x⁻`, of a motion that was entered with `after`. The motion is over with that.
+    /// Overwrites `after`, the state that the motion was entered with, by `x⁻`, the state at the end of the stretch. The motion ends there.
     fn end<'s>(&mut self, after: &'s mut State) -> &'s mut State;
 }
 
@@ -101,6 +101,6 @@ pub(crate) trait Flow: Send {
     /// The next stretch.
     fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError>;
 
-    /// Work since the last call, which is forgotten with it.
+    /// Takes the work counted since the last call; counting starts anew.
     fn take_work(&mut self) -> Work;
 }

@@ -17,9 +17,9 @@ use rocking_codegen::pattern::Interface;
 #[derive(Clone, Copy)]
 struct Leg {
     to: f64,
-    /// Whether the swing passes it after its crest.
+    /// Whether the swing passes this part after its crest.
     is_back: bool,
-    /// How often it passes.
+    /// How often the swing passes this part.
     weight: f64,
 }
 
@@ -37,13 +37,13 @@ impl Course {
         [self.pendulum.theta(psi, self.sign), self.sign * v]
     }
 
-    /// A bound of the angle at its crest; zero of one that has none, or turns beyond the balance, inwards.
+    /// Upper bound of the magnitude of `θ` at the crest `[rad]`; zero for a swing without a crest, or one that turns inwards beyond the balance.
     fn height(&self) -> f64 {
         let has_crest = self.swing.turns() && self.start < 0.0;
         if has_crest { self.pendulum.short_of_balance(self.swing.turning_distance()) } else { 0.0 }
     }
 
-    /// Angles between the start and which it is: its turning point, if it comes to that, and its end.
+    /// Ends of the two parts of the swing, as angles beyond the balance: its turning point, or the start if it does not come to turn; and its end.
     fn legs(&self, end: &End) -> [f64; 2] {
         let is_cut_short = self.start < 0.0 && matches!(end.ended, Ended::Over(_));
         let turn = self.swing.turning_point().filter(|_| !is_cut_short);
@@ -104,10 +104,10 @@ impl Phase {
         if swing.is_endless() {
             return None;
         }
-        // It goes out as long as it moves out, and falls out from beyond the balance.
+        // The link goes out if it moves outwards, or if it turns or is at rest beyond the balance, from where it falls outwards.
         let goes_out = rate > 0.0 || (swing.turns() || rate == 0.0) && start > 0.0;
         let has_crest = swing.turns() && start < 0.0;
-        // Most often overturned means beyond the balance, where nothing with a crest comes.
+        // The overturning angle is most often beyond the balance, and no swing with a crest comes that far.
         let is_below_crest = || overturned < 0.0 && swing.turning_point().is_some_and(|crest| overturned <= crest);
         let is_overturned = goes_out && (!has_crest || is_below_crest());
         let (ended, psi) = match is_overturned {
@@ -137,7 +137,7 @@ impl Phase {
                 phase.evaluate_forces_at_angle(problem, course, from + s * (to - from));
                 phase.margin(&problem.scene.column, interface)
             };
-            // The formula's place is right but for the rounding of a weight that turns: the force itself brings the rest.
+            // The formula gives the place up to rounding; Newton's method on the force itself gives the last digits.
             let known = match self.over_swing[index].opening(to - from) {
                 Ok(None) => continue,
                 Ok(Some([s, slope])) => polished(|s| margin(self, s), s, slope, 1.0),
@@ -183,7 +183,7 @@ impl Phase {
             self.forces_of_leg(problem, &swing.course, Leg { to: end, is_back: false, weight: 1.0 }, note);
             return;
         };
-        // Back from the crest it passes the way out again, as far as it comes, and then what lies before the start.
+        // Back from the crest, the swing passes its outward part again, as far as it comes, and then angles before its start.
         let share_back = ((end - turn).abs() / (start - turn).abs()).min(1.0);
         let comes_before = (end - turn).abs() > (start - turn).abs();
         self.forces_of_leg(problem, &swing.course, Leg { to: turn, is_back: false, weight: 1.0 + share_back }, note);
@@ -229,7 +229,7 @@ impl Swing {
         self.course.swing.turns() && self.end[1] * self.course.swing.start_rate() < 0.0
     }
 
-    /// The largest size of the angle in the swing if it exceeds `known` `[rad]`.
+    /// Largest magnitude of the angle in the swing `[rad]`; only right if it exceeds `known`.
     pub fn peak(&self, known: f64) -> f64 {
         let at_end = self.course.state(self.end)[0].abs();
         if !(self.has_turned() && self.course.height() > known) {

@@ -11,8 +11,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Events per block in one instant beyond which the laws of contact go in circles: the instant is then decided by closing what
-/// has not moved, as a separation. Fewer, and instants at which several interfaces are critical are cut short.
+/// Events in one instant, per block and one more, beyond which the laws of contact go in circles. What has not moved is then closed, as a
+/// separation. A smaller number would cut short instants at which several interfaces are critical.
 const EVENTS_AT_ONCE: usize = 8;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
@@ -35,7 +35,7 @@ pub(crate) struct Transition {
 }
 
 impl Transition {
-    /// `x⁺` of `x⁻`, in the storage of a state that is not needed any more.
+    /// `x⁺`: the decision applied to `x⁻`. It is written into `after`, a state that is not needed any more.
     pub fn after<'s>(&self, before: &State, after: &'s mut State) -> &'s mut State {
         (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
         for_size!(before.theta.len(), size => self.decide(size, before, after));
@@ -54,7 +54,7 @@ impl Transition {
         after
     }
 
-    /// Whether so many events have come to one instant with this one, which led to `after`, that they may go in a circle.
+    /// Whether the events of one instant may go in a circle: with this one, which led to `after`, they have reached the number allowed.
     pub fn may_circle(&self, after: &State) -> bool {
         self.is_counted && after.contact.events_at_once >= most_at_once(after)
     }
@@ -148,8 +148,8 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
     }
 }
 
-/// Interfaces that had opened while critical are driven back before they have moved: no impact, they are closed again, and those
-/// that opened in the same instant stay open.
+/// Closes interfaces that opened while critical and are driven back before they have moved. This is no impact; other interfaces that opened in the
+/// same instant stay open.
 #[cold]
 fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let mut pattern = before.pattern.clone();
@@ -167,7 +167,7 @@ fn withdraw(before: &State, closing: &[usize]) -> Transition {
     }
 }
 
-/// An interface opens because its resultant has reached a corner, with those that have done so in the same instant.
+/// An interface opens because its resultant has reached a corner; so do all that have opened for this reason in the same instant.
 fn opening(
     problem: &Problem,
     before: &State,
@@ -203,8 +203,8 @@ fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
-/// The forced transition that breaks a circle of events in one instant, if one is due: what has not moved is closed, momentum conserved, as a
-/// separation.
+/// The forced transition that breaks a circle of events in one instant: it closes what has not moved, momentum conserved, as a separation. `None`
+/// unless the number of events is one of two at which this is due.
 #[cold]
 pub(crate) fn break_circle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
     let (events, most) = (state.contact.events_at_once, most_at_once(state));
@@ -215,7 +215,7 @@ pub(crate) fn break_circle(problem: &Problem, state: &State) -> Result<Option<Tr
     let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
     let is_still: &dyn Fn(usize) -> bool = match events {
         events if events == most => &|interface| gaps.is_rounding(interface) && rates.is_rounding(interface),
-        // Rates of some roundings, above what counts as motionless, go in circles as well.
+        // Interfaces with rates slightly above rounding may go in circles as well: an interface without a gap is closed whatever its rate.
         events if events == most + most / 2 => &|interface| gaps.is_rounding(interface),
         _ => return Ok(None),
     };
@@ -247,8 +247,8 @@ fn singular(state: &State) -> SolveError {
     SolveError::SingularMass { time: state.t, pattern: state.pattern.to_string() }
 }
 
-/// Makes closed interfaces, and interfaces that have only just opened, gapless and motionless to the last bit. Decided before anything is moved: a
-/// block that is snapped to the one below must not open a gap to the one above.
+/// Gives the blocks of an interface one angle if it is closed or its gap is rounding, and one rate if it is closed or its gap and rate are. All
+/// interfaces are examined before any block is moved: a block that is snapped to the one below must not open a gap to the one above.
 #[inline(always)]
 fn snap(size: impl Size, states: &[Interface], theta: &mut [f64], omega: &mut [f64]) {
     let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));

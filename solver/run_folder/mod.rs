@@ -1,7 +1,7 @@
 //! The folder of a run: `response.csv`, `events.json` and `summary.json`, written and read back.
 //!
-//! The three files hold all of a run: scene, column, history and events. Figures and reports are made of them alone, so that those of an old
-//! run, or of one on another machine, are the same.
+//! The three files hold all of a run: scene, column, history and events. Figures and reports are made of these files alone: they look the same for
+//! an old run, or for a run on another machine.
 //!
 //! ```
 //! use rocking::run_folder::{Folder, Results, Run};
@@ -25,21 +25,21 @@ use serde::{Deserialize, Serialize};
 use std::io::Error;
 use std::path::PathBuf;
 
-/// The files of a run, in the order in which they are put in place: the summary last, as a sign that the others are there.
+/// The files of a run, in the order in which they are put in place: the summary comes last, as a sign that all files are there.
 const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
 
-/// The range of the angles of a run and its companions over time; of runs whose companions do not agree to the end.
+/// File with the range of the angles of a run and its companions over time. It exists if the companions do not agree to the end.
 pub const COMPANIONS: &str = "companions.csv";
 
 /// Columns of [`BlockState`], one per block or interface each.
 const STATE_COLUMNS: [&str; 7] = ["x", "y", "vx", "vy", "normal", "tangential", "moment"];
 
-/// The scene file as it was read: a run's folder says all that the run was.
+/// The scene file as it was read, kept so that the folder describes the run completely.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub struct SceneText {
-    /// The path by which the file was named.
+    /// The path of the file, as it was given.
     pub file: PathBuf,
-    /// Its text.
+    /// The text of the file.
     pub text: String,
 }
 
@@ -55,10 +55,10 @@ pub enum FolderError {
         /// What the system says.
         source: Error,
     },
-    /// A folder has the name of a file.
+    /// A folder has the name of a file that the run would write.
     #[error("{}: a folder has this name; choose a folder that can be written to", path.display())]
     Taken {
-        /// The file.
+        /// The path of the folder.
         path: PathBuf,
     },
     /// A file cannot be read.
@@ -77,12 +77,12 @@ pub enum FolderError {
         /// What is wrong, with its line.
         source: serde_json::Error,
     },
-    /// A row of `response.csv` is none of a run.
+    /// A row of `response.csv` or `companions.csv` is not one that a run writes.
     #[error("{}: line {line}: {problem}; {AGAIN}", path.display())]
     Row {
         /// The file.
         path: PathBuf,
-        /// From 1.
+        /// Number of the line, from 1.
         line: usize,
         /// What is wrong.
         problem: String,
@@ -95,7 +95,7 @@ pub enum FolderError {
         /// What is wrong.
         problem: String,
     },
-    /// A run has no rows, from which figures and reports are made.
+    /// A run has no rows, so that no figures or reports can be made.
     #[error("{}: there are no rows; where the run ends before the first of `output.times`, give an earlier one, otherwise {AGAIN}", path.display())]
     NoRows {
         /// The file.

@@ -27,7 +27,7 @@ pub struct Results {
     pub version: String,
     /// The file of the scene.
     pub scene: SceneText,
-    /// What its companions say, with the range of their angles where they do not agree to the end; `None` for a run without.
+    /// Trust in the run, with the range of the companions' angles where the companions do not agree to the end; `None` for a run without companions.
     #[serde(default)]
     pub trust: Option<Trust>,
     /// Name of the method that ran.
@@ -47,12 +47,12 @@ pub struct Results {
     pub restitution: Restitution,
     /// Description of the ground motion: `horizontal` and `vertical`, each with `kind` and parameters; a record without its samples.
     pub excitation: serde_json::Value,
-    /// Horizontal and vertical, until `t_end` `[m/s²]`; of an earlier version those of the rows.
+    /// Horizontal and vertical peak until `t_end` `[m/s²]`; for a run of an earlier version the peaks of the rows.
     #[serde(default)]
     pub peak_ground_acceleration: [f64; 2],
 }
 
-/// The solver's options, as far as they are read.
+/// The solver's options that are read back.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 pub struct Options {
@@ -70,11 +70,11 @@ pub struct Options {
     pub dynamics: String,
 }
 
-/// Beyond this size no angle `[rad]`, rate `[rad/s]`, time `[s]` or acceleration `[m/s²]` comes from a run: figures of such numbers
+/// Largest magnitude of an angle `[rad]`, rate `[rad/s]`, time `[s]` or acceleration `[m/s²]` that is accepted: figures of larger numbers
 /// would have axes that doubles cannot divide.
 const LARGEST_NUMBER: f64 = 1e12;
 
-/// Lengths `[m]`, masses `[kg]`, inertias `[kg m²]` and gravity `[m/s²]` of columns that figures are drawn of.
+/// Accepted lengths `[m]`, masses `[kg]`, inertias `[kg m²]` and gravity `[m/s²]` of a column.
 const SIZES: RangeInclusive<f64> = 1e-40..=1e40;
 
 /// Largest file that is read `[bytes]`.
@@ -91,7 +91,7 @@ impl Results {
         self.looks.get(block).map(|look| look.shape).unwrap_or_default()
     }
 
-    /// The number of a block, from zero, as it is told: from 1, and its name where it has one.
+    /// Text for a block (from zero): its number from 1, with its name in brackets if it has one.
     pub fn block_name(&self, block: usize) -> String {
         match self.looks.get(block) {
             Some(look) if !look.name.is_empty() => format!("{} ({})", block + 1, look.name),
@@ -102,7 +102,7 @@ impl Results {
     /// Reads the folder of a run.
     ///
     /// # Errors
-    /// [`FolderError`] with the file, and its line where there is one, for what could not have been written by a run.
+    /// [`FolderError`] with the file, and the line where there is one, if a file is missing or could not have been written by a run.
     pub fn read(folder: &Path) -> Result<Results, FolderError> {
         let [response, events, summary] = FILES.map(|name| folder.join(name));
         let mut read: Results = json(&summary)?;
@@ -151,7 +151,7 @@ impl Results {
         Ok(read)
     }
 
-    /// What is wrong with a summary.
+    /// What is wrong with a summary; `None` if nothing is.
     fn damage(&self) -> Option<String> {
         let Results { response, column, options, .. } = self;
         let length = column.len();
@@ -192,7 +192,7 @@ fn all_plausible(numbers: impl IntoIterator<Item = f64>) -> bool {
     numbers.into_iter().all(|number| number.abs() <= LARGEST_NUMBER)
 }
 
-/// The text of a regular file of a size that a run may have.
+/// The text of a regular file of at most `LARGEST_FILE` bytes.
 pub fn text(path: &Path) -> Result<String, FolderError> {
     let read = || {
         let found = std::fs::metadata(path)?;
@@ -218,13 +218,13 @@ fn json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
 fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
     let text = text(path)?;
     let mut samples: Vec<Sample> = Vec::new();
-    // Slides and gaps, and states of blocks, stand between rates and ground.
+    // Slides and gaps, then states of blocks, stand between rates and ground.
     let has = |column: &str| text.lines().next().is_some_and(|head| head.contains(column));
     let slides = if has(",slide_1,") { blocks } else { 0 };
     let states = if has(",x_1,") { blocks } else { 0 };
     let before_states = 1 + 2 * blocks + 2 * slides;
     let count = before_states + STATE_COLUMNS.len() * states + 2;
-    // Forces grow with masses.
+    // Forces grow with masses: any finite number is accepted.
     let is_force = |at: usize| (before_states + 4 * states..before_states + 7 * states).contains(&at);
     for (index, row) in text.lines().enumerate().skip(1).filter(|(_, row)| !row.is_empty()) {
         let broken = |problem: String| FolderError::Row { path: path.into(), line: index + 1, problem };
@@ -236,7 +236,7 @@ fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
             numbers.push(number.ok_or_else(|| broken("a number is missing, or not one of a run".into()))?);
             rest = after;
         }
-        // Columns that the scene has asked for follow from the others, and are not read.
+        // Output columns that the scene requests can be computed from the other columns, and are not read.
         let pattern = match rest.strip_prefix('"') {
             Some(quoted) => quoted.split('"').next(),
             None => rest.split(',').next(),

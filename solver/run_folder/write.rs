@@ -1,4 +1,4 @@
-//! Writes the folder of a run: files under names of their own, put in place when all are there.
+//! Writes the folder of a run: files under temporary names first, renamed once all are complete.
 
 use super::read::text;
 use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
@@ -31,9 +31,9 @@ pub struct Run<'a> {
     pub wall_seconds: f64,
     /// Warnings about the records of the scene and about the run.
     pub warnings: Vec<String>,
-    /// What its companions say; `None` for a run without.
+    /// Trust in the run; `None` for a run without companions.
     pub trust: Option<&'a Trust>,
-    /// Names of files in the folder that were made of an earlier run, and are removed.
+    /// Names of files in the folder that belong to an earlier run, and are removed.
     pub outdated: Vec<String>,
 }
 
@@ -117,7 +117,7 @@ struct Summary<'a> {
     peaks: Vec<f64>,
     /// Slenderness of the stack above each interface `[rad]`.
     alpha: Vec<f64>,
-    /// Frequency parameter of these stacks `[rad/s]`.
+    /// Frequency parameter of the stack above each interface `[rad/s]`.
     p: Vec<f64>,
     trust: Option<&'a Trust>,
     method: &'a str,
@@ -140,7 +140,7 @@ struct Summary<'a> {
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// Makes the folder where it is missing, and tries it before any work is done.
+    /// Creates the folder if it is missing, and checks by a test file that it can be written to, before any work is done.
     ///
     /// # Errors
     /// [`FolderError::Write`] or [`FolderError::Taken`]
@@ -190,7 +190,7 @@ impl Folder {
         text(&self.0.join("summary.json"))
     }
 
-    /// A file in the folder under a name of its own, with all that `write` writes.
+    /// A complete file in the folder under a temporary name, with what `write` writes.
     fn draft(&self, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<Draft, FolderError> {
         let filled = || {
             let (draft, file) = Draft::create(&self.0)?;
@@ -243,8 +243,8 @@ fn numbers_of(state: &BlockState) -> [f64; 7] {
     [x, y, vx, vy, force.normal, force.tangential, force.moment]
 }
 
-/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time; with friction, `slide_1.., gap_1..` after the rates, and where
-/// blocks slid or flew, [`STATE_COLUMNS`] after these; at the end the columns that the scene asks for.
+/// `t, theta_1.., omega_1.., ground_x, ground_y, pattern`, one row per output time. With friction, `slide_1.., gap_1..` follow the rates; if blocks
+/// slid or flew, [`STATE_COLUMNS`] follow the gaps. The columns that the scene requests come last.
 fn history(mut file: impl Write, scene: &Scene, samples: &[Sample]) -> std::io::Result<()> {
     let blocks = scene.column.len();
     let mut columns = vec!["theta", "omega"];

@@ -1,4 +1,4 @@
-//! Tables with other values than their file has: keys under their dotted names, and which take each other's place.
+//! Changes of the values in a table: keys are set by their dotted names, and replace keys that they exclude.
 
 use super::setting::Setting;
 use super::table::{Entry, Table, Value, without_index};
@@ -24,8 +24,9 @@ impl Table {
         }
     }
 
-    /// Gives a key, under its dotted name, another value or its first; tables on the way are made, lists are not. `block[2].mass` is of
-    /// the second block, `initial.theta[2]` the second of a list. `None` if something else stands where a table or a list should.
+    /// Sets a key, given by its dotted name, to a value. Tables that are missing are made, lists and their items are not.
+    /// `block[2].mass` is of the second block, `initial.theta[2]` the second item of a list. `None` if a list or item is missing, or if
+    /// something else stands in place of a table or list.
     pub fn set(&mut self, key: &str, value: &Setting) -> Option<()> {
         let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
         let (name, index) = match first.split_once('[') {
@@ -67,9 +68,9 @@ impl Table {
         }
     }
 
-    /// The same of a key of this very table.
+    /// Sets a key of this table itself. A key that is new removes its alternatives.
     fn set_own(&mut self, name: &str, value: Value) {
-        // As most often in a sweep: it is there, and no other of its kind beside it.
+        // The usual case in a sweep: the key is there, and no alternative of it.
         if let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) {
             entry.value = value;
             return;
@@ -80,7 +81,7 @@ impl Table {
         entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
     }
 
-    /// Full names of the keys of this table and those within that are called `name`; tables are none.
+    /// Dotted names of all keys called `name`, in this table and in tables within, but not in lists. Keys whose values are tables do not count.
     pub fn named(&self, name: &str) -> Vec<String> {
         let of_entry = |entry: &Entry| match &entry.value {
             Value::Table(table) => table.named(name),
@@ -91,7 +92,7 @@ impl Table {
     }
 }
 
-/// Keys of which a table takes one: where one is set, the others go.
+/// Groups of keys of which a table takes one. Setting a new one removes the others.
 const ALTERNATIVES: [&[&str]; 10] = [
     &["half_width", "width", "diameter"],
     &["bottom_half_width", "bottom_width", "bottom_diameter"],
@@ -105,7 +106,7 @@ const ALTERNATIVES: [&[&str]; 10] = [
     &["eta", "factors", "law"],
 ];
 
-/// Whether a scene has one of two different keys, under their dotted names, and never both.
+/// Whether two different keys, given by their dotted names, exclude each other in a scene.
 pub fn exclude_each_other(a: &str, b: &str) -> bool {
     let parts = |key: &str| {
         let (table, name) = key.rsplit_once('.').unwrap_or(("", key));

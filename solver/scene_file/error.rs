@@ -21,7 +21,7 @@ pub enum SceneFileError {
     Scene {
         /// The scene file.
         file: PathBuf,
-        /// From 1.
+        /// Line in the file, from 1.
         line: usize,
         /// Offset and length in bytes of the place in the file.
         span: (usize, usize),
@@ -31,7 +31,7 @@ pub enum SceneFileError {
         problem: String,
         /// What to do.
         remedy: String,
-        /// Key or value.
+        /// What is at fault: a key or a value.
         cause: Cause,
     },
     /// Several values of a scene are not as they should be; a line each.

@@ -28,10 +28,10 @@ const KINDS: [&str; 14] = [
     "record",
 ];
 
-/// What amplitudes and frequencies may be multiples of.
+/// Units in which amplitudes and frequencies may be given.
 #[derive(Clone, Copy)]
 struct Scales {
-    /// `[m/s²]`
+    /// Gravity `[m/s²]`.
     gravity: f64,
     /// The acceleration that opens the base of the column at rest, `g tan α` `[m/s²]`.
     uplift: f64,
@@ -49,13 +49,13 @@ impl Scales {
 /// Keys of amplitudes.
 const AMPLITUDES: [&str; 3] = ["amplitude", "amplitude_g", "amplitude_uplift"];
 
-/// Their units `[m/s²]`, of gravity and of the acceleration that opens the base.
+/// Units of [`AMPLITUDES`] `[m/s²]`. `uplift` is the acceleration that opens the base of the column at rest.
 fn amplitude_units(gravity: f64, uplift: f64) -> [f64; 3] {
     [1.0, gravity, uplift]
 }
 
-/// Sets an amplitude, under its dotted name, in a ground motion that has one and of which nothing else changes with it; `false` where it
-/// takes more to tell what comes of it.
+/// Sets an amplitude, given by its dotted key, in a ground motion that is proportional to it. `false` if the motion has to be read instead: the key
+/// is no amplitude, the motion has none, or the value is out of range.
 pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, column: &Column) -> bool {
     let Some((component, name)) = key.strip_prefix("excitation.").and_then(|key| key.split_once('.')) else {
         return false;
@@ -113,7 +113,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `[[excitation.horizontal.term]]`, each as a component.
+    /// `[[excitation.horizontal.term]]`: each term is read as a component is.
     fn sum(&self, table: &mut Table, column: &Column) -> Result<Motion, SceneFileError> {
         let own = |wrong| self.error(wrong);
         let mut tables = table.tables("term").map_err(own)?.unwrap_or_default();
@@ -204,7 +204,7 @@ impl Reader<'_> {
     }
 }
 
-/// What a user adds to record files.
+/// Options with which a user has record files read.
 pub(crate) fn text_options(table: &mut Table, gravity: f64) -> Result<TextOptions, Wrong> {
     let units = match table.text("units")? {
         None => None,
@@ -228,7 +228,7 @@ pub(crate) fn text_options(table: &mut Table, gravity: f64) -> Result<TextOption
 pub(super) struct Target {
     pub key: &'static str,
     pub measure: Measure,
-    /// In the unit of the measure.
+    /// Size, in the unit of the measure.
     pub size: f64,
 }
 
@@ -241,7 +241,7 @@ impl Target {
     }
 }
 
-/// One of the sizes of [`NAMES`](crate::intensity::NAMES), or none.
+/// Size that one of the keys [`NAMES`](crate::intensity::NAMES) gives; `None` without such a key.
 pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target>, Wrong> {
     let sa = spectrum(table)?;
     let mut found: Option<Target> = None;
@@ -264,7 +264,7 @@ pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target
     Ok(found)
 }
 
-/// Period `[s]` and damping ratio of `sa`; none without a period.
+/// Period `[s]` and damping ratio of `sa`; `None` without a period.
 pub(crate) fn spectrum(table: &mut Table) -> Result<Option<[f64; 2]>, Wrong> {
     let period = table.positive("sa_period")?;
     let damping = match table.number("sa_damping")? {
@@ -319,7 +319,7 @@ fn needed(table: &mut Table, key: &'static str, remedy: &str) -> Result<f64, Wro
     table.positive(key)?.ok_or_else(|| table.missing(key, remedy))
 }
 
-/// A pulse told by its velocity: `(velocity, omega, phase, gamma)`.
+/// Parameters of a pulse defined by a velocity amplitude: `(velocity, omega, phase, gamma)`.
 fn velocity_pulse(table: &mut Table, scales: Scales) -> Result<(f64, f64, f64, f64), Wrong> {
     let omega = omega(table, scales)?;
     let velocity = table.one_of(&[

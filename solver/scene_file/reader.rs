@@ -1,7 +1,7 @@
 //! The scene of a file: column, restitution, initial state, solver and output.
 //!
-//! The file is read as a tree whose every key and value knows its place. [`Table`] hands out what a scene knows and, when it is
-//! closed, refuses what nobody asked for. Units are converted here and nowhere else.
+//! The file is read as a tree in which every key and value has its place in the file. [`Table`] returns the keys that the reader asks for and,
+//! when it is closed, refuses keys that were not asked for. Units are converted while a file is read and nowhere else.
 
 use super::error::{SceneFileError, text};
 use super::records::Records;
@@ -38,23 +38,23 @@ impl Scene {
     }
 }
 
-/// A scene as its file gives it, and what followed from that.
+/// A scene read from a file, and the numbers that the file leaves to be derived.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneFile {
     /// The scene.
     pub scene: Scene,
-    /// Numbers of the blocks that the file does not give.
+    /// Numbers that the file does not give: those of the blocks, e.g. masses, and the end of the run.
     pub derived: Vec<Derived>,
 }
 
-/// A number that a file does not give but leaves to be found.
+/// A number that a file does not give, derived from what it gives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Derived {
-    /// Dotted key that would give it, e.g. `block[1].mass`.
+    /// Dotted key that would give the number, e.g. `block[1].mass`.
     pub key: String,
-    /// In SI.
+    /// Value, in SI units.
     pub value: f64,
-    /// Of the value.
+    /// Unit of the value.
     pub unit: &'static str,
     /// Formula and source in words.
     pub from: String,
@@ -76,12 +76,12 @@ impl SceneFile {
 pub(crate) struct Reader<'t> {
     pub text: &'t str,
     pub file: &'t Path,
-    /// Records read before, where scenes are read again and again.
+    /// Records read before, for scenes that are read again and again; `None` to keep none.
     pub records: Option<&'t Records>,
 }
 
 impl Reader<'_> {
-    /// The whole file.
+    /// Reads the whole file and checks its scene.
     pub fn read(&self, mut root: Table) -> Result<SceneFile, SceneFileError> {
         let mut derived = Vec::new();
         let scene = self.scene(&mut root, &mut derived)?;
@@ -109,10 +109,10 @@ impl Reader<'_> {
         }
     }
 
-    /// A fault that [`Scene::check`] found, at the key that it names.
+    /// Error for a fault that [`Scene::check`] found, at the key that the fault names.
     pub fn refused(&self, root: &Table, fault: &SceneError) -> SceneFileError {
         let SceneError { mut key, problem, remedy, .. } = fault.clone();
-        // Equal blocks of a `[column]` have its sizes.
+        // The sizes of the blocks of a `[column]` come from the keys of `[column]`.
         if let (Some((_, name)), true) =
             (key.strip_prefix("block").and_then(|key| key.split_once('.')), root.has("column"))
         {
@@ -189,7 +189,7 @@ impl Reader<'_> {
         let looks = if plain { Vec::new() } else { looks };
         let Some(mut table) = size_table else { return Ok((column, looks)) };
         let size = Size::read(&mut table).map_err(own)?;
-        // The slenderness first: widths against heights. All else follows from one factor of both.
+        // First the slenderness, by a factor of the widths. Then `p` or the radius (kept by default), by one factor of widths and heights.
         let stretch = |column: &Column, factors: [f64; 2]| {
             of(column.blocks().iter().zip(&shapes).map(|(block, shape)| stretched(block, *shape, factors)).collect())
         };
@@ -202,13 +202,14 @@ impl Reader<'_> {
             None => size.radius.unwrap_or(radius) / whole.radius(),
         };
         let scaled = stretch(&slender, [larger; 2])?;
-        // Masses and inertias that followed from the sizes that are given are none of the column.
+        // Masses and inertias derived before the scaling are not those of the scaled column.
         derived.clear();
         Ok((scaled, looks))
     }
 }
 
-/// A block with its widths and heights multiplied. Masses grow with the side view; an inertia keeps its ratio to that of the homogeneous body.
+/// A block with widths multiplied by `across` and heights by `along`. The mass grows with the area of the side view; the inertia keeps its ratio to
+/// that of the homogeneous body.
 fn stretched(block: &Block, shape: Shape, [across, along]: [f64; 2]) -> Block {
     let homogeneous = |block: &Block| {
         Block::of_shape(shape, [block.bottom_half_width, block.top_half_width], block.half_height, block.mass).inertia
@@ -255,10 +256,10 @@ impl Size {
     }
 }
 
-/// Interval of the rows of `response.csv` where a scene does not say `[s]`.
+/// Default interval of the rows of `response.csv` `[s]`.
 const DEFAULT_OUTPUT_DT: f64 = 0.01;
 
-/// `[[block]]`, or `[column]` with equal blocks.
+/// `[[block]]`, or `[column]`, which is cut into blocks of equal height.
 fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Look)>, Wrong> {
     let tables = root.tables("block")?;
     let column = root.table("column")?;
@@ -292,28 +293,28 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
     }
 }
 
-/// Blocks of `[column]` beyond which a scene is taken for a mistake.
+/// Largest number of blocks of `[column]`; a larger one is taken for a mistake.
 pub const MOST_BLOCKS: usize = 100;
 
 /// Sizes of a block, or of a whole column.
 struct Sizes {
     shape: Shape,
-    /// Of base and top `[m]`.
+    /// Half-widths of base and top `[m]`.
     half_widths: [f64; 2],
     half_height: f64,
     amount: Amount,
 }
 
-/// How much of the material there is.
+/// What determines the mass of a block or of the whole column.
 enum Amount {
     /// `[kg]`
     Mass(f64),
-    /// Of a side view `[kg/m²]`, or of a solid `[kg/m³]`; `None` for one that is not given.
+    /// Density of the side view `[kg/m²]`; of the solid `[kg/m³]` for drums and with a depth `[m]`. `None` for a number that is not given.
     Density { density: Option<f64>, depth: Option<f64> },
 }
 
 impl Amount {
-    /// The mass of a part `[kg]`, and the formula in words.
+    /// Mass of a part by its density `[kg]`, and the formula in words; `None` if the mass itself is given.
     fn mass(&self, shape: Shape, half_widths: [f64; 2], half_height: f64) -> Option<(f64, String)> {
         let Amount::Density { density, depth } = *self else { return None };
         let is_tapered = half_widths[0] != half_widths[1];
@@ -327,7 +328,7 @@ impl Amount {
         let named = density.map_or(format!("1 {unit} (nothing is given)"), |density| format!("{density} {unit}"));
         let value = density.unwrap_or(1.0) * depth.unwrap_or(1.0);
         let mass = match shape {
-            // As [`Block::rectangle`] multiplies.
+            // In the order in which [`Block::rectangle`] multiplies, so that the rounding is the same.
             Shape::Prism if !is_tapered => 4.0 * value * half_widths[0] * half_height,
             _ => value * shape.measure(half_widths, half_height),
         };
@@ -336,7 +337,7 @@ impl Amount {
     }
 }
 
-/// Half of a size that is given as a half or as a whole, by which key; `diameter` is of drums.
+/// Half of the size that one of `keys` gives, as a half or as a whole, together with this key.
 fn half(table: &mut Table, keys: &[&'static str]) -> Result<Option<(&'static str, f64)>, Wrong> {
     let mut found: Option<(&'static str, f64)> = None;
     for key in keys {
@@ -442,7 +443,7 @@ fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<(Block, Look),
     Ok((block, Look { name, shape }))
 }
 
-/// Whether densities are all of side views, or all of solids: a mass of a metre's depth beside that of a whole drum is a mistake.
+/// Refuses densities of side views beside densities of solids: the mass of one metre of depth beside that of a whole drum is a mistake.
 fn check_depths(tables: &[Table], blocks: &[(Block, Look)]) -> Result<(), Wrong> {
     let has_density = |table: &Table| !table.has("mass");
     let is_solid = |table: &Table, look: &Look| look.shape == Shape::Drum || table.has("depth");
@@ -458,7 +459,7 @@ fn check_depths(tables: &[Table], blocks: &[(Block, Look)]) -> Result<(), Wrong>
     }
 }
 
-/// The homogeneous body from which inertia and centroid follow.
+/// Description of the homogeneous body from which inertia and centroid follow.
 fn homogeneous(shape: Shape, [bottom, top]: [f64; 2]) -> &'static str {
     match (shape, bottom == top) {
         (Shape::Prism, true) => "mass · (half_width² + half_height²) / 3: a homogeneous rectangle",
@@ -478,7 +479,7 @@ fn check_range(table: &Table, block: &Block) -> Result<(), Wrong> {
     Err(table.wrong(key, problem, "give sizes, density or mass nearer to those of blocks"))
 }
 
-/// The blocks of `[column]`: equal heights, the sides of the whole straight.
+/// The blocks of `[column]`: all are equally high, and the sides of the whole column are straight.
 fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Look)>, Wrong> {
     if count == 1 {
         return Ok(vec![block(table, derived)?]);
@@ -598,8 +599,8 @@ fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {
 /// What to do about a ground motion without end.
 const GIVE_AN_END: &str = "the ground motion has no end: give the end of the run in s";
 
-/// Lets a run end after a free swing, as its file gives no end. `false` for a motion without end. A motion out of range keeps the usual end: it is
-/// refused for its own numbers.
+/// Sets the end of a run whose file gives none: after a free swing. `false` for a ground motion without end. With a motion out of range the end
+/// stays as it is and the result is `true`: the motion is refused later for its own numbers.
 pub(super) fn end_after_free_swing(scene: &mut Scene) -> bool {
     let motions = [&scene.excitation.horizontal, &scene.excitation.vertical];
     if motions.into_iter().flatten().any(|motion| motion.invalid(LARGEST).is_some()) {
@@ -620,7 +621,7 @@ fn end_of(scene: &Scene) -> Derived {
     Derived { key: "solver.t_end".into(), value: scene.options.t_end, unit: "s", from }
 }
 
-/// Reads the solver's options. `false` where they have no end of the run.
+/// Reads the solver's options. `false` if they do not give the end of the run.
 fn solver(root: &mut Table, scene: &mut Scene) -> Result<bool, Wrong> {
     let Some(mut table) = root.table("solver")? else {
         let (place, key, problem) = (root.place(), "solver.t_end".into(), "it is missing".into());

@@ -1,11 +1,11 @@
-//! Records read before, where scenes are read again and again.
+//! Cache of records and of lists of folders, for scenes that are read again and again.
 
 use rocking_ground::Record;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Records by file and by the keys that say how to read it, kept between scenes.
+/// Records kept between scenes, by file and by the options with which the file was read.
 #[derive(Debug, Default)]
 pub(crate) struct Records {
     records: Mutex<HashMap<(PathBuf, String), Record>>,
@@ -25,7 +25,7 @@ impl Records {
         locked(&self.records).get(key).cloned()
     }
 
-    /// The files, sorted.
+    /// Files of the records that are kept, sorted.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = locked(&self.records).keys().map(|(file, _)| file.clone()).collect();
         files.sort();

@@ -5,13 +5,13 @@ use std::fmt;
 /// A value that a key is given.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Setting {
-    /// In the unit of the key.
+    /// A number, in the unit of the key.
     Number(f64),
     /// A name, or the path of a file.
     Text(String),
 }
 
-/// Numbers so that they read back exactly.
+/// The value as text; numbers read back exactly.
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

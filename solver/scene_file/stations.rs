@@ -1,4 +1,4 @@
-//! Records of stations: the files of a folder that are the components of one record, by their names and by what they say of themselves.
+//! Records of stations: files of a folder are grouped by their names into the components of one record. Directions follow from names and contents.
 //!
 //! A record is named by its folder and by what the names of its files have in common: `records/RSN1045` of `RSN1045_NORTHR_WPI046.AT2`,
 //! `RSN1045_NORTHR_WPI316.AT2` and `RSN1045_NORTHR_WPI-UP.AT2` ([`record_and_component`]).
@@ -14,27 +14,27 @@ use std::path::{Path, PathBuf};
 
 /// A component of a record: a file.
 pub(crate) struct Component {
-    /// Relative to the file that names it.
+    /// Path of the file, relative to the scene or study that names it.
     pub name: String,
-    /// The end of its name that names the component.
+    /// Part of the file's name that names the component.
     pub ending: String,
     pub direction: Direction,
     pub record: Record,
 }
 
 impl Component {
-    /// Whether it is called so, in the name of its file or in the file.
+    /// Whether the component has this name, in the name of its file or in the file. Case does not matter.
     pub fn is_called(&self, name: &str) -> bool {
         let own = [self.ending.as_str(), self.record.source().component.trim()];
         own.iter().any(|own| own.eq_ignore_ascii_case(name))
     }
 }
 
-/// Ends of the names of files that hold velocity or displacement, which PEER gives beside the acceleration.
+/// Extensions of files with velocity or displacement, which PEER gives beside the acceleration.
 const NO_ACCELERATION: [&str; 2] = ["vt2", "dt2"];
 
-/// The records of a folder in the order of the numbers in their names, each with the names of its files, sorted. Hidden files are none, nor are those of
-/// velocity and displacement.
+/// Records of a folder in the order of the numbers in their names, each with the sorted names of its files. Hidden files and files with velocity or
+/// displacement are left out.
 pub(crate) fn records_of(folder: &Path) -> std::io::Result<Vec<(String, Vec<String>)>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -62,7 +62,7 @@ fn parted(name: &str) -> (&Path, String) {
     (path.parent().unwrap_or(Path::new("")), own)
 }
 
-/// The files of a record, relative to the folder of the scene; empty where there are none.
+/// Paths of the files of a record, whose name is relative to the folder `beside`; empty if there are none.
 pub(crate) fn files_of(beside: &Path, name: &str) -> Vec<PathBuf> {
     let (folder, own) = parted(name);
     let records = records_of(&beside.join(folder)).unwrap_or_default();
@@ -71,7 +71,7 @@ pub(crate) fn files_of(beside: &Path, name: &str) -> Vec<PathBuf> {
 }
 
 impl Reader<'_> {
-    /// A file as the component of a record; `key` names it in errors.
+    /// Reads a file as a component of a record; errors are those of `key`.
     pub(crate) fn component(
         &self,
         table: &Table,
@@ -194,5 +194,5 @@ impl Reader<'_> {
     }
 }
 
-/// Records of a folder that an error names.
+/// Largest number of records of a folder that an error lists.
 const NAMED: usize = 8;

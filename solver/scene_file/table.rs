@@ -1,4 +1,4 @@
-//! A TOML table that knows where everything stands, and what has been asked for.
+//! A TOML table that knows where each key and value stands in the file, and which keys have been asked for.
 
 use super::setting::Setting;
 use std::borrow::Cow;
@@ -7,13 +7,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
-/// A stretch of the file, in bytes.
+/// A range of the file, in bytes.
 pub type Place = std::ops::Range<usize>;
 
 /// Something wrong at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrong {
-    /// Where.
+    /// Place in the file.
     pub place: Place,
     /// Dotted key.
     pub key: String,
@@ -21,20 +21,20 @@ pub struct Wrong {
     pub problem: String,
     /// What to do.
     pub remedy: String,
-    /// Key or value.
+    /// What is at fault: a key or a value.
     pub cause: Cause,
 }
 
 /// What is at fault in a scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// A key is unknown or missing, or excluded by another one, or something of another kind stands there.
+    /// A key is unknown or missing, or excluded by another one, or its value is of the wrong kind.
     Key,
     /// A value is out of range, or does not go with others; or the text is not TOML.
     Value,
 }
 
-/// A value and its places.
+/// A key and its value, with their places in the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub(super) key: Arc<str>,
@@ -65,7 +65,7 @@ impl Value {
         }
     }
 
-    /// What it is, or which number.
+    /// The kind of the value in words; of a number, the number itself.
     fn shown(&self) -> String {
         if let Value::Number(number) = self { number.to_string() } else { self.what().into() }
     }
@@ -82,16 +82,16 @@ impl Value {
     }
 }
 
-/// Keys that a table is usually asked for.
+/// Number of keys that a table is usually asked for; room for them is reserved.
 const USUAL_KEYS: usize = 16;
 
 thread_local! {
-    /// Keys that readers on this thread ask for, where somebody listens.
+    /// Dotted keys that readers on this thread have asked for; `None` unless [`keys_asked_by`] collects them.
     static ASKED: RefCell<Option<BTreeSet<String>>> = const { RefCell::new(None) };
 }
 
-/// What `read` returns, and the dotted keys for which it has asked tables that were read to their ends: what files may have, whether they have it or
-/// not. For the test that holds the reference of keys and the reader together.
+/// What `read` returns, and the dotted keys that it has asked for in tables that it closed: keys that a file may have, whether it has them or not.
+/// For the test that compares the reference of keys with the reader.
 #[doc(hidden)]
 pub fn keys_asked_by<T>(read: impl FnOnce() -> T) -> (T, BTreeSet<String>) {
     ASKED.set(Some(BTreeSet::new()));
@@ -99,15 +99,15 @@ pub fn keys_asked_by<T>(read: impl FnOnce() -> T) -> (T, BTreeSet<String>) {
     (result, ASKED.take().unwrap_or_default())
 }
 
-/// A table under way of being read.
+/// A table while it is read.
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Dotted name, empty at the root.
     name: Arc<str>,
     place: Place,
-    /// Shared: a table is read again for each scene of a sweep.
+    /// Entries, shared by copies of the table: a sweep reads a copy for each scene.
     pub(super) entries: Arc<Vec<Entry>>,
-    /// Keys that a reader has asked for: what a scene knows here.
+    /// Keys that a reader has asked for: the keys that are known in this table.
     asked: Vec<Cow<'static, str>>,
 }
 
@@ -152,7 +152,7 @@ impl Table {
         Table { name: name.into(), place, entries: Arc::new(entries), asked: Vec::new() }
     }
 
-    /// A copy that has nothing in common with it: threads that count who shares what wait for each other.
+    /// A deep copy: each thread owns its table, so that no `Arc` count is contended.
     pub fn apart(&self) -> Table {
         let entry = |entry: &Entry| Entry { key: (*entry.key).into(), value: entry.value.apart(), ..entry.clone() };
         let entries = Arc::new(self.entries.iter().map(entry).collect());
@@ -179,7 +179,7 @@ impl Table {
         self.entries.iter().map(|entry| entry.key.to_string()).collect()
     }
 
-    /// A value or a list of them.
+    /// A number, a text, or a list of these, as a list; `None` if the key is not given or is that of a table.
     pub fn settings(&mut self, key: &str) -> Result<Option<Vec<Setting>>, Wrong> {
         let single = |value: &Value| match value {
             Value::Number(number) if number.is_finite() => Some(Setting::Number(*number)),
@@ -204,7 +204,7 @@ impl Table {
         }
     }
 
-    /// Where a dotted key stands; the nearest table where it is not given.
+    /// Place of a dotted key. If the key is not given, the place of the innermost table on the way to it.
     pub fn find(&self, key: &str) -> Place {
         // In quotes, a key may have points of its own.
         let (first, rest) = match key.split_once('.') {
@@ -365,7 +365,7 @@ impl Table {
         }
     }
 
-    /// The error that a key's text is none of those known.
+    /// The error that the text of a key is none of `known`; the remedy suggests the nearest one.
     pub fn no_such(&self, key: &str, what: &str, text: &str, known: &[&str]) -> Wrong {
         let nearest =
             known.iter().min_by_key(|name| strsim::levenshtein(name, text)).filter(|name| is_slip(name, text));
@@ -474,10 +474,10 @@ fn value_from_tree(name: &str, place: Place, value: DeValue<'_>) -> Value {
     }
 }
 
-/// Whole numbers that a double keeps.
+/// Bound below which doubles represent all whole numbers.
 const LARGEST_WHOLE: f64 = 9e15;
 
-/// What is mostly wrong with a line that is not TOML.
+/// The most likely fault of a line that is not TOML, as a rule that the line breaks.
 fn hint(message: &str, line: &str) -> &'static str {
     if message.contains("duplicate key") && line.starts_with('[') {
         "a table stands once, but as many [[block]] as there are blocks"
@@ -490,7 +490,7 @@ fn hint(message: &str, line: &str) -> &'static str {
     }
 }
 
-/// Whether `written` may be a slip for `key`, or the end of its name.
+/// Whether `written` may be a misspelling of `key`, or the last part of `key`, as `width` is of `half_width`.
 fn is_slip(key: &str, written: &str) -> bool {
     let is_end = key.strip_suffix(written).is_some_and(|start| start.ends_with('_'));
     is_end || strsim::levenshtein(key, written) <= 1 + written.len() / 4

@@ -54,18 +54,18 @@ impl Template {
         self.file.parent().unwrap_or(Path::new("")).join(name)
     }
 
-    /// Files of the components of a record of a station, by its name as a scene gives it; empty where there are none.
+    /// Files of the components of a station's record, by the name that a scene gives the record; empty if there are none.
     pub fn files_of_record(&self, name: &str) -> Vec<PathBuf> {
         stations::files_of(self.file.parent().unwrap_or(Path::new("")), name)
     }
 
-    /// Files of the records that its scenes have had so far, those of the scene as it stands among them; in the order of their names.
+    /// Files of all records that were read so far for scenes of this template, the unchanged scene included; in the order of their names.
     pub fn records(&self) -> Vec<PathBuf> {
         self.records.files()
     }
 
-    /// The scene with these keys, under their dotted names, set to these values. What they replace goes: `amplitude_g` takes the
-    /// place of `amplitude`.
+    /// Scene of this template with each dotted key set to its value.
+    /// A key removes its alternatives from the scene: `amplitude_g` removes `amplitude`.
     ///
     /// # Errors
     /// [`SceneFileError`], as if the file had the values.
@@ -78,7 +78,8 @@ impl Template {
         self.reader().read(root).map(|read| read.scene)
     }
 
-    /// The template for one who changes its ground motion again and again, and no other key but those of this list.
+    /// The template for scenes in which little but the ground motion changes. `others` are all keys that will be set: they show whether one of them
+    /// gives the end of the run.
     pub(crate) fn shaken<'k>(&self, mut others: impl Iterator<Item = &'k str>) -> Shaken<'_> {
         let has_end = self.root.named("t_end").iter().any(|key| key == END) || others.any(|key| key == END);
         Shaken { template: self, root: self.root.apart(), amplitude: None, has_end }
@@ -93,13 +94,14 @@ impl Template {
         self.root.has_table(name)
     }
 
-    /// The full name of a key: as it is if it has a point, otherwise that of the only key in the scene called so, or where a scene
-    /// would have it. `None` if it may be one of several: the scene has them, or has one and the table where a scene would have another.
+    /// Full name of a key. A name with a point is already full. Otherwise it is the only key of that name in the scene or, without one, the key
+    /// in its usual table. `None` if several keys may be meant: the scene has several of that name, or it has the usual table and the only such
+    /// key in another table (and no item of a list is asked for).
     pub fn full_name(&self, key: &str) -> Option<String> {
         if key.contains('.') {
             return Some(key.into());
         }
-        // An item of a list is where the list is.
+        // An item of a list is in the table of the list.
         let (name, item) = key.split_at(key.find('[').unwrap_or(key.len()));
         let table = match name {
             "title" | "gravity" | "friction" => return Some(key.into()),
@@ -143,18 +145,18 @@ fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s
     Ok(())
 }
 
-/// A template whose ground motion is changed again and again: only that is read anew.
+/// A template whose ground motion is changed again and again: only the ground motion is read anew.
 pub(crate) struct Shaken<'t> {
     template: &'t Template,
     root: Table,
-    /// An amplitude that the table does not have yet, under its dotted name.
+    /// Amplitude of the last scene that `root` does not have yet, and its dotted key.
     amplitude: Option<(&'t str, &'t Setting)>,
-    /// Whether the end of the run is given, and does not follow from the ground motion.
+    /// Whether a key gives the end of the run. Otherwise the end follows from the ground motion.
     has_end: bool,
 }
 
 impl<'t> Shaken<'t> {
-    /// Goes to the ground motion with these keys, all of them under `excitation`, set to these values.
+    /// Sets these keys of the ground motion, all of them under `excitation`, to these values. No scene is made.
     ///
     /// # Errors
     /// As [`Template::with`].
@@ -163,7 +165,7 @@ impl<'t> Shaken<'t> {
             .map_err(|wrong| self.template.reader().error(wrong))
     }
 
-    /// Gives a scene of the template another ground motion: the present one but for these keys, which are set to these values.
+    /// Sets these keys of the present ground motion to these values, and gives the new ground motion to a scene of the template.
     ///
     /// # Errors
     /// As [`Template::with`].
@@ -179,13 +181,13 @@ impl<'t> Shaken<'t> {
         let reader = self.template.reader();
         scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
         if !self.has_end && !end_after_free_swing(scene) {
-            // Read as a whole, the scene is refused with its remedy.
+            // Reading the whole scene gives the error, with its remedy.
             return reader.read(self.root.clone()).map(|_| ());
         }
         scene.check().map_err(|errors| reader.refused(&self.root, &errors.faults()[0]))
     }
 
-    /// The same where an amplitude is all that changes: nothing is read. `false` if it is not, or not a valid one.
+    /// As [`Shaken::set`], for a single amplitude and without reading anything. `false` if any other key changes, or if the amplitude is not valid.
     fn set_amplitude(&mut self, scene: &mut Scene, settings: impl IntoIterator<Item = (&'t str, &'t Setting)>) -> bool {
         let mut settings = settings.into_iter();
         let (Some((key, setting)), None) = (settings.next(), settings.next()) else { return false };

@@ -16,21 +16,21 @@ use crate::sweep::file::range;
 use rocking_ground::{Direction, Synthetic, TextOptions};
 use std::path::{Path, PathBuf};
 
-/// A study of a file, and what is concluded from it.
+/// A study read from a file, with the settings of its fragility.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct IdaFile {
     /// The study.
     pub ida: Ida,
-    /// Limit states of its fragility.
+    /// Limit states of the fragility.
     pub states: Vec<LimitState>,
-    /// Options of its fragility.
+    /// Options of the fragility.
     pub options: FragilityOptions,
-    /// The files that it is made of, its own first.
+    /// Input files: the study file, the scene file if the study names one, then the files of records.
     pub inputs: Vec<PathBuf>,
 }
 
-/// Limit states where a study names none.
+/// Limit states of a study that names none.
 const DEFAULT_STATES: [LimitState; 4] = [
     LimitState::Uplift,
     LimitState::Peak { block: None, above: 0.15 },
@@ -38,7 +38,7 @@ const DEFAULT_STATES: [LimitState; 4] = [
     LimitState::Overturned,
 ];
 
-/// Replicates beyond which a number is taken for a mistake.
+/// Largest number of replicates; a larger one is taken for a mistake.
 const MOST_REPLICATES: u64 = 1_000_000;
 
 impl IdaFile {
@@ -191,16 +191,16 @@ fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
     seeds.into_iter().map(record).collect()
 }
 
-/// Components of a folder that are asked for.
+/// Components that a study takes from the records of a folder.
 struct Wanted<'t> {
-    /// `horizontal` for all of them, `vertical`, a name: the end of a file's name, or that in the file; or `H1` or `H2`, the horizontal ones by
-    /// the order of their files' names.
+    /// `horizontal` or `vertical` for all components of that direction, or the name of a component, from the end of its file's name or from the file.
+    /// `H1` and `H2`, where no component has that name, are the first and the second horizontal component in the order of file names.
     component: &'t str,
     with_vertical: bool,
 }
 
 impl Wanted<'_> {
-    /// Those of a record that are taken.
+    /// Components of one record that the study takes.
     fn of<'c>(&self, components: &'c [Component]) -> Vec<&'c Component> {
         let along = |direction: Direction| components.iter().filter(move |own| own.direction == direction);
         match self.component {

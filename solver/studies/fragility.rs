@@ -1,7 +1,7 @@
 //! Fragility: the probability of a limit state given the intensity of the ground motion.
 //!
-//! The lognormal curve is that of the greatest likelihood ([`super::probit`]). Its bands come from resampling the records with replacement: the runs of
-//! one record hang together, and stay together. Nothing is fitted where data do not determine a curve, and the report says why.
+//! The lognormal curve is that of the greatest likelihood ([`super::probit`]). Its bands come from resampling records with replacement: the runs of
+//! one record are correlated, and stay together. Where the data do not determine a curve, none is fitted, and the report says why.
 
 use super::observation::{LimitState, Observation};
 use super::probit::{Maximum, Probit, Trial, fit};
@@ -32,7 +32,7 @@ pub struct FragilityOptions {
     pub confidence: f64,
     /// Seed of the resampling; default 0.
     pub seed: u64,
-    /// How levels are shared; as the data have it unless given.
+    /// How levels are shared; `None` to derive it from the numbers of runs and levels.
     pub layout: Option<Layout>,
 }
 
@@ -45,11 +45,11 @@ impl Default for FragilityOptions {
 /// Runs at one level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Count {
-    /// In the unit of the measure.
+    /// Level of the runs, in the unit of the measure.
     pub level: f64,
     /// Runs with an answer.
     pub runs: usize,
-    /// Those of them that reached the state.
+    /// Number of these runs that reached the state.
     pub reached: usize,
     /// Runs without an answer; they are not among `runs`.
     pub undecided: usize,
@@ -78,27 +78,27 @@ pub enum Fit {
     },
     /// There is no run with an answer.
     NoRuns,
-    /// All runs are of one record: they say nothing of others.
+    /// All runs are of one record, which says nothing of others. [`Fit::NoRuns`], [`Fit::Never`] and [`Fit::Always`] take precedence.
     OneRecord,
     /// No run reached the state.
     Never {
-        /// The highest level.
+        /// Highest level of a run with an answer.
         up_to: f64,
     },
     /// All runs reached the state.
     Always {
-        /// The lowest level.
+        /// Lowest level of a run with an answer.
         from: f64,
     },
-    /// No run above `always_from` is without the state and none below `never_to` with it: the median lies between or at them, and a dispersion cannot be
-    /// told from zero.
+    /// No run below `always_from` reached the state, and every run above `never_to` did. The median lies between these levels or at one of them; the
+    /// dispersion cannot be distinguished from zero.
     Step {
         /// Highest level of a run without the state.
         never_to: f64,
-        /// Lowest level of a run with it.
+        /// Lowest level of a run with the state.
         always_from: f64,
     },
-    /// The share of runs that reach the state falls with the level: no lognormal curve does.
+    /// The share of runs that reach the state falls with the level, which no lognormal curve does.
     Falling,
 }
 
@@ -106,21 +106,21 @@ pub enum Fit {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Bands {
-    /// Share of the replicates within.
+    /// Share of the replicates within the bands.
     pub confidence: f64,
-    /// Replicates.
+    /// Number of replicates.
     pub replicates: usize,
-    /// Replicates with a rising lognormal curve, of which the bands are made.
+    /// Number of replicates with a rising lognormal curve; the bands are made of these.
     pub fitted: usize,
-    /// Of the median; `None` where fewer than nine tenths of the replicates have a curve.
+    /// Band of the median; `None` if fewer than nine tenths of the replicates have a curve.
     pub median: Option<[f64; 2]>,
-    /// Of the dispersion.
+    /// Band of the dispersion; `None` if there is none of the median.
     pub dispersion: Option<[f64; 2]>,
-    /// Of the probability at each level of [`Fragility::counts`].
+    /// Bands of the probability at the levels of [`Fragility::counts`]; empty if there is no band of the median.
     pub at_counts: Vec<[f64; 2]>,
-    /// Of the probability at each level of [`Bands::levels`].
+    /// Bands of the probability at the levels of [`Bands::levels`].
     pub probability: Vec<[f64; 2]>,
-    /// Levels, in geometric progression over those of the data; empty where there are no bands.
+    /// Levels in geometric progression from the lowest to the highest of the data; empty if there is no band of the median.
     pub levels: Vec<f64>,
 }
 
@@ -132,8 +132,8 @@ pub struct Goodness {
     pub chi_squared: f64,
     /// Stripes or groups less the two parameters.
     pub degrees_of_freedom: usize,
-    /// Probability of a larger value if the curve were true and all runs independent, which runs of one record are not; `None` without a degree of
-    /// freedom.
+    /// Probability of a larger `chi_squared` if the curve were true and all runs were independent, which runs of one record are not.
+    /// `None` without a degree of freedom.
     pub p_value: Option<f64>,
     /// McFadden's `1 - ln L / ln L₀`, `L₀` the likelihood of a constant share.
     pub pseudo_r2: f64,
@@ -154,11 +154,11 @@ pub struct Fragility {
     pub counts: Vec<Count>,
     /// The curve.
     pub fit: Fit,
-    /// Its goodness; of a curve only.
+    /// Goodness of the curve; `None` without a curve.
     pub goodness: Option<Goodness>,
-    /// Its bands; of a curve only, where replicates are asked for.
+    /// Bands of the curve; `None` without a curve or if no replicates are asked for.
     pub bands: Option<Bands>,
-    /// Neighbouring levels over which the share of runs with the state falls; of stripes only.
+    /// Pairs of neighbouring levels between which the share of runs with the state falls; empty for a cloud.
     pub falls: Vec<[f64; 2]>,
     /// Records that reach the state at a level and do not at a higher one.
     pub resurrections: Vec<String>,
@@ -168,21 +168,22 @@ fn as_text<S: serde::Serializer>(state: &LimitState, serializer: S) -> Result<S:
     serializer.collect_str(state)
 }
 
-/// Records below which bands are told to be too narrow: with twenty, bands of 90 % hold the true median in 87 % and the dispersion in 78 % of cases, with
-/// ten in 84 % and 65 %, with six in 73 % and 52 % (`tests/fragility.rs`).
+/// Number of records below which the report calls the bands too narrow. Bands of 90 % contain the true median in 87 % and the true dispersion in 78 %
+/// of cases with twenty records, in 84 % and 65 % with ten, in 73 % and 52 % with six (`tests/fragility.rs`).
 const FEW_RECORDS: usize = 20;
 
-/// Share of replicates that must have a curve for bands.
+/// Smallest share of replicates with a curve for which bands are given.
 const LEAST_FITTED: f64 = 0.9;
 
-/// Levels of the bands.
+/// Number of levels in [`Bands::levels`].
 const BAND_LEVELS: usize = 61;
 
-/// Groups of a cloud for its goodness at most, and runs in each at least.
+/// Largest number of groups into which the runs of a cloud are divided for the goodness of fit.
 const MOST_GROUPS: usize = 10;
+/// Smallest average number of runs in such a group, unless there is a single group.
 const LEAST_IN_GROUP: usize = 5;
 
-/// Runs per level from which levels are those of stripes.
+/// Smallest average number of runs per level at which the layout is [`Layout::Stripes`] unless given.
 const RUNS_OF_STRIPE: usize = 2;
 
 impl Fragility {
@@ -258,8 +259,8 @@ impl Fragility {
         }
     }
 
-    /// What is to be known of the state, a sentence each, numbers in the unit of the measure: the curve or why there is none, its bands, its goodness,
-    /// whether it is monotonic, undecided runs.
+    /// Findings in words, one sentence each, with numbers in the unit of the measure: the curve or why there is none, extrapolation, bands,
+    /// few records, goodness of fit, shares that are not monotonic, undecided runs.
     pub fn statements(&self) -> Vec<String> {
         let mut told = vec![self.fit_in_words()];
         told.extend(self.extrapolation());
@@ -321,7 +322,7 @@ impl Fragility {
         told
     }
 
-    /// The warning of a median beyond the levels that were run.
+    /// Warning that the median lies beyond the levels of the runs; `None` if it does not, or without a curve.
     fn extrapolation(&self) -> Option<String> {
         let Fit::Lognormal { median, .. } = self.fit else { return None };
         let levels = || self.counts.iter().filter(|count| count.runs > 0).map(|count| count.level);
@@ -361,17 +362,17 @@ impl Fragility {
     }
 }
 
-/// Names told in a sentence.
+/// Largest number of names listed in a sentence.
 const MOST_NAMES: usize = 5;
 
-/// The first of a list in words, and how many more there are.
+/// The first names of a list, joined by commas, and the number of those left out.
 fn some_of(mut names: Vec<String>) -> String {
     let more = names.len().saturating_sub(MOST_NAMES);
     names.truncate(MOST_NAMES);
     names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
 
-/// A number in a sentence: four digits, or three behind the point of a small one.
+/// A number for a sentence: four significant digits without trailing zeros, whole parts in full; with an exponent, two digits (below 1e-3, from 1e5).
 fn brief(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || (1e-3..1e5).contains(&size) {
@@ -440,7 +441,7 @@ impl Table {
     }
 
     fn bands(&self, options: &FragilityOptions) -> Bands {
-        // Runs and states of each record, by level.
+        // For each record, the level of each decided run, and 1 if the run reached the state, otherwise 0.
         let mut own: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.records.len()];
         for (record, level, reached) in &self.runs {
             if let Some(reached) = reached {
@@ -449,7 +450,7 @@ impl Table {
         }
         let replicate = |number: usize| {
             let mut generator = Pcg64Mcg::new((u128::from(options.seed) << 64) | (number as u128 + 1));
-            // Neighbouring seeds begin alike.
+            // The first numbers from neighbouring seeds are alike, and are skipped.
             (0..8).for_each(|_| {
                 generator.next_u64();
             });
@@ -534,7 +535,7 @@ fn goodness(counts: &[Count], curve: &Probit, layout: Layout) -> Goodness {
         Layout::Stripes => cells.len(),
         Layout::Cloud => (total as usize / LEAST_IN_GROUP).clamp(1, MOST_GROUPS).min(cells.len()),
     };
-    // Groups of equally many cells, from the lowest level up: runs, states, expected states.
+    // Groups of equally many levels, from the lowest up: runs, runs with the state, expected runs with the state.
     let mut sums = vec![[0.0; 3]; groups];
     for (place, [runs, reached, probability]) in cells.iter().enumerate() {
         let sum = &mut sums[place * groups / cells.len()];
@@ -542,7 +543,7 @@ fn goodness(counts: &[Count], curve: &Probit, layout: Layout) -> Goodness {
     }
     let term = |[runs, reached, expected]: &[f64; 3]| {
         let variance = expected * (1.0 - expected / runs);
-        // Where the curve is certain and the runs agree, there is nothing to add.
+        // A group in which the curve is certain adds nothing.
         if variance > 0.0 { (reached - expected).powi(2) / variance } else { 0.0 }
     };
     let chi_squared = sums.iter().map(term).sum();
@@ -588,7 +589,7 @@ mod tests {
         assert_eq!(overturning(&all(|_, level| level > 0.5, 3)).fit, Fit::Step { never_to: 0.4, always_from: 0.8 });
         assert_eq!(overturning(&all(|_, level| level > 0.5, 1)).fit, Fit::OneRecord);
         assert_eq!(overturning(&all(|_, _| false, 1)).fit, Fit::Never { up_to: 1.6 });
-        // One of six records at 0.8 and two at 1.6: the curve comes to one half beyond.
+        // One of six records overturns at 0.8 and two at 1.6: the curve reaches one half beyond these levels.
         let rare = overturning(&all(|record, level| level > 0.8 && record < 2 || level > 0.5 && record == 0, 6));
         let told = rare.statements();
         assert!(
@@ -602,11 +603,11 @@ mod tests {
             all(|_, _| false, 2).into_iter().map(|run| Observation { fate: Some(Fate::Undetermined), ..run }).collect();
         let found = overturning(&undecided);
         assert_eq!((found.fit, found.undecided()), (Fit::NoRuns, 8));
-        // No number of a statement without a curve.
+        // Without a curve there are no bands, no goodness and no probability.
         assert!(found.bands.is_none() && found.goodness.is_none() && found.probability(1.0).is_none());
     }
 
-    /// Resampling whole records: with two kinds of records the replicates are a binomial choice of them.
+    /// Twelve records, each overturning above a level of its own. The bands hold the curve; they depend on the seed, not on the order of the runs.
     #[test]
     fn bands_hold_the_fit_and_depend_on_the_seed_alone() {
         let lost = |record: usize, level: f64| level > 0.3 + 0.1 * record as f64;

@@ -1,7 +1,7 @@
 //! The largest gap of a run: `2 c_i sin |φ_i|`, by which an edge of an interface rises off the face below.
 //!
-//! Either the run has recorded its largest relative angles, or it has rows. Between output times and events the angles are cubics through angles and rates at both ends (Hermite), whose extremes are found exactly. At an
-//! event the rates before and after differ.
+//! A run either has recorded its largest relative angles, or it has rows. Between rows and events each angle is then a cubic (Hermite) through
+//! the angles and rates at both ends, whose extremes are found exactly. At an event the rates before and after it differ.
 
 use crate::column::Column;
 use crate::response::Response;
@@ -10,7 +10,7 @@ use crate::response::Response;
 struct Knot<'r> {
     t: f64,
     theta: &'r [f64],
-    /// Rates before and after.
+    /// Rates just before and just after `t`; they differ at events only.
     omega: [&'r [f64]; 2],
 }
 
@@ -46,14 +46,14 @@ pub(super) fn largest_gap(column: &Column, response: &Response) -> f64 {
     largest
 }
 
-/// Largest size of the cubic from `start` to `end` over the unit interval with these slopes at its ends.
+/// Largest magnitude, on the unit interval, of the cubic that goes from `start` to `end` with the slopes `first` and `last`.
 fn peak(start: f64, end: f64, [first, last]: [f64; 2]) -> f64 {
     // c(s) = start + first s + b s² + a s³.
     let rise = end - start;
     let (b, a) = (3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise);
     let root = (b * b - 3.0 * a * first).sqrt();
     let q = -(b + root.copysign(b));
-    // Roots of 3 a s² + 2 b s + first, without cancellation; not a number where there are none.
+    // Roots of c'(s) = 3 a s² + 2 b s + first, without cancellation; NaN if there are none.
     let turns = [q / (3.0 * a), first / q];
     let inside = turns.into_iter().filter(|s| *s > 0.0 && *s < 1.0);
     inside.map(|s| (start + s * (first + s * (b + s * a))).abs()).fold(start.abs().max(end.abs()), f64::max)
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!((peak(0.3, 0.3, [0.0; 2]), peak(0.1, -0.4, [-0.5; 2])), (0.3, 0.4));
     }
 
-    /// A block that is let go has its largest gap at once: 2 b sin θ₀; one that is pushed has the peak that the run records.
+    /// A block released at rest has its largest gap at the start, `2 b sin θ₀`. A block that is pushed has it at the peak angle of the run.
     #[test]
     fn the_gap_of_one_block_is_that_of_its_largest_angle() {
         let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid"));
@@ -87,7 +87,7 @@ mod tests {
         assert!((largest_gap(&scene.column, &response) / exact - 1.0).abs() < 1e-8, "{}", response.peak_theta[0]);
     }
 
-    /// Under records, with all kinds of stretches and gaps that open above others.
+    /// One block and three under a record, so that stretches of all kinds occur and interfaces open above open ones.
     #[test]
     fn recorded_gaps_are_those_of_the_rows() {
         for blocks in [1, 3] {
@@ -99,7 +99,7 @@ mod tests {
             let rows = simulate(&Scene { output_dt: Some(0.005), ..scene.clone() }).expect("runs");
             assert!(recorded.samples.is_empty() && rows.largest_gaps.is_empty() && rows.impacts > 5);
             let [own, of_rows] = [&recorded, &rows].map(|response| largest_gap(&scene.column, response));
-            // Cubics through rows err by 1e-6 of what bends in between; events are the same.
+            // Cubics between rows have a relative error of about 1e-6; the events of both runs are the same.
             assert!(own > 1e-3 && (own / of_rows - 1.0).abs() < 1e-5, "{blocks} blocks: {own} {of_rows}");
         }
     }

@@ -1,9 +1,9 @@
-//! Incremental dynamic analysis: records times levels of an intensity measure, a run each. Vamvatsikos and Cornell (2002), Earthq. Eng. Struct. Dyn.
-//! 31, 491-514.
+//! Incremental dynamic analysis: one run for each record at each level of an intensity measure. Vamvatsikos and Cornell (2002),
+//! Earthq. Eng. Struct. Dyn. 31, 491-514.
 //!
-//! The study is data: the run of any index is found without the others, so that ranges of them can be run anywhere and always give the same rows.
-//! Record `k` has the runs `k L .. (k + 1) L`, `L` the number of levels. All components of a record are scaled by one factor, that which brings the
-//! horizontal one to the level.
+//! A study is data: each run follows from its index alone, so that a range of runs gives the same rows wherever and whenever it is run.
+//! Record `k` has the runs `k L .. (k + 1) L`, `L` the number of levels. One factor scales all components of a record: the factor that brings the
+//! horizontal component to the level.
 
 use super::gap::largest_gap;
 use super::observation::Observation;
@@ -23,9 +23,9 @@ use std::ops::Range;
 pub struct StudyRecord {
     /// Name, as in a table.
     pub name: String,
-    /// Along the ground.
+    /// Horizontal component.
     pub horizontal: Record,
-    /// Upwards; none for a study of horizontal motion.
+    /// Vertical component, upwards positive; `None` for a study of horizontal motion.
     pub vertical: Option<Record>,
 }
 
@@ -38,7 +38,7 @@ pub struct Ida {
     levels: Vec<f64>,
     free_swing: f64,
     is_followed: bool,
-    /// Factor of each record per unit of the level; its square for the Arias intensity.
+    /// Factor that scales each record to a level of one. For other levels it grows in proportion, for the Arias intensity with the square root.
     factors: Vec<f64>,
 }
 
@@ -52,18 +52,18 @@ pub enum IdaError {
     /// There is no level.
     #[error("the study has no level; give at least one")]
     NoLevels,
-    /// A level is out of range, or there twice.
+    /// A level is out of range, or given twice.
     #[error("level {level}: {problem}")]
     Level {
-        /// In the unit of the measure.
+        /// Level, in the unit of the measure.
         level: f64,
         /// What is wrong, and the remedy.
         problem: &'static str,
     },
-    /// A record has no size in the measure.
+    /// A record cannot be scaled to a size in the measure.
     #[error("record {name}: {error}")]
     Record {
-        /// Of the record.
+        /// Name of the record.
         name: String,
         /// Why it cannot be scaled.
         error: RecordError,
@@ -77,7 +77,7 @@ pub enum IdaError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The record cannot be scaled so far.
+    /// The scaled record has accelerations out of range.
     #[error(transparent)]
     Record(#[from] RecordError),
     /// The scene with the record is not valid.
@@ -94,7 +94,7 @@ pub enum RunError {
 pub struct IdaOutcome {
     /// What became of the column.
     pub fate: Fate,
-    /// Impacts up to overturning, or to the end.
+    /// Number of impacts up to overturning, to the end, or to `horizon`.
     pub impacts: usize,
     /// The block that overturned first, or lost its support, from 1.
     pub block: Option<usize>,
@@ -102,13 +102,14 @@ pub struct IdaOutcome {
     pub overturned_at: Option<f64>,
     /// Time at which an interface first opened `[s]`.
     pub first_uplift: Option<f64>,
-    /// Largest gap at an interface `[m]`: `2 c_i sin |φ_i|`, or that of a flight.
+    /// Largest gap at an interface `[m]`: `2 c_i sin |φ_i|`, or the greatest height of a flight.
     pub largest_gap: f64,
-    /// Largest angle of each block over the slenderness of the stack that begins with it, dimensionless.
+    /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, dimensionless.
     pub peaks: Vec<f64>,
     /// Slide of each interface at the end `[m]`; empty without friction.
     pub residual_slides: Vec<f64>,
-    /// Time up to which the angles are known, of a run whose verdict is not determined `[s]`: peaks and gap are those until then.
+    /// Time up to which the angles are known `[s]`, in a run whose verdict is not determined; otherwise `None`.
+    /// Impacts, first uplift, peaks, and the gap that follows from angles are those up to this time.
     pub horizon: Option<f64>,
 }
 
@@ -123,23 +124,25 @@ pub struct IdaRun {
     pub level: f64,
     /// Factor of the record, dimensionless.
     pub scale: f64,
-    /// What came of it.
+    /// Outcome of the run, or why there is none.
     pub result: Result<IdaOutcome, RunError>,
 }
 
-/// Runs that a thread takes at once.
+/// Smallest number of runs that a thread takes at once.
 const LEAST_RUNS: usize = 4;
 
-/// Interval between the angles that gaps are found from: at most so long `[s]`, at most this share of `1/p`, and not more rows than these.
+/// Longest interval between the rows from which gaps are computed `[s]`.
 const LONGEST_ROW_INTERVAL: f64 = 0.01;
+/// Longest interval between these rows, as a share of `1/p`, dimensionless.
 const ROW_INTERVAL_OF_P: f64 = 0.02;
+/// Largest number of these rows. In long runs it makes the interval longer than the two bounds above.
 const MOST_ROWS: f64 = 20_000.0;
 
-/// Time after a record where a study does not say `[s]`.
+/// Default time from the end of a record to the end of its run `[s]`.
 pub(super) const DEFAULT_FREE_SWING: f64 = 10.0;
 
 impl Ida {
-    /// A study of a scene, whose own ground motion and end are not used: a run lasts as long as its record and `free_swing` seconds more.
+    /// Study of a scene. The scene's own ground motion and end are not used: a run ends 10 s after its record ([`Ida::with_free_swing`]).
     ///
     /// ```
     /// use rocking::studies::{Ida, StudyRecord};
@@ -202,14 +205,14 @@ impl Ida {
         Ok(Ida { free_swing, ..self })
     }
 
-    /// The study with or without companions, which say of each run whether its verdict is determined ([`crate::trust`]); default with. They take ten
-    /// times as long as the runs.
+    /// The study with or without companion runs, which show whether the verdict of each run is determined ([`crate::trust`]). The default is with
+    /// companions, which take ten times as long as the runs themselves.
     #[must_use]
     pub fn followed(self, is_followed: bool) -> Ida {
         Ida { is_followed, ..self }
     }
 
-    /// Whether companions say of each run whether its verdict is determined.
+    /// Whether each run has companion runs ([`Ida::followed`]).
     pub fn is_followed(&self) -> bool {
         self.is_followed
     }
@@ -244,7 +247,7 @@ impl Ida {
         self.records.len() * self.levels.len()
     }
 
-    /// Whether there is no run: never of a study that [`Ida::new`] made.
+    /// Whether there is no run; always false, as [`Ida::new`] refuses a study without records or levels.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -278,26 +281,26 @@ impl Ida {
         scene.options.wanted = Wanted::Everything;
         scene.options.record_forces = false;
         let p = scene.column.stack(scene.column.len() - 1).frequency_parameter();
-        // A whole number of intervals between samples: the acceleration has its kinks at their ends.
+        // The interval between samples is a whole number of row intervals, so that every kink of the acceleration is at a row (but for `MOST_ROWS`).
         let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / p);
         let interval = horizontal.dt() / (horizontal.dt() / longest).ceil();
         scene.set_rows(Some(interval.max(scene.options.t_end / MOST_ROWS)));
         Ok(scene)
     }
 
-    /// Runs a range on all threads of the present rayon pool; in the order of their numbers.
+    /// Runs a range on all threads of the present rayon pool. The result is in the order of the indices.
     pub fn runs(&self, range: Range<usize>) -> Vec<IdaRun> {
         self.lines(range, |run| run)
     }
 
-    /// As [`Ida::runs`], with what `made` makes of each run on the thread that has run it.
+    /// As [`Ida::runs`], but returns `made(run)` for each run. The call is on the thread that made the run.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
         let simulator = || if self.needs_rows() { Simulator::new() } else { Simulator::recording_gaps() };
         indices.map_init(simulator, |simulator, index| made(self.run(simulator, index))).collect()
     }
 
-    /// Whether runs have rows: up to the horizon of one that is followed, of blocks that slide and fly, and of a column that begins open.
+    /// Whether runs need rows: with companions (peaks and gap up to the horizon come from rows), with friction, or with initial angles or rates.
     fn needs_rows(&self) -> bool {
         let initial = &self.scene.initial;
         self.is_followed || self.scene.friction.is_some() || !(initial.theta.is_empty() && initial.omega.is_empty())
@@ -314,7 +317,7 @@ impl Ida {
             let mut found = outcome(&scene, &response);
             if self.is_followed {
                 let trust = follow_run(&scene, &response, Follow::VERDICT)?;
-                // What the run itself says at its end is what it says: no motion follows from the laws of contact.
+                // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
                 if !trust.determined && found.fate != Fate::Undetermined {
                     found = open(&scene, response, trust.horizon);
                 }
@@ -324,7 +327,7 @@ impl Ida {
         IdaRun { index, record, level, scale, result: self.scene_of(index).and_then(run) }
     }
 
-    /// A run as an observation of stripes and fragility.
+    /// Observation of a run, for stripes and fragility.
     pub fn observation(&self, run: &IdaRun) -> Observation {
         let found = run.result.as_ref().ok();
         Observation {
@@ -354,7 +357,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
     }
 }
 
-/// What is known of a run whose verdict is not determined: that up to the horizon `[s]`.
+/// Outcome of a run whose verdict is not determined: what is known up to the horizon `[s]`.
 fn open(scene: &Scene, mut response: Response, horizon: f64) -> IdaOutcome {
     response.samples.retain(|row| row.t <= horizon);
     response.events.retain(|event| event.t <= horizon);

@@ -4,7 +4,7 @@ use crate::sweep::Fate;
 use std::fmt;
 use std::str::FromStr;
 
-/// A run at a level of intensity, as a table has it.
+/// Result of a run at a level of intensity, as in a row of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// Name of the record.
@@ -15,7 +15,7 @@ pub struct Observation {
     pub fate: Option<Fate>,
     /// Whether an interface opened.
     pub has_uplift: bool,
-    /// Largest angle of each block over its slenderness, base first, dimensionless.
+    /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, base first, dimensionless.
     pub peaks: Vec<f64>,
     /// Slide of each interface at the end, base first `[m]`; empty without friction.
     pub residual_slides: Vec<f64>,
@@ -32,7 +32,7 @@ impl Observation {
         !matches!(self.fate, None | Some(Fate::Undetermined | Fate::NotDetermined))
     }
 
-    /// Largest `|θ|/α` of all blocks, infinite where the column is lost; `None` for an undecided run.
+    /// Largest `|θ|/α` of all blocks; infinite for a lost column, `None` for an undecided run.
     pub fn demand(&self) -> Option<f64> {
         match self.is_decided() {
             false => None,
@@ -48,24 +48,25 @@ impl Observation {
 pub enum LimitState {
     /// An interface opens: `uplift`.
     Uplift,
-    /// `|θ|/α` of a block (from 1), or of any, is above a share: `peak > 0.35`, `peak_2 > 0.35`. A column that is lost is above all.
+    /// Largest `|θ|/α` of any block or of one block is above a limit: `peak > 0.35`, `peak_2 > 0.35`. A lost column is above every limit.
     Peak {
-        /// From 1; any where there is none.
+        /// Number of the block, from 1; `None` for any block.
         block: Option<usize>,
-        /// Dimensionless.
+        /// Limit, dimensionless.
         above: f64,
     },
     /// The column overturns or collapses: `overturned`.
     Overturned,
-    /// The size of a slide at the end is above a length: `slide > 0.05`. A column that is lost is above all.
+    /// Magnitude of some slide at the end is above a limit: `slide > 0.05`. A lost column is above every limit.
     Slide {
-        /// `[m]`
+        /// Limit `[m]`.
         above: f64,
     },
 }
 
 impl LimitState {
-    /// Whether a run reached the state; `None` for a run that cannot tell: a failed one, and an undecided one that had not reached it before.
+    /// Whether a run reached the state. `None` for a failed run, and for an undecided run that had not reached the state. `None` as well if the
+    /// column is not lost and the observation has no such block or no slides.
     pub fn is_reached(&self, run: &Observation) -> Option<bool> {
         let largest = |values: &[f64]| values.iter().map(|value| value.abs()).fold(0.0, f64::max);
         let reached = match *self {
@@ -84,7 +85,7 @@ impl LimitState {
                 run.is_lost() || run.is_decided() && largest(&run.residual_slides) > above
             }
         };
-        // What was reached before a run became undetermined, or lost what determines it, was reached.
+        // A state that an undecided run had reached counts as reached.
         (reached || run.is_decided()).then_some(reached).filter(|_| run.fate.is_some())
     }
 }

@@ -5,10 +5,10 @@
 //! ln L = Σ k ln Φ(z) + (n - k) ln Φ(-z)                  z = a + b ln x
 //! ```
 //!
-//! With `n` runs per stripe this is the fit of Baker (2015), Earthquake Spectra 31, 579-599, eq. 11; with `n = 1` the probit regression of cloud data,
-//! where a lost column counts as having reached the state, however far it fell. `ln L` is concave in `a` and `b`, so that Newton's method finds its
-//! only maximum. It has one if and only if runs that reached the state and runs that did not overlap along `x` (Albert and Anderson 1984,
-//! Biometrika 71, 1-10).
+//! At a level `x`, `k` of `n` runs reached the state. With `n` runs per stripe this is the fit of Baker (2015), Earthquake Spectra 31, 579-599,
+//! eq. 11. With `n = 1` it is the probit regression of cloud data, where a lost column counts as having reached the state, however far it fell.
+//! `ln L` is concave in `a` and `b`, so that Newton's method finds its only maximum. The maximum exists if and only if the levels of runs that
+//! reached the state and those of runs that did not overlap (Albert and Anderson 1984, Biometrika 71, 1-10).
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -19,7 +19,7 @@ pub struct Trial {
     pub level: f64,
     /// Runs with an answer.
     pub runs: f64,
-    /// Those of them that reached the state.
+    /// Number of these runs that reached the state.
     pub reached: f64,
 }
 
@@ -29,18 +29,18 @@ pub struct Trial {
 pub enum Maximum {
     /// The curve of the greatest likelihood; its slope may be below zero.
     Curve(Probit),
-    /// No run reached the state, or there is none.
+    /// No run reached the state, or there is no run.
     Never,
-    /// All runs reached it.
+    /// All runs reached the state.
     Always,
-    /// A step fits as well as any curve: no run above `always_from` is without the state, and none below `never_to` with it.
+    /// A rising step fits at least as well as any curve: no run below `always_from` reached the state, and every run above `never_to` did.
     Step {
         /// The highest level of a run that did not reach the state.
         never_to: f64,
-        /// The lowest level of a run that did; not below `never_to`.
+        /// The lowest level of a run that reached the state; at least `never_to`.
         always_from: f64,
     },
-    /// The same with the state below and not above.
+    /// A falling step fits at least as well as any curve: runs reached the state at low levels only.
     Reversed,
 }
 
@@ -72,10 +72,10 @@ impl Probit {
     }
 }
 
-/// Steps of Newton's method at most: a handful is usual, as the likelihood is concave.
+/// Largest number of steps of Newton's method; a handful is usual, as `ln L` is concave.
 const MOST_STEPS: usize = 200;
 
-/// Change of `ln L` below which it is at its maximum, relative to its size.
+/// Newton's method ends when a step raises `ln L` by no more than this share of its magnitude.
 const SMALLEST_GAIN: f64 = 1e-15;
 
 /// The curve of the greatest likelihood.
@@ -110,7 +110,7 @@ pub fn fit(trials: &[Trial]) -> Maximum {
     Maximum::Curve(climb(trials))
 }
 
-/// Newton's method from the flat line, on standardised levels.
+/// Newton's method from `a = b = 0`, on standardised logarithms of the levels.
 fn climb(trials: &[Trial]) -> Probit {
     let total: f64 = trials.iter().map(|trial| trial.runs).sum();
     let mean_of =
@@ -141,7 +141,7 @@ fn climb(trials: &[Trial]) -> Probit {
             (curvature[2] * gradient[0] - curvature[1] * gradient[1]) / determinant,
             (curvature[0] * gradient[1] - curvature[1] * gradient[0]) / determinant,
         ];
-        // Halved until it climbs.
+        // The step is halved until `ln L` does not fall.
         let tried = (0..60).map(|halvings| 0.5_f64.powi(halvings)).map(|share| {
             let tried = [place[0] + share * step[0], place[1] + share * step[1]];
             (value(tried), tried)
@@ -157,7 +157,7 @@ fn climb(trials: &[Trial]) -> Probit {
     Probit { intercept: place[0] - slope * mean, slope, log_likelihood: best }
 }
 
-/// `k ln Φ(z)`; zero for no run, however unlikely.
+/// `k ln Φ(z)`; zero for `k = 0`, whatever `Φ(z)` is.
 fn weighted(count: f64, z: f64) -> f64 {
     if count > 0.0 { count * log_normal(z) } else { 0.0 }
 }
@@ -167,10 +167,10 @@ pub fn normal(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
-/// Below this `z` the ratio of density and distribution is a continued fraction: `erfc` would lose digits, and then all.
+/// From this `z` down, `φ(z) / Φ(z)` is a continued fraction: `erfc` would lose digits there, and vanish further out.
 const FAR_TAIL: f64 = -5.0;
 
-/// Terms of the continued fraction: at `FAR_TAIL` its error is below rounding with 40.
+/// Number of terms of the continued fraction. At `FAR_TAIL`, 40 terms already bring its error below rounding.
 const TERMS: usize = 60;
 
 /// `φ(z) / Φ(z)`.
@@ -208,7 +208,7 @@ mod tests {
         assert!((mills(near) / mills(far) - 1.0).abs() < 1e-8);
     }
 
-    /// Counts that are the curve's own shares, of very many runs, give the curve back.
+    /// A fit to the exact shares of a curve returns the curve.
     #[test]
     fn a_curve_is_found_from_its_own_shares() {
         for (median, dispersion) in [(0.8, 0.4), (3e-3, 0.15), (250.0, 1.2)] {
@@ -239,12 +239,12 @@ mod tests {
         assert_eq!(fit(&trials(&[0.0, 0.0])), Maximum::Never);
         assert_eq!(fit(&trials(&[4.0, 4.0])), Maximum::Always);
         assert_eq!(fit(&trials(&[0.0, 4.0])), Maximum::Step { never_to: 1.0, always_from: 2.0 });
-        // One mixed level is a step at it.
+        // If a single level has runs with and without the state, the step is at that level.
         assert_eq!(fit(&trials(&[0.0, 3.0, 4.0])), Maximum::Step { never_to: 2.0, always_from: 2.0 });
         assert_eq!(fit(&trials(&[4.0, 0.0])), Maximum::Reversed);
         assert!(matches!(fit(&trials(&[0.0, 1.0, 3.0, 4.0])), Maximum::Curve(curve) if curve.slope > 0.0));
         assert!(matches!(fit(&trials(&[4.0, 3.0, 1.0, 0.0])), Maximum::Curve(curve) if curve.slope < 0.0));
-        // One level with both is no curve either.
+        // A single level determines no curve.
         assert_eq!(fit(&trials(&[2.0])), Maximum::Step { never_to: 1.0, always_from: 1.0 });
     }
 }

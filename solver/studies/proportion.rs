@@ -18,9 +18,9 @@ pub struct Proportion {
 }
 
 impl Proportion {
-    /// With the interval of Clopper & Pearson (1934), Biometrika 26: it holds the probability at least as often as its confidence says, whatever the
-    /// probability is, where runs are independent. Samples of Latin hypercubes and Sobol sequences spread less than independent ones, mostly, and the interval
-    /// is then wider than it need be.
+    /// Estimate with the interval of Clopper & Pearson (1934), Biometrika 26. For independent runs the interval contains the true probability
+    /// with at least the given confidence, whatever that probability is. Latin hypercubes and Sobol sequences mostly spread less than
+    /// independent samples; the interval is then wider than necessary.
     ///
     /// ```
     /// use rocking::studies::Proportion;
@@ -49,7 +49,7 @@ impl Proportion {
 mod tests {
     use super::*;
 
-    /// 95 % intervals of R's `binom.test`: 2 of 10, 10 of 10, 34 of 1000.
+    /// 95 % intervals: 2 of 10 and 10 of 10 from R's `binom.test`, and the whole range without a run.
     #[test]
     fn intervals_are_those_of_other_programs() {
         for (reached, runs, [low, high]) in
@@ -60,7 +60,7 @@ mod tests {
         }
     }
 
-    /// The ends are those at which the tails of the binomial distribution have the share that is left out.
+    /// At each end of the interval, one tail of the binomial distribution has half of the share that the confidence leaves out.
     #[test]
     fn tails_of_the_binomial_distribution_have_the_share_left_out() {
         let (reached, runs) = (34u32, 1000u32);

@@ -3,21 +3,21 @@
 use super::observation::Observation;
 use crate::sweep::Fate;
 
-/// Shares of records of the fractiles: mean less and plus a standard deviation of a normal variable, and the median between them.
+/// Shares that define the fractiles: of a normal variable, the mean less one standard deviation, the median, and the mean plus one.
 pub const FRACTILES: [f64; 3] = [0.16, 0.5, 0.84];
 
 /// All runs at a level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stripe {
-    /// In the unit of the measure.
+    /// Level of the runs, in the unit of the measure.
     pub level: f64,
     /// Number of runs.
     pub runs: usize,
-    /// Runs by what became of the column, in the order of [`Fate::ALL`].
+    /// Number of runs with each fate, in the order of [`Fate::ALL`].
     pub fates: [usize; Fate::ALL.len()],
     /// Runs that failed.
     pub errors: usize,
-    /// [`FRACTILES`] of the largest `|θ|/α` of the decided runs, infinite where the column is lost; `None` without a decided run.
+    /// [`FRACTILES`] of the largest `|θ|/α` of the decided runs; a lost column counts as infinite. `None` without a decided run.
     pub fractiles: Option<[f64; 3]>,
 }
 
@@ -48,8 +48,8 @@ pub fn stripes(runs: &[Observation]) -> Vec<Stripe> {
     sorted.chunk_by(|a, b| a.level == b.level).map(stripe).collect()
 }
 
-/// The smallest of the values that a share of them does not exceed: the inverse of their empirical distribution, which needs no mean of finite and
-/// infinite values. `NaN` without values.
+/// Smallest of the values such that at least `share` of all values do not exceed it: the inverse of the empirical distribution.
+/// Nothing is interpolated, so that values may be infinite. `NaN` without values.
 ///
 /// ```
 /// use rocking::studies::fractile;

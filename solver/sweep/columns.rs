@@ -1,6 +1,6 @@
 //! Columns of the table of a sweep: one list for all programs that write it.
 //!
-//! Order, contents and headings stand here; how a cell is written is the writer's.
+//! Order, contents and headings are defined here; each writer formats its cells itself.
 
 use super::points::{Ask, Sweep};
 use crate::scene_file::{MOST_BLOCKS, SceneFileError};
@@ -10,11 +10,11 @@ use crate::scene_file::{MOST_BLOCKS, SceneFileError};
 pub enum Field {
     /// Index of the point.
     Index,
-    /// Value on the axis of this place.
+    /// Value of the axis with this index.
     Axis(usize),
     /// What became of the column, or "error".
     Outcome,
-    /// Number of impacts, where the run had all of them.
+    /// Number of impacts, unless the run may have ended before some of them.
     Impacts,
     /// Number of the block that overturned first, from 1.
     Block,
@@ -26,7 +26,7 @@ pub enum Field {
     LastMode,
     /// Slide of an interface at the end `[m]`.
     ResidualSlide(usize),
-    /// Whether the contacts can do what the run asks of them.
+    /// Whether no contact parts or pulls, and some coefficient of friction is enough.
     Valid,
     /// Largest friction demand, dimensionless.
     MuDemand,
@@ -36,7 +36,7 @@ pub enum Field {
     Separations,
     /// Whether the verdict is determined.
     Trust,
-    /// Whether the ground still moves at the end of the run.
+    /// Whether the ground still moves at the end of a run in which the column neither overturns nor collapses.
     Truncated,
     /// Why the scene failed.
     Error,
@@ -47,7 +47,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// If the base scene, whose blocks are counted for the columns of peaks, is refused.
+    /// If the base scene is refused. It is read only for columns of peaks, which need its number of blocks.
     pub fn fields(&self) -> Result<Vec<Field>, SceneFileError> {
         let mut fields = vec![Field::Index];
         fields.extend((0..self.axes.len()).map(Field::Axis));
@@ -96,7 +96,7 @@ impl Sweep {
         word.into()
     }
 
-    /// Blocks of the largest column, as far as axes are within the limits of a scene: larger numbers are rows with errors.
+    /// Number of blocks of the largest column. Numbers above [`MOST_BLOCKS`] are left out: their rows are errors.
     fn most_blocks(&self) -> Result<usize, SceneFileError> {
         let base = self.template.with(std::iter::empty())?;
         let counts = self.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);

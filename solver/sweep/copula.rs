@@ -1,7 +1,7 @@
 //! Correlated coordinates: a Gaussian copula. Nataf (1962); Liu & Der Kiureghian (1986), Probab. Eng. Mech. 1.
 //!
-//! Independent coordinates become independent normal scores `z = Φ⁻¹(u)`, these correlated ones `L z` with `L Lᵀ` the matrix of correlations, and these
-//! coordinates again. The correlation is that of the scores: that of the values of normal axes, and of the logarithms of lognormal ones.
+//! Independent coordinates `u` become normal scores `z = Φ⁻¹(u)`, then correlated scores `L z` with `L Lᵀ` the matrix of correlations, then
+//! coordinates `Φ(L z)`. Correlations are those of the scores: without bounds, those of normal values and of the logarithms of lognormal values.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -9,11 +9,11 @@ use statrs::distribution::{ContinuousCDF, Normal};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Copula(Vec<Vec<f64>>);
 
-/// Least square of a diagonal entry of `L`: below, an axis follows from others.
+/// Smallest square of a diagonal entry of `L`. Below it, the axis is determined by the axes before it.
 const LEAST_PIVOT: f64 = 1e-12;
 
 impl Copula {
-    /// Of so many axes with these correlations between pairs of them; `None` where no variables have such correlations together.
+    /// Copula of `axes` axes; each pair is two axes and their correlation. `None` if the matrix of correlations is not positive definite.
     pub fn new(axes: usize, pairs: &[(usize, usize, f64)]) -> Option<Copula> {
         let mut matrix = vec![vec![0.0; axes]; axes];
         (0..axes).for_each(|axis| matrix[axis][axis] = 1.0);
@@ -38,12 +38,12 @@ impl Copula {
         Some(Copula(factor))
     }
 
-    /// Coordinates with the correlations, of independent ones; all above zero and below one.
+    /// Correlated coordinates from the independent coordinates `units`; all are above zero and below one.
     pub fn correlated(&self, units: &[f64]) -> Vec<f64> {
         let normal = Normal::standard();
         let scores: Vec<f64> = units.iter().map(|unit| normal.inverse_cdf(*unit)).collect();
         let correlated = |(row, unit): (&Vec<f64>, &f64)| match row.split_last() {
-            // An axis that hangs on no other keeps its coordinate to the last bit.
+            // An axis without correlation to the axes before it keeps its coordinate to the last bit.
             Some((_, others)) if others.iter().all(|entry| *entry == 0.0) => *unit,
             _ => {
                 let score: f64 = row.iter().zip(&scores).map(|(entry, score)| entry * score).sum();

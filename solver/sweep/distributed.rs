@@ -7,7 +7,7 @@ use super::sampling::{LONGEST_SOBOL, MOST_DIMENSIONS, Sampling, SamplingMethod};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{Setting, Template};
 
-/// Samples beyond which a number is taken for a mistake: the values are kept.
+/// Largest number of samples; a larger one is taken for a mistake, as all values are kept in memory.
 const MOST_SAMPLES: u64 = 10_000_000;
 
 /// Samples and correlations, as a file has them.
@@ -25,7 +25,7 @@ struct Correlation {
     value: f64,
 }
 
-/// An axis, its place, and the distribution that it is drawn from.
+/// An axis, its place in the file, and the distribution of its values; `None` for an axis whose values are given.
 pub(super) type Placed = (Axis, Place, Option<Distribution>);
 
 /// `[sampling]`: how many samples, by which method, from which seed.
@@ -90,7 +90,7 @@ fn copula(
         if a == b || pairs.iter().any(|(x, y, _)| (*x, *y) == (a, b)) {
             return Err(wrong("the pair is one axis, or given twice".into(), "give each pair of two axes once"));
         }
-        // Names of values have no order that could be correlated.
+        // Values that are names have no order, and so no correlation.
         let is_named = |axis: usize| distributed[axis].0.values.iter().any(|value| matches!(value, Setting::Text(_)));
         if is_named(a) || is_named(b) {
             return Err(wrong("an axis of names has no correlation".into(), "remove it"));
@@ -105,7 +105,7 @@ fn copula(
     found.map(Some).ok_or_else(|| root.wrong("sampling", problem(), "bring some of the correlations closer to zero"))
 }
 
-/// Draws the values of distributed axes, and puts these behind the others.
+/// Draws the values of distributed axes, moves these axes behind the others, and returns how the axes combine.
 pub(super) fn sample(
     root: &Table,
     combine: Combine,
@@ -157,7 +157,7 @@ pub(super) fn sample(
 /// Keys of distributions.
 pub(super) const KINDS: [&str; 4] = ["normal", "lognormal", "uniform", "discrete"];
 
-/// `{ lognormal = [median, dispersion] }` and the like, with `min` and `max`.
+/// `{ lognormal = [median, dispersion] }` and the like; a normal or lognormal distribution may have `min` and `max`.
 pub(super) fn distribution(table: &mut Table, kind: &'static str) -> Result<Distribution, Wrong> {
     let refused = |table: &Table, (problem, remedy): (String, &str)| table.wrong(kind, problem, remedy);
     if kind == "discrete" {

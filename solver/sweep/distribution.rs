@@ -12,14 +12,14 @@ pub(super) enum Distribution {
     LogNormal { law: LogNormal, bounds: [f64; 2] },
     /// Between two ends.
     Uniform { from: f64, to: f64 },
-    /// Values with the sums of their probabilities up to each.
+    /// Values, and for each value the sum of the probabilities up to it, its own included.
     Discrete { values: Vec<Setting>, sums: Vec<f64> },
 }
 
 /// Why a distribution is refused: the number that is wrong and the remedy.
 pub(super) type Refused = (String, &'static str);
 
-/// Least probability between the bounds of a truncated distribution: below, quantiles lose their digits.
+/// Smallest probability between the bounds of a truncated distribution. With less, quantiles lose their digits.
 const LEAST_PROBABILITY: f64 = 1e-6;
 
 impl Distribution {
@@ -72,7 +72,7 @@ impl Distribution {
         Ok(Distribution::Discrete { sums: sums.collect(), values })
     }
 
-    /// The value below which a share of all lies; the share is above zero and below one.
+    /// Quantile: the value below which lies the share `share` of the probability. The share is above zero and below one.
     pub fn quantile(&self, share: f64) -> Setting {
         let within = |bounds: [f64; 2], cdf: &dyn Fn(f64) -> f64, inverse: &dyn Fn(f64) -> f64| {
             let [low, high] = bounds.map(cdf);

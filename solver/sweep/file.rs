@@ -9,14 +9,14 @@ use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{SceneFileError, Setting, Template, text};
 use std::path::Path;
 
-/// Points beyond which a sweep is taken for a mistake.
+/// Largest number of points of a sweep; a larger one is taken for a mistake.
 const MOST_POINTS: usize = 1_000_000_000_000;
 
-/// Values of one axis beyond which it is taken for a mistake: they are kept.
+/// Largest number of values of a range; a larger one is taken for a mistake, as all values are kept in memory.
 const MOST_VALUES: f64 = 1e7;
 
 impl Sweep {
-    /// Reads a sweep from a TOML file; its base scene is found relative to it, records relative to the base scene.
+    /// Reads a sweep from a TOML file. The path of the base scene is relative to the sweep file, the paths of records to the base scene.
     ///
     /// # Errors
     /// [`SceneFileError`], with file, line, key and remedy.
@@ -70,7 +70,7 @@ impl Sweep {
         if placed.is_empty() {
             return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
         }
-        // Dotted keys of one table stand together in TOML, wherever they are in the file.
+        // The parser puts dotted keys of one table together; axes have the order of the file.
         placed.sort_by_key(|(_, place, _)| place.start);
         distinct(&placed).map_err(own)?;
         let combine = sample(&root, combine, sampling, &mut placed, &template).map_err(own)?;
@@ -116,7 +116,7 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// A sampled axis whose smallest or largest value no scene takes, and why; every such sample would be a row with an error.
+    /// Sampled axis whose smallest or largest sample the scene refuses, and why. Every such sample would be a row with an error.
     fn bad_sample(&self) -> Option<(usize, String)> {
         let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { f64::NAN };
         (self.grid().len()..self.axes.len()).find_map(|axis| {
@@ -132,7 +132,7 @@ impl Sweep {
         })
     }
 
-    /// A key with which no scene goes, as far as a few of them tell, with problem and remedy: every row would say so.
+    /// Key that the first point and all of [`Sweep::some_points`] refuse, with problem and remedy. Every row would have this error.
     fn misfit(&self) -> Option<(String, String, String)> {
         let misfit = |index: usize| match self.scene(index).err()? {
             SceneFileError::Scene { key, problem, remedy, cause: Cause::Key, .. } => Some((key, problem, remedy)),
@@ -148,7 +148,7 @@ impl Sweep {
         let (mut samples, mut stride) = (vec![self.len() - 1], 1);
         for (place, axis) in self.axes.iter().enumerate().rev() {
             let is_sampled = place >= self.grid().len();
-            // Samples run fastest, all of their axes together.
+            // Samples vary fastest; all sampled axes have one index in common.
             if place + 1 == self.grid().len() {
                 stride = self.samples().unwrap_or(1);
             }
@@ -163,7 +163,7 @@ impl Sweep {
     }
 }
 
-/// Whether a fault of a key is one of an axis.
+/// Whether a fault of a key concerns an axis: the key is that of the axis, or a table above it.
 fn is_of_axis(axis: &str, key: &str) -> bool {
     axis == key || axis.starts_with(&format!("{key}."))
 }
@@ -173,7 +173,7 @@ fn too_many(sweep: &Sweep) -> bool {
     product(&lengths).is_none_or(|points| points > MOST_POINTS)
 }
 
-/// Whether no axis takes the place of another one.
+/// Refuses an axis that repeats another one or excludes it.
 fn distinct(axes: &[Placed]) -> Result<(), Wrong> {
     for (index, (axis, place, _)) in axes.iter().enumerate() {
         let is_other = |(other, ..): &&Placed| other.key == axis.key || exclude_each_other(&other.key, &axis.key);
@@ -193,7 +193,7 @@ fn product(lengths: &[usize]) -> Option<usize> {
     lengths.iter().try_fold(1usize, |product, length| product.checked_mul(*length))
 }
 
-/// The axes of a table with their places, those of tables within under their dotted names.
+/// Reads the axes of a table with their places in the file. Axes of tables within have dotted names.
 fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<Placed>) -> Result<(), Wrong> {
     for key in table.keys() {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
@@ -202,13 +202,13 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
-        // An empty section of a table that the scene has is one whose axes are commented out.
+        // An empty section is allowed if the scene has this table: its axes may be commented out.
         if inner.keys().is_empty() && !template.has_table(&path) {
             return Err(no_values(table, &key));
         }
         if let Some(kind) = KINDS.into_iter().find(|kind| inner.has(kind)) {
             let found = distribution(&mut inner, kind)?;
-            // Its values are drawn once all axes are known.
+            // The median stands in for the values, which are drawn once all axes are known.
             let own = axis(table, &key, &path, vec![found.quantile(0.5)], template)?;
             axes.push((own, table.find(&key), Some(found)));
         } else if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
@@ -235,7 +235,7 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
 const TABLES: [&str; 9] =
     ["column", "block", "size", "restitution", "friction", "excitation", "initial", "solver", "output"];
 
-/// Whether a name without a point is that of a key within a table, such as `eta`: no keys stand below it.
+/// Whether a name is that of a key, such as `eta`, below which no axes stand: it has no point and is no table of a scene.
 fn is_no_table(path: &str) -> bool {
     !path.contains('.') && !TABLES.contains(&path)
 }
@@ -255,7 +255,7 @@ fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &T
     Ok(Axis { key: name, values })
 }
 
-/// `{ from, to, steps, scale }`; without steps, whole numbers.
+/// `{ from, to, steps, scale }`. Without `steps`, there are as many values as at intervals of one, if `to - from` is a whole number.
 pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     let mut end = |key: &'static str| match table.number(key)? {
         Some((value, _)) => Ok(value),
@@ -289,7 +289,7 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
             (_, false) => decimal(from + step as f64 * (to - from) / (steps - 1.0), from.abs().max(to.abs())),
             (share, true) => {
                 let [from, to] = [from, to].map(libm::log);
-                // Rounding of the logarithm is a relative error of the number.
+                // The rounding error of the logarithm is a relative error of the value.
                 rounded(libm::exp(from + share * (to - from)), 2.0 * f64::EPSILON * (1.0 + from.abs() + to.abs()))
             }
         })
@@ -297,22 +297,22 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     Ok((0..steps as usize).map(value).collect())
 }
 
-/// Roundings of a value between two ends, relative to the larger one.
+/// Bound of the rounding error of a value between two ends, relative to the end of larger magnitude.
 const ROUNDING_OF_STEPS: f64 = 4.0 * f64::EPSILON;
 
-/// A value between ends of this size: of decimal steps the decimal number, 1 and not 0.9999999999999999.
+/// Value without its rounding error: 1 and not 0.9999999999999999. `size` is the larger magnitude of the ends of the range.
 fn decimal(value: f64, size: f64) -> f64 {
     let error = ROUNDING_OF_STEPS * size;
     if value.abs() <= error { 0.0 } else { rounded(value, error / value.abs()) }
 }
 
-/// The number of twelve digits that a number is but for a relative error: powers of ten between powers of ten, whole numbers.
+/// `value` rounded to twelve digits if this changes it by at most the relative `error`, otherwise `value` itself.
 fn rounded(value: f64, error: f64) -> f64 {
     let short = format!("{value:.11e}").parse().unwrap_or(value);
     if (value - short).abs() <= error * value.abs() { short } else { value }
 }
 
-/// The records of a folder beside the base scene, by the common part of the names of their components, in the order of the numbers in it.
+/// Records of a folder beside the base scene, in the order of the numbers in their names. A record is named by the common part of its files' names.
 fn stations(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
     let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);

@@ -1,10 +1,10 @@
 //! Many scenes from one: axes over the keys of a base scene, a row of results for each point.
 //!
-//! A sweep is data: the point of any index is found without the others, so that ranges of them can be run anywhere, in any order
-//! and again, and always give the same rows. Points run in parallel; a scene that cannot be read or solved is a row with its error.
+//! A sweep is data: each point follows from its index alone, so that a range of points gives the same rows wherever, whenever and in whatever
+//! order it is run. Points run in parallel; a scene that cannot be read or solved is a row with its error.
 //!
-//! Within a thread they run one after another: sixteen side by side, with Taylor coefficients in lanes of eight, took longer, as events,
-//! contact and set-up stay scalar and lose their place in the cache.
+//! Within a thread points run one after another. Sixteen points side by side, with Taylor coefficients in vectors of eight, take longer: events,
+//! contact and set-up remain scalar, and their data are displaced from the cache.
 
 use crate::column::Column;
 use crate::response::{ModeName, Response, StopReason};
@@ -21,11 +21,11 @@ use std::ops::{ControlFlow, Range};
 pub struct Axis {
     /// Dotted name, e.g. `excitation.horizontal.amplitude_g`.
     pub key: String,
-    /// In the unit of the key.
+    /// Values, in the unit of the key.
     pub values: Vec<Setting>,
 }
 
-/// Last parts of the keys whose values are ground motions of one kind: each run has one of them, and fractiles are over all.
+/// Last parts of the keys whose values choose a record. Each run has one record, and fractiles are taken over all records.
 const OF_RECORDS: [&str; 4] = ["file", "record", "component", "seed"];
 
 /// Whether the values of a key, under its dotted name, are records: files, records of stations, components of them, seeds of synthetic ones.
@@ -37,18 +37,18 @@ pub fn is_of_records(key: &str) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Combine {
-    /// Each value with each of the others; the last axis runs fastest.
+    /// Each value of an axis with each value of the others; the last axis varies fastest.
     #[default]
     Cartesian,
     /// The first values together, then the second ones, and so on.
     Paired,
-    /// The last so many axes are samples, the first values of these together, then the second ones; each sample with each combination of the values of the
-    /// other axes. Samples run fastest.
+    /// The last axes, as many as the number says, are sampled: sample `k` consists of the `k`-th values of all these axes. Each sample is taken with
+    /// each combination of the values of the other axes; samples vary fastest.
     Sampled(usize),
 }
 
 impl Combine {
-    /// The way of this name.
+    /// The combination of this name in sweep files.
     pub fn parse(name: &str) -> Option<Combine> {
         match name {
             "cartesian" => Some(Combine::Cartesian),
@@ -62,18 +62,18 @@ impl Combine {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Ask {
-    /// Whether and how it overturns; a run ends when that is certain.
+    /// Whether, how and when the column overturns. The run ends early only once it is certain that the column does not overturn.
     #[default]
     Outcome,
-    /// Whether it overturns, not when: as [`Ask::Outcome`], and the run of one block ends as soon as it is certain to.
+    /// Whether the column overturns, not when. As [`Ask::Outcome`], but the run of one block also ends early once the block is certain to overturn.
     Overturns,
-    /// Largest angles and the mode at the end as well; a run goes on to its end.
+    /// As [`Ask::Outcome`], and largest angles and the mode at the end. No run ends early.
     Peaks,
     /// As [`Ask::Peaks`], and the slides at the end; of scenes with friction.
     Slides,
     /// As [`Ask::Peaks`], and what contacts need; of scenes without friction.
     Validity,
-    /// As [`Ask::Peaks`], and whether the verdict is determined: nine companions of each run say so ([`crate::trust`]), and take ten times as long.
+    /// As [`Ask::Peaks`], and whether the verdict is determined, which nine companions of each run show ([`crate::trust`]). Takes ten times as long.
     Trust,
 }
 
@@ -94,7 +94,7 @@ impl Ask {
         }
     }
 
-    /// Whether runs go on to their end, and largest angles are asked for.
+    /// Whether largest angles are asked for, so that no run ends early.
     pub fn is_of_peaks(self) -> bool {
         matches!(self, Ask::Peaks | Ask::Slides | Ask::Validity | Ask::Trust)
     }
@@ -123,13 +123,13 @@ pub enum Fate {
     Rocks,
     /// It overturned.
     Overturns,
-    /// Blocks slid, and nothing rocked; only with friction, as all that follow.
+    /// Blocks slid, and nothing rocked; only with friction.
     Slides,
-    /// A block slid or flew off its support.
+    /// A block slid or flew off its support; only with friction.
     Collapses,
     /// No motion follows from the laws of contact with friction.
     Undetermined,
-    /// Runs that differ by less than anybody can know do not agree on what becomes of it ([`crate::trust`]); of studies only.
+    /// The verdict is not determined: runs whose inputs differ by less than can be known do not agree ([`crate::trust`]). Only in studies.
     NotDetermined,
 }
 
@@ -176,18 +176,18 @@ impl Fate {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// What became of it.
+    /// What became of the column.
     pub fate: Fate,
-    /// Impacts up to overturning, or to the end of the run; where only the outcome is asked and the column stands, up to where that
-    /// was certain.
+    /// Number of impacts up to overturning, or to the end of the run. With [`Ask::Outcome`] and [`Ask::Overturns`] a run may end early: impacts after
+    /// that are missing.
     pub impacts: usize,
     /// The block that overturned first, or lost its support, from 1.
     pub block: Option<usize>,
-    /// When the column overturned, if that is asked for `[s]`.
+    /// Time of overturning `[s]`; `None` for a column that did not overturn, and for [`Ask::Overturns`].
     pub overturned_at: Option<f64>,
-    /// Whether the ground moves on after `t_end`: a column that stands does so up to then.
+    /// Whether the ground still moves at `t_end` and the column neither overturned nor collapsed before: the outcome then holds up to `t_end` only.
     pub truncated: bool,
-    /// Largest angle of each block over the slenderness of the stack that begins with it, base first; only if peaks are asked for.
+    /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, base first; only if peaks are asked for.
     pub peaks: Vec<f64>,
     /// Label of the mode at the end, `rest` where nothing moves; only if peaks are asked for.
     pub last_mode: Option<String>,
@@ -200,8 +200,8 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Largest `|θ|/α` of all blocks, infinite where the column is lost; `None` where peaks are not asked for, no motion follows from the laws of contact, or
-    /// the verdict is not determined.
+    /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` if peaks are not asked for, if no motion follows from the laws of
+    /// contact, or if the verdict is not determined.
     pub fn demand(&self) -> Option<f64> {
         let is_open = matches!(self.fate, Fate::Undetermined | Fate::NotDetermined) || self.determined == Some(false);
         let largest = self.peaks.iter().copied().reduce(f64::max).filter(|_| !is_open)?;
@@ -241,10 +241,10 @@ impl Needs {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PointError {
-    /// Its scene is not valid.
+    /// The scene of the point is not valid.
     #[error(transparent)]
     Scene(Box<SceneFileError>),
-    /// Its run could not be finished.
+    /// The run of the point could not be finished.
     #[error(transparent)]
     Solve(#[from] SolveError),
 }
@@ -262,24 +262,25 @@ pub struct Row {
     pub index: usize,
     /// Values of the axes, in their order.
     pub settings: Vec<Setting>,
-    /// What came of it.
+    /// Outcome of the point, or why there is none.
     pub result: Result<Outcome, PointError>,
 }
 
-/// Points that a thread takes at once: what they have in common is worth keeping, and short runs are not worth handing out singly.
+/// Smallest number of points that a thread takes at once. Consecutive points share work, and short runs are not worth handing out singly.
 const LEAST_POINTS: usize = 16;
 
-/// Runs points one after another, and keeps what the next one has in common with the last.
+/// Runs points one after another, and reuses what a point has in common with the one before.
 struct Worker<'s> {
     sweep: &'s Sweep,
     simulator: Simulator,
     shaken: Shaken<'s>,
     /// The scene of the last point.
     scene: Option<Scene>,
-    /// Values of the last point, and of the one before, in the order of the axes.
+    /// Values of the present point, in the order of the axes.
     settings: Vec<&'s Setting>,
+    /// Values of the point before the present one, in the order of the axes.
     last_settings: Vec<&'s Setting>,
-    /// Which axes are of the ground motion.
+    /// For each axis, whether its key belongs to the ground motion.
     is_of_ground: Vec<bool>,
 }
 
@@ -317,7 +318,7 @@ impl<'s> Worker<'s> {
         let scene = match &mut self.scene {
             // Most often nothing but the ground motion changes from one point to the next.
             Some(scene) if axes(false).all(|(place, _, setting)| is_as_before(place, setting)) => {
-                // From the first that differs on, all: a key may take the place of an earlier one.
+                // All axes from the first changed one on are set again: a key may replace an earlier one.
                 let changes = axes(true).skip_while(|(place, _, setting)| is_as_before(*place, setting));
                 self.shaken.set(scene, changes.map(|(_, key, setting)| (key, setting)))?;
                 scene
@@ -327,7 +328,7 @@ impl<'s> Worker<'s> {
                 scene.insert(self.sweep.scene(index)?)
             }
         };
-        // Read from a file, it is valid.
+        // The scene is valid: it was checked when it was read.
         let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
         let mut outcome = self.sweep.outcome(scene, &response);
         if self.sweep.ask == Ask::Trust {
@@ -375,7 +376,7 @@ impl Sweep {
         settings
     }
 
-    /// The same, in place of what was there.
+    /// Replaces the contents of `settings` by the values of the axes at a point, in their order.
     fn put_settings<'s>(&'s self, index: usize, settings: &mut Vec<&'s Setting>) {
         settings.clear();
         if self.combine == Combine::Paired {
@@ -420,7 +421,7 @@ impl Sweep {
         self.lines(range, |row| row)
     }
 
-    /// As [`Sweep::rows`], with what `made` makes of each row on the thread that has run it.
+    /// As [`Sweep::rows`], but returns `made(row)` for each row. The call is on the thread that made the row.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(Row) -> T + Sync) -> Vec<T> {
         let points = range.into_par_iter().with_min_len(LEAST_POINTS);
         points.map_init(|| Worker::new(self), |worker, index| made(worker.row(index))).collect()

@@ -1,5 +1,5 @@
-//! Samples of the unit cube, one coordinate per distributed axis: plainly, by Latin hypercube, or by a Sobol sequence. Sample `k` is found without the
-//! others, and the same seed gives the same samples on every machine.
+//! Samples of the unit cube, one coordinate per distributed axis: independent, by Latin hypercube, or by a Sobol sequence. Each sample is computed
+//! without the others, and the same seed gives the same samples on every machine.
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
@@ -8,9 +8,9 @@ use rand_pcg::rand_core::Rng;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SamplingMethod {
-    /// Each sample by itself.
+    /// Independent random samples.
     Plain,
-    /// Each coordinate has one sample in each of as many equal intervals as there are samples. McKay, Beckman & Conover (1979), Technometrics 21.
+    /// Each coordinate has as many equal intervals as there are samples, and one sample in each. McKay, Beckman & Conover (1979), Technometrics 21.
     #[default]
     LatinHypercube,
     /// A Sobol sequence with Owen's scrambling, seeded. Burley (2020), JCGT 9(4). At most 65,536 samples; powers of two are best.
@@ -31,7 +31,7 @@ impl SamplingMethod {
         }
     }
 
-    /// As in a file.
+    /// Name of the method, as in a file.
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
@@ -45,7 +45,7 @@ pub(super) struct Sampling {
     pub seed: u64,
 }
 
-/// Longest Sobol sequence: the crate's.
+/// Longest Sobol sequence, a limit of the crate `sobol_burley`.
 pub(super) const LONGEST_SOBOL: u32 = 1 << 16;
 
 /// Most distributed axes of a Sobol sequence.
@@ -64,7 +64,7 @@ impl Sampling {
             }
             SamplingMethod::Sobol => {
                 let seed = mixed(self.seed) as u32;
-                // Single precision leaves intervals of 2^-24, in which the place is random.
+                // The sequence has single precision: the place within an interval of 2^-24 is random.
                 f64::from(sobol_burley::sample(sample, dimension as u32, seed)) + jitter * 2f64.powi(-24)
             }
         };
@@ -79,7 +79,7 @@ impl Sampling {
     }
 }
 
-/// Bits of a number in all others: the finalizer of SplitMix64 (Steele, Lea & Flood 2014).
+/// Hash of a number, in which each bit depends on all bits of the number: the finalizer of SplitMix64 (Steele, Lea & Flood 2014).
 fn mixed(number: u64) -> u64 {
     let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -87,11 +87,11 @@ fn mixed(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Rounds of the network: four make a permutation that looks random (Luby & Rackoff 1988), two more as its halves are short.
+/// Rounds of the Feistel network. Four make a permutation that looks random (Luby & Rackoff 1988); two more are added as the halves have few bits.
 const ROUNDS: u64 = 6;
 
-/// The place of a number below `count` in a random permutation: a Feistel network over the next larger square of a power of two, walked until it is
-/// below `count` again (Black & Rogaway 2002).
+/// Image of a number below `count` in a random permutation of these numbers. A Feistel network permutes the numbers below a power of four that is at
+/// least `count`; it is applied until the result is below `count` (Black & Rogaway 2002).
 fn permuted(number: u32, count: u32, seed: u64) -> u32 {
     let bits = (64 - u64::from(count.max(2) - 1).leading_zeros()).div_ceil(2);
     let mask = (1u64 << bits) - 1;

@@ -3,20 +3,20 @@
 use crate::response::Response;
 use std::fmt::Write as _;
 
-/// Smallest and largest angle of each block in all runs. A run that has ended keeps its last angles.
+/// Smallest and largest angle of each block in all runs. A run that has ended counts with its last angles.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Band {
-    /// `[s]`, ascending.
+    /// Times `[s]`, ascending.
     pub t: Vec<f64>,
-    /// Per time and block, base first `[rad]`.
+    /// Smallest angles `[rad]`, per time and block, base first.
     pub low: Vec<Vec<f64>>,
-    /// Per time and block, base first `[rad]`.
+    /// Largest angles `[rad]`, per time and block, base first.
     pub high: Vec<Vec<f64>>,
 }
 
 impl Band {
-    /// Of runs with rows at the same times, up to the longest.
+    /// The band of runs with rows at the same times, up to the end of the longest run.
     pub(super) fn of<'a>(runs: impl Iterator<Item = &'a Response> + Clone, blocks: usize) -> Band {
         let longest = runs.clone().max_by_key(|run| run.samples.len());
         let t: Vec<f64> = longest.iter().flat_map(|run| &run.samples).map(|row| row.t).collect();
@@ -37,12 +37,12 @@ impl Band {
         band
     }
 
-    /// Whether there is none.
+    /// Whether the band has no times.
     pub fn is_empty(&self) -> bool {
         self.t.is_empty()
     }
 
-    /// As a table: `t, low_1.., high_1..`, a row per time; numbers read back to the same bits.
+    /// The band as a CSV table: `t, low_1.., high_1..`, a row per time; numbers read back to the same bits.
     pub fn to_csv(&self) -> String {
         let blocks = self.low.first().map_or(0, Vec::len);
         let names =
@@ -58,10 +58,10 @@ impl Band {
         text
     }
 
-    /// Reads what [`Band::to_csv`] writes for so many blocks; the number of the line, from 1, that it does not write.
+    /// Reads what [`Band::to_csv`] writes for so many blocks.
     ///
     /// # Errors
-    /// The line, for numbers that are missing, not finite, or not in the order of time.
+    /// The number of the first faulty line, from 1: numbers are missing, too many or not finite, or the time is not after the line above.
     pub fn from_csv(text: &str, blocks: usize) -> Result<Band, usize> {
         let mut band = Band::default();
         for (place, row) in text.lines().enumerate().skip(1) {

@@ -8,28 +8,28 @@ use crate::scene::{DynamicsSource, Scene, TIGHTEST_RTOL};
 use rocking_ground::Motion;
 use serde::{Deserialize, Serialize};
 
-/// Factor of the tighter tolerance.
+/// Factor from the tolerance of the run to the tighter tolerance.
 const TIGHTER: f64 = 0.01;
 
-/// Relative changes of excitation and sizes. The larger one is beyond what any record or drawing gives; the smaller one beyond what single precision
-/// carries, and grows where the larger has grown beyond measure.
+/// Relative changes of excitation and sizes. The larger one is finer than any record or drawing. The smaller one is finer than single precision; its
+/// growth can still be measured where the larger one has made the runs part.
 const CHANGES: [f64; 4] = [1e-9, -1e-9, 1e-6, -1e-6];
 
-/// What distinguishes a companion.
+/// The change that distinguishes a companion from the run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Change {
     /// Tolerances multiplied by this factor; the length of the steps of a method without step control by its fourth root.
     Tolerance(f64),
-    /// Excitation, initial angles and rates multiplied by one plus this.
+    /// Ground motion, initial angles, rates and velocities multiplied by one plus this; blocks placed by their centroids keep their angles.
     Excitation(f64),
     /// Half-widths multiplied by one plus this, of every second block by one less this; masses stay.
     Sizes(f64),
 }
 
 impl Change {
-    /// The changes that a scene is followed by.
+    /// The changes of a scene's companions.
     pub(super) fn all(scene: &Scene) -> Vec<Change> {
         let mut changes = vec![Change::Tolerance(TIGHTER)];
         changes.extend(CHANGES.map(Change::Excitation));
@@ -40,7 +40,7 @@ impl Change {
         changes
     }
 
-    /// The scene, changed; `None` where it would be none.
+    /// The changed scene; `None` if it would be out of range.
     pub(super) fn scene(self, scene: &Scene) -> Option<Scene> {
         let mut changed = scene.clone();
         match self {
@@ -60,7 +60,7 @@ impl Change {
             }
             Change::Sizes(change) => {
                 changed.column = widened(&scene.column, change)?;
-                // Equations that were made for one column are none of another.
+                // Equations that were made for one column do not hold for another.
                 if matches!(changed.options.dynamics, DynamicsSource::Supplied(_)) {
                     changed.options.dynamics = DynamicsSource::default();
                 }
@@ -69,12 +69,12 @@ impl Change {
         Some(changed)
     }
 
-    /// Whether the change is no larger than errors of a run at a good tolerance: all but the larger changes of the input.
+    /// Whether the change is no larger than the errors of a run at a good tolerance: a tolerance, or the smaller change of the input.
     pub(super) fn is_small(self) -> bool {
         self.size().is_none_or(|size| size == CHANGES[0])
     }
 
-    /// Size of a relative change of the input; `None` for a tolerance.
+    /// Magnitude of a relative change of the input; `None` for a tolerance.
     fn size(self) -> Option<f64> {
         match self {
             Change::Tolerance(_) => None,
@@ -83,7 +83,7 @@ impl Change {
     }
 }
 
-/// The scene with its ground motion multiplied; `None` for accelerations out of range.
+/// The scene with its ground motion multiplied by a factor; `None` if accelerations would be out of range.
 pub(super) fn shaken(scene: &Scene, factor: f64) -> Option<Scene> {
     let mut shaken = scene.clone();
     let scaled = |motion: Motion| motion.scaled(factor).ok();
@@ -95,7 +95,7 @@ pub(super) fn shaken(scene: &Scene, factor: f64) -> Option<Scene> {
     Some(shaken)
 }
 
-/// The column with other widths.
+/// The column changed as by [`Change::Sizes`]; `None` if it would be refused.
 fn widened(column: &Column, change: f64) -> Option<Column> {
     let widen = |(place, block): (usize, &Block)| {
         let factor = if place % 2 == 0 { 1.0 + change } else { 1.0 - change };
@@ -111,21 +111,21 @@ fn widened(column: &Column, change: f64) -> Option<Column> {
     Column::new(blocks, column.gravity()).and_then(|new| new.displaced(column.slides().to_vec())).ok()
 }
 
-/// A run beside the run.
+/// A companion of the run, and how far the two agree.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Companion {
-    /// What distinguishes it.
+    /// What distinguishes the companion from the run.
     pub change: Change,
-    /// What becomes of its column; `None` for a run that failed.
+    /// What becomes of the companion's column; `None` for a companion that failed.
     pub verdict: Option<Verdict>,
     /// The block that overturned first, or lost its support, from 1.
     pub block: Option<usize>,
-    /// When it ended `[s]`; zero for a run that failed.
+    /// When the companion ended `[s]`; zero for a companion that failed.
     pub ends_at: f64,
-    /// Last time at which it agreed with the run `[s]`; `None` where the two agree to their end.
+    /// Last time at which the companion agreed with the run `[s]`; zero for a companion that failed, `None` where the two agree to the end.
     pub parts_at: Option<f64>,
-    /// Largest difference of an angle from the run's, over `α` or over the larger angle of a falling block, as long as the two agreed; dimensionless.
+    /// Largest relative difference of an angle or a slide from that of the run, as long as the two agreed, dimensionless; see [`super::AGREEMENT`].
     pub difference: f64,
 }
 
@@ -142,8 +142,8 @@ impl Companion {
     }
 }
 
-/// Largest growth of a relative change of the input, and whether it went on beyond the horizon. The larger change is read where it stays measurable:
-/// the solver's own error is a larger part of the smaller one.
+/// Largest growth of a relative change of the input, and whether the growth went on beyond the horizon. The larger change counts unless it made runs
+/// part: the solver's own error is a larger part of the smaller one.
 pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
     let growth = |size: f64| {
         let own = companions.iter().filter(move |one| one.change.size() == Some(size));

@@ -11,19 +11,19 @@ use crate::scene::{Scene, Wanted};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Relative changes of the ground motion's amplitude that are tried, more and less.
+/// Relative changes of the ground motion's amplitude that are tried, each up and down.
 const TRIED: [f64; 8] = [1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1];
 
-/// The same of runs in which blocks slide or fly, which take longer.
+/// Changes that are tried for runs in which blocks slide or fly, which take longer.
 const TRIED_WITH_SLIDING: [f64; 3] = [1e-3, 0.01, 0.1];
 
 /// The changes tried, up to the first that changes the verdict.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Fold {
-    /// Sizes of the relative changes that were tried, each with both signs, ascending.
+    /// Magnitudes of the relative changes that were tried, each with both signs, ascending.
     pub tried: Vec<f64>,
-    /// Changes of the largest of these sizes that change the verdict, one or two; empty where none does.
+    /// Changes of the last magnitude tried that change the verdict, one or two; empty if none does.
     pub turns: Vec<Turn>,
 }
 
@@ -38,7 +38,7 @@ pub struct Turn {
 }
 
 impl Fold {
-    /// Looks for the smallest change that makes another verdict; `None` for a scene without ground motion. `run` runs a scene.
+    /// Searches for the smallest change tried that changes the verdict; `None` for a scene without ground motion. `run` runs a scene.
     ///
     /// # Errors
     /// [`SolveError::Cancelled`]

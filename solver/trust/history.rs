@@ -4,21 +4,22 @@ use super::verdict::Verdict;
 use crate::column::Column;
 use crate::response::{Response, Sample};
 
-/// Runs agree where the angle of each block differs by less than this share of its slenderness `α`, or of the angle itself where a falling block is
-/// beyond `α`; and the slide of each interface by less than this share of the contact's half-width.
+/// Largest relative difference at which two runs agree. The difference of an angle is relative to the slenderness `α` of the stack from the block up,
+/// or to the angle itself where a falling block is beyond `α`; the difference of a slide is relative to the contact's half-width.
 pub const AGREEMENT: f64 = 0.01;
 
 /// How far two runs agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Comparison {
-    /// Time of the last row at which they agree, with all before `[s]`; `None` where all do.
+    /// Time of the last row up to which all rows agree `[s]`; `None` if the runs agree to the end.
     pub parts_at: Option<f64>,
-    /// Largest relative difference of an angle or a slide as long as they agree, dimensionless.
+    /// Largest relative difference of an angle or a slide as long as the runs agree, dimensionless.
     pub difference: f64,
 }
 
 impl Comparison {
-    /// Of two runs with rows at the same times. Where one ends early, the rows of both are compared; if the other stands, they part there.
+    /// Compares two runs with rows at the same times, over the rows that both have. If the verdicts differ, or one run is longer by more than a row,
+    /// the runs part at the last of these rows at the latest.
     pub fn of(column: &Column, run: &Response, other: &Response) -> Comparison {
         let scales: Vec<[f64; 2]> = (0..column.len())
             .map(|interface| [column.stack(interface).slenderness(), column.contact_half_width(interface)])
@@ -27,7 +28,7 @@ impl Comparison {
         let rows = || run.samples.iter().zip(&other.samples);
         for (place, (row, others)) in rows().enumerate() {
             let here = relative_difference(&scales, row, others);
-            // A number that is none agrees with nothing.
+            // NaN agrees with nothing.
             if here > AGREEMENT || here.is_nan() {
                 return Comparison { parts_at: Some(run.samples[place.saturating_sub(1)].t), difference };
             }
@@ -41,7 +42,7 @@ impl Comparison {
     }
 }
 
-/// Largest difference of an angle over `α` or the larger angle, and of a slide over the contact's half-width.
+/// Largest relative difference of an angle or a slide, as [`AGREEMENT`] defines it.
 fn relative_difference(scales: &[[f64; 2]], row: &Sample, other: &Sample) -> f64 {
     let mut largest = 0.0f64;
     for (place, [slenderness, half_width]) in scales.iter().enumerate() {
@@ -50,7 +51,7 @@ fn relative_difference(scales: &[[f64; 2]], row: &Sample, other: &Sample) -> f64
         if let (Some(a), Some(b)) = (row.slide.get(place), other.slide.get(place)) {
             here = here.max((a - b).abs() / half_width);
         }
-        // Not `max`, which loses what is no number.
+        // Not `max`, which drops NaN.
         if here > largest || here.is_nan() {
             largest = here;
         }

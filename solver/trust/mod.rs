@@ -8,10 +8,11 @@
 //!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
 //! ```
 //!
-//! The *horizon* is the time up to which the runs agree to [`AGREEMENT`] that differ by their tolerance or by 1e-9: up to then the scene determines the
-//! angles, and the solver finds them. A verdict that is certain by then, and is that of all companions, those with changes of 1e-6 too, is *determined*.
-//! Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` is
-//! another word: a run with friction ends so where no motion follows from the laws of contact ([`StopReason::Undetermined`]).
+//! The *horizon* is the time up to which the run agrees, to [`AGREEMENT`], with the companions that differ by the tolerance or by 1e-9. Up to then
+//! the scene determines the angles, and the solver finds them. A verdict is *determined* if it is certain within the horizon and all companions have
+//! the same one, those with changes of 1e-6 too. Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic,
+//! and no tolerance helps. `undetermined` has another meaning: a run with friction ends so where no motion follows from the laws of contact
+//! ([`StopReason::Undetermined`]).
 //!
 //! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
 
@@ -44,17 +45,17 @@ use verdict::lost_block;
 /// Interval between the rows that are compared, as a share of `1/p` of the stack that rocks fastest.
 const ROW_INTERVAL_OF_P: f64 = 0.1;
 
-/// Rows of a run, at most: the memory of ten runs stays below 30 MB.
+/// Largest number of rows of a run: the memory of ten runs stays below 30 MB.
 const MOST_ROWS: f64 = 5_000.0;
 
-/// What companions say of a run.
+/// How far a run can be trusted, from its companions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Trust {
-    /// The verdict in words as far as it is determined: `stands`, `stands up to the end of the run` where the ground still moves then, `overturns`, `collapses`, or `not determined`; `ends undetermined` where no motion follows
-    /// from the laws of contact.
+    /// The verdict in words if it is determined: `stands`, `stands up to the end of the run` (the ground still moves then), `overturns`, `collapses`;
+    /// otherwise `not determined`, or `ends undetermined` where no motion follows from the laws of contact.
     pub outcome: String,
-    /// Whether the verdict of the run is determined: certain within the horizon, and that of all companions.
+    /// Whether the verdict of the run is determined: certain within the horizon, and the same for all companions.
     pub determined: bool,
     /// The verdict of the run itself.
     pub verdict: Verdict,
@@ -63,44 +64,45 @@ pub struct Trust {
     /// Time up to which the companions with another tolerance, and those with changes of 1e-9, agree with the run to [`AGREEMENT`] `[s]`;
     /// [`Trust::ends_at`] where they agree to the end.
     pub horizon: f64,
-    /// The same of the companions with another tolerance alone: beyond it the solver's own error is larger.
+    /// Time up to which the companion with another tolerance agrees with the run `[s]`: beyond it the solver's own error exceeds [`AGREEMENT`].
     pub solver_horizon: f64,
-    /// The same of all companions: beyond it angles hang on the seventh digit of the inputs.
+    /// Time up to which all companions agree with the run `[s]`: beyond it angles depend on the seventh digit of the inputs.
     pub input_horizon: f64,
     /// When the run ended `[s]`.
     pub ends_at: f64,
-    /// Largest change of an angle over `α`, per relative change of excitation or sizes, up to the end or to the horizon, dimensionless.
+    /// Largest relative difference of an angle or a slide, per relative change of excitation or sizes, as long as the runs agree, dimensionless.
     pub amplification: f64,
-    /// Whether the amplification is that up to the horizon, where changes went on growing.
+    /// Whether changes went on growing beyond the horizon: the amplification is then only that up to the horizon.
     pub grows_on: bool,
-    /// Whether all companions that overturn or collapse do so by the same block as the run.
+    /// Whether all companions lose the same block as the run, or none if the run loses none; `false` if a companion failed.
     pub same_block: bool,
     /// The companions.
     pub companions: Vec<Companion>,
-    /// The search for the change of the shaking that changes the verdict; none unless asked for, nor where the verdict is not determined.
+    /// The search for the change of the shaking that changes the verdict. `None` unless requested, without ground motion, and where the verdict is
+    /// not determined.
     pub fold: Option<Fold>,
-    /// Range of the angles of all runs over time; empty unless asked for.
+    /// Range of the angles of all runs over time; empty unless requested.
     #[serde(skip)]
     pub band: Band,
 }
 
-/// What is found besides: `Follow::default()` with fields of its own.
+/// What is computed besides the trust in the verdict. Start from `Follow::default()` and set fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Follow {
-    /// Whether the change of the shaking that changes the verdict is looked for.
+    /// Whether to search for the change of the shaking that changes the verdict.
     pub fold: bool,
-    /// Whether the range of the angles over time is kept.
+    /// Whether to keep the range of the angles over time.
     pub band: bool,
 }
 
 impl Follow {
-    /// Nothing but the verdict's trust: what sweeps and studies ask of each of many runs.
+    /// Neither: only the trust in the verdict, as sweeps and studies need it for each of many runs.
     pub const VERDICT: Follow = Follow { fold: false, band: false };
 }
 
 impl Default for Follow {
-    /// Both.
+    /// Both the fold and the band.
     fn default() -> Follow {
         Follow { fold: true, band: true }
     }
@@ -128,8 +130,8 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
     Ok((response, trust))
 }
 
-/// The companions of a run that there is. Takes some ten times as long as the run on one thread, and up to twenty with the fold; they run on all threads of
-/// the present rayon pool.
+/// Runs the companions of a finished run. On one thread this takes some ten times as long as the run, and up to twenty with the fold; companions run
+/// on all threads of the present rayon pool.
 ///
 /// # Errors
 /// [`SolveError`] where the scene does not run.
@@ -137,7 +139,8 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
     follow_run_observed(scene, response, asked, |_| ControlFlow::Continue(()))
 }
 
-/// As [`follow_run`], with a function that is called with the times of all these runs, from several threads and in no order, and may end them.
+/// As [`follow_run`], with a function that is called with the present time of each of these runs, from several threads and in no order.
+/// A run ends where the function returns [`ControlFlow::Break`].
 ///
 /// # Errors
 /// [`SolveError`] where the scene does not run; [`SolveError::Cancelled`] where the function ends a run.
@@ -155,7 +158,7 @@ pub fn follow_run_observed(
     if let Some(cancelled) = runs.iter().find_map(|(_, run)| run.as_ref().and_then(cancellation)) {
         return Err(cancelled);
     }
-    // A scene that cannot be changed so, as it would be out of range, has no such companion.
+    // A change that would put the scene out of range has no companion.
     let runs: Vec<_> = runs.into_iter().filter_map(|(change, run)| Some((change, run?.ok()))).collect();
     let companions: Vec<Companion> = runs
         .iter()
@@ -201,7 +204,7 @@ pub fn follow_run_observed(
     })
 }
 
-/// The scene as it is compared: rows often enough, nothing recorded that is not compared.
+/// The scene for the comparison: rows at short intervals, no forces.
 fn compared(scene: &Scene) -> Scene {
     let mut plain = scene.clone();
     plain.options.wanted = Wanted::Everything;
@@ -215,7 +218,7 @@ fn row_interval(column: &Column, t_end: f64) -> f64 {
     (ROW_INTERVAL_OF_P / fastest).min(0.01 * t_end).max(t_end / MOST_ROWS)
 }
 
-/// The error of a run that was ended from outside; a run that fails otherwise is a companion that agrees with nothing.
+/// The error of a run that the caller ended; `None` for any other failure, whose companion agrees with nothing.
 fn cancellation(run: &Result<Response, SolveError>) -> Option<SolveError> {
     run.as_ref().err().filter(|error| matches!(error, SolveError::Cancelled { .. })).cloned()
 }
@@ -227,7 +230,7 @@ fn certain_at(
     run: impl Fn(&Scene) -> Result<Response, SolveError>,
 ) -> Result<f64, SolveError> {
     let may_be_proved = matches!(response.status, StopReason::AtRest | StopReason::EndOfTime);
-    // Where blocks slide there is no such proof.
+    // No proof makes a verdict certain before the end where blocks slide.
     if !may_be_proved || response.motion_at_contacts().is_some() {
         return Ok(response.t_final);
     }
@@ -255,7 +258,7 @@ impl Trust {
         counts
     }
 
-    /// Trust in a line: of a determined run how many companions agree, of another how far angles are known and what became of the companions.
+    /// Trust in a line: if the verdict is determined, how many companions agree; if not, how far angles are known and the verdicts of the companions.
     pub fn sentence(&self) -> String {
         let count = self.companions.len();
         let grown = format!("{}{}", if self.grows_on { "more than " } else { "" }, times(self.amplification));
@@ -285,7 +288,7 @@ impl Trust {
     }
 }
 
-/// So many companions with a verdict, in words.
+/// A verdict and the number of companions that have it, in words.
 fn counted((verdict, count): (Option<Verdict>, usize)) -> String {
     match (verdict, count) {
         (None, _) => format!("{count} failed"),
@@ -304,7 +307,7 @@ fn plural(verdict: Verdict) -> &'static str {
     }
 }
 
-/// A factor with two digits.
+/// A factor in words: one decimal below 100, none below 1e5, above it the leading digit and the power of ten.
 fn times(factor: f64) -> String {
     match factor {
         factor if factor < 100.0 => format!("{factor:.1}"),

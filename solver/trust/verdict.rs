@@ -1,4 +1,4 @@
-//! What becomes of a column, and of which block.
+//! What becomes of a column, and which block is lost.
 
 use crate::response::{Response, StopReason};
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Of a run with this end.
+    /// The verdict of a run that ended for this reason.
     pub fn of(status: StopReason) -> Verdict {
         match status {
             status if status.overturns() => Verdict::Overturns,
@@ -30,7 +30,7 @@ impl Verdict {
         }
     }
 
-    /// As in a sentence: `stands`, `overturns`, `collapses`, `ends undetermined`.
+    /// The verdict as in a sentence: `stands`, `overturns`, `collapses`, `ends undetermined`.
     pub fn words(self) -> &'static str {
         match self {
             Verdict::Stands => "stands",

@@ -102,17 +102,18 @@ struct SweepFindings {
     columns: Vec<String>,
     /// Number of points whose scenes were read: all, or evenly spread ones, the first and the last among them.
     read: usize,
-    /// Number of these that are refused, which would be rows with errors, and the first reason.
+    /// Number of the scenes read that are refused. Their points would be rows with errors.
     refused: usize,
+    /// Point and reason of the first refusal.
     first_refusal: Option<String>,
-    /// Number of these whose ground motion goes on after `solver.t_end`.
+    /// Number of the scenes read whose ground motion continues after `solver.t_end`.
     cut: usize,
 }
 
-/// Points whose scenes are read before a sweep runs: reading takes some 10 µs each, and records are read once.
+/// Largest number of points whose scenes are read by `rocking check`: a scene takes some 10 µs, and each record is read once.
 const POINTS_READ: usize = 1000;
 
-/// Reads the scenes of points of a sweep, and runs none.
+/// Reads the scenes of up to [`POINTS_READ`] points of a sweep without running them, and enters the counts in `findings`.
 fn dry_run(sweep: &Sweep, findings: &mut SweepFindings) {
     findings.read = sweep.len().min(POINTS_READ);
     let last = (findings.read.max(2) - 1) as u128;
@@ -128,7 +129,7 @@ fn dry_run(sweep: &Sweep, findings: &mut SweepFindings) {
     }
 }
 
-/// An axis: its key, number of values, and the first and the last of them.
+/// An axis: key, number of values, first and last value. For a sampled axis these are the smallest and the largest value.
 #[derive(Debug, Serialize)]
 struct AxisFindings {
     key: String,
@@ -202,11 +203,11 @@ struct Findings {
     stacks: Vec<thresholds::Row>,
     /// Factors of the plastic relative rates at the interfaces, dimensionless.
     restitution_factors: Vec<f64>,
-    /// What gives way first at each interface, of a scene with friction.
+    /// What gives way first at each interface; empty for a scene without friction.
     contacts: Vec<ContactFindings>,
     horizontal: Option<MotionFindings>,
     vertical: Option<MotionFindings>,
-    /// Interfaces, from 1, that the largest horizontal acceleration would open from rest; at the column's own gravity.
+    /// Interfaces, from 1, that the largest horizontal ground acceleration would open from rest, without vertical ground motion.
     opens: Vec<usize>,
     method: &'static str,
     rows: u64,
@@ -214,19 +215,20 @@ struct Findings {
     warnings: Vec<String>,
 }
 
-/// What gives way first at an interface: the contact slides, or the stack above opens it, as one body on a ground that moves sideways only.
+/// What gives way first at an interface: the contact slides, or it opens. The stack above counts as one body; the ground moves horizontally only.
 #[derive(Debug, Serialize)]
 struct ContactFindings {
     /// From 1, base first.
     interface: usize,
     /// Coefficient of static friction, dimensionless.
     coefficient: f64,
-    /// Horizontal acceleration at which it slides, and at which it opens `[m/s²]`.
+    /// Horizontal ground acceleration at which the contact slides `[m/s²]`.
     slides_at: f64,
+    /// Horizontal ground acceleration at which the contact opens `[m/s²]`.
     opens_at: f64,
     /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground.
     at_pga: &'static str,
-    /// Coefficient from which on it would rock without sliding there; none where it does not open first.
+    /// Least coefficient with which the stack would rock at the PGA without sliding; `None` if the contact slides first, or does not open.
     coefficient_to_rock: Option<f64>,
 }
 
@@ -271,20 +273,22 @@ struct MotionFindings {
     #[serde(flatten)]
     #[serde(serialize_with = "described")]
     motion: Motion,
-    /// Largest acceleration, velocity and displacement of the ground until the end of the run `[m/s²]`, `[m/s]`, `[m]`.
+    /// Largest acceleration of the ground until the end of the run `[m/s²]`.
     pga: f64,
+    /// Largest velocity of the ground until the end of the run `[m/s]`.
     pgv: f64,
+    /// Largest displacement of the ground until the end of the run `[m]`.
     pgd: f64,
     /// End of the motion `[s]`; none for a motion without end.
     end: Option<f64>,
-    /// Velocity and displacement with which the ground is left there `[m/s]`, `[m]`.
+    /// Velocity and displacement of the ground at the end of the motion `[m/s]`, `[m]`; none for a motion without end.
     left_with: Option<[f64; 2]>,
 }
 
-/// A column beyond this `[m]` has most likely been given in cm or mm; the tallest of stone have some thirty.
+/// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
 const TALL: f64 = 60.0;
 
-/// Without the samples of records.
+/// Serialises the description of a motion, without the samples of records.
 fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::Error> {
     motion.description().serialize(serializer)
 }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// The runs at one combination of the axes that are not of records.
 #[derive(Clone, Debug, Default)]
 struct Group {
-    /// Its first point.
+    /// Index of the first point of the group.
     first: usize,
     runs: usize,
     /// Largest `|θ|/α` of the runs that have an answer, infinite where the column is lost.
@@ -26,7 +26,7 @@ pub fn table(out: &Path) -> PathBuf {
     beside(&out.with_extension("csv"), "fractiles")
 }
 
-/// Whether a sweep has largest angles over enough records.
+/// Whether a sweep has fractiles: it is Cartesian, asks for largest angles, and has at least [`LEAST_RECORDS`] records.
 pub fn has(sweep: &Sweep) -> bool {
     let records = sweep.axes.iter().filter(|axis| is_of_records(&axis.key)).map(|axis| axis.values.len());
     sweep.combine == Combine::Cartesian && sweep.ask.is_of_peaks() && records.product::<usize>() >= LEAST_RECORDS
@@ -79,7 +79,7 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     Ok(format!("wrote 16, 50 and 84 % fractiles over the records to {}\n", shown(&path)))
 }
 
-/// Number of the combination of the values of the axes that are not of records, of a point; the last axis fastest.
+/// Number of the group of the point `index`. Groups are the combinations of the axes that are not of records; the last axis runs fastest.
 fn group(sweep: &Sweep, index: usize) -> usize {
     let (mut rest, mut number, mut stride) = (index, 0, 1);
     for axis in sweep.axes.iter().rev() {

@@ -63,7 +63,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
     if asked.json { json(&conclusions) } else { print(&told) }
 }
 
-/// Limit states where none is named.
+/// Limit states that apply if none is named.
 pub fn usual_states() -> Vec<LimitState> {
     let peak = |above: f64| LimitState::Peak { block: None, above };
     vec![LimitState::Uplift, peak(0.15), peak(0.35), LimitState::Overturned]
@@ -71,12 +71,12 @@ pub fn usual_states() -> Vec<LimitState> {
 
 /// Runs of a table.
 pub struct Runs {
-    /// Heading of the measure.
+    /// Name of the measure: the heading of its column, or the last part of that heading if only this part is a measure.
     pub measure: String,
     pub runs: Vec<Observation>,
     /// The first error in the table.
     pub first_error: Option<String>,
-    /// Blocks of which it has peaks.
+    /// Number of the columns of peaks, one for each block.
     peaks: usize,
     has_slides: bool,
 }
@@ -87,11 +87,11 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
     Format::of(table)?;
     let found = open(table).map_err(at(Failure::Study, table))?;
     let names: Vec<String> = found.header.iter().map(String::from).collect();
-    // The key of an axis is that of a scene.
+    // The heading of an axis is a dotted key of the scene; its last part may name a measure.
     let last = |name: &str| name.rsplit('.').next().unwrap_or(name).to_string();
     let measures: Vec<usize> = match measure {
         Some(measure) => (0..names.len()).filter(|place| names[*place] == measure).collect(),
-        // A period has a point.
+        // The whole heading is tried as well: a measure with a period, such as `sa(0.5)`, contains a point itself.
         None => {
             (0..names.len()).filter(|place| is_measure(&names[*place]) || is_measure(&last(&names[*place]))).collect()
         }
@@ -162,7 +162,7 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
                 Some(uplift) => !row[uplift].is_empty(),
                 None => matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined)),
             },
-            // Peaks of a run that is not determined are those of another run as well as its own.
+            // Peaks of a run that is not determined mean nothing: its companions have other peaks.
             peaks: if open { Vec::new() } else { numbers(&peaks)? },
             residual_slides: numbers(&slides)?,
         });
@@ -179,7 +179,7 @@ fn is_measure(name: &str) -> bool {
     name.parse::<Intensity>().is_ok()
 }
 
-/// The name of the record of a row; without a column of records each run is one of its own.
+/// The name of the record of a row. Without a column of records, each row has a record of its own.
 fn record_of(row: &StringRecord, columns: &[usize], number: usize) -> String {
     match columns {
         [] => format!("run {}", number + 1),
@@ -231,7 +231,7 @@ impl Conclusions {
         text
     }
 
-    /// Writes both tables beside that of a study; returns what was written.
+    /// Writes the tables of curves and of shares beside the `table` of a study. Returns the text that names both files.
     pub fn write(&self, table: &Path) -> Result<String, Failure> {
         self.write_to(&tables(table)[0])
     }
@@ -243,7 +243,7 @@ impl Conclusions {
         Ok(format!("wrote {}\nwrote {}\n", shown(curves), shown(&shares)))
     }
 
-    /// A row per state.
+    /// The table of curves: a row per state.
     fn curves(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         table.write_record([
@@ -317,7 +317,7 @@ impl Conclusions {
         table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
     }
 
-    /// A row per state and level.
+    /// The table of shares: a row per state and level.
     fn shares(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let measure = self.measure.as_str();

@@ -25,10 +25,11 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Runs made together at first, and at least: runs with friction take tens of milliseconds, and finished ones are to be kept.
+/// Number of runs in the first batch, and least number in a later one. It is small: runs with friction take tens of milliseconds, and an
+/// interruption should lose few of them.
 const FIRST_BATCH: usize = 16;
 
-/// Runs a study, or what is left of it.
+/// Runs a study, or the missing runs of an interrupted one.
 pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     let out = &asked.out;
     let format = Format::of(out)?;
@@ -90,10 +91,10 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Draws the curves of a finished table, and beside them the fragility of the usual limit states. Returns what was written; `None` for a table that is
-/// not of a study.
+/// Draws the curves of a finished table into `picture`, and the fragility of the usual limit states into a file beside `picture`.
+/// Returns the names of both files, with captions. `None` for a table that cannot be read or is not of a study.
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String>, Failure> {
-    // What cannot be read is told by the spectrum.
+    // A table that cannot be read is left to `spectrum::draw`, which reports the failure.
     let Ok(Rows { header, .. }) = open(table) else { return Ok(None) };
     if !["record", "scale", "first_uplift", "peak_1"].iter().all(|name| header.iter().any(|own| own == *name)) {
         return Ok(None);
@@ -145,7 +146,7 @@ fn columns(ida: &Ida) -> Vec<Column> {
     columns
 }
 
-/// A run as so many cells.
+/// A run as `columns` cells.
 fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
     let number = |value: f64| format!("{value:?}");
     let mut cells = vec![

@@ -9,7 +9,7 @@ use rocking::ground::{RecordFile, TextOptions};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Writes a scene of so many equal blocks, excited by a record if one is named. A file that is there is written over by `force` only.
+/// Writes a scene of `blocks` equal blocks, excited by `record`, or else by a pulse. An existing file is written over only with `force`.
 pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> Result<(), Failure> {
     if file.exists() && !force {
         return Err(Failure::Taken(file.into()));
@@ -26,9 +26,9 @@ pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> R
 
 /// A record as a new scene names it.
 struct NamedRecord {
-    /// Relative to the scene's folder where it stands below it, absolute otherwise.
+    /// Path of the record: relative to the scene's folder if the record lies in that folder or below, absolute otherwise.
     name: String,
-    /// `[s]`, if the file says it itself.
+    /// Duration of the record `[s]`; `None` if the file cannot be read without further options.
     duration: Option<f64>,
 }
 
@@ -39,7 +39,7 @@ impl NamedRecord {
         let folder = folder_of(file);
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
         let name = found.strip_prefix(&folder).unwrap_or(&found).display().to_string();
-        // `rocking check` asks for units and intervals that the file does not state.
+        // A failure is left to `rocking check`, which asks for the unit and the interval that a file does not state.
         let read = RecordFile::read(&bytes, &TextOptions::default()).and_then(RecordFile::into_record);
         Ok(NamedRecord { name, duration: read.ok().map(|record| record.duration()) })
     }
@@ -80,11 +80,12 @@ fn scene(blocks: usize, record: Option<&NamedRecord>) -> String {
 /// Half-height of the column that a new scene describes `[m]`.
 const HALF_HEIGHT: f64 = 1.56;
 
-/// End of the run `[s]`: for a pulse, and how long after the end of a record.
+/// End of the run for a pulse, and for a record of unknown duration `[s]`.
 const T_END: f64 = 20.0;
+/// Time from the end of a record to the end of the run, which is rounded up to whole seconds `[s]`.
 const AFTERWARDS: f64 = 10.0;
 
-/// Text in quotes of TOML: backslashes of Windows' paths survive.
+/// Text as a quoted string of TOML: quotes, control characters, and the backslashes of Windows paths are escaped.
 fn toml_text(text: &str) -> String {
     let sign = |sign: char| match sign {
         '\\' | '"' => format!("\\{sign}"),

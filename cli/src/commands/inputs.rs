@@ -6,7 +6,7 @@ use rocking::Scene;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Refuses a device, a pipe, and a file that is too large. What is not there at all, the library reports.
+/// Refuses a folder, a device, a pipe, and a file that is too large. A missing file passes: the library reports it.
 pub fn check(path: &Path) -> Result<(), Failure> {
     if path.exists() { files::check(path, LARGEST_SCENE).map_err(at(Failure::Input, path)) } else { Ok(()) }
 }

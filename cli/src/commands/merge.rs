@@ -1,7 +1,7 @@
 //! `rocking merge`: one table of the tables of all shards of a sweep.
 //!
-//! A table holds its points and not how many the sweep has. That the last ones are missing is therefore seen only if the sweep is
-//! given as well. Shards of different sweeps differ in their columns, or in the digests beside them.
+//! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
+//! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
 use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
 use crate::commands::{fractiles, probability};
@@ -23,7 +23,7 @@ use std::io::{BufWriter, Write};
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-/// Joins tables in the order of their points. With the sweep's file it is certain that all points are there.
+/// Joins tables in the order of their points. With the sweep's file, it also checks that all points are there.
 pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(), Failure> {
     let format = Format::of(out)?;
     let wanted = sweep.map(Wanted::of).transpose()?;
@@ -86,7 +86,8 @@ impl Wanted<'_> {
         Ok(Wanted { file, columns: columns(&sweep)?, sweep })
     }
 
-    /// Whether a row has the values of a point, and in each cell what its column and the question are for.
+    /// Whether a row may be that of a point: it has the values of the point, each cell fits its column, and a time of overturning stands there
+    /// exactly if the column overturns and the sweep asks for that time.
     fn has(&self, row: &StringRecord, point: usize) -> bool {
         let is_setting = |(setting, cell): (&Setting, &str)| printable(&setting.to_string()) == cell;
         let of_axes = || self.sweep.settings(point).into_iter().zip(row.iter().skip(1));
@@ -100,7 +101,8 @@ impl Wanted<'_> {
     }
 }
 
-/// Refuses a table whose digest is not that of the sweep, or of the first table. Tables without one, as earlier versions left them, pass.
+/// Refuses a table whose digest is not that of the sweep, or of the first table if no sweep is given.
+/// A table passes if it has no digest, or if there is none to compare it with.
 fn check_digest(path: &Path, first: &Path, wanted: Option<&Wanted>) -> Result<(), Failure> {
     let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let Some(own) = of_table(path) else { return Ok(()) };
@@ -117,13 +119,14 @@ fn check_digest(path: &Path, first: &Path, wanted: Option<&Wanted>) -> Result<()
     }
 }
 
-/// The number of the first point of a table that has rows.
+/// The number of the first point of a table; `None` for a table without rows.
 fn first(path: &Path) -> Result<Option<u64>, Failure> {
     let row = open(path).map_err(broken(path))?.rows.next().transpose().map_err(broken(path))?;
     row.map(|row| index(&row, path)).transpose()
 }
 
-/// Passes on the rows of tables in their order, which must be those of one sweep, whole, each point once; returns how many they are.
+/// Passes the rows of tables to `write`, in order. The rows must be those of one sweep, whole, with each point once. Returns the number of
+/// rows.
 fn join(
     tables: &[&Path],
     wanted: Option<&Wanted>,
@@ -190,7 +193,7 @@ fn join_csv(
     Ok(rows)
 }
 
-/// Whether the last line of a file has its end.
+/// Whether a file ends with a line break.
 fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
     let mut file = File::open(path)?;
     let mut last = [0];

@@ -77,7 +77,7 @@ fn paper(degrees: bool, width_mm: Option<f64>) -> Paper {
     Paper { width_mm, angles: if degrees { Angles::Degrees } else { Angles::Natural } }
 }
 
-/// Whether a table is meant, though perhaps not there, and not a folder.
+/// Whether a path names a table: an existing path that is no folder, or a missing path with an extension.
 fn is_table(path: &Path) -> bool {
     path.exists() && !path.is_dir() || !path.exists() && path.extension().is_some()
 }

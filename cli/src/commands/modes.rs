@@ -25,18 +25,18 @@ pub struct Row {
     pattern: String,
     /// Free angles.
     dof: usize,
-    /// The step-time program of all modes with as many free angles.
+    /// Name of the step-time program, which all modes with the same number of free angles share.
     program: String,
-    /// Floating-point operations of one evaluation of the accelerations under horizontal ground motion.
+    /// Additions, subtractions and multiplications of one evaluation of the accelerations under horizontal ground motion.
     flops: usize,
-    /// Among the flops.
+    /// Divisions of the same evaluation, not counted in `flops`.
     divisions: usize,
     drawing: String,
 }
 
 /// The independent modes of a column, in the order of their labels.
 pub fn rows(blocks: usize) -> Vec<Row> {
-    // One step-time program per number of free angles: all modes that have as many share its operations.
+    // One step-time program per number of free angles: modes with the same number have the same operation counts.
     let operations: Vec<_> = (1..=blocks).map(|dof| Plan::new(dof).operations(GroundMotion::Horizontal)).collect();
     let row = |(label, pattern): (ModeLabel, Pattern)| {
         let dof = pattern.dof();
@@ -142,17 +142,17 @@ fn of_joints(joints: &Joints, asked: Asked) -> String {
 pub struct MovingRow {
     /// Free angles.
     angles: usize,
-    /// Slides, and two for each interface in flight.
+    /// Free translations: one for each interface that slides, two for each interface in flight.
     translations: usize,
-    /// Combinations of states, of the ten of each interface.
+    /// Number of combinations of the ten states of each interface.
     states: u64,
-    /// The program that serves them all.
+    /// Name of the program that serves all these combinations.
     program: String,
-    /// Whether this build has it; the hand-written equations serve the rest.
+    /// Whether this build has the program. If not, the hand-written equations serve.
     built: bool,
 }
 
-/// Free angles and translations of the states of a column with friction, angles first; without those in which nothing slides or flies.
+/// Rows of the states of a column with friction, by free angles, then by translations. States in which nothing slides or flies are left out.
 pub fn moving_rows(blocks: usize) -> Vec<MovingRow> {
     let counts = combinations(blocks);
     let all = counts.iter().enumerate().flat_map(|(angles, row)| {

@@ -10,7 +10,7 @@ use rocking::run_folder::Results;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Draws the figures of the run in `folder` into `out` and names them.
+/// Draws the figures of the run in `folder` into `out`, and prints their names and captions.
 pub fn plot(folder: &Path, format: Picture, out: &Path, paper: &Paper) -> Result<(), Failure> {
     let figures = draw(&Results::read(folder)?, format, out, paper)?;
     let mut text = format!("wrote {} figures to {}\n", figures.len(), shown(out));
@@ -32,7 +32,7 @@ pub fn draw(results: &Results, format: Picture, out: &Path, paper: &Paper) -> Re
     Ok(drawn)
 }
 
-/// Writes a figure as the end of the file's name says; as SVG where that says nothing.
+/// Writes a figure in the format that the extension of the file names; as SVG if it names none.
 pub fn write(figure: &Figure, file: &Path) -> Result<(), Failure> {
     let bytes = figure.bytes(Picture::of(file).unwrap_or(Picture::Svg));
     output::file(file, bytes.map_err(|problem| Failure::File(file.into(), problem))?)

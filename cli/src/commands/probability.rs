@@ -25,7 +25,7 @@ pub struct Lost {
     pub at: Vec<(String, String)>,
     #[serde(flatten)]
     pub found: Proportion,
-    /// Samples that failed, are undetermined or not determined: left out.
+    /// Samples left out: they failed, no motion follows from the laws of contact, or the verdict is not determined.
     pub undecided: usize,
 }
 
@@ -34,7 +34,7 @@ pub fn table(out: &Path) -> PathBuf {
     beside(&out.with_extension("csv"), "probability")
 }
 
-/// Counts the finished table of a sweep; nothing for one without distributions.
+/// Probabilities from the finished table of a sweep; empty for a sweep without distributions.
 pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     let Some(samples) = sweep.samples() else { return Ok(Vec::new()) };
     let found = open(out).map_err(at(Failure::Study, out))?;

@@ -1,4 +1,4 @@
-//! `rocking record FILE`: what a record file says and measures; trimmed, scaled and written if so asked.
+//! `rocking record FILE`: description and measures of a record file. The record is trimmed, scaled, written and drawn if asked for.
 
 use crate::arguments;
 use crate::commands::inputs;
@@ -21,7 +21,7 @@ pub const DIGITS: usize = 5;
 
 /// Describes a record file.
 pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(), Failure> {
-    // Only `--trim` may have swallowed the name of the file, and then it is given back.
+    // `--trim` may take the file's name as its second word; `Window::of` gives it back. Here no file is named at all.
     let Some(path) = arguments.file.clone() else {
         return Err(Failure::Trim(arguments.trim.join(" "), "no record file is named".into()));
     };
@@ -92,7 +92,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// The window of `--trim`. One word can say it all; the next one is then the file.
+    /// The window of `--trim`. If `--trim` has two words and no file is named, the first word is the window, and the second becomes `file`.
     pub fn of(arguments: &mut arguments::Record) -> Result<Option<Window>, Failure> {
         if arguments.file.is_none() && arguments.trim.len() == 2 {
             arguments.file = arguments.trim.pop().map(PathBuf::from);
@@ -168,10 +168,10 @@ pub struct Description {
     /// `[s]`
     pub dt: f64,
     pub samples: usize,
-    /// From the first sample to the last `[s]`; printed among the measures.
+    /// Time from the first sample to the last `[s]`; in JSON it stands among the measures.
     #[serde(skip)]
     pub duration: f64,
-    /// Factor of `--scale` or `--pga`.
+    /// Factor of the samples by `--scale`, `--pga` or `--scale-to`, dimensionless.
     pub scale: f64,
     /// One g `[m/s²]`.
     pub gravity: f64,
@@ -181,7 +181,7 @@ pub struct Description {
     pub measures: Option<Measures>,
     /// Spectral accelerations that were asked for.
     pub spectral: Vec<Spectral>,
-    /// Size for the column of a scene.
+    /// Size for the column of `--scene`; `None` without a scene.
     #[serde(flatten)]
     pub of_column: Option<OfColumn>,
     /// Whether the displacement is largest at the end.

@@ -1,7 +1,7 @@
 //! `rocking record FOLDER`: the records of a folder, their components by direction.
 //!
-//! The names of the files, as the databases give them, and the components that the files name decide which components belong to one
-//! record, and their directions.
+//! The names of the files decide which files are components of one record, by the conventions of the databases. The direction of a component
+//! follows from the name of its file and from the component that the file states.
 
 use crate::arguments;
 use crate::commands::inputs;
@@ -25,7 +25,7 @@ struct Listed {
     description: Description,
 }
 
-/// The records of a folder, and the files that are none.
+/// The records of a folder, and the files that could not be read as records.
 #[derive(Debug, Serialize)]
 struct Folder<'a> {
     folder: &'a Path,
@@ -40,7 +40,7 @@ struct Group {
     components: Vec<Listed>,
 }
 
-/// A file that is none.
+/// A file that could not be read as a record.
 #[derive(Debug, Serialize)]
 struct Unread {
     file: PathBuf,
@@ -100,7 +100,8 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     if arguments.json { json(&folder) } else { print(&folder.text()) }
 }
 
-/// A file of a folder: what the user says goes for the files that are silent.
+/// Reads and describes a file of a folder. If the file contradicts `options`, or has no such channel, it is read again without sampling interval,
+/// unit and channel.
 fn listed(
     folder: &Path,
     name: &Path,

@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-/// Runs a scene and writes its results; figures and a report of an earlier run are removed from their folder.
+/// Runs a scene and writes its results into a folder. Figures and report of an earlier run are removed from this folder.
 pub fn run(asked: &Run) -> Result<(), Failure> {
     let Run { scene: path, out, .. } = asked;
     let text = inputs::text(path)?;
@@ -49,7 +49,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
         written.push(COMPANIONS.into());
     }
     if asked.plots || asked.report {
-        // Made of the files, as `rocking plot` and `rocking report` make them: of one run there is one page.
+        // Figures and page are made of the files, so that they are the same as those of `rocking plot` and `rocking report`.
         let results = Results::read(out)?;
         if asked.plots {
             written
@@ -111,7 +111,7 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
         _ => format!("{fate} and stands at t = {t:.4} s, still rocking"),
     };
     let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
-    // Names once: with the first list of the blocks.
+    // Names of blocks are printed once, in the first list.
     let with_names = |numbers: &[f64]| {
         let told = numbers.iter().enumerate().map(|(block, number)| match name(scene, block + 1) {
             "" => format!("{number:.5}"),

@@ -28,7 +28,7 @@ pub fn man(folder: Option<&Path>) -> Result<(), Failure> {
     output::file(&folder.join("rocking.1"), page(root)?)?;
     for command in commands {
         let name = format!("rocking-{}", command.get_name());
-        // Its own name would be `run`, as in `man run`.
+        // The page is that of `man rocking-run`: the command's own name, `run`, would make it `man run`.
         let command = command.name(name.clone()).display_name(name.clone());
         names.push(format!("{name}.1"));
         output::file(&folder.join(format!("{name}.1")), page(command)?)?;

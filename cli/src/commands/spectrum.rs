@@ -13,7 +13,7 @@ use rocking::sweep::{Axis, Sweep};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Refuses a sweep that is to be drawn and cannot be, before it is run.
+/// Refuses a sweep that cannot be drawn, before it is run.
 pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
     if asked.shard.is_some() {
         return Err(Failure::PlotOfShard);
@@ -23,7 +23,8 @@ pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
     check_axes(&axes, sweep.len(), sweep.ask.is_of_peaks()).map_err(at(Failure::Spectrum, &asked.file))
 }
 
-/// Draws a table into files beside or below the table; they have its name. `study` draws the table of a study, and says `None` of another one.
+/// Draws a table into files with the name of the table, in the folder `out` or else beside the table.
+/// `study` draws the table of a study, and returns `None` for any other table.
 pub fn plot(
     table: &Path,
     format: Picture,
@@ -49,8 +50,8 @@ pub fn plot(
     print(&draw(table, &picture, paper)?)
 }
 
-/// Draws a table into `picture`, and, of a plane, the curves of the least that overturns into a file beside it, named like it with `-minimum`.
-/// Returns what was written and what it shows.
+/// Draws a table into `picture`. A spectrum over two axes has a second figure, the least value that overturns: its file stands beside `picture`,
+/// with `-minimum` added to the name. Returns the names of the files written, with captions.
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failure> {
     let mut text = String::new();
     let figures = figures(table, paper).map_err(at(Failure::Spectrum, table))?;
@@ -61,12 +62,12 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failu
     Ok(text)
 }
 
-/// The files of the figures of any table, of which `picture` is the first.
+/// The files of the figures of a table: `picture`, and the one with `-minimum` that only a spectrum over two axes has.
 pub fn files(picture: &Path) -> [PathBuf; 2] {
     [picture.into(), beside(picture, "minimum")]
 }
 
-/// The file beside another one that is named like it, with a word behind: `a.svg`, `a-word.svg`.
+/// The path of `file` with a word added to the name: `a-word.svg` for `a.svg`.
 pub fn beside(file: &Path, word: &str) -> PathBuf {
     let [stem, extension] = [file.file_stem(), file.extension()]
         .map(|part| part.map_or_else(String::new, |part| part.to_string_lossy().into_owned()));

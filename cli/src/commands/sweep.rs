@@ -1,7 +1,7 @@
 //! `rocking sweep`: a table with a row per point; a sweep that was interrupted continues with the first missing row.
 //!
-//! The name of the unfinished table (`table/growing.rs`) holds a digest of all that decides its rows. A shard leaves the digest of its
-//! whole sweep in a file beside its table, by which `rocking merge` recognises shards of another sweep.
+//! The name of the unfinished table (`table/growing.rs`) holds a digest of all that decides its rows. A shard also writes the digest of the
+//! whole sweep into a file beside its table: `rocking merge` compares these digests to recognise shards of another sweep.
 
 use crate::arguments;
 use crate::commands::probability::{self, Lost};
@@ -22,10 +22,10 @@ use rocking::sweep::{Ask, Fate, Field, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Points run together at first, and at least.
+/// Number of points in the first batch, and least number in a later one.
 const FIRST_BATCH: usize = 256;
 
-/// Runs a sweep, or what is left of it.
+/// Runs a sweep, or the missing points of an interrupted one.
 pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let out = asked.table();
     let format = Format::of(&out)?;
@@ -35,7 +35,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
     let mut outputs = vec![out.clone()];
     outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
-    // Probabilities are those of whole tables.
+    // Probabilities and fractiles are made of whole tables only, not of shards.
     let is_sampled = sweep.samples().is_some() && asked.shard.is_none();
     outputs.extend(is_sampled.then(|| probability::table(&out)));
     let is_of_records = asked.shard.is_none() && fractiles::has(&sweep);
@@ -68,7 +68,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     } else if !asked.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
         let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
-        // Of a table without a result it is told below.
+        // If all rows are errors, the failure below states the first one.
         let failed = first_error.as_ref().filter(|_| tally.errors < range.len());
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
         print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{drawn}"))?;
@@ -79,7 +79,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     }
 }
 
-/// A pool of so many threads; as many as the machine has unless given.
+/// A pool of `count` threads; without a count, as many as the machine has.
 pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count.map_or(0, usize::from)).build();
     pool.map_err(|error| Failure::Print(error.to_string()))
@@ -93,11 +93,11 @@ pub fn read(file: &Path) -> Result<Sweep, Failure> {
     Ok(sweep)
 }
 
-/// Points of a sweep whose scenes are read before it is run.
+/// Number of points that [`check_keys`] reads: the first ones, and as many again spread evenly over the sweep.
 const SAMPLES: usize = 64;
 
-/// Refuses a key that no scene knows. `Sweep::from_file` does so by its first scene; where that has a record that cannot be read, the
-/// others are asked here.
+/// Refuses a key that no scene knows. `Sweep::from_file` does so by the first scene. If a record of the first scene cannot be read, other scenes
+/// are read here: the sweep is refused if each of them, apart from those with unreadable records, is refused for a key.
 fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
     let is_of_key = |error: &SceneFileError| matches!(error, SceneFileError::Scene { cause: Cause::Key, .. });
     if !matches!(sweep.scene(0), Err(SceneFileError::Record { .. } | SceneFileError::Unreadable { .. })) {
@@ -106,7 +106,7 @@ fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
     let last = sweep.len() - 1;
     let spread = (1..SAMPLES).map(|sample| (last as u128 * sample as u128 / (SAMPLES - 1) as u128) as usize);
     let samples = (1..last.min(SAMPLES)).chain(spread).map(|index| sweep.scene(index).err());
-    // Records that cannot be read are rows with errors.
+    // A record that cannot be read is no reason to refuse a sweep: its rows have errors.
     let mut others = samples.filter(|error| !matches!(error, Some(SceneFileError::Record { .. })));
     match others.next() {
         Some(Some(error)) if is_of_key(&error) && others.all(|other| other.as_ref().is_some_and(is_of_key)) => {
@@ -116,7 +116,7 @@ fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
     }
 }
 
-/// The files that a sweep is made of, its own among them.
+/// The files that a sweep is made of: records, the sweep file itself, and the base scene.
 pub fn inputs_of(file: &Path, sweep: &Sweep) -> Vec<PathBuf> {
     records(sweep).into_iter().chain([file.into(), sweep.template.file().into()]).collect()
 }
@@ -136,7 +136,7 @@ pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
-/// The column that says whether the run was cut: the ground moves on after it.
+/// The column of the table that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on.
 pub const TRUNCATED: &str = "truncated";
 
 /// The columns of the table of a sweep.
@@ -167,7 +167,7 @@ const FIXED: usize = 7;
 /// Columns of `ask = "validity"` besides peaks and mode.
 const OF_VALIDITY: usize = 4;
 
-/// A row as so many cells, that of trust before those of the cut and the error.
+/// A row as `columns` cells. If trust is asked for, its cell comes before the last two, those of truncation and error.
 fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     if ask != Ask::Trust {
         return cells(row, ask, columns);
@@ -178,13 +178,13 @@ fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     cells.iter().take(columns - 3).chain([word]).chain(cells.iter().skip(columns - 3)).collect()
 }
 
-/// A row as so many cells.
+/// A row as `columns` cells, without that of trust.
 fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     let (mut cells, axes) = (vec![row.index.to_string()], row.settings.len());
     cells.extend(row.settings.iter().map(|setting| printable(&setting.to_string()).into_owned()));
     match &row.result {
         Ok(outcome) => {
-            // A run that ends when its outcome is certain has not had all its impacts.
+            // Impacts stay blank for a run that ends when its outcome is certain: not all of them have happened by then.
             let is_counted = match outcome.fate {
                 Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
                 Fate::Overturns => ask != Ask::Overturns,
@@ -197,7 +197,7 @@ fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
             let before_peaks = cells.len();
             cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
             if let Some(mode) = &outcome.last_mode {
-                // Columns of fewer blocks than the largest have blank peaks and slides.
+                // If the scene has fewer blocks than the largest scene of the sweep, the other cells of peaks and slides are blank.
                 let blocks = match (ask, columns - FIXED - axes - 1) {
                     (Ask::Slides, others) => others / 2,
                     (Ask::Validity, others) => others - OF_VALIDITY,
@@ -226,13 +226,13 @@ fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
     cells.into()
 }
 
-/// The file with the digest of the sweep that a shard's table is of.
+/// The file beside a shard's table that holds the digest of the sweep.
 pub fn digest_file(table: &Path) -> PathBuf {
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     table.with_file_name(format!("{name}.digest"))
 }
 
-/// A digest: Fowler, Noll & Vo's hash, 1a, of 64 bits, the same in every version and on every machine.
+/// A digest by the 64-bit hash FNV-1a of Fowler, Noll & Vo. This hash is the same on every machine and in every version of Rust.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fnv(u64);
 
@@ -244,12 +244,12 @@ impl Fnv {
         digest
     }
 
-    /// Its number.
+    /// The digest as a number.
     pub fn number(self) -> u64 {
         self.0
     }
 
-    /// The digest of all that decides the rows of a sweep: version, scene, axes, records.
+    /// The digest of all that decides the rows of a sweep: version, sweep file, base scene, axes, records.
     pub fn of(sweep: &Sweep, file: &Path) -> Result<Fnv, Failure> {
         let mut digest = Fnv::new();
         digest.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
@@ -265,7 +265,7 @@ impl Fnv {
         Ok(digest)
     }
 
-    /// Adds bytes.
+    /// Adds bytes, and a zero byte that ends them.
     pub fn add(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(b"\0") {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
@@ -295,14 +295,14 @@ struct Tally {
     no_uplift: usize,
     rocks: usize,
     overturns: usize,
-    /// The last three are of scenes with friction.
+    /// With friction only, as `collapses` and `undetermined`.
     slides: usize,
     collapses: usize,
     undetermined: usize,
     errors: usize,
-    /// Rows whose ground motion goes on after the run, and that did not overturn before; counted above by outcome.
+    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on. They are also counted by outcome.
     truncated: usize,
-    /// Rows whose outcome is not determined, of sweeps that ask for trust; counted above by outcome.
+    /// Rows whose outcome is not determined, in sweeps that ask for trust. They are also counted by outcome.
     not_determined: usize,
 }
 

@@ -1,4 +1,4 @@
-//! `rocking thresholds`: when a column's interfaces open.
+//! `rocking thresholds`: the ground acceleration at which each interface of a column opens.
 
 use rocking::{Scene, Stack};
 use serde::Serialize;

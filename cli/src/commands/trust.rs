@@ -1,25 +1,25 @@
-//! Companions of a run: whether it is followed, and what is printed of it.
+//! Companions of a run: whether they are run, and what is printed of their result.
 
 use crate::arguments;
 use rocking::trust::{Follow, Trust, Verdict, follow_run};
 use rocking::{Response, Scene, SolveError};
 
-/// Runs that took longer are followed only where that is asked for `[s]`: their companions take half a minute and more.
+/// Longest computing time of a run that is followed without `--trust` `[s]`. Companions of a longer run take half a minute and more.
 const LONGEST_FOLLOWED: f64 = 5.0;
 
-/// What came of the question how far a run can be trusted.
+/// Result of following a run by companions.
 #[derive(Debug)]
 pub enum Followed {
-    /// Not asked.
+    /// Not followed, because of `--no-trust`.
     No,
-    /// The run took so long `[s]` that it was not.
+    /// Not followed, because the run took so long `[s]`.
     TooLong(f64),
-    /// By companions.
+    /// Followed by companions, with what they say.
     By(Box<Trust>),
 }
 
 impl Followed {
-    /// Follows a run that took so many seconds, unless that is not wanted.
+    /// Follows a run that took `seconds`. Not with `--no-trust`, nor after more than [`LONGEST_FOLLOWED`] without `--trust`.
     pub fn of(
         asked: &arguments::Run,
         scene: &Scene,
@@ -41,13 +41,14 @@ impl Followed {
         }
     }
 
-    /// Words before the outcome of a run that is not determined. What follows from the laws of contact, or does not, is told by the run itself.
+    /// Words before the outcome of a run whose verdict is not determined; otherwise empty.
+    /// Empty also for a run that ends undetermined: its outcome says so itself.
     pub fn lead(&self) -> &'static str {
         let is_open = self.trust().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined);
         if is_open { "not determined; this run " } else { "" }
     }
 
-    /// A line, or none.
+    /// The line on trust; empty with `--no-trust`.
     pub fn line(&self) -> String {
         match self {
             Followed::No => String::new(),

@@ -8,11 +8,11 @@ use std::fmt::Write as _;
 struct Table {
     /// As it is written, such as `[solver]`, `[[block]]`.
     heading: String,
-    /// What stands in it.
+    /// Keys of the table.
     keys: Vec<Key>,
 }
 
-/// A key with what is to be known of it.
+/// A key with its description, as printed text.
 struct Key {
     name: String,
     kind: String,
@@ -21,7 +21,8 @@ struct Key {
     meaning: String,
 }
 
-/// Width of a type beyond which its choices stand behind the meaning: the column of types is as wide as its widest.
+/// Largest width of a type in its column [characters], since the widest type sets the width of the column.
+/// The choices of a wider type are listed after the meaning.
 const WIDEST_TYPE: usize = 40;
 
 /// The reference of a kind of file.
@@ -54,13 +55,14 @@ struct Schema<'s> {
 }
 
 impl<'s> Schema<'s> {
-    /// What a value stands for: the definition that it refers to.
+    /// The definition that a value refers to; the value itself if it refers to none.
     fn resolved(&self, value: &'s Value) -> &'s Value {
         let reference = value.get("$ref").and_then(Value::as_str).and_then(|reference| reference.strip_prefix('#'));
         reference.and_then(|pointer| self.root.pointer(pointer)).unwrap_or(value)
     }
 
-    /// The alternatives of a value, itself where there are none; that a key may be absent is none.
+    /// Alternatives of a value, with nested ones resolved; the value itself if it has none.
+    /// `null`, which marks a key that may be absent, is no alternative.
     fn alternatives(&self, value: &'s Value) -> Vec<&'s Value> {
         let value = self.resolved(value);
         let parts = ["anyOf", "oneOf"].iter().find_map(|key| value.get(*key)).and_then(Value::as_array);
@@ -72,7 +74,7 @@ impl<'s> Schema<'s> {
         }
     }
 
-    /// The keys of a table, if a value is one, or a list of them.
+    /// Keys of a value that is a table or a list of tables, and whether it is a list. `None` for any other value.
     fn table(&self, value: &'s Value) -> Option<(&'s Map<String, Value>, bool)> {
         let of = |value: &'s Value| value.get("properties").and_then(Value::as_object);
         self.alternatives(value).into_iter().find_map(|part| {
@@ -127,7 +129,7 @@ fn bounded(kind: &str, bounds: &Value) -> String {
         |key: &str, sign: &str| bounds.get(key).and_then(Value::as_f64).map(|bound| format!("{sign} {}", brief(bound)));
     let bounds = [("minimum", "≥"), ("exclusiveMinimum", ">"), ("maximum", "≤"), ("exclusiveMaximum", "<")];
     let told: Vec<String> = bounds.into_iter().filter_map(|(key, sign)| of(key, sign)).collect();
-    // Of a whole number without a sign, zero is no bound.
+    // Whole numbers have no sign: zero as the only bound is not stated.
     if told.is_empty() || (kind == "whole number" && told == ["≥ 0"]) {
         return kind.into();
     }
@@ -144,7 +146,7 @@ fn brief(bound: f64) -> String {
     }
 }
 
-/// Collects a table and those within it.
+/// Collects a table and the tables within it.
 fn collect<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut Vec<Table>) {
     let Some((properties, is_list)) = schema.table(value) else { return };
     let owner = schema.alternatives(value).into_iter().find(|part| part.get("properties").is_some()).unwrap_or(value);
@@ -177,7 +179,7 @@ fn collect<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut V
     };
     tables.push(Table { heading, keys: properties.iter().map(key).collect() });
     for (name, own) in properties {
-        // Both components have the same keys, and terms of a sum have those of a component.
+        // Not listed again: `vertical` has the keys of `horizontal`, `term` those of a component, `scene` those of scene files.
         let is_told = name == "term" || name == "vertical" || path.is_empty() && name == "scene";
         if !is_told {
             let below = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };

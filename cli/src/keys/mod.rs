@@ -1,7 +1,7 @@
-//! The keys of scene, sweep and study files: types that are never made, whose JSON schema and reference are derived from their documentation.
+//! The keys of scene, sweep and study files. Their types are never constructed: JSON schema and reference are derived from the doc comments.
 //!
-//! The reader of the library is not made of these types. `cli/tests/keys.rs` holds both together: it reads files of all kinds, and compares the keys
-//! that the reader asks for with those of the schema.
+//! The library's reader does not use these types. The test `cli/tests/keys.rs` keeps reader and types in agreement: it reads files of all kinds, and
+//! compares the keys that the reader asks for with the keys of the schema.
 
 mod kind;
 mod list;

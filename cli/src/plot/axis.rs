@@ -5,35 +5,35 @@
 pub struct Axis {
     /// Quantity and unit.
     pub label: String,
-    /// Values at its ends, the smaller first.
+    /// Values at both ends of the axis, the smaller first.
     pub range: [f64; 2],
-    /// From tick to tick; 1, 2 or 5 times a power of ten.
+    /// Distance between ticks: 1, 2 or 5 times a power of ten.
     pub step: f64,
-    /// Whether numbers stand at the ticks: of panels above one another only the lowest has them for the axis they share.
+    /// Whether the ticks have numbers. Of panels above one another that share this axis, only the lowest one has numbers.
     pub numbers: bool,
 }
 
 /// Margin beyond the values, as a share of their range.
 const ROOM: f64 = 0.06;
 
-/// Half of the range of an axis whose values are all zero: its numbers are short.
+/// Half the range of an axis around values that are all zero; the whole range of an empty axis. Numbers at its ticks are short.
 const STILL: f64 = 0.1;
 
-/// Ranges below this are empty: steps between their ticks would leave the range of doubles.
+/// A range not above this counts as empty: the step between its ticks would leave the range of doubles.
 const SHORTEST: f64 = 1e-290;
 
 impl Axis {
-    /// From `range[0]` to `range[1]`, with at least so many ticks; an empty range is widened, as no step divides it.
+    /// Axis from `range[0]` to `range[1]` with at least `ticks` ticks. An empty range is widened, because no step divides it.
     pub fn over(label: &str, range: [f64; 2], ticks: usize) -> Axis {
         let range = if range[1] - range[0] > SHORTEST { range } else { [range[0], range[0] + STILL] };
         Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
     }
 
-    /// Around all `values` with some room; around zero where nothing happens.
+    /// Axis over all finite `values`, with a margin at both ends. Around zero if all values are zero or there are none.
     pub fn around(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Axis {
         let [low, high] = span(values);
         let middle = 0.5 * (low + high);
-        // A constant far from zero still has two ends.
+        // Values that are all equal have no range: a millionth of the value keeps both ends of the axis apart.
         let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(1e-6 * middle.abs());
         let reach = if reach > 0.0 { reach } else { STILL };
         Axis::over(label, [middle - reach, middle + reach], ticks)
@@ -56,7 +56,7 @@ pub fn span(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.map(|value| [value, value]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
 }
 
-/// The largest of 1, 2, 5 times a power of ten of which so many multiples lie in a range.
+/// Step between ticks: the largest value of 1, 2 or 5 times a power of ten with at least `ticks` multiples in the range.
 fn step(range: [f64; 2], ticks: usize) -> f64 {
     let power = (range[1] - range[0]).log10().ceil() as i32;
     // Rounding must not lose the tick at an end.
@@ -65,7 +65,7 @@ fn step(range: [f64; 2], ticks: usize) -> f64 {
     steps.into_iter().find(|step| inside(*step) >= ticks as f64).expect("steps grow smaller")
 }
 
-/// Below this step numbers are written with a power of ten, and from its inverse times a hundred on.
+/// Smallest step whose numbers are written without a power of ten. From `100 / SMALL` on, numbers have a power of ten again.
 const SMALL: f64 = 1e-4;
 
 /// The number at a tick: as many decimals as the step has, a true minus, no `-0`.
@@ -95,7 +95,8 @@ pub fn subscript(number: usize) -> String {
     number.to_string().chars().map(lowered).collect()
 }
 
-/// A number in a text: two or three digits that count, a true minus.
+/// A number in a text, with a true minus. From 1e-3 to 1e6: three significant digits without trailing decimal zeros, and all digits
+/// before the point. Beyond: one significant digit.
 pub fn brief(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {

@@ -1,4 +1,4 @@
-//! The range of the angles of a run and its companions, behind the run's own curves, from where they part.
+//! Band of angles: the range of the angles of a run and its companions, behind the curves of the run. The band starts where the runs part.
 
 use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL};
@@ -6,18 +6,18 @@ use super::sheet::{Anchor, Panel, Sheet, text_width};
 use super::style::{self, Stroke};
 use rocking::trust::{Band, Trust};
 
-/// Columns of the band `[px]`: in each, the whole range of the times that fall into it.
+/// Smallest width of the columns of the band `[px]`. Each column has the whole range of angles at the times within it.
 const GRAIN: f64 = 1.0;
 
-/// Darkness of the area of a block, of one.
+/// Opacity of the band of one block, from 0 to 1.
 const OPACITY: f64 = 0.16;
 
-/// What companions say of a run whose angles are not determined to its end, with their band.
+/// Trust of a run whose angles are not determined to its end. `None` for any other run, or if no band was recorded.
 fn open<'a>(motion: &'a DrawnRun) -> Option<&'a Trust> {
     motion.results.trust.as_ref().filter(|trust| !trust.reaches_the_end() && !trust.band.is_empty())
 }
 
-/// Values of the band, up to [`FALL`] times the slenderness, for the axis of angles; none of a run whose angles are determined to its end.
+/// Angles of the band in the unit of the axis, cut at [`FALL`] times the slenderness. Empty if the run has no band to draw.
 pub fn values(motion: &DrawnRun) -> Vec<f64> {
     let Some(trust) = open(motion) else { return Vec::new() };
     let Band { t, low, high, .. } = &trust.band;
@@ -49,18 +49,18 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     }
 }
 
-/// Draws a line at the horizon with its name, where no curve runs if there is such a place.
+/// Draws a line at the horizon, with its name at the top of the panel, or at the bottom if curves run through the upper place only.
 pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let Some(trust) = open(motion) else { return };
     let frame = &panel.frame;
-    // Where the scene determines the angles to the end, its first six digits may not.
+    // If the exact inputs determine the angles to the end, the line marks how far the first six digits of the inputs do.
     let (t, words) = match trust.horizon < trust.ends_at {
         true => (trust.horizon, "angles known up to here"),
         false => (trust.input_horizon, "known up to here by six digits"),
     };
     let x = panel.place_x(t);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
-    // Left of the line, unless it begins at once.
+    // The name stands left of the line if there is room for it, otherwise right.
     let width = text_width(words, style::NOTE);
     let is_room = x - frame.left > width + 12.0;
     let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
@@ -72,7 +72,7 @@ pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     sheet.words_on_paper([at, y], words, style::NOTE, anchor);
 }
 
-/// The range of a block's angles per column of paper: `x`, and its lower and upper end `[px]`.
+/// Range of a block's angles in each column of the band, up to the time `end`: `x`, and the lower and upper end of the range `[px]`.
 fn edges(trust: &Trust, block: usize, end: f64, panel: &Panel, unit: f64) -> Vec<(f64, [f64; 2])> {
     let mut edges: Vec<(f64, [f64; 2])> = Vec::new();
     let Band { t, low, high, .. } = &trust.band;

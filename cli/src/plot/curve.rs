@@ -27,10 +27,10 @@ impl Frame {
     }
 }
 
-/// Width of the columns in which [`thin_along_x`] keeps extremes `[px]`: wider columns would make the drops of an energy slope.
+/// Width of the columns in which [`thin_along_x`] keeps extremes `[px]`. In wider columns, sudden drops of an energy would look inclined.
 const COLUMN: f64 = 0.5;
 
-/// A curve that runs to the right: first, smallest, largest and last point of every pixel column, in their order.
+/// Thins a curve that runs to the right. In each column of half a pixel, the first, highest, lowest and last point remain, in their order.
 pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
     let column = |point: &Point| (point[0] / COLUMN).floor();
     let mut kept = Vec::new();
@@ -47,7 +47,7 @@ pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// Largest distance of a drawn curve from its points `[px]`: a tenth of a pixel of the PNG.
+/// Largest distance of an omitted point from the drawn curve `[px]`: a tenth of a pixel of the PNG.
 const STRAIGHT: f64 = 0.03;
 
 /// A curve without the points that lie on a straight line between others (Douglas and Peucker 1973).
@@ -66,7 +66,7 @@ pub fn straighten(run: &[Point]) -> Vec<Point> {
     run.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
 }
 
-/// From a point to the line between two others.
+/// Distance of a point from the segment between two others.
 fn distance(point: Point, from: Point, to: Point) -> f64 {
     let (along, out) = ([to[0] - from[0], to[1] - from[1]], [point[0] - from[0], point[1] - from[1]]);
     let length = along[0] * along[0] + along[1] * along[1];
@@ -74,25 +74,25 @@ fn distance(point: Point, from: Point, to: Point) -> f64 {
     (out[0] - share * along[0]).hypot(out[1] - share * along[1])
 }
 
-/// Side of the squares of ink `[px]`, half of a line's width: a second line within a square could not be seen.
+/// Side of a square of [`Ink`] `[px]`, about half of a line's width: a second line through the same square could not be seen.
 const INK_SQUARE: f64 = 0.7;
 
-/// Squares of a straight line at most.
+/// Largest number of squares along one straight line.
 const MOST_SQUARES: f64 = 10_000.0;
 
-/// Squares that have been drawn in.
+/// Squares that have ink: a curve has been drawn through them.
 #[derive(Debug, Default)]
 pub struct Ink(HashSet<[i32; 2]>);
 
 impl Ink {
-    /// The parts of a curve of any shape that reach squares without ink, which then have some: a motion that repeats itself a
-    /// thousand times is drawn once.
+    /// Parts of a curve of any shape that run through squares without ink. These squares have ink from then on: a motion that repeats
+    /// itself a thousand times is drawn once.
     pub fn new_parts(&mut self, run: &[Point]) -> Vec<Vec<Point>> {
         let mut parts: Vec<Vec<Point>> = Vec::new();
         let mut joined = false;
         for ends in run.windows(2) {
             let [from, to] = [ends[0], ends[1]];
-            // Nothing on paper is longer; beyond its edges no square needs ink.
+            // The bound exceeds the length of any line on the paper. Beyond the edges of the paper no square needs ink.
             let squares = ((to[0] - from[0]).hypot(to[1] - from[1]) / INK_SQUARE).ceil().min(MOST_SQUARES);
             let mut new = false;
             for square in 0..=squares as i32 {
@@ -125,7 +125,7 @@ pub fn clip(run: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
     parts
 }
 
-/// Liang and Barsky (1984).
+/// Part of a segment inside a frame, by Liang and Barsky (1984). `None` if the segment lies outside.
 fn clip_segment(from: Point, to: Point, frame: &Frame) -> Option<[Point; 2]> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let sides = [
@@ -144,7 +144,7 @@ fn clip_segment(from: Point, to: Point, frame: &Frame) -> Option<[Point; 2]> {
             leaves = leaves.min(room / outwards);
         }
     }
-    // The ends themselves where they are inside, so that parts join.
+    // An end inside the frame is returned unchanged, so that consecutive segments join.
     let at = |share: f64| [from[0] + share * along[0], from[1] + share * along[1]];
     let first = if enters > 0.0 { at(enters) } else { from };
     let last = if leaves < 1.0 { at(leaves) } else { to };
@@ -155,7 +155,7 @@ fn clip_segment(from: Point, to: Point, frame: &Frame) -> Option<[Point; 2]> {
 /// not be seen.
 const TOO_LONG_FOR_DASHES: f64 = 25_000.0;
 
-/// Cuts a curve into dashes; `lengths` are of dashes and gaps in turn. A solid line stays as it is.
+/// Cuts a curve into dashes. `lengths`: dashes and gaps in turn, empty for a solid line. Solid and very long curves are not cut.
 pub fn dash(run: &[Point], lengths: &[f64]) -> Vec<Vec<Point>> {
     let length: f64 = run.windows(2).map(|ends| (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])).sum();
     if lengths.is_empty() || run.is_empty() || length > TOO_LONG_FOR_DASHES {

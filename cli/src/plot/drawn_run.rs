@@ -16,11 +16,11 @@ pub struct Knot<'a> {
     pub t: f64,
     /// `[rad]`
     pub theta: &'a [f64],
-    /// `[rad/s]`, with the pattern that goes with them.
+    /// Rates `[rad/s]` and pattern, at a row or before an event.
     pub before: (&'a [f64], Pattern),
-    /// The same, after the event; none for a row.
+    /// Rates `[rad/s]` and pattern after an event; `None` for a row.
     pub after: Option<(&'a [f64], Pattern)>,
-    /// Where blocks slid or flew: places and velocities of the blocks, before and after.
+    /// Places and velocities of the blocks, before and after an event; a row has the first list only. Empty unless blocks slid or flew.
     pub blocks: [Vec<BlockState>; 2],
 }
 
@@ -43,7 +43,7 @@ pub struct DrawnRun<'a> {
     pub results: &'a Results,
     /// Width of the figures, and unit of their angles.
     pub paper: &'a Paper,
-    /// The rows that are drawn: those after overturning only fill the file.
+    /// The rows that are drawn. Rows after overturning, or another early end, only fill the file and are left out.
     pub samples: &'a [Sample],
     /// Rows and events in order of time.
     pub knots: Vec<Knot<'a>>,
@@ -51,13 +51,13 @@ pub struct DrawnRun<'a> {
     pub end: f64,
 }
 
-/// Room behind overturning, as a share of the time until then.
+/// Room on the axes of time after an early end of the run, as a share of the time up to this end.
 const AFTERMATH: f64 = 0.04;
 
-/// Curves of angles end at so many times the slenderness where the column overturns: the fall would flatten the rest.
+/// Largest angle shown of a column that overturns, as a multiple of the slenderness: the fall would flatten the rest of the curves.
 pub const FALL: f64 = 2.0;
 
-/// Signs of a block's name in legends.
+/// Largest number of characters of a block's name in legends.
 const LONGEST_NAME: usize = 16;
 
 /// Whether a run with this end has no motion after it.
@@ -72,7 +72,7 @@ impl DrawnRun<'_> {
         let last = results.response.samples.last().map_or(0.0, |sample| sample.t);
         let (mut count, mut end) = (results.response.samples.len(), last.max(results.options.t_end));
         if ends_early(response.status) {
-            // The first row after it holds the column as it was then.
+            // The first row from the end on holds the column as it was at the end.
             count = (results.response.samples.partition_point(|sample| sample.t < response.t_final) + 1).min(count);
             end = end.min(response.t_final * (1.0 + AFTERMATH));
         }
@@ -96,7 +96,7 @@ impl DrawnRun<'_> {
         self.results.response.status == StopReason::Overturned
     }
 
-    /// The number of a block, from zero, and its name where it has one, cut where it would make legends long.
+    /// Number of a block, from one, with its name in brackets if it has one. A long name is cut. The argument `block` counts from zero.
     pub fn block_name(&self, block: usize) -> String {
         match self.results.looks.get(block).map(|look| look.name.trim()) {
             None | Some("") => format!("{}", block + 1),
@@ -105,7 +105,7 @@ impl DrawnRun<'_> {
         }
     }
 
-    /// What angles are divided by where they are drawn, base first `[rad]`: the slenderness, or a degree.
+    /// Unit of each block's angle in figures, base first `[rad]`: the slenderness, or a degree.
     pub fn units(&self) -> Vec<f64> {
         match self.paper.angles {
             Angles::Natural => self.slenderness(),
@@ -113,7 +113,7 @@ impl DrawnRun<'_> {
         }
     }
 
-    /// When the first angle passed [`FALL`] times its slenderness on the way to overturning `[s]`; none where the column stands.
+    /// Start of the fall `[s]`: from then on some angle exceeds [`FALL`] times its slenderness. `None` if the column does not overturn.
     pub fn falls_at(&self) -> Option<f64> {
         let slenderness = self.slenderness();
         let fallen = |knot: &Knot| knot.theta.iter().zip(&slenderness).any(|(theta, alpha)| theta.abs() > FALL * alpha);
@@ -172,7 +172,7 @@ fn knots<'a>(samples: &'a [Sample], events: &'a [Event]) -> Vec<Knot<'a>> {
             taken = event.t == sample.t;
             knots.push(at_event(event));
         }
-        // The row of an event's own time may stand for either side of it.
+        // A row at the time of an event may hold the state before or after the event, and is left out.
         if !taken {
             let before = (sample.omega.as_slice(), sample.pattern.clone());
             let blocks = [sample.blocks.clone(), Vec::new()];
@@ -202,7 +202,7 @@ fn at_event(event: &Event) -> Knot<'_> {
 }
 
 impl Knot<'_> {
-    /// The knot as rows, one for each side of an event. No ground motion: nothing that needs it is asked of them.
+    /// The knot as rows, one for each side of an event. The rows have no ground motion, and serve only for quantities that do not need it.
     pub fn rows(&self) -> impl Iterator<Item = Sample> {
         let sides = std::iter::once(&self.before).chain(&self.after).zip(&self.blocks);
         sides.map(|((omega, pattern), blocks)| {

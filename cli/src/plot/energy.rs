@@ -12,7 +12,7 @@ use rocking::pattern::Pattern;
 /// Height of the panel `[px]`.
 const HEIGHT: f64 = 300.0;
 
-/// The curves, as they are drawn.
+/// Name and line of each curve.
 const KINDS: [(&str, Stroke); 3] = [
     ("kinetic", Stroke::dashed("#d55e00", 1.4, &[7.0, 3.5])),
     ("potential, above rest", Stroke::dashed("#0072b2", 1.5, &[1.5, 4.0])),
@@ -29,7 +29,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     // After the fall has begun, energies show only how far the column has fallen.
     let fall = motion.falls_at().unwrap_or(f64::INFINITY);
     let mut curves: [Vec<Point>; 3] = [const { Vec::new() }; 3];
-    // Where blocks slid or flew, events without their places would have the energy of rocking alone.
+    // Where blocks slid or flew, an event without places of the blocks would have the energy of rocking alone, and is left out.
     let has_places = motion.samples.iter().any(|sample| !sample.blocks.is_empty());
     let rows = motion.knots.iter().flat_map(|knot| knot.rows()).filter(|row| !has_places || !row.blocks.is_empty());
     for row in rows {

@@ -12,13 +12,13 @@ const NORMAL: f64 = 190.0;
 const FRICTION: f64 = 230.0;
 const GAP: f64 = 16.0;
 
-/// The axis of friction demand ends here at the latest, or a third above the scene's coefficient: more is never at hand, and peaks
-/// before a contact parts would flatten the rest.
+/// Largest upper end of the axis of friction demand, or a third above the scene's coefficient if that is larger. No real contact
+/// has more friction, and peaks just before a contact parts would flatten the rest.
 const LARGEST_DEMAND: f64 = 2.0;
-/// The axis of normal forces ends at so many weights: a column that lies down hits hard.
+/// Normal forces beyond this multiple of the weight do not extend their axis: a column that falls hits hard.
 const LARGEST_NORMAL: f64 = 5.0;
 
-/// The coefficient that the scene has.
+/// Line of the scene's friction coefficient.
 const AVAILABLE: Stroke = Stroke::dashed(style::INK, 1.8, &[10.0, 5.0]);
 
 /// Curves of one interface over time. Friction demand has gaps where nothing presses.
@@ -57,7 +57,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let friction = sheet.wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
     sheet.label_upwards(&friction);
-    // Below the curves: a peak that reaches it is seen.
+    // The line is drawn first, below the curves, so that a peak that reaches it is seen.
     if let Some(available) = motion.results.available_friction() {
         sheet.level(&friction, available, &AVAILABLE);
     }
@@ -99,7 +99,7 @@ fn contacts(motion: &DrawnRun) -> Vec<Contact> {
     contacts
 }
 
-/// The point of no return of a run that overturns, up to which friction demand counts `[s]`.
+/// Point of no return, up to which friction demand counts `[s]`. `None` if the column does not overturn, or no validity was recorded.
 fn counted_until(motion: &DrawnRun) -> Option<f64> {
     motion.results.response.validity.as_ref().filter(|_| motion.overturned()).map(|validity| validity.until)
 }
@@ -108,7 +108,8 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
     contacts.iter().flat_map(|contact| &contact.demand).flatten().map(|point| point[1])
 }
 
-/// Marks of the run's largest demands at the right edge, and their numbers below: events between the output times count as well.
+/// Marks of the largest friction demands at the right edge of a panel, and a legend with their numbers below. Demands between output
+/// times count as well. Returns the lower end of the legend `[px]`.
 fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64) -> f64 {
     let response = &motion.results.response;
     let available = motion.results.friction.as_ref().map(|friction| {
@@ -116,7 +117,7 @@ fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64
         let which = if is_one { "" } else { "smallest static " };
         format!("{which}friction coefficient {}", brief(friction.least()))
     });
-    // Below the panel and not along its line: there the name would lie on the curves.
+    // The coefficient is named below the panel. A name along the line of the coefficient would lie on the curves.
     let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
     let (largest, _) = response.counted_forces();
     if !largest.is_empty() {

@@ -19,7 +19,7 @@ const VEIL: f64 = 0.1;
 /// Points of a curve.
 const POINTS: usize = 200;
 
-/// Levels with more runs than this have marks: of a cloud each run would be one, at 0 or 1.
+/// Smallest number of runs of a level with a mark. In a cloud each level has one run, whose mark would be at 0 or 1.
 const FEWEST_RUNS: usize = 2;
 
 /// A figure of several limit states: `label` is the measure with its unit.

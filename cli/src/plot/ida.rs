@@ -25,7 +25,7 @@ pub const FRACTILE_LINES: [Stroke; 3] = [
     Stroke::dashed("#d55e00", 2.0, &[3.0, 4.0]),
 ];
 
-/// Room right of the largest response, as a share of it.
+/// Room beyond the largest response, and beyond the highest level, as a share of each.
 const ROOM: f64 = 0.06;
 
 /// A figure of all runs: `label` is the measure with its unit.
@@ -84,8 +84,8 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     Figure::new("ida", caption, sheet)
 }
 
-/// A curve through the responses, from the lowest level up; where a column is lost it goes to the right edge, and comes back from there. It is broken
-/// where a run has no answer.
+/// A curve through the responses, from the lowest level up. At a level at which the column is lost, the curve runs to the right edge. It comes back
+/// where the column stands again. The curve is broken where a run has no answer.
 fn draw(sheet: &mut Sheet, panel: &Panel, points: &[(Option<f64>, f64)], stroke: &Stroke) {
     let edge = panel.x.range[1];
     let mut runs: Vec<Vec<Point>> = Vec::new();
@@ -107,7 +107,7 @@ fn draw(sheet: &mut Sheet, panel: &Panel, points: &[(Option<f64>, f64)], stroke:
     sheet.lines(panel, &runs, stroke);
 }
 
-/// How many columns are lost at each level, right of the panel; of crowded levels some.
+/// Counts of lost columns at each level, right of the panel. A count too close to the one written before is left out.
 fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Stripe]) {
     let x = panel.frame.right() + 0.5 * COUNTS;
     sheet.words([x, TOP - 10.0], "lost", style::NOTE, Anchor::Middle);

@@ -8,8 +8,8 @@
 //! runs of a study ────────────────> ida.rs, fragility.rs ───────────────────────────┘
 //! ```
 //!
-//! No mechanics: energies and forces come from the library. A figure is made of a run's files alone, and is the same, byte for
-//! byte, whenever it is made of them.
+//! No mechanics: energies and forces come from the library. A figure depends on the files of a run alone: the same files give the
+//! same bytes.
 
 mod axis;
 mod band;
@@ -41,7 +41,7 @@ pub use paper::{Angles, Paper, Picture, WIDTHS_MM};
 pub use record::record;
 pub use sheet::Figure;
 
-/// Names of the figures of a run, in the order of [`figures`]; `slides` only where blocks slide or fly.
+/// Names of the figures of a run, in the order of [`figures`]. The figure `slides` exists only if blocks slide or fly.
 pub const NAMES: [&str; 5] = ["time-history", "phase-portrait", "slides", "energy", "forces"];
 
 /// All figures of a run, in the order in which they are read.

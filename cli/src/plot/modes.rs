@@ -16,11 +16,11 @@ pub const LARGEST: usize = 5;
 
 /// Half-width and half-height of the column that is drawn `[m]`: the paper's.
 const COLUMN: [f64; 2] = [0.4, 1.56];
-/// The largest δ `[deg]`, for up to three blocks: what a gap needs to be seen.
+/// Angle of an open interface in columns of up to three blocks `[deg]`: large enough for the gap to be seen. Columns of more blocks have less.
 const TILT_DEG: f64 = 8.0;
-/// The lean of a column whose interfaces are all open to one side `[deg]`; with more, tall columns lie down.
+/// Largest angle of a top block `[deg]`, if all interfaces are open to one side. With more, tall columns would lie down.
 const LEAN_DEG: f64 = 24.0;
-/// Modes on one line: the states of two interfaces, so that a longer row breaks where a third one changes.
+/// Modes on one line: as many as two interfaces have combinations of states. A longer row breaks where the state of a third one changes.
 const PER_LINE: usize = 9;
 
 /// Pixels per metre, and lengths on the page `[px]`.
@@ -39,14 +39,14 @@ const SMALL: u32 = 11;
 const MEDIUM: u32 = 12;
 const LARGE: u32 = 13;
 
-/// Fills of the rigid groups, base first: grey stays with the ground, then the free angles. Okabe and Ito's colours (2008),
-/// distinct also for the colour-blind, at 60 % on white so that lines stand out.
+/// Fills of the rigid groups, base first: grey for the blocks that stay with the ground, then one fill per free angle. Okabe and Ito's
+/// colours (2008), distinct also for the colour-blind, at 60 % on white so that lines stand out.
 const FILLS: [&str; LARGEST + 1] = ["#d9d9d9", "#9ad2f2", "#f0c566", "#66c5ab", "#e0afca", "#f6ef8e"];
 const EDGE: Stroke = Stroke::solid(style::INK, 1.2);
 const HATCHING: Stroke = Stroke::solid(style::INK, 0.8);
 const JOINT: Stroke = Stroke::dashed(style::INK, 0.7, &[3.0, 2.0]);
 
-/// The fill of the blocks that turn by this free angle; 0 stays with the ground.
+/// The fill of the blocks that turn by free angle number `link`. Number 0 is for blocks that stay with the ground.
 pub fn fill(link: usize) -> &'static str {
     FILLS[if link == 0 { 0 } else { 1 + (link - 1) % LARGEST }]
 }
@@ -89,7 +89,7 @@ pub fn draw(blocks: usize) -> Figure {
             y += height + CAPTION;
         }
     }
-    // Above the topmost interface there is one state: the last line has room for the legend.
+    // With only the topmost interface open there is one mode: the last line has room for the legend.
     let beside = MARGIN + step + GAP;
     legend(&mut sheet, [beside, last_line], blocks, tilt_deg);
     let modes_on_a_line = PER_LINE.min(3usize.pow(blocks as u32 - 1)) as f64;
@@ -149,8 +149,9 @@ fn legend(sheet: &mut Sheet, [x, top]: Point, blocks: usize, tilt_deg: f64) {
     entry(sheet, 0.0, "Mirror images are the same modes.");
 }
 
-/// Height of a column in a sketch `[px]`, and its room on each side in heights: what a column leaning by [`LEAN_DEG`] needs.
+/// Height of a column in a sketch `[px]`.
 const SKETCH_HEIGHT: f64 = 44.0;
+/// Room on each side of a column in a sketch, as a share of the column's height: enough for a lean of [`LEAN_DEG`].
 const SKETCH_ROOM: f64 = 0.46;
 /// The largest opening in a sketch `[deg]`.
 const SKETCH_TILT_DEG: f64 = 10.0;

@@ -1,4 +1,4 @@
-//! The paper of a figure: how wide it is printed, the unit of angles, and how it is written.
+//! The paper of a figure: its printed width, the unit of angles, and the file format.
 
 use clap::ValueEnum;
 use std::path::Path;
@@ -6,13 +6,13 @@ use std::path::Path;
 /// Pixels of a sheet per millimetre of paper: 720 px on 15 cm, where text of 14 px has 8 pt.
 const PX_PER_MM: f64 = 720.0 / 150.0;
 
-/// Width of sheets unless another one is asked for `[px]`: narrow, so that text is large where it is printed in a column or seen on a phone.
+/// Default width of sheets `[px]`: narrow, so that text is large in a printed column or on a phone.
 const WIDTH: f64 = 720.0;
 
 /// How figures are laid out. Text keeps its size on paper of any width.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paper {
-    /// Width where it is printed `[mm]`; as wide as the page it stands on unless given, laid out for 15 cm.
+    /// Printed width `[mm]`. If `None`, the figure is laid out for 15 cm and scales to the page on which it stands.
     pub width_mm: Option<f64>,
     /// Unit of angles.
     pub angles: Angles,
@@ -21,14 +21,14 @@ pub struct Paper {
 /// Units of angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Angles {
-    /// Over the slenderness, slenderness itself and phase portraits in rad.
+    /// Angles are divided by the slenderness. The slenderness itself and phase portraits are in rad.
     #[default]
     Natural,
     /// In degrees.
     Degrees,
 }
 
-/// Narrowest and widest paper `[mm]`: on narrower paper legends and panels have no room, wider paper is none.
+/// Smallest and largest width of paper `[mm]`: on narrower paper legends and panels have no room, and no printed page is wider.
 pub const WIDTHS_MM: [f64; 2] = [80.0, 500.0];
 
 impl Paper {
@@ -75,7 +75,7 @@ impl Picture {
         }
     }
 
-    /// By the name of a file.
+    /// Format given by the extension of a file; `None` for any other extension.
     pub fn of(file: &Path) -> Option<Picture> {
         let extension = file.extension()?;
         Picture::value_variants().iter().copied().find(|picture| extension.eq_ignore_ascii_case(picture.extension()))

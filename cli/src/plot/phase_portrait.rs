@@ -7,10 +7,11 @@ use super::paper::Angles;
 use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, shortened};
 use super::style::{self, Stroke};
 
-/// Room around panels `[px]`.
+/// Room above a panel for the name of its block `[px]`.
 const NAME: f64 = 22.0;
+/// Distance between panels beside one another `[px]`.
 const GAP: f64 = 32.0;
-/// Panels side by side: with four, numbers would not be read.
+/// Largest number of panels side by side: with four, numbers would not be legible.
 const ACROSS: usize = 3;
 
 /// Jumps: dashes so short that a small impact still shows one.
@@ -68,7 +69,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     Figure::new("phase-portrait", caption, sheet)
 }
 
-/// Unit of angles, and of rates in a second `[rad]`.
+/// Unit of angles `[rad]`. Rates are in this unit per second.
 fn unit(motion: &DrawnRun) -> f64 {
     if motion.paper.angles == Angles::Degrees { 1f64.to_radians() } else { 1.0 }
 }

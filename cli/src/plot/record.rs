@@ -52,7 +52,7 @@ pub fn record(
     let percent: Vec<f64> = build_up.iter().map(|share| 100.0 * share).collect();
     let marks = [0.05, 0.95].map(|share| build_up.iter().position(|reached| *reached >= share));
     sheet.history(&panel, &series(&percent, dt), &BUILD_UP);
-    // The curve is low where 5 % are reached and high at 95 %: names stand where it is not.
+    // The curve is low where 5 % are reached, so that this name stands high. It is high where 95 % are reached, so that this name stands low.
     for (place, name, down) in [(marks[0], "5 %", 18.0), (marks[1], "95 %", HEIGHT - 10.0)] {
         let Some(place) = place else { continue };
         let x = panel.place_x(place as f64 * dt);
@@ -80,7 +80,7 @@ fn series(values: &[f64], dt: f64) -> Vec<Point> {
     values.iter().enumerate().map(|(place, value)| [place as f64 * dt, *value]).collect()
 }
 
-/// The share of the Arias intensity reached at every sample (Husid 1969): `∫₀ᵗ a² / ∫ a²`, straight between the squares.
+/// The share of the Arias intensity reached at every sample (Husid 1969): `∫₀ᵗ a² / ∫ a²`, with `a²` linear between samples.
 fn husid(accel: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut sums = vec![0.0; accel.len().min(1)];

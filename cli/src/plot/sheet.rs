@@ -1,8 +1,8 @@
 //! The sheet of paper: what is drawn on it, and how that becomes SVG and PNG. The only file that knows `kuva`.
 //!
-//! `kuva` draws frames, ticks, grids and text, and writes both outputs from one list of primitives, so that they show the same. It
-//! brings its font for PNGs; SVGs name a family. Curves come to it thinned, clipped and dashed ([`super::curve`]), so that
-//! documents have no identifiers that could clash where several stand on one page.
+//! `kuva` draws frames, ticks, grids and text. It writes all outputs from one list of primitives, so that they show the same. For PNGs
+//! `kuva` has a font of its own; SVGs name a font family. [`super::curve`] thins, clips and dashes curves before `kuva` gets them. SVGs
+//! therefore need no identifiers, which could clash where several SVGs stand on one page.
 
 use super::axis::{self, Axis};
 use super::curve::{self, Frame, Point};
@@ -21,7 +21,7 @@ use std::sync::Arc;
 pub const LEFT: f64 = 78.0;
 /// Room right of panels `[px]`.
 pub const RIGHT: f64 = 18.0;
-/// Narrowest panel beside others `[px]`.
+/// Smallest width of panels that stand beside one another `[px]`.
 const NARROWEST: f64 = 140.0;
 /// Pixels of a PNG per pixel of the sheet: 300 dots per inch where it is printed 18 cm wide.
 const PNG_SCALE: f32 = 3.0;
@@ -36,9 +36,9 @@ pub struct Sheet {
     pub width: f64,
     /// `[px]`
     pub height: f64,
-    /// In the order of drawing.
+    /// Primitives in the order of drawing.
     drawn: Vec<Primitive>,
-    /// Curves of data in panels, on paper: names keep clear of them.
+    /// Curves of data in panels, as points on paper `[px]`. Names of marked lines are placed clear of these curves.
     data: Vec<Vec<Point>>,
 }
 
@@ -60,7 +60,7 @@ impl Figure {
         Figure { name, svg: sheet.svg(&caption), caption, sheet }
     }
 
-    /// A file: the SVG itself, PNG with three pixels for one of the SVG, or PDF.
+    /// Content of a file: the SVG itself, a PNG with three pixels per pixel of the SVG, or a PDF.
     ///
     /// # Errors
     /// What could not be drawn, in words.
@@ -74,7 +74,7 @@ impl Figure {
     }
 }
 
-/// The part of a text that stands at its place: its left end, its middle or its right end.
+/// Point of a text that is placed at a given position: left end, middle or right end.
 pub use kuva::render::render::TextAnchor as Anchor;
 
 /// A frame with axes.
@@ -82,7 +82,7 @@ pub use kuva::render::render::TextAnchor as Anchor;
 pub struct Panel {
     pub frame: Frame,
     pub x: Axis,
-    /// None for a strip in which height means nothing.
+    /// `None` for a strip: its height has no meaning.
     pub y: Option<Axis>,
 }
 
@@ -104,7 +104,7 @@ impl Panel {
     }
 }
 
-/// An entry of a legend: how something looks, and its name.
+/// Key of a legend entry: the look of the line or area whose name stands beside it.
 #[derive(Clone, Debug)]
 pub enum Key {
     /// A line.
@@ -115,7 +115,7 @@ pub enum Key {
     None,
 }
 
-/// Width of sentences as a share of that of [`text_width`], which is that of names and numbers at their widest.
+/// Width of a sentence, as a share of the estimate of [`text_width`]. The estimate is for names and numbers, which are wider.
 const PROSE: f64 = 0.92;
 
 /// Lengths in a legend `[px]`.
@@ -143,7 +143,7 @@ impl Sheet {
         Panel { frame: Frame { left: LEFT, top, width: self.width - LEFT - RIGHT, height }, x, y }
     }
 
-    /// Panels that have room beside one another.
+    /// Largest number of panels that have room beside one another.
     pub fn most_columns(&self) -> usize {
         ((self.width - LEFT - RIGHT) / NARROWEST).floor().max(1.0) as usize
     }
@@ -151,7 +151,7 @@ impl Sheet {
     /// Frame, ticks and numbers of a panel.
     pub fn axes(&mut self, Panel { frame, x, y }: &Panel) {
         let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
-        // Frames are where their margins put them, however high the sheet turns out.
+        // Margins fix the position of the frame. The layout ends at the bottom of the frame, because the height of the sheet is not yet known.
         let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
             .with_width(self.width)
             .with_height(frame.bottom())
@@ -188,14 +188,14 @@ impl Sheet {
         self.words_upwards(at, &axis.label, style::LABEL, Anchor::Middle);
     }
 
-    /// The label of the axis to the right, below its numbers. Returns where it ends `[px]`.
+    /// The label of the axis to the right, below the numbers. Returns the lower end of the label `[px]`.
     pub fn label_below(&mut self, panel: &Panel) -> f64 {
         let at = [panel.frame.left + 0.5 * panel.frame.width, panel.frame.bottom() + 38.0];
         self.words(at, &panel.x.label, style::LABEL, Anchor::Middle);
         at[1] + 6.0
     }
 
-    /// Lines in a panel, cut at its frame; `runs` on paper.
+    /// Curves of data in a panel, cut at the frame of the panel. `runs` are points on paper `[px]`.
     pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
         let inside: Vec<_> = runs.iter().flat_map(|run| curve::clip(run, &panel.frame)).collect();
         self.runs(&inside.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect::<Vec<_>>(), stroke);
@@ -213,7 +213,7 @@ impl Sheet {
         self.lines(panel, &[curve::straighten(&curve::thin_along_x(&placed))], stroke);
     }
 
-    /// A line across a panel at a height, if the panel has it.
+    /// A line across a panel at a value of the upward axis, if the axis reaches this value.
     pub fn level(&mut self, panel: &Panel, value: f64, stroke: &Stroke) {
         if panel.reaches(value) {
             let y = panel.place([panel.x.range[0], value])[1];
@@ -231,7 +231,7 @@ impl Sheet {
         self.drawn.push(path(&areas, Some(fill), None));
     }
 
-    /// A filled polygon through which what lies below is seen; `opacity` from 0 to 1.
+    /// A translucent filled polygon; `opacity` from 0 to 1.
     pub fn veil(&mut self, corners: Vec<Point>, fill: &'static str, opacity: f64) {
         let mut veil = path(&[corners], Some(fill), None);
         if let Primitive::Path(path) = &mut veil {
@@ -245,7 +245,7 @@ impl Sheet {
         self.drawn.push(path(&[corners], Some(fill), Some(edge)));
     }
 
-    /// Lines as one, not cut and not dashed.
+    /// Lines as one path, neither cut nor dashed.
     pub fn runs(&mut self, runs: &[Vec<Point>], stroke: &Stroke) {
         self.drawn.push(path(runs, None, Some(stroke)));
     }
@@ -274,7 +274,7 @@ impl Sheet {
         self.drawn.push(Primitive::GroupEnd);
     }
 
-    /// Text; `at` is the end of its base line that `anchor` names.
+    /// Text. `at` is the point of its base line that `anchor` names: left end, middle or right end.
     pub fn words(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         self.text(at, text, size, anchor, None, false);
     }
@@ -295,7 +295,7 @@ impl Sheet {
         self.drawn.push(Primitive::Text { x: tidy(x), y: tidy(y), content, size, anchor, rotate, bold, color: None });
     }
 
-    /// Text on a patch of paper, to be read where lines run.
+    /// Text on a white patch, so that it is legible where lines run.
     pub fn words_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         let width = text_width(text, size) + 6.0;
         let frame = Frame {
@@ -308,7 +308,7 @@ impl Sheet {
         self.words(at, text, size, anchor);
     }
 
-    /// Upward text on a patch of paper.
+    /// Upward text on a white patch.
     pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         let height = text_width(text, size) + 6.0;
         let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
@@ -317,7 +317,7 @@ impl Sheet {
         self.words_upwards(at, text, size, anchor);
     }
 
-    /// A legend from `top` down, over the width of the panels. Returns where it ends `[px]`.
+    /// A legend from `top` down, over the width of the panels. Returns the lower end of the legend `[px]`.
     pub fn legend(&mut self, top: f64, entries: &[(Key, String)]) -> f64 {
         let (mut x, mut y) = (LEFT, top + 15.0);
         for (key, name) in entries {
@@ -326,7 +326,7 @@ impl Sheet {
                 Key::Fill(_) => FILL_WIDTH + KEY_GAP,
                 Key::None => 0.0,
             };
-            // Words alone are broken where they are wider than the paper, and nothing stands beside them.
+            // An entry of words only that is wider than the panels is broken into lines. No other entry stands beside these lines.
             let available = (self.width - RIGHT - LEFT) / PROSE;
             if matches!(key, Key::None) && text_width(name, style::NOTE) > available {
                 for line in broken(name, style::NOTE, available) {
@@ -366,7 +366,7 @@ impl Sheet {
     pub fn svg(&self, caption: &str) -> String {
         let body = self.elements(true);
         let (width, height, [title, caption]) = (self.width, self.height, [&self.title, caption].map(escape));
-        // Of paper of a given width, lengths in millimetres.
+        // If the paper has a given width, lengths are in millimetres.
         let [across, down] = match self.paper.width_mm {
             None => [width.to_string(), height.to_string()],
             Some(millimetres) => [millimetres, millimetres * height / width].map(|length| format!("{length:.2}mm")),
@@ -379,14 +379,14 @@ impl Sheet {
         )
     }
 
-    /// A document without paper, for a line of text of a page; `attributes` are of its root.
+    /// An SVG without background, to be set in a line of text of a page. `attributes` are those of the root element.
     pub fn inline(&self, attributes: &str) -> String {
         let (width, height) = (self.width, self.height);
         let body = self.elements(false);
         format!("<svg {attributes} width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">{body}")
     }
 
-    /// The marks and the end of the root, on white paper or none. The root that `kuva` writes has no view box: a sheet would not scale.
+    /// Content and end tag of the root, on white `paper` or none. The start tag of `kuva` is cut off: it lacks the view box that lets sheets scale.
     fn elements(&self, paper: bool) -> String {
         let mut scene = self.scene();
         scene.background_color = scene.background_color.filter(|_| paper);
@@ -405,7 +405,7 @@ impl Sheet {
         let points = self.paper.points_per_px();
         let page = kuva::PageSize::points(points * self.width, points * self.height);
         let mut scene = self.scene();
-        // The font that `kuva` brings, which has all signs, and not one of this machine.
+        // The font that comes with `kuva` has all signs; a font of this machine may lack some.
         scene.font_family = Some("DejaVu Sans".into());
         kuva::PdfBackend::new().with_page_size(page).render_scenes(&[scene])
     }
@@ -468,7 +468,7 @@ fn behind(anchor: Anchor, width: f64) -> f64 {
     }
 }
 
-/// A text that is cut where it would be wider than `[px]`.
+/// A text cut to at most `width` `[px]`, with an ellipsis at its end if it is cut.
 pub fn shortened(text: &str, size: u32, width: f64) -> String {
     let mut kept = text.to_string();
     while text_width(&kept, size) > width {
@@ -478,7 +478,7 @@ pub fn shortened(text: &str, size: u32, width: f64) -> String {
     kept
 }
 
-/// A text as lines that are not wider than `[px]`, but for single words.
+/// Breaks a text into lines of at most `width` `[px]`. A single word may be wider.
 fn broken(text: &str, size: u32, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ') {
@@ -493,7 +493,7 @@ fn broken(text: &str, size: u32, width: f64) -> Vec<String> {
     lines
 }
 
-/// About how wide a text is `[px]`; the font of the PNGs is wider than most.
+/// Estimated width of a text `[px]`, for the font of the PNGs, which is wider than most.
 pub fn text_width(text: &str, size: u32) -> f64 {
     let em = |sign: char| match sign {
         'i' | 'l' | 'j' | '.' | ',' | ':' | ';' | '|' | '\'' | '₁' | ' ' => 0.34,

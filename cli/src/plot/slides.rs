@@ -1,4 +1,4 @@
-//! Slides over time, and below the gaps of blocks in flight: only of runs in which something slides or flies.
+//! Slides over time, and in a panel below, the gaps of blocks in flight. Only runs in which something slides or flies have this figure.
 
 use super::axis::{Axis, brief};
 use super::curve::Point;
@@ -13,7 +13,7 @@ const SLIDES: f64 = 240.0;
 const GAPS: f64 = 110.0;
 const GAP: f64 = 16.0;
 
-/// The figure; none where no slide changes and nothing flies.
+/// The figure. `None` if nothing slides or flies, or if a row lacks slides or gaps.
 pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     let report = motion.results.response.motion_at_contacts()?;
     let interfaces = motion.results.column.len();
@@ -42,7 +42,7 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     Some(Figure::new("slides", caption(motion, report, has_gaps), sheet))
 }
 
-/// A panel from `top` down and so high, with a curve for each interface `[m]`.
+/// A panel at `top` with a `height` `[px]`. `curves` has one curve per interface `[m]`.
 fn curves_panel(
     sheet: &mut Sheet,
     motion: &DrawnRun,
@@ -50,7 +50,7 @@ fn curves_panel(
     time: Axis,
     (name, curves): (&str, &[Vec<Point>]),
 ) -> Panel {
-    // A block that falls slides far; what happened before is seen, if anything did.
+    // A block that falls slides far. The axis therefore covers the values before the fall only, unless all of these are zero.
     let until = |t: f64| curves.iter().flatten().filter(move |point| point[0] <= t).map(|point| point[1]).chain([0.0]);
     let fall = motion.falls_at().filter(|fall| until(*fall).any(|value| value != 0.0)).unwrap_or(f64::INFINITY);
     let values: Vec<f64> = until(fall).collect();

@@ -46,8 +46,8 @@ enum Drawing {
 }
 
 impl Drawing {
-    /// That of so many rows, with or without largest angles: curves where there are angles and not too many curves, otherwise a plane of two axes of
-    /// numbers, otherwise strips along one.
+    /// Drawing of a table with so many `rows`. With largest angles: curves, or a plane of two axes of numbers if there are too many curves.
+    /// Without largest angles: a plane, or strips along one axis if there are not two axes of numbers or all axes change together.
     fn of(axes: &[Axis], rows: usize, with_peaks: bool) -> Result<Drawing, NoSpectrum> {
         let plane = || {
             let plane = Plane::of(axes)?;
@@ -73,8 +73,8 @@ impl Drawing {
     }
 }
 
-/// Whether a sweep can be drawn, before it is run: its axes, each with its key and its values as a table has them, its number of points, and whether its
-/// rows have largest angles.
+/// Checks before a sweep is run whether it can be drawn. `axes` are the keys and values as a table has them; `with_peaks` means that rows have
+/// largest angles.
 pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpectrum> {
     let distinct = |values: &[String]| {
         let mut seen = HashSet::new();

@@ -12,7 +12,7 @@ use rocking_codegen::pattern::Interface;
 const LOWER: f64 = 40.0;
 const UPPER: f64 = 30.0;
 const HEIGHT: f64 = 46.0;
-/// Angle of an interface that turns `[deg]`, way of a slide and height of a flight `[px]`.
+/// Angle of an open interface `[deg]`, length of a slide and height of a flight `[px]`.
 const TURN_DEG: f64 = 12.0;
 const SLIDE: f64 = 10.0;
 const FLIGHT: f64 = 16.0;
@@ -106,7 +106,7 @@ fn state(sheet: &mut Sheet, joint: Joint, [x, y]: Point) {
     sheet.end_group();
 }
 
-/// Angle of the upper block `[deg]`, clockwise, its pivot from the middle of its base, and its slide `[px]`.
+/// Clockwise angle of the upper block `[deg]`, offset of its pivot from the middle of its base `[px]`, and its slide `[px]`.
 fn posture(joint: Joint) -> (f64, f64, f64) {
     let Joint::Contact(interface, slip, _) = joint else { return (-TURN_DEG, 0.0, 0.0) };
     let side = f64::from(interface.sign());
@@ -115,7 +115,7 @@ fn posture(joint: Joint) -> (f64, f64, f64) {
         Slip::Right => SLIDE,
         Slip::Left => -SLIDE,
     };
-    // A slide outwards begins further inside, so that the corner stays on the face.
+    // A slide outwards is half as long, so that the corner stays on the face below.
     let slide = if slide * side > 0.0 { 0.5 * slide } else { slide };
     (TURN_DEG * side, UPPER * side, slide)
 }

@@ -1,11 +1,11 @@
 //! Styles of lines and areas: distinct for the colour-blind, in grey print, and where curves lie on one another.
 //!
-//! Colours are Okabe and Ito's (2008). Every line has its own dashes as well, and later lines are thinner, so that an earlier one
-//! shows on both sides and through the gaps of those that cover it.
+//! Colours are Okabe and Ito's (2008). Each line has dashes of its own, and later lines are thinner: where a later line covers an
+//! earlier one, the earlier line shows on both sides of it and through the gaps between its dashes.
 
 /// Text, frames and ticks.
 pub const INK: &str = "#222222";
-/// Lines to compare with.
+/// Reference lines, and lines at zero.
 pub const GREY: &str = "#777777";
 /// Grid.
 pub const FAINT: &str = "#e4e4e4";
@@ -14,7 +14,7 @@ pub const GROUND: &str = "#000000";
 /// Jumps at impacts.
 pub const IMPACT: &str = "#d55e00";
 
-/// Sizes of text `[px]` on a sheet 720 px wide: 8 pt where it is printed 15 cm wide.
+/// Labels of axes, titles of panels `[px]`: 14 px are 8 pt if a sheet of 720 px is printed 15 cm wide.
 pub const LABEL: u32 = 14;
 /// Numbers at ticks `[px]`.
 pub const NUMBER: u32 = 13;
@@ -24,7 +24,7 @@ pub const NOTE: u32 = 13;
 /// A line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// In the notation of SVG.
+    /// Colour in the notation of SVG.
     pub color: &'static str,
     /// `[px]`
     pub width: f64,
@@ -44,12 +44,12 @@ impl Stroke {
     }
 }
 
-/// A value to compare with: slenderness, weight, friction coefficient.
+/// Line of a reference value: slenderness, weight, uplift amplitude.
 pub const REFERENCE: Stroke = Stroke::dashed(GREY, 1.2, &[5.0, 4.0]);
 /// Ticks and thin marks.
 pub const THIN: Stroke = Stroke::solid(INK, 0.9);
 
-/// Lines of the blocks or interfaces, base first. Larger columns begin anew: then the legend is of no use, and figures of parts are.
+/// Lines of the blocks or interfaces, base first. The eighth block has the line of the first: a legend of so many is of little use anyway.
 const LINES: [Stroke; 7] = [
     Stroke::solid("#0072b2", 2.6),
     Stroke::dashed("#d55e00", 2.1, &[8.0, 5.0]),
@@ -65,14 +65,14 @@ pub fn line(index: usize) -> Stroke {
     LINES[index % LINES.len()].clone()
 }
 
-/// Fills of modes, those that last longest first: the colours at 60 % on white, so that dark text is read on them.
+/// Fills of modes, the mode that lasts longest first. Okabe and Ito's colours at 60 % on white, so that dark text on them is legible.
 const FILLS: [&str; 7] = ["#9ad2f2", "#f0c566", "#66c5ab", "#e0afca", "#e69e66", "#f6ef8e", "#66aad1"];
-/// Modes beyond the fills.
+/// Fill of the modes without a fill of their own.
 pub const OTHER_FILL: &str = "#c4c4c4";
-/// Nothing moves.
+/// Fill of the mode `rest`; the white of the paper.
 pub const REST_FILL: &str = "#ffffff";
 
-/// Modes that get a fill of their own.
+/// Number of modes that get a fill of their own.
 pub const NAMED_MODES: usize = FILLS.len();
 
 /// The fill of the mode with this rank by time.

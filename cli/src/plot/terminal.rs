@@ -7,8 +7,8 @@ const ROWS: usize = 8;
 /// Bits of a cell's dots, `[column][row]` (Unicode, block Braille Patterns).
 const DOTS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// The series from its first to its last sample, each column of dots from the least to the largest value in it; zero is the
-/// middle. Lines without a break at the end; nothing for a series that is zero.
+/// The whole series. Each column of dots reaches from the smallest to the largest value within it; zero is in the middle.
+/// The last line has no line break. Empty for a series of zeros, or of fewer than two samples.
 pub fn series(values: &[f64]) -> String {
     let peak = values.iter().fold(0.0f64, |peak, value| peak.max(value.abs()));
     if peak == 0.0 || values.len() < 2 {

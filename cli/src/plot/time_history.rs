@@ -36,7 +36,7 @@ pub fn time_axis(motion: &DrawnRun) -> Axis {
     Axis::over("Time [s]", [0.0, motion.end], 6)
 }
 
-/// Ground acceleration in parts of gravity, from `top` down. Returns where it ends.
+/// Panel of the ground acceleration, as a multiple of gravity, from `top` down. Returns the lower end of the panel `[px]`.
 fn ground_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
     let gravity = motion.results.column.gravity();
     let directions: Vec<Vec<Point>> =
@@ -72,7 +72,7 @@ fn legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
             let is_natural = motion.paper.angles == Angles::Natural;
             let name = match motion.results.column.len() {
                 1 => format!("{}, α = {}", if is_natural { "θ/α" } else { "θ" }, motion.paper.angle(*alpha)),
-                // In degrees the sign is its own unit.
+                // With several blocks, an angle in rad is written without unit. An angle in degrees keeps its sign.
                 _ => {
                     let alpha = if is_natural { brief(*alpha) } else { motion.paper.angle(*alpha) };
                     format!("block {}, α{} = {alpha}", motion.block_name(index), subscript(index + 1))
@@ -119,7 +119,7 @@ fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
     panel
 }
 
-/// The angle `α` as it is drawn; none where each block has another one.
+/// The slenderness `α` in the unit of the angles drawn. `None` in degrees if there are several blocks, as each has another `α`.
 fn balance(motion: &DrawnRun) -> Option<f64> {
     match (motion.paper.angles, &motion.slenderness()[..]) {
         (Angles::Natural, _) => Some(1.0),
@@ -128,14 +128,15 @@ fn balance(motion: &DrawnRun) -> Option<f64> {
     }
 }
 
-/// A line where the run was over before its time, and what happened along it: to its upper `End`, or from its lower `Start`.
+/// Vertical line at the time of [`DrawnRun::ending`], with the name of the ending written upwards beside the line.
+/// `End` prefers the upper end of the line for the text, `Start` the lower end. Where curves run, the text moves to a free place.
 pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: Anchor) {
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
     let (right, left) = (x + 15.0, x - 6.0);
     let sides = if frame.right() - x > 20.0 { [right, left] } else { [left, right] };
-    // Where no curve runs: on the one side of the line or on the other, at the end that is asked for, at the other one, or between them.
+    // First free place in this order: beside the line on its first side, at the preferred end, the other end, or between them; then the other side.
     let height = sheet::text_width(&words, style::NOTE);
     let (top, bottom) = ((frame.top + 8.0, Anchor::End), (frame.bottom() - 8.0, Anchor::Start));
     let between = (1..PLACES).map(|place| {
@@ -156,7 +157,7 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
     sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);
 }
 
-/// Parts into which the way of a name along its line is cut where both ends are taken.
+/// Number of parts of the range in which a text can move along its line. Where curves run at both ends, the marks between parts are tried.
 const PLACES: u8 = 8;
 
 /// Impacts as ticks above a band of modes, with the numbers of the axis of time below.
@@ -177,7 +178,7 @@ fn strip(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
     panel
 }
 
-/// From so many ticks on those that fall on one another are drawn once.
+/// Beyond this number of ticks, ticks that coincide are drawn once.
 const MANY_TICKS: usize = 10_000;
 
 fn seen(mut ticks: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
@@ -187,7 +188,7 @@ fn seen(mut ticks: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     ticks
 }
 
-/// Columns of the band `[px]`: each shows the pattern that lasts longest in it.
+/// Width of the columns of the band `[px]`. Each column shows the pattern that lasts longest in it.
 const GRAIN: f64 = 0.25;
 
 fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) {
@@ -259,7 +260,7 @@ fn mode_fill(mode: &str, rank: usize) -> &'static str {
     if mode == "rest" { style::REST_FILL } else { style::fill(rank) }
 }
 
-/// Modes without a fill of their own are named up to this many.
+/// Largest number of modes without a fill of their own that the legend names.
 const LISTED: usize = 24;
 
 fn modes_legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {

@@ -1,8 +1,8 @@
 //! Frames of the player: the state at every output time and on both sides of every event, with the ground's motion.
 //!
-//! A frame is a row of `response.csv`, or the column just before or just after an event: two frames of one time, so that the
-//! player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
-//! written to 1e-10 rad. The ground's displacement only serves the picture: that of the rows as a record, less a constant velocity.
+//! A frame is a row of `response.csv`, or the column just before or just after an event. An event has two frames at one time, so that
+//! the player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
+//! written to 1e-10 rad. The ground's displacement only serves the picture: the rows integrated as a record, less a constant velocity.
 
 use crate::number::{fixed, significant};
 use crate::plot;
@@ -19,7 +19,7 @@ use serde_json::json;
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
 const MOST_ROWS: usize = 20_000;
 
-/// Digits behind the point of an angle `[rad]`: what is shown at a row's time is the row to 1e-9 rad.
+/// Digits behind the point of an angle `[rad]`: at the time of a row, the player shows the angles of the row to 1e-9 rad.
 const ANGLE_DIGITS: usize = 10;
 
 /// Significant digits of rates, which only shape the curve between two frames.
@@ -31,7 +31,7 @@ const GROUND_DIGITS: usize = 5;
 /// Digits behind the point of joints `[m]`.
 const JOINT_DIGITS: usize = 6;
 
-/// A drift below this share of the largest ground velocity is left: a pulse that ends at rest has none but rounding.
+/// A drift below this share of the largest ground velocity is not taken out: that of a pulse that ends at rest is only rounding.
 const NO_DRIFT: f64 = 1e-3;
 
 /// One frame.
@@ -46,9 +46,10 @@ struct Frame<'a> {
     ground: [[f64; 2]; 2],
 }
 
-/// `[a, c, b]` `[m]`: from the middle of the lower face to the middle of the upper one leads `R(θ_{i-1}) (a, c) + R(θ_i) (b, 0)`, where `(a, c)` is
-/// the corner that is in contact, or next to it, and `b` the way from there along the upper face. Of a contact `c` is zero. Between events the three
-/// change evenly, so that the player may enlarge angles without blocks that part or overlap.
+/// `[a, c, b]` `[m]`: the vector from the middle of the lower face to that of the upper one is `R(θ_{i-1}) (a, c) + R(θ_i) (b, 0)`. `(a, c)` is the
+/// corner on the side given by the pattern, in contact unless the block flies; of a closed interface, the middle of the upper face. `b` is the offset
+/// from `(a, c)` to this middle, along the upper face. In contact `c` is zero. Between events the three change evenly, so that the player may enlarge
+/// angles without making blocks part or overlap.
 type Joint = [f64; 3];
 
 /// The joints of blocks whose centroids are given, base first.
@@ -79,7 +80,7 @@ fn joints(column: &Column, theta: &[f64], pattern: &Pattern, places: &[[f64; 2]]
     joints
 }
 
-/// Number of rows of which one is kept.
+/// Stride of the rows: one of this number of rows is kept.
 fn stride(results: &Results) -> usize {
     results.response.samples.len().div_ceil(MOST_ROWS)
 }
@@ -95,7 +96,7 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
         while let Some(event) = events.next_if(|event| event.t <= row.t) {
             frames.extend(sides(&results.column, event, ground.at(results, index, event.t)));
         }
-        // Where a row falls on an event, the event has both sides of it.
+        // A row at the time of an event is left out: the event gives the frames before and after.
         let is_told = frames.last().is_some_and(|frame| frame.t == row.t);
         if !is_told && (index % stride == 0 || index == last) {
             let at = ground.at(results, index, row.t);
@@ -110,7 +111,7 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
             });
         }
     }
-    // Overturning ends the rows; what happened after the last of them belongs to the run all the same.
+    // Overturning ends the rows. Events after the last row still belong to the run.
     for event in events {
         frames.extend(sides(&results.column, event, ground.at(results, last, event.t)));
     }
@@ -139,8 +140,8 @@ struct Ground {
 }
 
 impl Ground {
-    /// Takes the rows as a record, linear in between, that starts from rest, and takes out the mean velocity of the second half of their time where
-    /// there is any: what a record's base line or a harmonic motion that starts from rest would carry away.
+    /// Integrates the accelerations of the rows twice from rest, linear between rows. Takes out the mean velocity of the second half of the time,
+    /// unless it is negligible: the base line of a record, or a harmonic motion that starts from rest, would carry the ground away.
     fn new(results: &Results) -> Ground {
         let rows = &results.response.samples;
         let (first, last) = (rows[0].t, rows[rows.len() - 1].t);
@@ -156,7 +157,7 @@ impl Ground {
                 largest = largest.max(velocity.abs());
             }
             let mean = (own[rows.len() - 1] - own[half]) / (last - rows[half].t);
-            // One row has no mean, and numbers of a folder may be beyond all ground motion.
+            // A single row has no mean velocity, and accelerations read from a folder may be too large to integrate.
             if !own.iter().all(|d| d.is_finite()) || !mean.is_finite() {
                 continue;
             }
@@ -235,7 +236,7 @@ pub fn json(results: &Results) -> String {
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {
         list(blocks.clone().map(|block| list(frames.iter().map(|frame| number(frame, block)).collect())).collect())
     };
-    // Rows and events of a run have all of them, or none.
+    // Either all frames of a run have joints, or none has.
     let has_joints = frames.iter().all(|frame| frame.joints.len() == column.len());
     let joint = |block: usize, part: usize| {
         list(frames.iter().map(|frame| fixed(frame.joints[block][part], JOINT_DIGITS)).collect())
@@ -260,18 +261,19 @@ pub fn json(results: &Results) -> String {
     ))
 }
 
-/// The largest angle that the player's curves show, as in the figures `[rad]`; none where the column stands, and all are shown.
+/// The largest angle that the player's curves show `[rad]`, as in the figures. `None` if the column does not overturn: all angles are shown.
 fn largest_shown(results: &Results) -> Option<f64> {
     let column = &results.column;
     let slenderness = (0..column.len()).map(|interface| column.stack(interface).slenderness());
     (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
-/// Interfaces, from 0, that closed in an impact, slid, parted or landed, or else opened.
+/// Interfaces, from 0, that closed in an impact or landed. At a start, an opening or a jump: those whose state changed. At other events, e.g. a
+/// slip: those that the event names.
 fn interfaces(event: &Event) -> Vec<usize> {
     match event.kind {
         EventKind::Impact | EventKind::Landing => closed(event),
-        // A jump names no interface, and a slip changes no sign.
+        // Patterns are compared, because a jump names no interface. A slip changes no pattern, and is in the last arm.
         EventKind::Start | EventKind::Opening | EventKind::Jump => (0..event.after.0.len())
             .filter(|&interface| event.before.0[interface] != event.after.0[interface])
             .collect(),

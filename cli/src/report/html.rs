@@ -6,11 +6,11 @@ pub fn script(json: &str) -> String {
     json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
-/// The template with `{{name}}` replaced by the part of that name. What a part says is not searched for places again: a scene
-/// may contain `{{css}}`.
+/// The template with `{{name}}` replaced by the part of that name. Inserted parts are not searched for further places: a scene may
+/// contain `{{css}}`.
 ///
 /// # Panics
-/// If the template names a part that is not there.
+/// If the template names a part that is missing, or does not close a place.
 pub fn fill(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_string();

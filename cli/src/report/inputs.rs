@@ -59,7 +59,7 @@ fn blocks(results: &Results) -> String {
     )
 }
 
-/// The contact law; `housner` is the ratio of rates of the column as one body without restitution.
+/// The contact law. `housner` is the ratio of the rates after and before a plastic impact of the column as one body.
 fn restitution(law: &Restitution, housner: f64) -> String {
     let plastic = "angular momentum is conserved about the new pivots, nothing rebounds";
     match law {
@@ -79,7 +79,7 @@ fn restitution(law: &Restitution, housner: f64) -> String {
     }
 }
 
-/// The state in the first row, unless it is the column at rest.
+/// Initial angles, rates and slides, from the first row. `None` if all are zero.
 fn initial(results: &Results) -> Option<String> {
     let first = results.response.samples.first()?;
     let list = |values: &[f64]| values.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");

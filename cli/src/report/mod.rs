@@ -1,8 +1,8 @@
 //! A run as one HTML file that needs nothing else: outcome, validity, animation, figures, inputs, provenance.
 //!
-//! The page is `page.html` with the texts that the files beside this one write, `page.css` and the files of `player/` put in their
-//! places, and the run's frames as JSON for the player. The same folder gives the same bytes: no time of day, no path of the folder.
-//! All that the page says of a run stands in [`Results`]; no motion is computed here.
+//! The page is the template `page.html` with its places filled: texts from the modules below, `page.css`, the files of `player/`, and
+//! the frames of the run as JSON for the player. The same folder gives the same bytes: the page has no time of day and no path of the
+//! folder. All that the page says of a run stands in [`Results`]; no motion is computed here.
 
 mod outcome;
 mod trust;
@@ -48,7 +48,7 @@ pub fn page(results: &Results) -> String {
     html::fill(include_str!("page.html"), &parts)
 }
 
-/// The player: one module of the page, in the order of its parts.
+/// Files of the player, in their order. Together they are one JavaScript module of the page.
 const PLAYER: [&str; 4] = [
     include_str!("player/state.js"),
     include_str!("player/stage.js"),
@@ -68,7 +68,7 @@ fn readout(results: &Results) -> String {
     (1..=results.column.len()).rev().map(row).collect()
 }
 
-/// The section of the figures, `(name, caption, svg)` each; nothing where there are none.
+/// The section of the figures, each `(name, caption, svg)`. Empty if there are no figures.
 fn section_of(figures: &[(&str, &str, &str)]) -> String {
     if figures.is_empty() {
         return String::new();

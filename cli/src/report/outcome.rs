@@ -67,7 +67,7 @@ pub fn sentence(results: &Results) -> String {
         ),
     };
     let (class, words) = trust::qualified(results, class, words);
-    // Told apart by shape, not by colour alone.
+    // Outcomes differ by the shape of their sign, not by colour alone.
     let sign = match class {
         "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
         "stands" => "<path d=\"M5 13l5 5L19 7\"/>",
@@ -84,7 +84,7 @@ pub fn sentence(results: &Results) -> String {
 /// Slides below this are not worth a number `[m]`.
 const SMALLEST_SLIDE: f64 = 1e-6;
 
-/// Where each drum stayed, and what slid and flew; nothing for a scene without friction.
+/// Where each drum stayed, and what slid and flew. Empty for a scene without friction.
 fn places(results: &Results) -> String {
     let response = &results.response;
     let Some(report) = &response.sliding else { return String::new() };
@@ -142,7 +142,7 @@ fn centimetres(length: f64) -> String {
     format!("{}&nbsp;cm", significant(100.0 * length.abs(), 3))
 }
 
-/// The figures that are asked for first.
+/// The key numbers: largest angle, impacts, the mode that lasts longest, ground acceleration.
 pub fn tiles(results: &Results) -> String {
     let response = &results.response;
     let mut tiles = Vec::new();
@@ -201,7 +201,7 @@ pub fn peaks(results: &Results) -> String {
     )
 }
 
-/// A bar of a share of one; longer shares fill it.
+/// A bar whose filled part is `share`, from 0 to 1. A larger share fills the whole bar.
 fn bar(share: f64) -> String {
     format!(
         "<span class=\"bar\" aria-hidden=\"true\"><i style=\"width:{}%\"></i></span>",
@@ -209,7 +209,7 @@ fn bar(share: f64) -> String {
     )
 }
 
-/// Interfaces that closed in an impact, from 0: open before, and without a gap.
+/// Interfaces, from 0, that closed in an impact: open before it, and without a gap at it. Of a landing, those that [`changed`] gives.
 pub fn closed(event: &Event) -> Vec<usize> {
     if event.kind == EventKind::Landing {
         return changed(event);
@@ -222,7 +222,7 @@ pub fn closed(event: &Event) -> Vec<usize> {
     (0..event.theta.len()).filter(|&interface| was_open(interface) && gap(interface) < CLOSED_GAP).collect()
 }
 
-/// Interfaces, from 0, that an event names, or else that it changed.
+/// Interfaces, from 0, that an event names. If it names none, those whose state changed.
 pub fn changed(event: &Event) -> Vec<usize> {
     let all = 0..event.after.0.len();
     match (event.interfaces.is_empty(), event.interface) {
@@ -232,7 +232,7 @@ pub fn changed(event: &Event) -> Vec<usize> {
     }
 }
 
-/// Gaps of an interface that has closed are rounding; hops that the solver follows are above its stick angle, 1e-9 rad `[rad]`.
+/// Gap below which an interface has closed `[rad]`: such a gap is rounding. Hops that the solver follows exceed its stick angle, by default 1e-9 rad.
 const CLOSED_GAP: f64 = 1e-12;
 
 /// Number of impacts, their interfaces, and the times of the first and the last.
@@ -263,7 +263,7 @@ pub fn impacts(results: &Results) -> String {
     format!("<p>{words}{counted}")
 }
 
-/// Modes of a list that are shown at once; the others are brief in most runs.
+/// Number of modes that are shown at once. The other modes are folded; they are brief in most runs.
 const MODES_SHOWN: usize = 8;
 
 /// Time in each mode, the longest first.

@@ -49,7 +49,7 @@ pub fn provenance(results: &Results) -> String {
 fn intervals(rows: &[Sample]) -> String {
     let [first, second, ..] = rows else { return "one row".into() };
     let dt = second.t - first.t;
-    // Times are rounded to within a digit of the last one.
+    // Each time is rounded: an interval may differ by a few roundings of the later time.
     let is_even = |pair: &[Sample]| ((pair[1].t - pair[0].t) - dt).abs() <= 4.0 * f64::EPSILON * pair[1].t;
     if rows.windows(2).all(is_even) {
         return format!("every {} s, {} rows", significant(dt, 6), rows.len());
@@ -58,7 +58,7 @@ fn intervals(rows: &[Sample]) -> String {
     format!("at {} times from {} s to {} s", rows.len(), significant(first.t, 6), significant(last.t, 6))
 }
 
-/// A word of a shell's command line.
+/// A word for the command line of a shell, in quotes if it needs them.
 fn quoted(word: &str) -> String {
     let plain = |sign: char| sign.is_alphanumeric() || "-_./+:=@%,".contains(sign);
     if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }

@@ -5,12 +5,12 @@ use rocking::run_folder::Results;
 use rocking::trust::Verdict;
 use std::fmt::Write as _;
 
-/// Whether companions say that the verdict is not determined. A run that ends undetermined says so itself.
+/// Whether companions show that the verdict is not determined. False for a run that ends undetermined: its outcome already says so.
 fn is_open(results: &Results) -> bool {
     results.trust.as_ref().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined)
 }
 
-/// Class and words of the outcome, as far as they are determined.
+/// Class and words of the outcome. If the verdict is not determined, the words say so, and what became of the column in this run.
 pub fn qualified(results: &Results, class: &'static str, words: String) -> (&'static str, String) {
     if !is_open(results) {
         return (class, words);
@@ -19,7 +19,7 @@ pub fn qualified(results: &Results, class: &'static str, words: String) -> (&'st
     ("undetermined", format!("The verdict is <strong>not determined</strong>. In this run {plain}"))
 }
 
-/// What the companions say; nothing for a run without.
+/// A paragraph on what the companions say. Empty for a run without companions.
 pub fn paragraph(results: &Results) -> String {
     let Some(trust) = &results.trust else { return String::new() };
     let mut text = format!("<p>Trust: {}.", escape(&trust.sentence()));

@@ -20,15 +20,15 @@ enum Verdict {
     Holds(String),
     /// The model holds for joints that are rough enough; the scene gives no friction coefficient.
     Conditional(String),
-    /// The model holds but for what is named.
+    /// The model holds, with the reason and a list of reservations.
     Noted(String, Vec<String>),
-    /// The reasons against it.
+    /// The model does not hold, for these reasons.
     Fails(Vec<String>),
     /// Contact forces were not recorded.
     Unknown,
 }
 
-/// The interface, from 0, that needs most friction, with its demand; infinite where none is enough.
+/// Interface, from 0, with the largest friction demand, and this demand; infinite if no coefficient is enough. `None` without recorded forces.
 fn largest_demand(results: &Results) -> Option<(usize, f64)> {
     results.response.counted_forces().0.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
@@ -86,7 +86,7 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
     if notes.is_empty() { Verdict::Holds(why) } else { Verdict::Noted(why, notes) }
 }
 
-/// Instants that are listed.
+/// Largest number of instants that are listed.
 const TIMES_SHOWN: usize = 5;
 
 /// Instants in words.
@@ -224,7 +224,7 @@ pub fn details(results: &Results) -> String {
         let weight = column.mass_above(interface) * column.gravity();
         let (demand, force) = (demands[interface], forces[interface]);
         let own = contacts.and_then(|contacts| contacts.get(interface));
-        // Where friction is modelled, none is beyond it.
+        // Where friction is modelled, no demand counts as beyond the coefficient.
         let slides =
             response.sliding.is_none() && results.available_friction().is_some_and(|friction| demand > friction);
         let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
@@ -289,7 +289,7 @@ pub fn details(results: &Results) -> String {
     text
 }
 
-/// How long contacts need more than some coefficients of friction, and how long they pull; nothing where they need less than the least of them.
+/// Table of the times for which each contact needs more than the [`COEFFICIENTS`], and for which it would pull. Empty if all times are zero.
 fn durations(validity: &Validity) -> String {
     let is_told = |needs: &ContactNeeds| needs.tension.time > 0.0 || needs.above.iter().any(|above| above.time > 0.0);
     if !validity.contacts.iter().any(is_told) {
@@ -314,7 +314,7 @@ fn durations(validity: &Validity) -> String {
     )
 }
 
-/// Contact problems without admissible pattern.
+/// Contact problems without admissible pattern, up to the point of no return if it is known.
 fn separations(results: &Results) -> String {
     let until = results.response.validity.as_ref().map_or(f64::INFINITY, |validity| validity.until);
     let instants = results.response.separations.iter().map(|one| one.t);

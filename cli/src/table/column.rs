@@ -5,8 +5,9 @@ use csv::StringRecord;
 /// Heading of the column of outcomes.
 pub const OUTCOME: &str = "outcome";
 
-/// Heading of the column that says whether the verdict is determined, and what it says where it is not.
+/// Heading of the column that says whether the verdict of a run is determined.
 pub const TRUST: &str = "trust";
+/// Text in the column [`TRUST`] for a verdict that is not determined.
 pub const NOT_DETERMINED: &str = "not-determined";
 
 /// The type of the cells of a column.
@@ -32,7 +33,7 @@ impl Column {
         Column { name: name.into(), kind, may_be_blank: false }
     }
 
-    /// A column with blank cells.
+    /// A column whose cells may be blank.
     pub fn sparse(name: impl Into<String>, kind: Kind) -> Column {
         Column { name: name.into(), kind, may_be_blank: true }
     }

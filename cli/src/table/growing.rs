@@ -1,8 +1,8 @@
 //! The table of a sweep while it is written: a sweep that was interrupted continues with the first missing row.
 //!
-//! Rows go in order into a hidden file of CSV beside the table, whose name holds a fingerprint of all that decides them. What is
-//! found there is kept up to the first row that is not the one due. When all rows are there it gets the name of the table; a table
-//! of Parquet is made of it first, and the hidden file stays until that has its name.
+//! Rows are appended in order to a hidden CSV file beside the table. The name of this file holds a fingerprint of all that decides the rows.
+//! A hidden file that is found is kept up to the first line that is not the line due. The complete hidden file is renamed to the table.
+//! For a table in Parquet, the hidden file is converted instead, and removed once the Parquet file has its name.
 
 use super::Format;
 use super::column::Column;
@@ -35,13 +35,14 @@ pub struct Growing {
     pub next: usize,
 }
 
-/// Points run together at most. Batches grow and shrink to take [`BATCH_TIME`]: long enough to keep all threads busy,
-/// short enough that little is lost when a table is cut off. Rows do not depend on them.
+/// Largest number of points in a batch. Rows do not depend on the sizes of batches.
 const LARGEST_BATCH: usize = 1 << 16;
+/// Time towards which batches grow and shrink: long enough to keep all threads busy, short enough that an interruption loses little.
 const BATCH_TIME: Duration = Duration::from_millis(250);
 
 impl Growing {
-    /// Goes on with what is there, or begins; the rows are those of these points. [`Failure::Running`] where another process is at it.
+    /// Continues a hidden file that is found, or begins a new one. The table has a row for each of `points`.
+    /// [`Failure::Running`] if another process is writing this file (noticed on Unix only).
     pub fn open(out: &Path, columns: &[Column], fingerprint: u64, points: Range<usize>) -> Result<Growing, Failure> {
         let failed = at(Failure::File, out);
         let mut header = csv::Writer::from_writer(Vec::new());
@@ -51,7 +52,7 @@ impl Growing {
         let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
         let mut file =
             File::options().read(true).write(true).create(true).truncate(false).open(&part).map_err(&failed)?;
-        // Two at once would write rows between each other's. Elsewhere a lock would keep this very program from reading.
+        // Two processes at once would mix their rows. On other systems a lock would also keep this program from reading the file.
         if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
             return Err(Failure::Running(out.into()));
         }
@@ -103,7 +104,7 @@ impl Growing {
         Ok(())
     }
 
-    /// Gives the table its name. Killed before, after or within, a sweep has all it needs to come here again.
+    /// Gives the table its name. At every moment either the hidden file or the table is complete: a sweep that is killed here loses no row.
     #[cfg_attr(not(feature = "parquet"), allow(unused_variables, reason = "CSV has no types"))]
     pub fn close(mut self, format: Format, columns: &[Column]) -> Result<(), Failure> {
         let failed = at(Failure::File, &self.out);
@@ -117,7 +118,7 @@ impl Growing {
                     .and_then(|file| parquet::from_csv(&self.part, columns, BufWriter::new(file)))
                     .and_then(|()| std::fs::rename(&whole, &self.out));
                 if let Err(error) = written {
-                    // The incomplete Parquet file is of no use; the part is.
+                    // The incomplete Parquet file is of no use; the hidden CSV file is kept.
                     let _ = std::fs::remove_file(&whole);
                     return Err(match error.kind() {
                         ErrorKind::InvalidData => Failure::Part(self.part.clone(), error.to_string()),
@@ -130,8 +131,8 @@ impl Growing {
     }
 }
 
-/// Cuts a file before the first line that is not the one due, the header and then a row for each point from the first on: a cut line, or
-/// what a failing disk has left. Returns how many lines are kept.
+/// Truncates a file before the first line that is not the line due, such as a cut line, or what a failing disk has left.
+/// Due are the header, then a row for each point from `first` on. Returns the number of lines kept.
 fn keep_due(file: &mut File, header: &[u8], first: usize) -> std::io::Result<usize> {
     let is_due = |line: &[u8], lines: usize| match lines {
         0 => line == header,

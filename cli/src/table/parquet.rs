@@ -6,8 +6,8 @@
 //! Reader ────────────┘
 //! ```
 //!
-//! A piece of at most [`GROUP`] rows is all that is in memory. Row groups end where their number of rows says and nowhere else, so
-//! that the bytes of a file depend on its rows alone: a merged table is the table of the whole sweep.
+//! Only one piece, of at most [`GROUP`] rows, is in memory. Every row group but the last has exactly [`GROUP`] rows. The bytes of a file
+//! therefore depend on its rows alone: a merged table is, byte for byte, the table of the whole sweep.
 
 use super::column::{Column, Kind, Rows};
 use csv::StringRecord;
@@ -25,11 +25,11 @@ use std::io::{Error, ErrorKind, Result, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Rows of a group. Memory grows with it (some ten megabytes at this size), files with many small groups are larger and slower to
-/// read. Files of another number have other bytes.
+/// Rows of a row group. Larger groups take more memory (some ten megabytes at this size). Smaller groups make files larger and slower to
+/// read. A change of this number changes the bytes of files.
 const GROUP: usize = 1 << 16;
 
-/// Rows that are text at a time: as such they take several times the memory.
+/// Largest number of rows held as text at a time: as text, rows take several times the memory.
 const MOST_TEXTS: usize = 1 << 12;
 
 /// Rows held as columns.
@@ -47,7 +47,7 @@ enum Cells {
 /// The values of a column, without its blanks.
 struct Values<T: DataType> {
     values: Vec<T::T>,
-    /// 1 for a value and 0 for a blank, a row each, where there may be blanks.
+    /// Definition level of each row: 1 for a value, 0 for a blank. `None` for a column without blanks.
     levels: Option<Vec<i16>>,
 }
 
@@ -125,7 +125,7 @@ impl Piece {
     fn texts(self) -> Result<Vec<StringRecord>> {
         let columns = self.columns.into_iter().map(|cells| match cells {
             Cells::Whole(values) => values.texts(|value| Ok(value.to_string())),
-            // The text of an axis in CSV.
+            // Numbers have the text that values of axes have in CSV.
             Cells::Number(values) => values.texts(|value| Ok(Setting::Number(*value).to_string())),
             Cells::Text(values) => values.texts(|value| Ok(value.as_utf8()?.to_string())),
         });
@@ -148,8 +148,8 @@ impl<W: Write + Send> Writer<W> {
         let mut properties = WriterProperties::builder();
         for column in columns {
             let path = ColumnPath::new(vec![column.name.clone()]);
-            // Values of axes come again and again, and a dictionary has them once. Numbers that count up are a few bits each as
-            // differences; results differ all.
+            // Values of axes repeat: a dictionary stores each of them once. The index counts up: as differences its numbers take a few bits
+            // each. Numbers of results hardly repeat, so that they have no dictionary.
             properties = match (column.kind, column.name.as_str()) {
                 (_, "index") => properties
                     .set_column_dictionary_enabled(path.clone(), false)
@@ -162,7 +162,7 @@ impl<W: Write + Send> Writer<W> {
         Ok(Writer { file, piece: Piece::new(columns) })
     }
 
-    /// Takes a row of CSV, and writes a group when its rows are there.
+    /// Takes a row of CSV. Writes a row group when [`GROUP`] rows have been taken.
     pub fn push(&mut self, row: &StringRecord) -> Result<()> {
         self.piece.push(row)?;
         if self.piece.rows == GROUP { self.write() } else { Ok(()) }
@@ -217,10 +217,11 @@ fn field(column: &Column) -> std::result::Result<Arc<Type>, ParquetError> {
 /// A table being read, a group after the other.
 pub struct Reader {
     file: SerializedFileReader<File>,
-    /// Its columns.
+    /// Columns of the table.
     pub columns: Vec<Column>,
-    /// Of the group that is being read, and how many rows of it are left.
+    /// Column readers of the row group that is being read.
     group: Vec<ColumnReader>,
+    /// Number of rows of this row group that are still to be read.
     left: usize,
     next_group: usize,
 }
@@ -246,7 +247,7 @@ impl Reader {
         Ok(Reader { file, columns, group: Vec::new(), left: 0, next_group: 0 })
     }
 
-    /// Adds up to so many rows to a piece with the same columns; returns how many: none at the end.
+    /// Adds up to `most` rows to a piece with the same columns. Returns the number of rows added: 0 at the end of the file.
     fn read(&mut self, piece: &mut Piece, most: usize) -> Result<usize> {
         while self.left == 0 {
             if self.next_group == self.file.num_row_groups() {
@@ -273,7 +274,7 @@ impl Reader {
         Ok(rows)
     }
 
-    /// Its rows as text.
+    /// Rows of the table as text.
     pub fn rows(mut self) -> Rows {
         let header = self.columns.iter().map(|column| column.name.as_str()).collect();
         let pieces = std::iter::from_fn(move || {

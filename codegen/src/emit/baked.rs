@@ -72,7 +72,7 @@ fn mode_type(mode: &BakedMode, ground: GroundMotion) -> Ident {
     }
 }
 
-/// Arms of `mode` for a mode and its mirror image.
+/// Match arms of the emitted function `mode` for one mode and its mirror image.
 fn arms(mode: &BakedMode) -> TokenStream {
     let arms = GroundMotion::ALL.map(|ground| {
         let (program, variant) = (mode_type(mode, ground), ground_name(ground));

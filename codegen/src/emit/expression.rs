@@ -9,24 +9,24 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Names and comments of a [`Writer`].
 pub trait Style {
-    /// How a symbol is read.
+    /// Tokens that read a symbol.
     fn symbol(&self, name: &str) -> TokenStream {
         let name = format_ident!("{name}");
         quote! { #name }
     }
 
-    /// Name of a part that is used more than once; `None` gives a number.
+    /// Name of a sub-expression that is used more than once or as a divisor. With `None`, it gets a numbered name such as `shared_1`.
     fn shared(&self, _arena: &Arena, _part: Expr) -> Option<String> {
         None
     }
 
-    /// Comment before the `let` of a value; parts that have a name already are in `names`.
+    /// Comment before the `let` of a value. `names` holds the sub-expressions that already have a name.
     fn remark(&self, _arena: &Arena, _value: Expr, _names: &HashMap<Expr, Ident>) -> Option<String> {
         None
     }
 }
 
-/// Writes a sequence of named values; a part that is used more than once, and every divisor, gets a name.
+/// Writes a sequence of named values. A sub-expression that is used more than once gets a name, and so does the reciprocal of every divisor.
 pub struct Writer<'a, Names: Style> {
     arena: &'a Arena,
     style: &'a Names,
@@ -34,18 +34,18 @@ pub struct Writer<'a, Names: Style> {
     /// Names of reciprocals, by divisor.
     reciprocals: HashMap<Expr, Ident>,
     uses: HashMap<Expr, usize>,
-    /// Names of values that are bound sooner or later: no other part may have them.
+    /// The values to be bound, now or later, by their names. No other sub-expression may take one of these names.
     reserved: HashMap<&'a str, Expr>,
     numbers: BTreeSet<usize>,
     lets: Vec<TokenStream>,
     unnamed: usize,
 }
 
-/// Numbers that are written as words, in units of a half.
+/// Numbers that are written as words: `(number of halves, word)`.
 const WORDS: [(usize, &str); 5] = [(1, "half"), (4, "two"), (6, "three"), (8, "four"), (16, "eight")];
 
 impl<'a, Names: Style> Writer<'a, Names> {
-    /// A writer for these values: some that are to be bound to names, and others that are to be read.
+    /// A writer for the values `named`, each to be bound to its name, and for `others`, which are only read.
     pub fn new(
         arena: &'a Arena,
         named: impl IntoIterator<Item = (&'a str, Expr)>,
@@ -85,10 +85,10 @@ impl<'a, Names: Style> Writer<'a, Names> {
         self.lets.push(remark(text));
     }
 
-    /// The tokens of a value; `let`s that it needs are written before.
+    /// The tokens of a value, after writing the `let`s that the value needs.
     pub fn read(&mut self, expr: Expr) -> TokenStream {
         match self.arena.node(expr).clone() {
-            // A reciprocal by itself is about to get a name.
+            // A value that is nothing but a reciprocal needs no `let` here: the caller binds or returns it.
             Node::Product(factors) if matches!(factors[..], [(_, -1)]) && !self.names.contains_key(&expr) => {
                 let divisor = self.tokens(factors[0].0, false);
                 let known = self.reciprocals.get(&factors[0].0);
@@ -98,7 +98,7 @@ impl<'a, Names: Style> Writer<'a, Names> {
         }
     }
 
-    /// The `let`s so far, after those of the numbers that they read.
+    /// All `let`s: first those of the numbers written as words, then the others.
     pub fn finish(self) -> Vec<TokenStream> {
         let numbers = self.numbers.iter().map(|&index| {
             let (halves, word) = WORDS[index];
@@ -193,7 +193,7 @@ impl<'a, Names: Style> Writer<'a, Names> {
 
     fn sum(&mut self, terms: &[(Rational, Expr)]) -> TokenStream {
         let mut tokens = TokenStream::new();
-        // A positive term leads where there is one: it saves a negation.
+        // A positive term, if there is one, comes first: this saves a negation.
         let leader = terms.iter().position(|(coefficient, _)| !coefficient.is_negative()).unwrap_or(0);
         let order = std::iter::once(leader).chain((0..terms.len()).filter(|index| *index != leader));
         for (position, index) in order.enumerate() {
@@ -239,7 +239,7 @@ impl<'a, Names: Style> Writer<'a, Names> {
     }
 }
 
-/// Counts how often each compound node is read, its children once per distinct node.
+/// Counts how often each node is read. The operands of a node are counted only once, on the first visit to that node.
 fn count_uses(arena: &Arena, expr: Expr, uses: &mut HashMap<Expr, usize>) {
     let seen = uses.entry(expr).or_insert(0);
     *seen += 1;

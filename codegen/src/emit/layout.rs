@@ -3,10 +3,10 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// Longest line of a comment without indentation; indented lines are up to 16 characters longer.
+/// Longest line of a comment, in characters without its indentation. Indentation adds up to 16 characters.
 const COMMENT_WIDTH: usize = 104;
 
-/// Marks a doc attribute that is to be printed as an ordinary comment: `quote` drops those.
+/// Marks a doc attribute that is printed as an ordinary comment (`//`), because `quote` drops ordinary comments.
 const ORDINARY: &str = "~";
 
 /// `/// …`, a line for each line of the text, long lines wrapped.
@@ -55,7 +55,7 @@ pub fn format(tokens: TokenStream) -> String {
         .collect()
 }
 
-/// A count or an index, without the suffix that `quote` gives.
+/// A count or an index, without the type suffix `usize` that `quote` would add.
 pub fn count(value: usize) -> Literal {
     Literal::usize_unsuffixed(value)
 }

@@ -37,12 +37,12 @@ pub fn functions(record: &LinkageRecord) -> TokenStream {
     quote! { #accelerations #others }
 }
 
-/// The functions of one linkage but those of the accelerations, which a baked column has as literals.
+/// The functions of one linkage except those of the accelerations, whose constants are literals in a baked column.
 pub fn force_and_energy_functions(record: &LinkageRecord) -> TokenStream {
     forces_and_energies(record, &stem(&record.linkage), &links(&record.linkage))
 }
 
-/// `links_2`: the name of the linkage of so many links that are any rigid bodies.
+/// `links_2`: the name of the linkage of two links that are arbitrary rigid bodies.
 fn composite_stem(record: &CompositeRecord) -> String {
     format!("links_{}", record.linkage.linkage.dof())
 }
@@ -91,7 +91,7 @@ fn forces_and_energies(record: &LinkageRecord, stem: &str, links: &str) -> Token
     quote! { #energies #series #(#interfaces)* }
 }
 
-/// The function of the accelerations' scene constants.
+/// Name of the function that computes the scene constants of the accelerations.
 pub fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
     match ground {
         GroundMotion::Horizontal => format_ident!("horizontal_{stem}"),
@@ -99,7 +99,8 @@ pub fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
     }
 }
 
-/// A function from the sizes of a column to scene constants, each with unit and formula; `energies` name quantities of the links.
+/// A function from the sizes of a column to scene constants, each with a comment of unit and formula. Sub-expressions that equal a constant
+/// of `energies` get its name.
 pub fn scene_constants(
     name: &Ident,
     title: &str,
@@ -141,7 +142,8 @@ impl Style for SceneNames<'_> {
         quote! { column.#family[#index] }
     }
 
-    /// Quantities of links by the names that they have in the energies; heights by the blocks that they span.
+    /// Names by what a sub-expression is: a constant of `energies` gets its name there, a product the names of its factors, and a lever or a
+    /// height the bodies or blocks that it spans.
     fn shared(&self, arena: &Arena, part: Expr) -> Option<String> {
         if let Some(known) = self.energies.iter().find(|constant| constant.source == part) {
             return Some(known.name.clone());
@@ -172,7 +174,7 @@ impl Style for SceneNames<'_> {
         }
     }
 
-    /// Unit and formula, in the letters of the notation and earlier names.
+    /// Unit and formula, written with the letters of the notation and with names given before.
     fn remark(&self, arena: &Arena, value: Expr, names: &HashMap<Expr, Ident>) -> Option<String> {
         let letter = |expr: Expr| match (names.get(&expr), arena.symbol_name(expr)) {
             (_, Some("gravity")) => Some("g".into()),
@@ -194,7 +196,7 @@ impl Style for SceneNames<'_> {
     }
 }
 
-/// `lateral_to_centroid_of_body_2`: the name of a sum of levers of bodies, by the body where they end.
+/// Name of a sum of levers: `lateral_to_centroid_of_body_2` by the last body, with `_from_1` added for the first body if that is lower.
 fn body_lever(arena: &Arena, terms: &[(Rational, Expr)]) -> Option<String> {
     let parts = terms.iter().map(|(_, term)| arena.symbol_name(*term).map(split)).collect::<Option<Vec<_>>>()?;
     let of = |family: &str| parts.iter().filter(|part| part.0 == family).map(|part| part.1).max();
@@ -213,7 +215,7 @@ fn body_lever(arena: &Arena, terms: &[(Rational, Expr)]) -> Option<String> {
     None
 }
 
-/// `half_height_2` in its parts.
+/// Splits a symbol into family and block: `half_height_2` into `half_height` and 2.
 fn split(symbol: &str) -> (&str, usize) {
     let (family, block) = symbol.rsplit_once('_').expect("block symbols are named family_block");
     (family, block.parse().expect("block symbols are numbered from one"))
@@ -262,7 +264,7 @@ fn interface_equations(constants: &Ident, program: usize) -> TokenStream {
     quote! { InterfaceEquations { constants: #constants, forces: #forces } }
 }
 
-/// `fn composite(dof)`: the equations of links that are any rigid bodies, by their number.
+/// `fn composite(dof)`: the equations of `dof` links that are arbitrary rigid bodies.
 pub fn composite_table(composites: &[CompositeRecord]) -> TokenStream {
     let arms = composites.iter().map(|record| {
         let stem = composite_stem(record);
@@ -294,7 +296,7 @@ pub fn composite_table(composites: &[CompositeRecord]) -> TokenStream {
     }
 }
 
-/// `fn mode(column, pattern, ground)` and the constant by which the solver is given it.
+/// `fn mode(column, pattern, ground)`, and the constant `EQUATIONS` that hands this function to the solver.
 pub fn modes(catalogue: &Catalogue) -> TokenStream {
     let max_blocks = catalogue.max_blocks;
     let arms = (1..=max_blocks).flat_map(|dof| {
@@ -315,7 +317,7 @@ pub fn modes(catalogue: &Catalogue) -> TokenStream {
     }
 }
 
-/// The name of the variant.
+/// Name of the variant of [`GroundMotion`], as an identifier.
 pub fn ground_name(ground: GroundMotion) -> Ident {
     format_ident!("{}", format!("{ground:?}"))
 }

@@ -1,7 +1,7 @@
 //! From programs to Rust text: tokens by `quote`, syntax by `syn`, layout by `prettyplease`.
 //!
-//! Numbers and powers are printed here and nowhere else. The text names items of the library as `rocking::…`, so that any crate
-//! that depends on the library can include it.
+//! Numbers and powers are printed as Rust here and nowhere else. The emitted text names items of the library as `rocking::…`, so that any
+//! crate that depends on the library can include the text.
 
 mod baked;
 mod expression;

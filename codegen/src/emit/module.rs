@@ -52,7 +52,7 @@ pub fn head(call: &str, contents: &str) -> String {
     ))
 }
 
-/// Programs of energies, weights and contact forces, which scene constants turn into those of a column.
+/// Programs of energies, weights and contact forces. They serve every column, whose sizes enter as scene constants.
 pub fn shared_programs(catalogue: &Catalogue) -> TokenStream {
     let energies = catalogue.energies.iter().map(step::energy_program);
     let series = catalogue.series.iter().map(step::series_program);
@@ -61,12 +61,12 @@ pub fn shared_programs(catalogue: &Catalogue) -> TokenStream {
     quote! { #(#energies)* #(#series)* #sized #(#forces)* }
 }
 
-/// Items of every linkage as text: the longest part of a module, each linkage laid out by itself.
+/// Items of every linkage as text. This is the longest part of a module, so linkages are formatted one by one, on several threads.
 pub fn texts<R: Sync>(linkages: &[R], items: impl Fn(&R) -> TokenStream + Sync) -> String {
     map_in_order(linkages, |record| format(items(record))).concat()
 }
 
-/// Items of the library that emitted code names.
+/// `use` declarations of the library items that emitted code needs.
 pub fn uses() -> TokenStream {
     quote! {
         use rocking::generated::{Equations, generated_mode};
@@ -76,7 +76,7 @@ pub fn uses() -> TokenStream {
     }
 }
 
-/// The code of one linkage: its step programs, and their scene constants.
+/// The code of one linkage: its step programs with their scene constants, and its energy program.
 pub fn excerpt(derivation: &Derivation) -> String {
     let parts = GroundMotion::ALL.map(|ground| {
         let program = derivation.acceleration(ground);

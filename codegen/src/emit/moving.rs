@@ -1,4 +1,4 @@
-//! The module of the programs with translations, and the excerpt of it for one of them.
+//! The module of the programs with translations, and the excerpt for one program.
 
 use super::expression::Writer;
 use super::layout::{count, doc, format, heading};
@@ -105,7 +105,8 @@ fn body(record: &MovingRecord, program: &Program) -> TokenStream {
     quote! { #inputs #(#lets)* #result }
 }
 
-/// `let [link_inertia_1] = carried.inertia;` and the like; names that the body does not read are left out.
+/// `let [link_inertia_1] = carried.inertia;` and the like. Names that the body does not read become `_`; arrays of which it reads no
+/// name are left out.
 fn inputs(record: &MovingRecord, used: &str) -> TokenStream {
     let words: HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     let mut lets = TokenStream::new();

@@ -1,4 +1,4 @@
-//! Printing of numbers: the one function, and its traps.
+//! The one function that prints numbers as Rust, and its traps: negative zero, and values that are not finite.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -115,7 +115,7 @@ pub fn meaning(name: &str) -> String {
     }
 }
 
-/// A name without the numbers at its end, and these.
+/// Splits a name into its stem and the numbers at its end.
 fn stem(name: &str) -> (&str, Vec<&str>) {
     let mut numbers = Vec::new();
     let mut rest = name;

@@ -34,7 +34,7 @@ pub fn force_name(index: usize) -> Ident {
     format_ident!("contact_forces_{}", index + 1)
 }
 
-/// A ground motion in a doc line.
+/// How a doc line names the ground motion; empty for the program that covers any ground motion.
 pub fn words(ground: GroundMotion) -> &'static str {
     match ground {
         GroundMotion::Horizontal => ", the ground moving horizontally only",
@@ -64,7 +64,7 @@ pub fn shared_step_program(program: &Program, ground: GroundMotion) -> TokenStre
     step_program(&step_type(dof, ground), &title, program, &HashMap::new())
 }
 
-/// A `struct` and its `StepProgram`; `literals` are values of constants that are known when the code is written, by name.
+/// A `struct` and its `StepProgram`. `literals` holds, by name, the values of constants that become literals in the code.
 pub fn step_program(name: &Ident, title: &str, program: &Program, literals: &HashMap<String, f64>) -> TokenStream {
     let (energies, series) = (energy_type(program.dof), series_type(program.dof));
     let doc = describe(title, program);
@@ -172,7 +172,7 @@ pub fn force_program(index: usize, program: &Program) -> TokenStream {
     }
 }
 
-/// The function by which contact-force programs take their arguments apart.
+/// The function that turns the slices passed to contact-force programs into arrays.
 pub fn sized() -> TokenStream {
     quote! {
         /// A slice as an array of the length that its program expects.
@@ -211,7 +211,7 @@ fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> Token
     quote! { #inputs #(#lets)* #result }
 }
 
-/// `let [cos_1, …] = *cos;` and the literals; names that the body does not read are left out.
+/// `let [cos_1, …] = *cos;`, with `_` for names that the body does not read, and a `let` for each literal that it reads.
 fn inputs(program: &Program, routine: &Routine, used: &str, literals: &HashMap<String, f64>) -> TokenStream {
     let words: HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     let families: &[&str] = match routine.name {

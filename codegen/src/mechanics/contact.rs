@@ -1,8 +1,8 @@
 //! Contact forces at an interface by d'Alembert's principle (docs/book/model.md, section 4).
 //!
-//! The force on the stack above is `F = Σ m_j A_j` with `A_j` the centroid's acceleration less gravity. The moment about
-//! the centre of the contact is the virtual work per virtual rotation `ψ` of the upper part of the link, the angles of the
-//! links above held: those links balance about their own pivots.
+//! The force on the stack above is `F = Σ m_j A_j` with `A_j` the centroid's acceleration less gravity. A closed interface lies inside a link.
+//! The moment about the centre of its contact is the virtual work per virtual rotation `ψ` of the part of that link above the interface.
+//! The angles of the links above are held, because those links balance about their own pivots.
 
 use super::kinematics::{Symbols, Vector, block_angles, centroids, dot, jacobian, time_derivative};
 use crate::pattern::Linkage;
@@ -14,10 +14,9 @@ use std::collections::HashMap;
 pub struct InterfaceForces {
     /// `Σ m_j A_j` `[N]`, in the axes of the ground.
     pub force: Vector,
-    /// Link whose axes give the normal and the tangent: that of the lower block; 0 is the ground.
+    /// Link of the lower block, whose axes give the normal and the tangent; 0 is the ground.
     pub lower_link: usize,
-    /// Clockwise moment about the contact's centre `[N m]`; at an open interface the resultant acts at the pivot, and
-    /// this is `None`.
+    /// Clockwise moment about the centre of the contact `[N m]`. `None` at an open interface, where the resultant acts at the pivot.
     pub moment: Option<Expr>,
 }
 
@@ -80,7 +79,7 @@ fn moment(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, inertial: &[V
     arena.total(terms)
 }
 
-/// `sin ψ, cos ψ` where the virtual angle is the link's own; the ground does not turn.
+/// Values of `sin ψ` and `cos ψ` where `ψ` equals the angle of the link; on the ground (link 0), `ψ = 0`.
 fn virtual_angle_in_place(arena: &mut Arena, symbols: &Symbols, link: usize) -> HashMap<Expr, Expr> {
     let (sine, cosine) = (arena.sin(symbols.psi), arena.cos(symbols.psi));
     let (to_sine, to_cosine) = match link {

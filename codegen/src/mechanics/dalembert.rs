@@ -1,15 +1,16 @@
-//! Equations of motion of one combination of states with friction, in the sizes of its blocks, by d'Alembert's principle.
+//! Equations of motion of one combination of states with friction, written in the sizes of the blocks, by d'Alembert's principle.
 //!
-//! Each row is the virtual work `Σ_i m_i A_i · δG_i + I_i θ̈_i δθ_i` on one virtual motion: along each angle and each translation in flight, and
-//! for a slide along its face lifted by `ε μ` for a unit of slide, on which the contact does no work (docs/book/model.md, section 14). Written out by
-//! differentiating the positions alone, this is what `rocking derive` prints, and what the programs of [`super::translation`] are compared with.
+//! Each row is the virtual work `Σ_i m_i A_i · δG_i + I_i θ̈_i δθ_i` on one virtual motion. An angle or a translation in flight is tested along
+//! itself. A slide is tested along its face lifted by `ε μ` per unit of slide, a motion on which the contact does no work
+//! (docs/book/model.md, section 14). The rows follow from the positions by differentiation alone. `rocking derive` prints these rows, and tests
+//! compare the programs of [`super::translation`] with them.
 
 use super::kinematics::{Bodies, Symbols, Vector, block_angles, centroids, dot, jacobian, rotate, total_derivative};
 use crate::joints::{Carrier, Joint, Joints, Slip};
 use crate::symbolic::{Arena, Expr, Level, Rational, Unit};
 use std::collections::HashMap;
 
-/// A coordinate with its derivatives and the virtual motion of its row.
+/// A coordinate with its first and second derivatives.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
     /// What it is.
@@ -29,7 +30,7 @@ pub enum Kind {
     Angle(usize),
     /// Slide of an interface (from 1).
     Slide(usize),
-    /// Distance of the faces of an interface (from 1) in flight: horizontal (0), vertical (1).
+    /// Distance between the faces of an interface (from 1) in flight, along one axis: 0 is horizontal, 1 vertical.
     Apart(usize, usize),
 }
 
@@ -37,7 +38,7 @@ impl Kind {
     /// The interface of a translation, from 1.
     ///
     /// # Panics
-    /// Of an angle.
+    /// If the coordinate is an angle.
     fn interface(self) -> usize {
         match self {
             Kind::Slide(interface) | Kind::Apart(interface, _) => interface,
@@ -53,13 +54,13 @@ pub struct Rows {
     pub symbols: Symbols,
     /// Angles, then translations, both base first.
     pub coordinates: Vec<Coordinate>,
-    /// Pivot offsets `[m]`, per interface; those of closed interfaces and of interfaces in flight do not occur.
+    /// Pivot offsets `[m]`, per interface. The equations contain only those of interfaces that are open on a corner.
     pub pivots: Vec<Expr>,
-    /// Coefficients of kinetic friction, per interface; only those of interfaces that slide occur.
+    /// Coefficients of kinetic friction, per interface. The equations contain only those of interfaces that slide.
     pub friction: Vec<Expr>,
     /// Positions of the centroids relative to the ground `[m]`, per block.
     pub centroids: Vec<Vector>,
-    /// Not symmetric where an interface slides. Rows of angles in `kg m²` and `kg m`, of translations in `kg m` and `kg`.
+    /// Matrix of the second derivatives; not symmetric if an interface slides. Rows of angles `[kg m²]`, `[kg m]`; of translations `[kg m]`, `[kg]`.
     pub matrix: Vec<Vec<Expr>>,
     /// Rate terms `[N m]` or `[N]`.
     pub bias: Vec<Expr>,
@@ -120,34 +121,34 @@ pub fn rows_of_motion(arena: &mut Arena, joints: &Joints) -> Rows {
 }
 
 fn translation(arena: &mut Arena, kind: Kind, name: String) -> Coordinate {
-    // A slide is in moments and levers, which are taken at the slides of the moment; that it changes is in the derivatives.
+    // The value is a scene symbol, because moments and levers are taken at the current slides. Changes of the value enter through its derivatives.
     let value = arena.symbol(name.as_str(), Level::Scene, Unit(1, 0, 0));
     let mut symbol = |suffix: &str, unit: Unit| arena.symbol(format!("{name}{suffix}"), Level::State, unit);
     let (rate, acceleration) = (symbol("_dot", Unit(1, 0, -1)), symbol("_ddot", Unit(1, 0, -2)));
     Coordinate { kind, value, rate, acceleration }
 }
 
-/// What the links and translations of a combination of states carry, at the slides of the moment. Vectors are (lateral, axial), to the right and
-/// along the axis of a link, upwards.
+/// What the links and translations of a combination of states carry, at the current slides. Vectors are (lateral, axial): across the axis of a
+/// link, to the right, and along it, upwards.
 #[derive(Clone, Debug)]
 pub struct Quantities {
-    /// Moments of inertia about the pivots of the links, with all masses above in the next pivot `[kg m²]`.
+    /// Moment of inertia of each link about its pivot, with all masses above concentrated in the next pivot `[kg m²]`.
     pub inertia: Vec<Expr>,
-    /// First moments of the same `[kg m]`.
+    /// First moment of each link about its pivot, with all masses above concentrated in the next pivot `[kg m]`.
     pub moment: Vec<Vector>,
-    /// From the pivot of each link to the next, of all but the last `[m]`.
+    /// Vector from the pivot of each link to the pivot of the next link `[m]`; none for the last link.
     pub lever: Vec<Vector>,
     /// Mass that each translation carries `[kg]`.
     pub mass: Vec<Expr>,
-    /// First moment of that mass about the pivot of each link `[kg m]`, `[translation][link]`.
+    /// First moment of the carried mass about the pivot of each link, as far as the link turns that mass `[kg m]`, `[translation][link]`.
     pub carried: Vec<Vec<Vector>>,
 }
 
 impl Rows {
-    /// Reads the derivation backwards into what its links and translations carry.
+    /// Recovers from the derived rows what links and translations carry.
     ///
     /// # Panics
-    /// If first moments do not turn with their links, which those of rigid bodies do.
+    /// If a first moment does not turn with its link. Those of rigid bodies always do.
     pub fn quantities(&self, arena: &mut Arena) -> Quantities {
         let angles = self.symbols.theta.len();
         let last = self.centroids.len() - 1;
@@ -169,7 +170,7 @@ impl Rows {
         Quantities { inertia, moment, lever, mass, carried }
     }
 
-    /// `Σ_{i>=first} m_i ∂G_i/∂θ_a = R'(θ_a) (lateral, axial)`
+    /// `(lateral, axial)` in `Σ_{i>=first} m_i ∂G_i/∂θ_a = R'(θ_a) (lateral, axial)`.
     fn first_moment(&self, arena: &mut Arena, first: usize, link: usize) -> Vector {
         let mut total = [Vec::new(), Vec::new()];
         for block in first..self.centroids.len() {

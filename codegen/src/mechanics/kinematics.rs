@@ -29,9 +29,9 @@ pub struct Symbols {
     pub psi: Expr,
     /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
     pub pivot: Vec<Expr>,
-    /// The same on the upper faces, length N: less the slides of interfaces that slide.
+    /// Pivot offsets on the upper faces `[m]`, length N: less than `pivot` by the slide where an interface slides, equal to `pivot` elsewhere.
     pub pivot_above: Vec<Expr>,
-    /// From the lower to the upper pivot of interfaces in flight, in the axes of the ground `[m]`, length N.
+    /// Vector from the lower to the upper pivot of an interface in flight, in the axes of the ground `[m]`, length N; `None` in contact.
     pub apart: Vec<Option<Vector>>,
     /// Half-heights `h_i [m]` of rectangles, length N.
     pub half_height: Vec<Expr>,
@@ -56,7 +56,7 @@ pub enum Bodies {
 }
 
 impl Symbols {
-    /// Declares the symbols of a column of `blocks` blocks with `dof` free angles; state before scene.
+    /// Declares the symbols of a column of `blocks` blocks with `dof` free angles. The order of declaration is the order of terms.
     pub fn declare(arena: &mut Arena, blocks: usize, dof: usize, bodies: Bodies) -> Symbols {
         let mut family = |name: &str, count: usize, level: Level, unit: Unit| -> Vec<Expr> {
             (1..=count).map(|index| arena.symbol(format!("{name}_{index}"), level, unit)).collect()
@@ -121,11 +121,12 @@ impl Symbols {
 }
 
 /// Positions of the centroids relative to the moving ground, base first, length N:
-/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (docs/book/model.md, section 3), for other bodies with
-/// their `top` and `centroid` instead of `(0, 2 h)` and `(0, h)`.
+/// `G_i = (p_1, 0) + Σ_{k<i} R(θ_k) (p_{k+1} - p_k, 2 h_k) + R(θ_i) (-p_i, h_i)` (docs/book/model.md, section 3). For bodies that are not
+/// aligned rectangles, `top` and `centroid` replace `(0, 2 h)` and `(0, h)`.
 ///
-/// Blocks of one link share an angle: their body vectors are added before they are turned, so the pivots of closed
-/// interfaces cancel. Where an interface slides, its pivots on the two faces differ; where it flies, a translation lies between them. `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
+/// Blocks of one link share an angle. Their body vectors are added before they are turned, so the pivots of closed interfaces cancel.
+/// Where an interface slides, its pivots on the two faces differ; where it flies, the translation `apart` lies between the two pivots.
+/// `angle_of_block` gives each block's angle symbol, `None` for blocks that stay with the ground.
 pub fn centroids(arena: &mut Arena, symbols: &Symbols, angle_of_block: &[Option<Expr>]) -> Vec<Vector> {
     let zero = arena.zero();
     // The chain so far: one body vector (u, v) per run of blocks with equal angle, base first.

@@ -19,7 +19,7 @@ pub struct Equations {
     pub bias: Vec<Expr>,
     /// Gravity and ground motion `[N m]`, length dof.
     pub forcing: Vec<Expr>,
-    /// `Σ_i m_i ∂G_i/∂θ_a` `[kg m]`, length dof: the first moment that link `a` carries about its pivot, turned.
+    /// `Σ_i m_i ∂G_i/∂θ_a` `[kg m]`, length dof: derivative by `θ_a` of the first moment that link `a` carries about its pivot.
     pub first_moment: Vec<Vector>,
     /// `∂G_top/∂θ_a` `[m]`, length dof: the lever from the pivot of link `a` to the next one (of the last link: to its
     /// uppermost centroid).
@@ -98,8 +98,8 @@ fn distribute_over_terms(arena: &mut Arena, expr: Expr, factor: Expr) -> Expr {
     arena.sum(terms)
 }
 
-/// Multiplies velocities out into their parts per link, so that the products of two different rates meet their
-/// opposites; the levers themselves stay factored.
+/// Multiplies velocities out into one part per rate, so that the products of two different rates cancel. The factors of the rates, which
+/// are levers, stay factored.
 fn split_rates(arena: &mut Arena, symbols: &Symbols, expr: Expr) -> Expr {
     let mut result = Vec::new();
     for (coefficient, term) in arena.terms(expr) {
@@ -118,7 +118,7 @@ fn split_rates(arena: &mut Arena, symbols: &Symbols, expr: Expr) -> Expr {
     arena.sum(result)
 }
 
-/// A sum each of whose terms carries a rate.
+/// Whether an expression is a sum of at least two terms, each with a rate among its factors.
 fn is_velocity(arena: &Arena, symbols: &Symbols, expr: Expr) -> bool {
     let terms = arena.terms(expr);
     terms.len() > 1

@@ -1,14 +1,14 @@
 //! The equations of motion in second derivatives of sines and cosines: the form in which Taylor coefficients are cheap.
 //!
-//! Positions are linear in `cos θ_b` and `sin θ_b`, so the centroids' accelerations are the same functions of their second
-//! derivatives, and each equation becomes, with its own link's share gathered in the constant `J_a`,
+//! Positions are linear in `cos θ_b` and `sin θ_b`. The centroids' accelerations are therefore the same functions of the second derivatives
+//! of these sines and cosines. With the share of link `a` itself gathered in the constant `J_a`, equation `a` becomes
 //!
 //! ```text
 //! J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0
 //! ```
 //!
-//! where the weights `C_a, S_a` are linear in `(cos θ_b)¨, (sin θ_b)¨` of the other links and in the ground's acceleration. Two
-//! products per link are all that is not linear. `tests/derivation.rs` proves the form against Euler-Lagrange.
+//! where the weights `C_a, S_a` are linear in `(cos θ_b)¨, (sin θ_b)¨` of the other links and in the ground's acceleration. The only
+//! nonlinear terms are two products per link. `tests/derivation.rs` proves the form against Euler-Lagrange.
 
 use super::kinematics::{Symbols, jacobian};
 use super::lagrange::Equations;
@@ -27,7 +27,7 @@ pub struct WeightForm {
 /// Derives the weights from the centroids by d'Alembert's principle.
 ///
 /// # Panics
-/// If an equation does not have the form above, which all rigid links give.
+/// If an equation does not have the form above. Equations of rigid links always have it.
 pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equations: &Equations) -> WeightForm {
     let dof = linkage.dof();
     let mut form = WeightForm { cos: Vec::with_capacity(dof), sin: Vec::with_capacity(dof) };
@@ -59,7 +59,7 @@ pub fn weight_form(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, equa
     form
 }
 
-/// An expression linear in sines and cosines with each replaced by its second derivative.
+/// Second derivative of a position that is linear in sines and cosines: each of these is replaced by the symbol of its second derivative.
 fn second_derivative(arena: &mut Arena, symbols: &Symbols, position: Expr) -> Expr {
     let mut terms = Vec::new();
     let expanded = arena.expand(position);

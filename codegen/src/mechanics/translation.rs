@@ -1,23 +1,23 @@
 //! Equations of motion of links between which translations are free: interfaces that slide or fly (docs/book/model.md, section 14).
 //!
-//! A translation `c` moves all that it carries by `w_c` along the unit vector `e_c = R(γ_c) (1, 0)`: a slide along the face in contact, which
-//! turns with one of the links or stands still with the ground, or one of the two directions of flight. With the first moment
-//! `P_c = Σ m_i G_i` of all that it carries, its row is that of the force which it transmits, tested along the face lifted by `ε μ`
-//! for a unit of slide (a translation in flight is not lifted):
+//! A translation `c` moves the bodies that it carries by `w_c` along the unit vector `e_c = R(γ_c) (1, 0)`. The translation is a slide along
+//! the face in contact, which turns with a link or rests with the ground, or one of the two directions of a flight. `P_c = Σ m_i G_i` is the
+//! first moment of the carried bodies. The row of the translation is the transmitted force `F_c`, tested along the face lifted by `ε μ` per
+//! unit of slide (not lifted in flight):
 //!
 //! ```text
 //! F_c = P̈_c + (Σ m_i) (ẍ_g, g + ÿ_g)          F_c · R(γ_c) (1, ε μ) = 0          which is T + ε μ N = 0
 //! ```
 //!
-//! In the row of an angle, the translations add `∂P_c/∂θ_a · (ẅ_c e_c + 2 ẇ_c ė_c)`. The rest is that of the linkage without them
-//! ([`super::lagrange`]).
+//! To the row of angle `a`, each translation `c` adds `∂P_c/∂θ_a · (ẅ_c e_c + 2 ẇ_c ė_c)`. The rest of that row is the row of the linkage without
+//! translations ([`super::lagrange`]).
 //!
-//! Which of the blocks a translation carries, and with which link its face turns, is data here: one derivation for `n` angles and `k`
-//! translations serves all columns with as many. To that end each link has a body on each *level*: bodies of level `l` are carried by the
-//! translations `1..=l`. Bodies that a column does not have are without mass.
+//! Which blocks a translation carries, and with which link its face turns, is data here. One derivation therefore serves all columns with `n`
+//! free angles and `k` translations. For this purpose each link has one body on each *level*: bodies of level `l` are carried by the
+//! translations `1..=l`. Bodies that a column does not have get zero mass.
 //!
-//! The slide itself, `u_c`, moves bodies in the axes of the link with whose angle the face turns, and so belongs to the first moments and
-//! levers of that link. The derivation is at `w = 0` for this reason.
+//! The slide itself, `u_c`, moves bodies in the axes of the link with whose angle the face turns. So it is part of the first moments and
+//! levers of that link, and the derivation is made at `w = 0`.
 
 use super::kinematics::{Bodies, Symbols, Vector, dot, jacobian, rotate, total_derivative};
 use super::lagrange::{Equations, equations_of_motion};
@@ -32,17 +32,17 @@ pub struct Translation {
     pub face: Expr,
     /// Rate of that angle `[rad/s]`.
     pub face_rate: Expr,
-    /// Way from where the derivation is made `w [m]`; zero there.
+    /// Displacement `w [m]`, counted from the place of the derivation, which is made at `w = 0`.
     pub way: Expr,
-    /// Its rate `[m/s]`.
+    /// Rate of the displacement `[m/s]`.
     pub rate: Expr,
-    /// Its second derivative `[m/s²]`.
+    /// Second derivative of the displacement `[m/s²]`.
     pub acceleration: Expr,
-    /// `ε μ`, dimensionless: how far its row is lifted; zero in flight.
+    /// `ε μ`, dimensionless: by how much the direction of the test is lifted from the face; zero in flight.
     pub lift: Expr,
-    /// The direction along which its row is tested, `R(γ) (1, ε μ)`: a name for [`Moving::test`].
+    /// Direction along which the row of the translation is tested, `R(γ) (1, ε μ)`. Symbols for the expressions [`Moving::test`].
     pub test: Vector,
-    /// Acceleration by the turning of its direction `2 ẇ ė [m/s²]`: a name for [`Moving::coriolis`].
+    /// Coriolis acceleration `2 ẇ ė [m/s²]`, from the turning of the direction `e`. Symbols for the expressions [`Moving::coriolis`].
     pub coriolis: Vector,
 }
 
@@ -72,11 +72,11 @@ pub struct Moving {
 /// Derives the equations of motion of `angles` links with `translations`.
 ///
 /// # Panics
-/// Without a translation: a linkage of angles alone is derived by [`equations_of_motion`].
+/// If `translations` is zero: [`equations_of_motion`] derives a linkage of angles alone.
 pub fn moving_links(arena: &mut Arena, angles: usize, translations: usize) -> Moving {
     assert!(translations > 0, "without translations there is a linkage of angles alone");
     let levels = translations + 1;
-    // The bodies on the ground, then those of each link; the lowest one stays where it is.
+    // One body per level: first those on the ground, then those of each link. Body 0, on the ground at level 0, does not move.
     let bodies = (angles + 1) * levels;
     let linkage = Linkage { open: (0..bodies).map(|body| body > 0 && body % levels == 0).collect() };
     let symbols = Symbols::declare(arena, bodies, angles, Bodies::Any);
@@ -154,7 +154,7 @@ fn declare(arena: &mut Arena, number: usize) -> Translation {
     Translation { face, face_rate, way, rate, acceleration, lift, test, coriolis }
 }
 
-/// Coordinates with their first and second derivatives. That of the rate of a face is left out: it multiplies the way.
+/// Coordinates with their first and second derivatives. The second derivative of a face angle is set to zero: its factor is `w`, which is zero.
 fn coordinates(arena: &mut Arena, symbols: &Symbols, translations: &[Translation]) -> Vec<[Expr; 3]> {
     let mut coordinates = symbols.coordinates();
     for each in translations {
@@ -165,7 +165,7 @@ fn coordinates(arena: &mut Arena, symbols: &Symbols, translations: &[Translation
 }
 
 impl Moving {
-    /// `F_c` tested along its face, and zero: the equation of a translation (from zero).
+    /// Row of a translation (from zero): `F_c` tested along the lifted face. The equation of motion is that this vanishes.
     pub fn row(&self, arena: &mut Arena, translation: usize) -> Expr {
         dot(arena, self.translations[translation].test, self.force[translation])
     }

@@ -26,7 +26,7 @@ pub fn coefficient(arena: &mut Arena, expr: Expr, driver: Expr) -> Expr {
     condense(arena, slope)
 }
 
-/// The cheapest of the forms named above.
+/// The first of the forms named above that applies.
 pub fn condense(arena: &mut Arena, expr: Expr) -> Expr {
     let expanded = arena.expand(expr);
     if arena.level(expanded) != Level::State || is_turned_vector(arena, expanded) {
@@ -43,7 +43,7 @@ pub fn condense(arena: &mut Arena, expr: Expr) -> Expr {
     arena.add(product, rest)
 }
 
-/// Every term is a scene coefficient times the sine or cosine of the same angle.
+/// Whether every term is a scene coefficient times the sine or cosine of one angle, the same in all terms.
 fn is_turned_vector(arena: &Arena, expr: Expr) -> bool {
     let mut angle = None;
     arena.terms(expr).iter().all(|(_, term)| {
@@ -65,7 +65,7 @@ fn merge_coefficients(arena: &mut Arena, expr: Expr) -> Expr {
     arena.total(terms)
 }
 
-/// The state factor that occurs in most terms; of equals the first in structural order.
+/// The state factor that occurs in most terms. Ties go to the first in structural order.
 fn most_shared_factor(arena: &Arena, expr: Expr) -> Option<Expr> {
     let mut counts: Vec<(Expr, usize)> = Vec::new();
     for (_, term) in arena.terms(expr) {

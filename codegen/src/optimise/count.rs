@@ -61,7 +61,7 @@ fn count(arena: &Arena, values: impl IntoIterator<Item = Expr>, is_constant: imp
                 count.additions += terms.len() - constants + usize::from(constants > 0) - 1;
                 for (coefficient, term) in terms.iter().filter(|(_, term)| !is_constant(*term)) {
                     let is_unit = *coefficient == Rational::ONE || *coefficient == -Rational::ONE;
-                    // A number joins the scene constant of its product.
+                    // A numeric coefficient costs nothing if its product has a scene constant, which absorbs it.
                     let has_constant = arena.factors(*term).iter().any(|(factor, _)| is_constant(*factor));
                     count.multiplications += usize::from(!is_unit && !has_constant);
                 }

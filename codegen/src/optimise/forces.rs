@@ -35,7 +35,7 @@ pub fn force_program(arena: &mut Arena, symbols: &Symbols, forces: &InterfaceFor
     builder.finish()
 }
 
-/// Constants of the force: mass of the stack above the interface, and its first moments about the pivots of the links.
+/// Name of a constant of the force: the mass of the stack above the interface, or its first moment about the pivot of a link.
 fn stack_constant(factors: &[String], _: &Arena, _: Expr) -> Option<String> {
     match factors {
         [only] if only == "ground_x" || only == "gravity" => Some("stack_mass".into()),
@@ -47,8 +47,8 @@ fn stack_constant(factors: &[String], _: &Arena, _: Expr) -> Option<String> {
     }
 }
 
-/// Constants of the moment about the centre of the contact, on a block of the link `own` (0 is the ground): levers, first moments
-/// and second moments, told apart by their units.
+/// Name of a constant of the moment about the centre of the contact: a lever, first moment or second moment, distinguished by its unit.
+/// `own` is the link that contains the closed interface; 0 is the ground.
 fn contact_constant(own: &str, factors: &[String], arena: &Arena, constant: Expr) -> Option<String> {
     let angles = factors.iter().filter_map(|factor| factor.strip_prefix("cos_").or(factor.strip_prefix("sin_")));
     let angles: Vec<&str> = angles.collect();
@@ -57,7 +57,7 @@ fn contact_constant(own: &str, factors: &[String], arena: &Arena, constant: Expr
     let is_lateral = arena.any(constant, &|part| arena.symbol_name(part).is_some_and(is_across));
     let axis = if is_lateral { "lateral" } else { "axial" };
     let is_negative = arena.terms(constant).first()?.0.is_negative();
-    // The next pivot is at the right of the contact where its offset is positive, and lateral is to the left.
+    // A positive pivot offset points to the right, `lateral` to the left: hence the opposite sign.
     let is_opposite = is_negative != (is_lateral && other.is_none());
     let signed = |is_opposite: bool, name: String| Some(format!("{}{name}", if is_opposite { "minus_" } else { "" }));
     match (arena.unit(constant), other) {

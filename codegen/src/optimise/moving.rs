@@ -1,7 +1,7 @@
 //! The program of links between which translations are free: the rows of the accelerations and their loads.
 //!
-//! Rows and columns are the angles, base first, then the translations. The matrix is not symmetric: the row of a slide is tested along a
-//! direction, [`crate::mechanics::Translation::test`], along which the slide does not move. Whoever calls the program solves it, with pivoting.
+//! Rows and columns are the angles, base first, then the translations. The matrix is not symmetric, because the row of a slide is tested along
+//! [`crate::mechanics::Translation::test`] instead of the direction of the slide. The caller of the program solves the system, with pivoting.
 
 use super::condense::{collect, condense};
 use super::program::{Program, ProgramBuilder};
@@ -17,7 +17,7 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
     let parts = Parts::new(arena, symbols, &moving.equations);
     let carried: Vec<Vec<Vector>> = moving.carried.iter().map(|vectors| condensed(arena, vectors)).collect();
     let squares: Vec<Expr> = symbols.omega.iter().map(|&rate| arena.square(rate)).collect();
-    // The force of each translation at rest of all coordinates, and its slopes by their second derivatives.
+    // The force of each translation, split into the part without second derivatives of the coordinates and the coefficients of those derivatives.
     let accelerations: Vec<Expr> =
         symbols.alpha.iter().copied().chain(translations.iter().map(|each| each.acceleration)).collect();
     let drivers: Vec<Expr> = squares.iter().copied().chain([symbols.ground_x, symbols.gravity]).collect();
@@ -106,7 +106,7 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
     builder.finish()
 }
 
-/// A component of a force without the terms of the turning directions, and these by the names of their accelerations.
+/// Splits a component of a force into the part without Coriolis terms, and the Coriolis terms, each written with the symbol of its acceleration.
 fn without_coriolis(arena: &mut Arena, moving: &Moving, force: Expr, axis: usize) -> (Expr, Vec<Expr>) {
     let mut rest = force;
     let mut named = Vec::new();
@@ -134,7 +134,7 @@ fn scalar_product(builder: &mut ProgramBuilder, a: Vector, b: Vector) -> Expr {
     builder.arena().total(products)
 }
 
-/// What gravity, the ground and the rates leave for the accelerations to balance.
+/// Loads of all rows, the right-hand side of the system: minus the terms of gravity, ground motion and rates.
 fn loads(
     builder: &mut ProgramBuilder,
     moving: &Moving,

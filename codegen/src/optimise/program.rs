@@ -1,16 +1,16 @@
 //! Programs: scene constants pulled out, the rest as named statements over the state.
 //!
-//! A [`ProgramBuilder`] carries expressions of the derivation over into an arena of its own. Every scene expression becomes one
-//! constant, however large; programs name no length or mass, so that those of different linkages can be compared.
-//! A constant that the builder meets on its way is named by the state factors that it multiplies and by the
-//! quantities in its formula, so that equal programs have equal names. Order of first use is order of the constants.
+//! A [`ProgramBuilder`] translates expressions of the derivation into the arena of the program. Every scene expression, however large, becomes
+//! one constant. Programs name no length or mass, so that programs of different linkages can be compared. A constant without a given name is
+//! named by the state factors that it multiplies and by the quantities in its formula, so that equal programs have equal names. Constants
+//! stand in the order of their first use.
 
 use super::count::{Operations, count_expressions};
 use crate::mechanics::{Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
 use std::collections::HashMap;
 
-/// Name of a constant by the inputs and statements that it multiplies, outermost first, and its formula in the derivation.
+/// Rule that names a constant, given the inputs and statements that the constant multiplies, outermost first, and its formula in the derivation.
 type ConstantName = Box<dyn Fn(&[String], &Arena, Expr) -> Option<String>>;
 
 /// A scene constant of a program.
@@ -83,7 +83,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// A text that two programs share exactly if they are the same function of their constants and inputs.
+    /// Text of all statements and outputs. Programs with equal texts are the same function of their constants and inputs.
     pub fn fingerprint(&self) -> String {
         let mut text = format!("dof {} constants {}\n", self.dof, self.constants.len());
         for routine in &self.routines {
@@ -99,7 +99,8 @@ impl Program {
         text
     }
 
-    /// Replaces symbols by values throughout; a statement that has become a symbol or a number vanishes.
+    /// Replaces symbols by values in all routines. A statement whose value has become a symbol, the opposite of one, or a number is inlined;
+    /// statements that are no longer needed are left out.
     pub fn rewrite(&mut self, mut replacement: HashMap<Expr, Expr>) {
         for routine in &mut self.routines {
             let mut kept = Vec::with_capacity(routine.statements.len());
@@ -193,7 +194,7 @@ impl<'a> ProgramBuilder<'a> {
         self.known.insert(of, symbol);
     }
 
-    /// From now on, names constants that have no name by this rule; `None` gives `coefficient_of_` and the factors.
+    /// Sets the rule that names constants without a given name from now on. If the rule gives `None`, the name is `coefficient_of_` and the factors.
     pub fn name_constants_by(&mut self, rule: impl Fn(&[String], &Arena, Expr) -> Option<String> + 'static) {
         self.constant_name = Box::new(rule);
     }
@@ -203,7 +204,8 @@ impl<'a> ProgramBuilder<'a> {
         &mut self.program.arena
     }
 
-    /// The constant that stands for a scene expression; a new one is called `name` and has this unit.
+    /// The constant that stands for a scene expression, or minus the constant that stands for its opposite. If there is neither, a new constant
+    /// with this unit, called `name`, or `other_` and `name` if that name is taken.
     pub fn constant(&mut self, scene: Expr, name: &str, unit: Unit) -> Expr {
         if let Some(&symbol) = self.known.get(&scene) {
             return symbol;
@@ -222,7 +224,7 @@ impl<'a> ProgramBuilder<'a> {
         symbol
     }
 
-    /// The expression of the derivation, in terms of inputs, constants and named statements.
+    /// Translates an expression of the derivation into inputs, constants and named statements of the program.
     pub fn translate(&mut self, expr: Expr) -> Expr {
         if let Some(&known) = self.known.get(&expr) {
             return known;
@@ -285,12 +287,12 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Name of the input or statement that a factor of the derivation is.
+    /// Name of the input or statement that stands for a factor of the derivation; `None` if there is none.
     fn name_of(&self, factor: Expr) -> Option<String> {
         Some(self.program.arena.symbol_name(*self.known.get(&factor)?)?.into())
     }
 
-    /// Names a value: later uses of it, or of its opposite, read the name. A name, the opposite of a name, and a number get no other name.
+    /// Adds a statement that names a value, and returns its symbol. A value that is a symbol, the opposite of one, or a number is returned as it is.
     pub fn define(&mut self, name: String, value: Expr) -> Expr {
         if is_plain(&self.program.arena, value) {
             return value;
@@ -301,12 +303,12 @@ impl<'a> ProgramBuilder<'a> {
         symbol
     }
 
-    /// Lets a symbol of the derivation stand for a value of the program.
+    /// From now on, translates the symbol `source` of the derivation into `value`.
     pub fn alias(&mut self, source: Expr, value: Expr) {
         self.known.insert(source, value);
     }
 
-    /// Translates an expression of the derivation and names it.
+    /// Translates an expression of the derivation and names the result. Later translations of the expression, or of its opposite, read the name.
     pub fn define_translated(&mut self, name: String, expr: Expr) -> Expr {
         let value = self.translate(expr);
         let symbol = self.define(name, value);
@@ -314,8 +316,8 @@ impl<'a> ProgramBuilder<'a> {
         symbol
     }
 
-    /// Names a body vector turned by the angle of `link` (from 1), and its constants `*_axial` (along the axis of the link) and
-    /// `*_lateral` (across it), whose names begin with `prefix`.
+    /// Names the components of a body vector turned by the angle of `link` (from 1), and its constants `*_axial` (along the axis of the link) and
+    /// `*_lateral` (across the axis). Names of the constants begin with `prefix`.
     pub fn define_turned_vector(&mut self, prefix: &str, name: &str, link: usize, vector: Vector) {
         for (coefficient, term) in self.source.terms(vector[0]) {
             let factors = self.source.factors(term);
@@ -335,7 +337,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Closes a routine: the statements since the last routine that the outputs need.
+    /// Closes a routine. It consists of those statements since the previous routine that the outputs need.
     pub fn finish_routine(&mut self, name: &'static str, outputs: Vec<Expr>) {
         let statements = std::mem::take(&mut self.statements);
         for statement in &statements {
@@ -353,7 +355,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// A symbol, the opposite of one, or a number.
+/// Whether an expression is a symbol, the opposite of one, or a number.
 fn is_plain(arena: &Arena, expr: Expr) -> bool {
     match arena.node(expr) {
         Node::Symbol(_) | Node::Number(_) => true,

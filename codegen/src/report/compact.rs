@@ -16,7 +16,7 @@ use crate::mechanics::{Equations, Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Rational, Unit};
 use std::collections::HashMap;
 
-/// Why every form is found.
+/// Reason in the panic messages: why a form is always found.
 const CHAIN: &str = "the equations of a chain of rigid links have this form";
 
 /// A scene constant with a name.
@@ -26,7 +26,7 @@ pub struct Definition {
     pub symbol: Expr,
     /// Its unit.
     pub unit: Unit,
-    /// Its value: lengths, masses and earlier constants.
+    /// Its formula in lengths, masses and earlier constants.
     pub value: Expr,
 }
 
@@ -35,7 +35,8 @@ pub struct Definition {
 pub struct Position {
     /// The part that does not turn `[m]`.
     pub fixed: Vector,
-    /// Links (from zero) and the body vectors (lateral, axial) that their angles turn `[m]`; whole levers by name.
+    /// Links (from zero), each with the body vector (lateral, axial) that its angle turns `[m]`. A vector that is the lever of the link is
+    /// written with the symbols of that lever.
     pub turned: Vec<(usize, Vector)>,
 }
 
@@ -48,7 +49,7 @@ pub struct Coupling {
     pub parts: [Definition; 2],
 }
 
-/// The equations of motion of one linkage with their constants named. Expressions of the derivation's arena.
+/// The equations of motion of one linkage with their constants named. All expressions belong to the derivation's arena.
 #[derive(Debug)]
 pub struct Compact {
     /// Positions of the centroids, base first.
@@ -59,9 +60,9 @@ pub struct Compact {
     pub moment: Vec<[Definition; 2]>,
     /// `d_a`: lateral and axial, by link, all but the last.
     pub lever: Vec<[Definition; 2]>,
-    /// Pairs of links: their coupling is a function of the difference of their angles.
+    /// Coupling of each pair of links, a function of the difference of the two angles.
     pub coupling: Vec<Coupling>,
-    /// The terms of `V / gravity` that no angle turns, blocks that stay with the ground among them; `None` if there are none.
+    /// The terms of `V / gravity` that contain no angle, such as those of blocks that stay with the ground; `None` if there are no such terms.
     pub ground_moment: Option<Definition>,
     /// `T [J]`, term by term.
     pub kinetic: Vec<Expr>,
@@ -75,9 +76,9 @@ pub struct Compact {
     pub forcing: Vec<Vec<Expr>>,
     /// Gravity where the ground does not move vertically.
     gravity: Expr,
-    /// Symbols and their values, differences of angles and their addition theorems.
+    /// Values of symbols, and addition theorems for sines and cosines of differences of angles.
     meaning: HashMap<Expr, Expr>,
-    /// Symbols by their values multiplied out.
+    /// Symbol of each constant, by the value of the constant multiplied out.
     names: HashMap<Expr, Expr>,
 }
 
@@ -141,12 +142,12 @@ impl Compact {
     /// addition theorems.
     pub fn in_full(&self, arena: &mut Arena, expr: Expr) -> Expr {
         let with_values = arena.substitute(expr, &self.meaning);
-        // Couplings are made of levers and moments.
+        // A second time, because the values of couplings contain the symbols of levers and moments.
         arena.substitute(with_values, &self.meaning)
     }
 
-    /// A scene expression by the names of the constants: one of them, its opposite, or a quotient of them and powers of
-    /// gravity; the expression itself if it is none of these.
+    /// A scene expression written with named constants: one constant, the opposite of one, or a quotient of constants and powers of
+    /// gravity. The expression itself if it is none of these.
     pub fn named(&self, arena: &mut Arena, value: Expr) -> Expr {
         if arena.level(value) != Level::Scene {
             return value;
@@ -168,7 +169,7 @@ impl Compact {
         arena.product(product)
     }
 
-    /// The constant with this value, or the opposite of one.
+    /// The constant with this value, or minus the constant with the opposite value; `None` if there is neither.
     fn lookup(&self, arena: &mut Arena, value: Expr) -> Option<Expr> {
         let flat = arena.expand_fully(value);
         if let Some(&symbol) = self.names.get(&flat) {
@@ -178,7 +179,7 @@ impl Compact {
         self.names.get(&opposite).map(|&symbol| arena.neg(symbol))
     }
 
-    /// Names a constant; `value` is a form of its `meaning`.
+    /// Names a constant. `meaning` is its derived expression, and `value` the form in which it is shown, proved equal.
     fn define(&mut self, arena: &mut Arena, name: String, value: Expr, meaning: Expr) -> Definition {
         let value = self.proved(arena, value, meaning);
         let unit = arena.unit(meaning);
@@ -323,7 +324,7 @@ impl Compact {
         self.potential = self.proved(arena, potential, equations.potential);
     }
 
-    /// Rate terms of one equation: each square with a function of the difference of two angles.
+    /// Rate terms of one equation: each squared rate times a function of the difference of two angles.
     fn bias(&self, arena: &mut Arena, symbols: &Symbols, equations: &Equations, row: usize) -> Vec<Expr> {
         let derived = arena.expand(equations.bias[row]);
         let mut terms = Vec::new();
@@ -340,7 +341,7 @@ impl Compact {
         terms
     }
 
-    /// Ground motion and gravity in one equation: a turned vector each.
+    /// Ground motion and gravity in one equation, each times one component of a turned vector.
     fn forcing(&self, arena: &mut Arena, symbols: &Symbols, derived: Expr, row: usize) -> Vec<Expr> {
         let derived = arena.expand(derived);
         let angle = symbols.theta[row];

@@ -17,7 +17,7 @@ use std::fmt::Write;
 /// Room for a line of a display [pt]: A4 less margins of 25 mm leaves 455, the equation's number and its gap take 35.
 pub(super) const DISPLAY: f64 = 420.0;
 
-/// Matrices with more columns are set closer: twelve of them would leave the page.
+/// Matrices with more columns than this have narrower gaps: twelve columns would leave the page otherwise.
 const WIDE_MATRIX: usize = 8;
 
 /// The derivation of a pattern as a LaTeX document.
@@ -67,7 +67,7 @@ fn head(pattern: &Pattern) -> String {
     document(&title, &author, pattern.dof().max(10))
 }
 
-/// A document up to its title, for matrices of so many columns.
+/// Head of a document, up to its title. `columns` is the largest number of columns of a matrix.
 pub(super) fn document(title: &str, author: &str, columns: usize) -> String {
     format!(
         "% Written by rocking-codegen {}. Needs amsmath and geometry.\n\
@@ -162,7 +162,7 @@ impl Page<'_> {
         lines
     }
 
-    /// A display of equations, each a list of lines; only the last line of each is numbered, if any.
+    /// A display of equations, each a list of lines. If `numbered`, the last line of each equation has a number.
     fn display(&mut self, equations: &[Vec<String>], numbered: bool) {
         if equations.is_empty() {
             return;
@@ -419,7 +419,7 @@ fn positions<T>(members: &[T], holds: impl Fn(&T) -> bool) -> Vec<usize> {
     members.iter().enumerate().filter(|(_, member)| holds(member)).map(|(index, _)| index + 1).collect()
 }
 
-/// `12`, or `1,12` where the digits would run together; links from zero.
+/// Printed index of a pair of links (from zero): `12`, or `1,12` where the digits would run together.
 fn pair_index(a: usize, b: usize) -> String {
     let separator = if b >= 9 { "," } else { "" };
     format!("{}{separator}{}", a + 1, b + 1)

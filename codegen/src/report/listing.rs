@@ -1,7 +1,7 @@
 //! The emitted step-time program in the symbols of the derivation, to be printed.
 //!
-//! A program measures its constants in units that save operations. The listing writes each of them as a constant of [`Compact`],
-//! found by value, or as a quotient of such constants, so that it has the quantities of the formulas above it.
+//! A program measures its constants in units that save operations. The listing writes each of these as the constant of [`Compact`] with the
+//! same value, or as a quotient of such constants, so that listing and equations in the document share their symbols.
 
 use super::compact::Compact;
 use crate::mechanics::Symbols;
@@ -14,9 +14,9 @@ use std::collections::HashMap;
 pub(super) struct Listing {
     /// Cost of one call.
     pub operations: Operations,
-    /// Names and values of the constants that are none of the document.
+    /// Names and values of the constants that are no single constant of the document, nor the reciprocal or a multiple of one.
     pub constants: Vec<(Expr, Expr)>,
-    /// Names and values, in order of evaluation.
+    /// Names and values of the statements, in order of evaluation.
     pub statements: Vec<(Expr, Expr)>,
     /// The accelerations, by link.
     pub outputs: Vec<Expr>,
@@ -67,7 +67,7 @@ impl Listing {
     }
 }
 
-/// Whether an expression needs no name of its own: a number, a symbol, or the opposite or reciprocal of a symbol.
+/// Whether an expression needs no name of its own: a number, a symbol, or the reciprocal or a multiple of a symbol.
 fn is_short(arena: &Arena, value: Expr) -> bool {
     let is_symbol = |expr: Expr| matches!(arena.node(expr), Node::Symbol(_));
     match arena.node(value) {
@@ -78,7 +78,7 @@ fn is_short(arena: &Arena, value: Expr) -> bool {
     }
 }
 
-/// An expression of one arena in another, symbols replaced.
+/// Copies an expression from one arena to another, with symbols replaced.
 fn carry(from: &Arena, expr: Expr, to: &mut Arena, symbols: &HashMap<Expr, Expr>) -> Expr {
     if let Some(&known) = symbols.get(&expr) {
         return known;

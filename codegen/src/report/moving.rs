@@ -72,7 +72,7 @@ fn section(out: &mut String, arena: &Arena, name: &str, lines: impl IntoIterator
     }
 }
 
-/// The inputs of the program with their names there; its lateral axis points to the left.
+/// The inputs of the program, with their names in the program. Its lateral axis points to the left, so lateral components change sign.
 fn inputs(arena: &mut Arena, quantities: &Quantities) -> Vec<(String, Expr)> {
     let Quantities { inertia, moment, lever, mass, carried } = quantities;
     let mut inputs: Vec<(String, Expr)> =
@@ -139,7 +139,7 @@ fn record(joints: &Joints) -> MovingRecord {
     MovingRecord::new(joints.angles(), joints.translations())
 }
 
-/// States, coordinates and program, and how the interfaces stand.
+/// Head of a text: states, numbers of coordinates, program, and the state of each interface in words.
 fn title(joints: &Joints, record: &MovingRecord) -> String {
     let mut out = format!(
         "states {joints} of {} block(s), {} free angle(s), {} translation(s), program {}\n",
@@ -154,7 +154,7 @@ fn title(joints: &Joints, record: &MovingRecord) -> String {
     out
 }
 
-/// How an interface stands, and what is tested.
+/// The state of an interface in words, with the direction along which the row of a slide is tested.
 fn described(joint: Joint, number: usize, friction: &str) -> String {
     let Joint::Contact(interface, slip, carrier) = joint else {
         return format!(
@@ -302,7 +302,7 @@ pub fn moving_latex(joints: &Joints) -> String {
 struct Direction {
     along: String,
     test: String,
-    /// Whether it turns.
+    /// Whether the direction turns with a link.
     turns: bool,
 }
 
@@ -347,7 +347,7 @@ fn motion(rows: &Rows, directions: &[Direction], notation: &Notation, arena: &Ar
         let mut terms = vec![format!("J_{{{a}}} \\ddot\\theta_{{{a}}}")];
         for b in (1..=angles).filter(|b| *b != a) {
             let (low, high) = (a.min(b), a.max(b));
-            // The twice turned one is the vector of link b.
+            // The vector of link b is the one that is differentiated twice.
             let [of_low, of_high] = if b == low { ["''", "'"] } else { ["'", "''"] };
             terms.push(format!("\\mathbf{{d}}_{{{low}}}' \\cdot \\mathbf{{S}}_{{{high}}}'\\, \\ddot\\theta_{{{b}}}"));
             terms.push(format!(

@@ -39,9 +39,9 @@ pub struct Symbol {
 pub enum Node {
     /// An exact number.
     Number(Rational),
-    /// A symbol, by its rank in the arena: the order of declaration orders terms.
+    /// A symbol, by its rank: its place in the order of declaration, which also orders terms.
     Symbol(u32),
-    /// `Σ coefficient · term`; the unit (number one) carries a constant.
+    /// `Σ coefficient · term`. A constant is the coefficient of the number one.
     Sum(Vec<(Rational, Expr)>),
     /// `Π factor^exponent`.
     Product(Vec<(Expr, i32)>),
@@ -109,7 +109,7 @@ impl Arena {
         holds(expr) || self.operands(expr).any(|part| self.any(part, holds))
     }
 
-    /// The expression of a node whose operands are replaced; the node may be of another arena if it is no symbol.
+    /// The expression of a node with every operand replaced. The node may come from another arena unless it is a symbol.
     pub fn rebuild(&mut self, node: Node, mut replace: impl FnMut(&mut Arena, Expr) -> Expr) -> Expr {
         match node {
             Node::Number(_) | Node::Symbol(_) => self.intern(node),
@@ -143,8 +143,7 @@ impl Arena {
         self.symbols().find(|(_, known)| *known == name).map(|(symbol, _)| symbol)
     }
 
-    /// Declares a symbol. State symbols are to be declared before scene symbols: the order of declaration is the
-    /// order of terms.
+    /// Declares a symbol. Symbols of one level stand in sums and products in the order of their declaration ([`Arena::order`]).
     pub fn symbol(&mut self, name: impl Into<String>, level: Level, unit: Unit) -> Expr {
         self.symbols.push(Symbol { name: name.into(), level, unit });
         self.intern(Node::Symbol(self.symbols.len() as u32 - 1))

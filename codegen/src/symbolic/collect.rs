@@ -1,14 +1,14 @@
 //! Sums of scene quantities in the form with the fewest characters on paper, for readers.
 //!
-//! Two ways of taking factors out are tried, alone and one inside the other: by a family of symbols in which the sum is
-//! linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and by the factor that most
-//! terms share. Forms with the fewest operations are in [`crate::optimise`].
+//! Two forms are tried. One takes out the factor that most terms share, again and again. The other first groups by a family of symbols in
+//! which the sum is linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and then takes factors out of
+//! each coefficient. Forms with the fewest operations are in [`crate::optimise`].
 
 use super::arena::{Arena, Expr, Node};
 use super::rational::Rational;
 
 impl Arena {
-    /// The shortest of the forms named above; equal to `expr`.
+    /// The shortest of `expr` and the two forms named above, all equal. `family` lists the symbols to group by.
     pub fn collect_for_reading(&mut self, expr: Expr, family: &[Expr]) -> Expr {
         let by_family = self.group_by_family(expr, family);
         let by_factor = self.take_out_factors(expr);
@@ -56,7 +56,8 @@ impl Arena {
         self.add(product, rest)
     }
 
-    /// The power that most terms hold, if at least two do; of equals the higher power, then the first in structural order.
+    /// The power of a factor that most terms contain; `None` unless at least two do. Ties go to the higher power, then to the first in
+    /// structural order.
     fn most_shared_power(&self, expr: Expr) -> Option<(Expr, i32)> {
         let mut counts: Vec<((Expr, i32), usize)> = Vec::new();
         for (_, term) in self.terms(expr) {
@@ -74,7 +75,7 @@ impl Arena {
         counts.first().map(|(power, _)| *power)
     }
 
-    /// Length on paper: symbols with their index count two, numbers, exponents and pairs of brackets one.
+    /// Length on paper. A symbol with its index counts two; a number, an exponent, a pair of brackets, or `sin` or `cos` counts one.
     fn marks(&self, expr: Expr) -> usize {
         match self.node(expr) {
             Node::Number(_) => 1,

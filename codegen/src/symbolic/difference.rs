@@ -1,4 +1,4 @@
-//! Reading multiplied-out sums backwards: vectors turned by one angle, couplings by the difference of two.
+//! Recognises, in multiplied-out sums, vectors turned by one angle and couplings by the difference of two angles.
 //!
 //! A derivation writes the coupling of two links as products of the sines and cosines of both angles. With
 //! `δ = b - a` the addition theorems give
@@ -38,7 +38,7 @@ impl Arena {
         order.into_iter().map(|state| (state, self.sum(scene.remove(&state).unwrap_or_default()))).collect()
     }
 
-    /// `[inner, rest]` with `expr = factor · inner + rest`; terms that hold every power of the factor go to `inner`.
+    /// `[inner, rest]` with `expr = factor · inner + rest`. A term goes to `inner` if it has every base of `factor` with at least that exponent.
     pub fn split_off(&mut self, expr: Expr, factor: Expr) -> [Expr; 2] {
         let wanted = self.factors(factor);
         let (mut inner, mut rest) = (Vec::new(), Vec::new());
@@ -84,7 +84,7 @@ impl Arena {
         [(cosine, self.add(cc, ss)), (sine, self.sub(cs, sc))]
     }
 
-    /// The coefficients of these state products, if there are no others.
+    /// Coefficient of each state product in `atoms`; zero for one that is absent. `None` if `expr` has any other state product.
     fn coefficients<const COUNT: usize>(&mut self, expr: Expr, atoms: [Expr; COUNT]) -> Option<[Expr; COUNT]> {
         let mut found = [self.zero(); COUNT];
         for (state, coefficient) in self.by_state(expr) {

@@ -36,7 +36,7 @@ impl Arena {
     }
 }
 
-/// By repeated multiplication: `powi` may round differently elsewhere, and values become literals.
+/// `base^exponent` by repeated multiplication. `powi` may round differently on another machine, and values become literals in emitted code.
 fn power(base: f64, exponent: i32) -> f64 {
     let power = (0..exponent.unsigned_abs()).fold(1.0, |power, _| power * base);
     if exponent < 0 { 1.0 / power } else { power }

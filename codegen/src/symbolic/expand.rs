@@ -13,8 +13,8 @@ enum Depth {
 }
 
 impl Arena {
-    /// The expression as a sum of products of state atoms with scene coefficients; even powers of sines turned into
-    /// cosines (`sin² = 1 - cos²`), so that expressions equal by Pythagoras become the same.
+    /// The expression as a sum of products of state atoms with scene coefficients. Squares of sines are turned into cosines
+    /// (`sin² = 1 - cos²`), so that expressions equal by Pythagoras become the same.
     ///
     /// Sums that hold no state stay factored: they are coefficients, evaluated once per scene.
     pub fn expand(&mut self, expr: Expr) -> Expr {
@@ -77,7 +77,7 @@ impl Arena {
         self.sum(terms)
     }
 
-    /// Terms of a sum; one that stays factored counts as one term.
+    /// Terms of a sum. A sum that stays factored counts as one term.
     fn addends(&self, expr: Expr, depth: Depth) -> Vec<(Rational, Expr)> {
         match (depth, self.level(expr)) {
             (Depth::All, _) | (_, Level::State) => self.terms(expr),

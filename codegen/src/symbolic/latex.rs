@@ -13,7 +13,7 @@ use std::collections::HashMap;
 pub enum Place {
     /// Before everything else.
     Front,
-    /// Among the symbols, in this order.
+    /// Among the other symbols, sorted by this number.
     Middle(u8),
     /// After sines, cosines and brackets.
     Back,
@@ -49,13 +49,13 @@ pub fn code(name: &str) -> String {
     format!("\\mathtt{{{}}}", name.replace('_', "\\_"))
 }
 
-/// A stretch without a place to break.
+/// A part of a formula inside which no line is broken.
 #[derive(Clone, Debug)]
 struct Piece {
     tex: String,
-    /// Brackets open before it.
+    /// Number of brackets open before the piece.
     depth: usize,
-    /// Whether a line must be broken before it.
+    /// Whether a line must be broken before the piece.
     starts_line: bool,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Formula<'a> {
         self.terms(expr, self.pieces.is_empty(), 0);
     }
 
-    /// Adds a term already set; a line may be broken before it.
+    /// Adds a term given as LaTeX. A line may be broken before this term.
     pub fn add_tex(&mut self, tex: &str) {
         let tex = if self.pieces.is_empty() { tex.into() } else { format!("+ {tex}") };
         self.open_piece(tex, 0);
@@ -115,7 +115,7 @@ impl<'a> Formula<'a> {
         layout.lines
     }
 
-    /// Terms of a sum. Those that turn with the same angle stand together, and a positive one leads if there is any.
+    /// Terms of a sum. Terms with sines and cosines of the same angle stand together. If `leading`, a positive term comes first where there is one.
     fn terms(&mut self, expr: Expr, leading: bool, depth: usize) {
         let mut terms = self.arena.terms(expr);
         let angles: Vec<Expr> = terms.iter().filter_map(|(_, term)| self.angle(*term)).collect();
@@ -178,7 +178,7 @@ impl<'a> Formula<'a> {
         }
     }
 
-    /// A product of symbols with a denominator, as a quotient on one line.
+    /// A product of symbols, some in the denominator, as a quotient on one line; `None` for any other product.
     fn fraction(&self, factors: &[(Expr, i32)]) -> Option<String> {
         let symbols = factors.iter().all(|(factor, _)| matches!(self.arena.node(*factor), Node::Symbol(_)));
         if !symbols || factors.iter().all(|(_, exponent)| *exponent > 0) {
@@ -257,7 +257,7 @@ impl<'a> Formula<'a> {
         code(left) || code(right) || matches!(self.arena.node(left), Node::Sin(_) | Node::Cos(_))
     }
 
-    /// The position of a factor that is a difference of two scene quantities with its leading one positive.
+    /// The position of the first factor `a - b` with scene quantities `a` and `b`, exponent one; `None` if there is no such factor.
     fn difference(&self, factors: &[(Expr, i32)]) -> Option<usize> {
         factors.iter().position(|(factor, exponent)| match self.arena.node(*factor) {
             Node::Sum(terms) if *exponent == 1 && terms.len() == 2 && self.arena.level(*factor) == Level::Scene => {
@@ -281,7 +281,7 @@ impl<'a> Formula<'a> {
         }
     }
 
-    /// The first place of a symbol in an expression.
+    /// The foremost of the places of all symbols in an expression.
     fn first_place(&self, expr: Expr) -> Place {
         match self.arena.node(expr) {
             Node::Symbol(_) => self.notation.place(expr),
@@ -327,8 +327,8 @@ struct Layout {
 const INDENT: (&str, f64) = ("\\quad", 10.0);
 
 impl Layout {
-    /// Sets pieces whose breaks at `depth` brackets come first: a group goes on the line, or on one of its own, or is broken
-    /// inside its brackets.
+    /// Sets pieces, with line breaks at `depth` open brackets preferred to deeper ones. A group is a piece with the deeper pieces that follow.
+    /// A group goes on the current line if it fits, else on a line of its own, else it is broken inside its brackets.
     fn fill(&mut self, pieces: &[Piece], depth: usize) {
         let mut rest = pieces;
         while let Some((first, tail)) = rest.split_first() {
@@ -372,7 +372,7 @@ impl Layout {
     }
 }
 
-/// Indices and exponents are set in seven tenths of the size, plus TeX's space after them [pt].
+/// Size of indices and exponents, relative to the formula, and the space that TeX adds after them [pt].
 const SCRIPT: (f64, f64) = (0.7, 0.5);
 
 /// Estimated width of a formula `[pt]`, in ten-point Computer Modern: from the widths of
@@ -390,7 +390,7 @@ pub fn width(tex: &str) -> f64 {
         if first == '_' || first == '^' {
             let (argument, tail) = argument(&rest[1..]);
             let size = SCRIPT.0 * width(argument) + SCRIPT.1;
-            // An index under an exponent shares its room.
+            // An index and an exponent of one symbol stand above each other: the wider one counts.
             total += (size - scripts.unwrap_or(0.0)).max(0.0);
             scripts = Some(size.max(scripts.unwrap_or(0.0)));
             rest = tail;

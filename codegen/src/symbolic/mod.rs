@@ -3,8 +3,8 @@
 //! An [`Expr`] is an index into an [`Arena`]. Smart constructors keep three invariants, so that equal expressions have the same
 //! index and building an expression simplifies it:
 //!
-//! 1. a sum is flat, `Σ coefficient · term`, its terms distinct, none of them a sum or a number but the unit;
-//! 2. a product is flat, `Π factor^exponent`, without a numeric coefficient (that stands in the sum above it);
+//! 1. a sum is flat, `Σ coefficient · term`, its terms distinct, none of them a sum, and none a number other than one;
+//! 2. a product is flat, `Π factor^exponent`, without a numeric coefficient (the coefficient stands in the sum that contains the product);
 //! 3. a sum used as a factor has a positive leading coefficient; the sign goes outside.
 //!
 //! Products are multiplied out only by [`Arena::expand`]: the derivation keeps its structure.

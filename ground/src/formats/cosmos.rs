@@ -24,27 +24,27 @@ use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
 
-/// The unit among the integers: its place in the format's table, and one less in files that count from 1. Another value there, 1 for
-/// accelerations, is the code of no unit of acceleration.
+/// Places of the unit among the integers: 2 by the format's table, 1 in files that count from 1. In other files, place 1 holds the quantity:
+/// 1 for accelerations, which is the code of no unit of acceleration.
 const UNITS: [usize; 2] = [2, 1];
 
-/// The azimuth among the integers `[°]`; 400 is up, 401 down.
+/// Place of the azimuth among the integers `[°]`. The value 400 means up, 401 down.
 const AZIMUTH: usize = 53;
 
-/// The sampling interval among the reals `[ms]`: its place in the format's table; one less in files that count from 1; and
-/// that of the recorder, which processing may have changed.
+/// Places of the sampling interval among the reals `[ms]`: 61 by the format's table, 60 in files that count from 1. Place 33 holds the
+/// interval of the recorder, which processing may have changed.
 const INTERVALS: [usize; 3] = [61, 60, 33];
 
-/// The peak among the reals, in the unit of the samples.
+/// Place of the peak among the reals. The peak is in the unit of the samples.
 const PEAK: usize = 63;
 
 /// Value that stands for an unknown one.
 const UNKNOWN: f64 = -999.0;
 
-/// Relative difference of the samples' peak and the stated one that is allowed: headers round to three digits.
+/// Largest allowed relative difference between the peak of the samples and the stated one: headers round to three digits.
 const PEAK_ROUNDING: f64 = 5e-3;
 
-/// Columns of samples where the line before them does not say.
+/// Columns of the samples if the line before the samples does not state them.
 const COLUMNS: FixedWidth = FixedWidth(10);
 
 /// Whether these are the lines of a COSMOS file.
@@ -59,7 +59,7 @@ fn title(line: &str) -> bool {
     line.to_ascii_lowercase().contains("(format v")
 }
 
-/// The quantity of a line before samples: `4000 acceleration pts, ...`.
+/// The quantity of the samples that a line announces: `4000 acceleration pts, ...`. It is `None` for any other line.
 fn announces(line: &str) -> Option<String> {
     let lower = line.to_ascii_lowercase();
     let mut words = words(&lower).map(|word| word.text);
@@ -75,7 +75,7 @@ fn is_end(line: &str) -> bool {
     lower.starts_with("end-of-data") || lower.starts_with("end of data")
 }
 
-/// A channel of the file, lines from 0.
+/// A channel of the file. Lines are counted from 0.
 struct Channel<'t> {
     lines: &'t [&'t str],
     begin: usize,
@@ -135,7 +135,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     Ok(RecordFile { title, station: channel.station(), component, declared, channels: labels, ..file })
 }
 
-/// The channels with accelerations, and the lines before samples of other quantities.
+/// The channels with accelerations, and the lines that announce samples of other quantities.
 fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
     let (mut channels, mut others) = (Vec::new(), Vec::new());
     let mut begin = 0;
@@ -160,24 +160,24 @@ fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
 }
 
 impl<'t> Channel<'t> {
-    /// The text header: as many lines as the first one says, or all up to the integers.
+    /// The text header: all lines up to the integer header. Without an integer header, as many lines as the first line states.
     fn text(&self) -> &'t [&'t str] {
         let header = &self.lines[self.begin..self.announced];
         let first = header.first().copied().unwrap_or("");
         let stated = after(first, "with").and_then(leading_number).filter(|count| (1.0..=99.0).contains(count));
-        // Columns 47 and 48, where the words around the number are others.
+        // The number is in columns 47 and 48, even if the words around it differ.
         let by_column = || number(first.get(46..48)?.trim());
         let end = self.find("integer-header").map(|index| index - self.begin);
         let length = end.or(stated.or_else(by_column).map(|count| count as usize)).unwrap_or(0);
         &header[..length.min(header.len())]
     }
 
-    /// The line of the header, from 0, in which a word stands.
+    /// The first line of the headers, counted from 0 in the file, that has a word (given in lower case).
     fn find(&self, word: &str) -> Option<usize> {
         (self.begin..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains(word))
     }
 
-    /// The values of a header, as many as can be read.
+    /// The values of the header that `word` names, perhaps fewer than it declares. There are none if the header is missing or unreadable.
     fn header(&self, word: &str) -> Vec<f64> {
         let Some(index) = self.find(word) else { return Vec::new() };
         let line = self.lines[index];
@@ -208,8 +208,8 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: the first of the integer header's candidates that agrees with the line before the samples, else the candidate in the
-    /// format's place; without candidates the unit of that line.
+    /// The unit: the first candidate of the integer header that agrees with the line before the samples, else the candidate at the format's
+    /// own place. Without either, it is the unit that this line states, else that of `options`.
     fn unit(
         &self,
         integers: &[f64],
@@ -249,8 +249,8 @@ impl<'t> Channel<'t> {
         }
     }
 
-    /// The sampling interval: the first of the real header's candidates that agrees with the duration in the line before the samples,
-    /// which is rounded to seconds.
+    /// The sampling interval: the first candidate of the real header that agrees with the duration in the line before the samples (rounded to
+    /// seconds), else the first candidate. Without candidates, it is that of `options`.
     fn interval(
         &self,
         reals: &[f64],
@@ -300,7 +300,7 @@ impl<'t> Channel<'t> {
     }
 }
 
-/// Share of the stated duration by which the samples' own may differ.
+/// Share of the stated duration by which the duration of the samples may differ from it, in addition to one second.
 const DURATION_ROUNDING: f64 = 0.02;
 
 /// The units of acceleration by their codes (table 2 of the format).

@@ -9,8 +9,8 @@
 //! /&  ---------- End of data for channel  1 ----------
 //! ```
 //!
-//! The line before the samples says all that is needed of the numbers. It is found by its words, for headers of some years have a line
-//! more or less. Velocity and displacement are not read.
+//! The line before the samples states all that is needed to read the numbers. It is found by its words, since headers of some years have a
+//! line more or less. Velocity and displacement are not read.
 
 use super::header::{ChannelName, Entry, after, choose, leading_number, number_after, tidy};
 use super::numbers::{Block, FixedWidth, number};
@@ -22,10 +22,10 @@ use crate::unit::AccelerationUnit;
 /// Lines of reals before the samples.
 const REAL_LINES: usize = 13;
 
-/// Columns of the reals, and of samples where the line before them does not say.
+/// Columns of the reals, and of the samples if the line before the samples does not state them.
 const COLUMNS: FixedWidth = FixedWidth(10);
 
-/// Relative difference of the samples' peak and the stated one that is allowed: headers round to three digits.
+/// Largest allowed relative difference between the peak of the samples and the stated one: headers round to three digits.
 const PEAK_ROUNDING: f64 = 5e-3;
 
 /// Place of the sampling interval among the reals, from 0.
@@ -37,7 +37,7 @@ pub fn is_one(lines: &[&str]) -> bool {
     first.any(|line| volume(line).is_some()) || lines.iter().any(|line| announces(line) == Some(Quantity::Acceleration))
 }
 
-/// What a title says of the file: 1 uncorrected, 2 corrected, 3 spectra.
+/// The volume that a title names: 1 uncorrected, 2 corrected, 3 spectra. It is `None` for any other line.
 fn volume(line: &str) -> Option<u8> {
     let upper = line.to_ascii_uppercase();
     if upper.contains("UNCORRECTED ACCELEROGRAM") {
@@ -57,7 +57,7 @@ enum Quantity {
     Other,
 }
 
-/// The quantity of a line before samples: `4000 points of accel data equally spaced at ...`.
+/// The quantity of the samples that a line announces: `4000 points of accel data equally spaced at ...`. It is `None` for any other line.
 fn announces(line: &str) -> Option<Quantity> {
     let lower = line.to_ascii_lowercase();
     let (_, kind) = lower.split_once("points of ")?;
@@ -67,9 +67,9 @@ fn announces(line: &str) -> Option<Quantity> {
     Some(if kind.trim_start().starts_with("acc") { Quantity::Acceleration } else { Quantity::Other })
 }
 
-/// A channel of the file, lines from 0.
+/// A channel of the file. Lines are counted from 0.
 struct Channel<'t> {
-    /// Its header.
+    /// Lines of its header.
     text: &'t [&'t str],
     /// The line before its samples.
     announced: usize,
@@ -150,7 +150,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let entry = |remedy: &'static str| Entry { line: title + 1, text, remedy };
     let remedy = "use the volume 2 file (.V2) of the same record";
     match volume(text) {
-        // Only volume 2 has velocities, whatever its first line says.
+        // A file with velocities is of volume 2, whatever its first line says.
         Some(1) if !lines.iter().any(|line| announces(line) == Some(Quantity::Other)) => {
             return Err(entry(remedy).quoted("a volume 1 file holds the uncorrected accelerogram:"));
         }

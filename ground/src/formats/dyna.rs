@@ -22,10 +22,11 @@ use crate::unit::AccelerationUnit;
 /// Lines among which the keys are sought.
 const HEADER_LINES: usize = 200;
 
-/// Relative difference of the samples' peak and the stated one up to which both are rounded alike.
+/// Relative difference between the peak of the samples and the stated one up to which it counts as rounding.
 const PEAK_ROUNDING: f64 = 1e-3;
 
-/// Relative difference beyond which the file is damaged or its unit is not the stated one. Between the two it is processed slightly.
+/// Relative difference beyond which the file is damaged or its unit is not the stated one. A smaller one above `PEAK_ROUNDING` is a sign of
+/// slight processing.
 const PEAK_DAMAGE: f64 = 1e-2;
 
 /// Whether these are the lines of a DYNA file.
@@ -34,7 +35,7 @@ pub fn is_one(lines: &[&str]) -> bool {
     KEYS.iter().filter(|key| header.find(key).is_some()).count() >= 2
 }
 
-/// Keys of which a header has two at least, also a damaged one.
+/// Keys that a DYNA file is recognised by: even a damaged header has at least two of them.
 const KEYS: [&str; 7] =
     ["SAMPLING_INTERVAL_S", "NDATA", "STREAM", "HEADER_FORMAT", "DATA_TYPE", "EVENT_ID", "STATION_CODE"];
 
@@ -42,7 +43,7 @@ const KEYS: [&str; 7] =
 struct Header<'t> {
     /// Line from 1, key in capitals, value.
     entries: Vec<(usize, String, &'t str)>,
-    /// The line after it, from 0.
+    /// The line after the header, from 0.
     end: usize,
 }
 
@@ -126,7 +127,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, ..file })
 }
 
-/// Half of the last printed digit's place.
+/// Half a unit of the last printed digit.
 fn rounding(value: &str) -> f64 {
     let decimals = value.split_once('.').map_or(0, |(_, rest)| rest.bytes().take_while(u8::is_ascii_digit).count());
     0.5 * 0.1_f64.powi(decimals as i32)

@@ -1,4 +1,4 @@
-//! Rules for the headers of all formats: counts, intervals and units, on which the user may not contradict the file; channels.
+//! Rules for the headers of all formats: counts, intervals, units and channels. Intervals and units of the user may not contradict the file.
 
 use super::numbers::{number, quote, words};
 use crate::bounds::{LONGEST_INTERVAL, SHORTEST_INTERVAL};
@@ -13,7 +13,7 @@ pub struct Entry<'t> {
     pub line: usize,
     /// The line, or the part that is read.
     pub text: &'t str,
-    /// Remedy where it cannot be read.
+    /// Remedy if the line cannot be read.
     pub remedy: &'static str,
 }
 
@@ -23,7 +23,7 @@ impl Entry<'_> {
         RecordError::Header { line: self.line, problem: problem.into(), remedy: self.remedy }
     }
 
-    /// The same, with the entry's text quoted.
+    /// The error of [`Entry::wrong`] with the text of the entry quoted.
     pub fn quoted(&self, problem: &str) -> RecordError {
         self.wrong(format!("{problem} `{}`", brief(self.text)))
     }
@@ -52,7 +52,7 @@ impl Entry<'_> {
         self.agreed(AccelerationUnit::parse(name).ok_or_else(unknown)?, options)
     }
 
-    /// A unit of the file, unless the user gives another.
+    /// The unit of the file, or an error if the user gives another one.
     pub fn agreed(&self, unit: AccelerationUnit, options: &TextOptions) -> Result<AccelerationUnit, RecordError> {
         match options.units {
             Some(own) if own != unit => Err(self.contradiction("units", own.to_string(), unit.to_string())),
@@ -73,19 +73,19 @@ pub fn brief(line: &str) -> String {
     tidy(line).chars().take(80).collect()
 }
 
-/// Text without blanks at its ends and control characters, and with single blanks inside.
+/// Text with single blanks inside, no blanks at its ends, and control characters replaced.
 pub fn tidy(text: &str) -> String {
     quote(&text.split_whitespace().collect::<Vec<_>>().join(" "), usize::MAX)
 }
 
-/// Text after a word, of any case.
+/// Text after the first `word`, which is given in lower case. The case in `line` does not matter.
 pub fn after<'t>(line: &'t str, word: &str) -> Option<&'t str> {
-    // ASCII capitals keep the places of all bytes.
+    // A change of the case of ASCII letters keeps the places of all bytes.
     let at = line.to_ascii_lowercase().find(word)?;
     Some(&line[at + word.len()..])
 }
 
-/// The number after `key`, in capitals, with `=`, `:` or blanks between; a unit may touch it (`.01SEC`, `100Hz`).
+/// The number after `key`, which is given in capitals, with `=`, `:` or blanks between. A unit may touch the number (`.01SEC`, `100Hz`).
 pub fn number_after(line: &str, key: &str) -> Option<f64> {
     let upper = line.to_ascii_uppercase();
     let at = upper.match_indices(key).find(|(at, _)| !upper[..*at].ends_with(|c: char| c.is_ascii_alphanumeric()))?.0;
@@ -105,8 +105,8 @@ pub fn leading_number(text: &str) -> Option<f64> {
 /// Number, where the file gives one, and direction of a channel.
 pub type ChannelName = (Option<usize>, String);
 
-/// The place of the requested channel, by the number that the file gives it or else by its place, and the labels of all channels. The
-/// first one where none is requested, with a warning where there are several.
+/// The place of the requested channel, from 0, and the labels of all channels. The request is a number that the file gives to a channel, or
+/// else the place of a channel, from 1. Without a request it is the first channel, with a warning if there are several.
 pub fn choose(
     channels: &[ChannelName],
     options: &TextOptions,
@@ -136,7 +136,7 @@ pub fn choose(
     Ok((chosen, labels))
 }
 
-/// Names in a sentence, of many the first ones.
+/// Names for a sentence. Of many names only the first ones are given, with the number of all.
 pub fn listed(names: &[impl AsRef<str>]) -> String {
     let mut text = names.iter().take(MOST_LISTED).map(|name| brief(name.as_ref())).collect::<Vec<_>>().join(", ");
     if names.len() > MOST_LISTED {
@@ -145,7 +145,7 @@ pub fn listed(names: &[impl AsRef<str>]) -> String {
     text
 }
 
-/// Most names of a sentence.
+/// Largest number of names in a sentence.
 const MOST_LISTED: usize = 40;
 
 #[cfg(test)]

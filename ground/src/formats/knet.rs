@@ -13,9 +13,9 @@
 //!   -1234    -1240 ...                       8 integers a row
 //! ```
 //!
-//! The acceleration is the integer times the scale factor; the instrument's zero is the mean of the record, which is removed.
-//! The duration is a nominal one and no count of samples: all of them are read, with a warning where it differs. A file is cut off
-//! if it is too short and ends within a number.
+//! The acceleration is the integer times the scale factor. The mean of the record is taken as the zero of the instrument and removed.
+//! The duration is nominal and no count of samples: all samples are read, with a warning if their duration differs from it. A file
+//! is cut off if it is too short and ends within a number.
 
 use super::header::{Entry, leading_number, tidy};
 use super::numbers::{Block, FixedWidth, is_text, number, split};
@@ -30,13 +30,13 @@ const HEADER_LINES: usize = 17;
 /// Characters before the value.
 const VALUE: usize = 18;
 
-/// Relative difference of the samples' peak and the stated one that is allowed: the zero may be the mean of another stretch.
+/// Largest allowed relative difference between the peak of the samples and the stated one, whose zero may be the mean of another stretch.
 const PEAK_DIFFERENCE: f64 = 0.05;
 
 /// Rows of eight integers of nine characters.
 const COLUMNS: FixedWidth = FixedWidth(9);
 
-/// Place of a line in the header, from 1, and the beginnings of the names that it goes by.
+/// Place of an entry in the header, from 1, and the beginnings that its name may have.
 type Place = (usize, &'static [&'static str]);
 
 const ORIGIN: Place = (1, &["origin time"]);
@@ -60,7 +60,7 @@ fn has_name(line: &str, (_, names): Place) -> bool {
     names.iter().any(|name| lower.starts_with(name))
 }
 
-/// The value from its column on. The character before it is blank, for the names are shorter; otherwise the columns were moved.
+/// The value from column 19 on. The character before it must be blank since names are shorter: otherwise the columns were moved.
 fn by_column(line: &str) -> Option<&str> {
     let mut places = line.char_indices().skip(VALUE - 1);
     let (_, before) = places.next()?;
@@ -84,7 +84,7 @@ struct Header<'t> {
 }
 
 impl<'t> Header<'t> {
-    /// Line, from 1, and value of an entry: by its place, or by its name where another stands there.
+    /// Line, from 1, and value of an entry. The line is found by the name of the entry, or by its place if no line has that name.
     fn find(&self, place: Place) -> Option<(usize, &'t str)> {
         let end = self.lines.len().min(self.first + 2 * HEADER_LINES);
         let named = (self.first..end).find(|index| has_name(self.lines[*index], place));
@@ -125,7 +125,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let (unit, scale) = factor(entry.text).ok_or_else(|| entry.quoted("no scale factor in"))?;
     let unit = entry.agreed(unit, options)?;
 
-    // The memo may be missing, and remarks may need more than its line.
+    // The memo may be missing, so that samples begin early. Or remarks may need more lines than that of the memo.
     let is_row = |line: &str| split(line, 1).is_ok_and(|row| !row.is_empty());
     let memo = first + HEADER_LINES;
     let mut start = entry.line;
@@ -164,7 +164,7 @@ fn is_remark(line: &str) -> bool {
     line.trim().is_empty() || is_text(line)
 }
 
-/// `3920(gal)/6182761`: unit, and its size for one count. The unit is gal where it is not named.
+/// `3920(gal)/6182761`: the unit, and one count in that unit. The unit is gal if it is not named.
 fn factor(text: &str) -> Option<(AccelerationUnit, f64)> {
     let (full, counts) = text.split_once('/')?;
     let full = full.trim();

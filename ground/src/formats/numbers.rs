@@ -1,8 +1,8 @@
 //! Numbers in record files: as Fortran and spreadsheets print them, between blanks, glued together, or in columns of fixed width.
 //!
 //! Rows are divided at blanks first. Where that fails or yields fewer samples than the header declares, they are divided by the width
-//! of their columns, which an edit descriptor in the file or the format's description gives. The columns also show where a file
-//! that is cut off ends within a number: its remainder may read as another number. Nothing here knows a file format.
+//! of their columns, which an edit descriptor in the file or the format's description gives. The columns also show whether a file
+//! that is cut off ends within a number: the remainder of that number may read as another number. Nothing here knows a file format.
 
 use crate::error::RecordError;
 
@@ -46,9 +46,9 @@ fn is_decimal(text: &str) -> bool {
 /// A word of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Word<'t> {
-    /// Characters before it, plus one.
+    /// Column of the first character, from 1.
     pub column: usize,
-    /// Its characters.
+    /// Characters of the word.
     pub text: &'t str,
 }
 
@@ -125,9 +125,10 @@ pub fn quote(text: &str, most: usize) -> String {
 /// Most characters of the file that an error quotes: a binary file has words of any length.
 const LONGEST_QUOTE: usize = 40;
 
-/// Whether no word of a row is a number: a heading, a remark, the line that ends a block.
+/// Whether a row is text: a heading, a remark, the line that ends a block. It has letters other than those of exponents, and no word of it is
+/// a number.
 pub fn is_text(row: &str) -> bool {
-    // Numbers that touch are not words of numbers, but they are no text either.
+    // A row with no letters but those of exponents is no text, even if its words are not numbers: numbers may touch.
     let mut any = false;
     if !row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c)) {
         return false;
@@ -144,13 +145,13 @@ pub fn is_text(row: &str) -> bool {
     any
 }
 
-/// Columns of so many characters each, as a Fortran edit descriptor such as `8F10.5` gives them.
+/// Columns of equal width, in characters. A Fortran edit descriptor such as `8F10.5` states the width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FixedWidth(pub usize);
 
 impl FixedWidth {
-    /// Columns of the first descriptor in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, but not `(6(1X,F9.4))`; without
-    /// brackets of a word that can be nothing else, `8F10.3`.
+    /// Columns of the first descriptor in brackets: `(8f10.6)`, `Format= (10I8)`, `(1P5E15.7)`, but not `(6(1X,F9.4))`. If there is
+    /// none, columns of the first word without brackets that can be nothing but a descriptor: `8F10.3`.
     pub fn find(text: &str) -> Option<FixedWidth> {
         let in_brackets = text.split('(').skip(1).find_map(|rest| FixedWidth::parse(rest.split_once(')')?.0));
         let alone = |word: &str| word.starts_with(|c: char| c.is_ascii_digit()) && number(word).is_none();
@@ -200,7 +201,7 @@ impl FixedWidth {
     }
 }
 
-/// Widest field and most fields of a row: beyond is a misread header.
+/// Largest width of a field, and largest number of fields in a row. More is a misread header.
 const LARGEST_FIELD: usize = 200;
 
 /// Samples of a block.
@@ -208,7 +209,7 @@ const LARGEST_FIELD: usize = 200;
 pub struct Samples {
     /// Numbers as printed, in the unit of the file.
     pub values: Vec<f64>,
-    /// Whether the last row ends within a number, which is left out.
+    /// Whether the last row ends within a number. That number is left out.
     pub cut: bool,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
@@ -219,13 +220,13 @@ pub struct Samples {
 pub struct Block<'t> {
     /// All lines of the file.
     pub lines: &'t [&'t str],
-    /// Its first line and the one after its last, counted from 0.
+    /// First line of the block and the line after its last one, counted from 0.
     pub span: (usize, usize),
     /// Number of samples that the header declares; all are read where it declares none.
     pub declared: Option<usize>,
-    /// Entry of the header with that number: line, from 1, and name.
+    /// Entry of the header that declares the number of samples: line, from 1, and name.
     pub header: (usize, &'static str),
-    /// Columns of the rows where blanks do not separate the numbers.
+    /// Columns of the rows, used if blanks do not separate the numbers.
     pub columns: Option<FixedWidth>,
     /// Whether missing samples are accepted.
     pub lenient: bool,
@@ -297,8 +298,8 @@ impl Block<'_> {
         Ok(Samples { values, cut: cut.is_some(), warnings })
     }
 
-    /// The last row and its whole numbers, where it ends within a number: the numbers of the rows above end with their columns, or a
-    /// blank before, and the last row does not.
+    /// If the last row ends within a number: the line of that row, counted from 0, and the part of it with whole numbers. A row ends within a
+    /// number if it ends at another place of the columns than all numbers of the rows above, which end with a column or one character before.
     fn cut(&self) -> Option<(usize, &str)> {
         let width = self.columns?.0;
         let after = self.span.1.min(self.lines.len());
@@ -319,7 +320,7 @@ impl Block<'_> {
     }
 }
 
-/// Rows whose columns are compared with those of the last one.
+/// Number of rows above the last one whose columns are compared with its own.
 const ROWS_ABOVE: usize = 3;
 
 /// The columns in which the words of a row end.

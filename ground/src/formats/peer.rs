@@ -8,8 +8,8 @@
 //!   .1000000E-01  -.2000000E-01  ...        5 to 8 numbers of 15 characters a row, the last row short
 //! ```
 //!
-//! Records processed for the Nuclear Regulatory Commission have seven lines: the old headers, then one with the count. So the
-//! count is sought by pattern, the last one among the first ten lines, and the unit in the lines above it.
+//! Records processed for the Nuclear Regulatory Commission have seven lines: the old headers, then one with the count. Therefore
+//! the line with the count is the last one, among the first ten lines, that names NPTS. The unit is sought in the lines above it.
 
 use super::header::{Entry, number_after, tidy};
 use super::numbers::{Block, FixedWidth, is_text, number, words};
@@ -21,7 +21,7 @@ use crate::unit::AccelerationUnit;
 /// Lines among which the count and the interval are sought.
 const HEADER_LINES: usize = 10;
 
-/// Columns of a row where blanks do not separate them.
+/// Columns of a row, used if blanks do not separate the numbers.
 const COLUMNS: FixedWidth = FixedWidth(15);
 
 /// Whether these are the lines of a PEER file.
@@ -29,7 +29,7 @@ pub fn is_one(lines: &[&str]) -> bool {
     header(lines).is_some()
 }
 
-/// The line with the count: the last that names NPTS, for headers of older versions of the record come first.
+/// The line with the count: the last one that names NPTS, since headers of older versions of the record come first.
 fn header(lines: &[&str]) -> Option<usize> {
     let names = |line: &&str| {
         line.to_ascii_uppercase().split(|c: char| !c.is_ascii_alphanumeric()).any(|word| word == "NPTS")
@@ -69,10 +69,11 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     Ok(RecordFile { title, station, component, declared, warnings, ..file })
 }
 
-/// Peak in g that no instrument has recorded on the ground; more is a file in other units.
+/// Largest plausible peak in g: no instrument has recorded it on the ground. A file with a larger one is likely to be in another unit.
 const LARGEST_PEAK_IN_G: f64 = 20.0;
 
-/// `NPTS= 4000, DT= .01 SEC`, or numbers in the order of the names before or after them: `4000 .01 NPTS, DT`.
+/// Count and interval of a line. The numbers follow their names (`NPTS= 4000, DT= .01 SEC`), or two numbers stand in the order of the names
+/// (`4000 .01 NPTS, DT`).
 fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
     let (count, dt) = (number_after(line, "NPTS"), number_after(line, "DT"));
     let mut numbers = words(line).filter_map(|word| number(word.text));
@@ -102,7 +103,7 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<AccelerationUnit
             return Err(entry(remedy).quoted("this is no acceleration:"));
         }
         let name = match after_units {
-            // Old headers go on after the unit: `UNITS OF G. FILTER POINTS: ...`.
+            // Old headers continue after the unit: `UNITS OF G. FILTER POINTS: ...`.
             Some((_, rest)) => rest.split([' ', ',', ';', ':']).find(|word| !word.is_empty()),
             // `(G'S)`, or `... IN CM/S/S`.
             None => {

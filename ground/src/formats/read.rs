@@ -22,7 +22,7 @@ impl RecordFile {
     /// ```
     pub fn read(bytes: &[u8], options: &TextOptions) -> Result<RecordFile, RecordError> {
         let text = decode(bytes)?;
-        // Old files end with Ctrl-Z, cut ones with zeros.
+        // Old files end with Ctrl-Z, files that are cut off may end with zeros.
         let text = text.trim_end_matches(['\u{1a}', '\0']);
         let lines = lines(text);
         let mut file = match recognise(&lines) {
@@ -93,7 +93,7 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
         [0x1f, 0x8b, ..] => return Err(RecordError::NoText { kind: "compressed (gzip)" }),
         [0xff, 0xfe, text @ ..] => sixteen(text, u16::from_le_bytes),
         [0xfe, 0xff, text @ ..] => sixteen(text, u16::from_be_bytes),
-        // Without its mark, UTF-16 has zeros for the upper halves of plain letters.
+        // UTF-16 without a byte order mark: the upper halves of plain letters are zero.
         [1..=255, 0, 1..=255, 0, ..] => sixteen(bytes, u16::from_le_bytes),
         [0, 1..=255, 0, 1..=255, ..] => sixteen(bytes, u16::from_be_bytes),
         _ => match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
@@ -106,7 +106,7 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
 /// The lines of a text that ends them with LF, CRLF, or CR alone.
 fn lines(text: &str) -> Vec<&str> {
     let end = if text.contains('\n') { '\n' } else { '\r' };
-    // Short lines take more memory than their text: no more than needed.
+    // The slices of short lines take more memory than their text: no more are reserved than needed.
     let mut lines = Vec::with_capacity(text.matches(end).count() + 1);
     lines.extend(text.strip_suffix('\n').unwrap_or(text).split(end).map(|line| line.trim_end_matches('\r')));
     lines

@@ -66,16 +66,16 @@ pub struct RecordFile {
     pub dt: f64,
     /// Accelerations `[m/s²]`.
     pub accel: Vec<f64>,
-    /// Size of the peak acceleration that the header states `[m/s²]`.
+    /// Magnitude of the peak acceleration that the header states `[m/s²]`.
     pub stated_peak: Option<f64>,
-    /// Channels of the file, in its order: number and direction. One where the format knows no channels.
+    /// Channels in the order of the file, each with number and direction. There is one if the format has no channels.
     pub channels: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
 
 impl RecordFile {
-    /// A file of which nothing but the samples is known; `scale [m/s²]` is the size of one unit as they are printed.
+    /// A file of which only the samples are known. `scale [m/s²]` is the acceleration of a printed 1.
     pub(super) fn of(format: Format, unit: AccelerationUnit, scale: f64, dt: f64, samples: Samples) -> RecordFile {
         RecordFile {
             format,
@@ -92,13 +92,13 @@ impl RecordFile {
         }
     }
 
-    /// Largest size of the samples `[m/s²]`.
+    /// Largest magnitude of the samples `[m/s²]`.
     pub(super) fn peak(&self) -> f64 {
         self.accel.iter().fold(0.0, |peak, a| peak.max(a.abs()))
     }
 
-    /// Notes the peak `[m/s²]` that a line of the header states. Warns where it is not that of the samples, by more than the share
-    /// `allowed`.
+    /// Stores the magnitude of the peak `[m/s²]` that a line of the header states. Warns if it differs from the peak of the samples by more than
+    /// the share `allowed` of the larger one. A stated peak that is zero or not finite is ignored.
     pub(super) fn compare_peak(&mut self, stated: Option<(usize, f64)>, allowed: f64) {
         let stated = stated.map(|(line, peak)| (line, peak.abs()));
         let Some((line, stated)) = stated.filter(|(_, peak)| *peak > 0.0 && peak.is_finite()) else { return };

@@ -7,9 +7,9 @@
 //! 0.01, 0.034
 //! ```
 //!
-//! Blanks, tabs, commas and semicolons separate the columns; where another than the comma does, commas may be decimal. Lines of text
-//! above the names are titles. Without names the time is the column before the accelerations that runs evenly, else the first.
-//! Equal intervals are required: nothing is resampled here.
+//! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Lines of text
+//! above the names are titles. Without names the time is the nearest column before the accelerations that has equal steps, else the
+//! first column. Equal intervals are required: nothing is resampled here.
 
 use super::header::{Entry, brief, listed, tidy};
 use super::numbers::{Samples, Word, is_text, refused, split, words};
@@ -46,7 +46,7 @@ impl Heading {
             || self.second().is_some()
     }
 
-    /// The size of its unit, if that is one of time `[s]`.
+    /// The size of the unit `[s]` if it is a unit of time.
     fn second(&self) -> Option<f64> {
         match self.unit.to_lowercase().as_str() {
             "s" | "sec" | "secs" | "seconds" => Some(1.0),
@@ -67,13 +67,13 @@ impl Heading {
 
 /// The rows of a table.
 struct Rows {
-    /// Line of the headings, from 1, and one for each column; none in a table without.
+    /// Line of the headings, from 1, and the heading of each column. The list is empty for a table without headings.
     headings: (usize, Vec<Heading>),
     /// Line of each row, from 1.
     lines: Vec<usize>,
     /// Numbers, row by row.
     values: Vec<f64>,
-    /// Numbers of a row.
+    /// Number of columns.
     columns: usize,
 }
 
@@ -82,7 +82,7 @@ impl Rows {
         self.values[row * self.columns + column]
     }
 
-    /// The first row from which a column leaves the grid of a step by more than a tolerance; `scale` is the size of its unit.
+    /// The first row in which a column is off the grid of `step` by more than `tolerance`; `scale` is the size of the column's unit.
     fn off_grid(&self, column: usize, scale: f64, step: f64, tolerance: f64) -> Option<usize> {
         let at = |row: usize| self.at(row, column) * scale;
         (0..self.lines.len()).find(|row| {
@@ -91,7 +91,7 @@ impl Rows {
         })
     }
 
-    /// The mean step of a column; `scale` is the size of its unit.
+    /// The mean step of a column; `scale` is the size of the column's unit.
     fn mean_step(&self, column: usize, scale: f64) -> f64 {
         let last = self.lines.len() - 1;
         (self.at(last, column) * scale - self.at(0, column) * scale) / last as f64
@@ -134,7 +134,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     Ok(RecordFile { title: title(lines), component, ..file })
 }
 
-/// The first remark.
+/// The title: the first line, if it is a remark with letters.
 fn title(lines: &[&str]) -> String {
     let first = lines.first().and_then(|line| line.trim_start().strip_prefix(['#', '%']));
     first
@@ -154,7 +154,7 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .filter(|(_, line)| words(line).next().is_some())
         .collect();
     let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
-    // The last line of text above the numbers has the headings; those before it are titles.
+    // The last line of text above the numbers has the headings; the lines before it are titles.
     let first = body.iter().take_while(|(_, text)| is_header(text)).count();
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
@@ -190,7 +190,7 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
     Ok(rows)
 }
 
-/// The first line is neither numbers nor names: the file may be of no known format.
+/// The error for a first line that is neither numbers nor names: the file may be of no known format.
 fn unreadable(error: RecordError) -> RecordError {
     match error {
         RecordError::NotANumber { line, column, text } => RecordError::NoTable { line, column, text },
@@ -203,7 +203,8 @@ fn is_header(text: &str) -> bool {
     is_text(text) && text.contains(char::is_alphabetic)
 }
 
-/// The headings of a line: separated as its numbers are; blanks within brackets and before them belong to the name.
+/// The headings of a line, separated by semicolons, else by commas, else by tabs, else by blanks. Blanks within brackets, and before them,
+/// belong to the heading.
 fn headings(text: &str) -> Vec<Heading> {
     for delimiter in [';', ',', '\t'] {
         if text.contains(delimiter) {
@@ -225,8 +226,9 @@ fn headings(text: &str) -> Vec<Heading> {
     cells.iter().map(|cell| Heading::parse(cell)).collect()
 }
 
-/// Whether commas stand for decimal points: something else separates the columns, no point occurs, and every cell has one at most;
-/// where blanks separate them, within its digits, for blanks may stand beside any delimiter.
+/// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and
+/// every cell may have one comma, not at its end. If only blanks separate the columns, a cell may not begin with a comma either, since blanks
+/// may stand beside any delimiter.
 fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
     let cells = |text: &str| {
         let delimited = text.contains([';', '\t']);
@@ -239,7 +241,7 @@ fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
     any && body.iter().all(|(_, text)| !text.contains('.') && parted(text) && cells(text))
 }
 
-/// The numbers of a row, refusing an empty cell between two delimiters: it would move the cells after it.
+/// The numbers of a row. Delimiters may end it. Any other empty cell is refused: to skip it would move the cells after it.
 fn full_row(text: &str, line: usize) -> Result<Vec<f64>, RecordError> {
     for delimiter in [',', ';'] {
         let trimmed = text.trim_end().trim_end_matches(delimiter);
@@ -263,7 +265,7 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
         RecordError::NoColumn { column: column.into(), known }
     };
     if let Some(name) = &options.column {
-        // By its name, or by all of its heading.
+        // By the name of the column, else by its whole heading, else by its number.
         let whole = Heading::parse(name);
         let named = headings.iter().position(|heading| heading.name.eq_ignore_ascii_case(name.trim()));
         let named = named.or_else(|| headings.iter().position(|heading| *heading == whole));
@@ -286,8 +288,9 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     }
 }
 
-/// The column of the times: by its name; else the nearest before the accelerations that runs evenly, for numbers of rows or
-/// other components may stand there too; else the first of several.
+/// The column of the times: the one with such a name, else the nearest column before the accelerations that has equal steps, since numbers
+/// of rows or other components may stand there too, else the first column. It is `None` if that is the chosen column, or if no column has
+/// such a name and the first one has accelerations.
 fn time_column(rows: &Rows, chosen: usize) -> Option<usize> {
     let headings = &rows.headings.1;
     let named = headings.iter().position(Heading::is_time);
@@ -300,7 +303,7 @@ fn time_column(rows: &Rows, chosen: usize) -> Option<usize> {
     named.or_else(|| has_times.then(nearest)).filter(|time| *time != chosen)
 }
 
-/// The sampling interval `[s]` of a column of times, of which `second` is the unit.
+/// The sampling interval `[s]` of a column of times; `second` is the size of the column's unit `[s]`.
 fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Result<f64, RecordError> {
     let at = |row: usize| rows.at(row, time) * second;
     let last = rows.lines.len() - 1;

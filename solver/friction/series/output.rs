@@ -7,7 +7,7 @@ use crate::numerics::ode::taylor::reciprocal;
 use wide::f64x2;
 
 impl Series {
-    /// Coefficients of the slide of an interface (from zero) that slides `[m]`.
+    /// Coefficients of the slide of an interface (from zero) `[m]`; `None` unless the interface slides.
     pub fn slide(&self, interface: usize) -> Option<&[f64]> {
         match &self.levels[interface].translation {
             Some(Translation::Slide { slide, .. }) => Some(slide),
@@ -20,24 +20,24 @@ impl Series {
         &self.links[self.levels[block].link].theta
     }
 
-    /// Force at an interface of an order, in the axes of the lower block's or of the upper block's face `[N]`.
+    /// Coefficient, of an order, of the force at an interface, in the axes of the upper or of the lower block `[N]`.
     pub fn force(&self, interface: usize, is_upper: bool, order: usize) -> InAxes {
         let level = &self.levels[interface];
         if is_upper { level.in_upper[order] } else { level.in_lower[order] }.to_array()
     }
 
-    /// Force at an interface in the axes of the face that carries the contact `[N]`.
+    /// Coefficient, of an order, of the force at an interface, in the axes of the face that carries the contact `[N]`.
     pub fn contact_force(&self, interface: usize, order: usize) -> InAxes {
         let is_upper = matches!(self.levels[interface].joint, Joint::Corner(_, Face::Upper, _));
         self.force(interface, is_upper, order)
     }
 
-    /// Moment at a closed interface of an order about the middle of the upper block's base, clockwise `[N m]`.
+    /// Coefficient, of an order, of the moment at a closed interface about the middle of the upper block's base, clockwise `[N m]`.
     pub fn moment(&self, interface: usize, order: usize) -> f64 {
         self.levels[interface].moment[order]
     }
 
-    /// Slide times normal force at an interface of an order `[N m]`.
+    /// Coefficient, of an order, of slide times normal force at a closed interface `[N m]`.
     pub fn lever(&self, interface: usize, order: usize) -> f64 {
         let level = &self.levels[interface];
         match level.translation {
@@ -70,8 +70,8 @@ impl Series {
         (self.momentum + impulse * f64x2::splat(t)).to_array()
     }
 
-    /// From the middle of the lower face of a free interface to the middle of the upper one, in the axes of the lower or of the upper block `[m]`, and
-    /// the direction of the upper block in the axes of the lower one: coefficients of all orders up to `order`.
+    /// Coefficients up to `order` of three vectors at a free interface: from the middle of the lower face to the middle of the upper one, in the axes
+    /// of the lower and of the upper block `[m]`, and the direction of the upper block in the axes of the lower one.
     pub fn pose(&self, interface: usize, order: usize) -> [Vec<Vec2>; 3] {
         let level = &self.levels[interface];
         let (below, own) = (&self.links[level.below], &self.links[level.link]);

@@ -12,7 +12,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// What component values `before` and `after` a step may err by.
+    /// Error allowed to a component with the values `before` and `after` a step.
     #[inline(always)]
     pub fn scale(self, before: f64, after: f64) -> f64 {
         self.atol + self.rtol * before.abs().max(after.abs())
@@ -25,7 +25,7 @@ pub struct StepControl {
     exponent: f64,
 }
 
-/// Aim below the tolerance by this factor: larger means more rejected steps, smaller more accepted ones.
+/// Steps aim below the tolerance by this factor. Larger: more steps are rejected. Smaller: more steps are needed.
 const SAFETY: f64 = 0.9;
 /// A step shrinks by no more than this: an error estimate far above one says little.
 const SHRINK: f64 = 0.2;
@@ -43,11 +43,12 @@ impl StepControl {
         if error == 0.0 {
             return GROW;
         }
-        // libm: powers differ between C libraries, and step sizes decide digits.
+        // Of libm, since powers differ between C libraries and step sizes decide the last digits of a run.
         (SAFETY * libm::pow(error, self.exponent)).clamp(SHRINK, GROW)
     }
 
-    /// A first step for a state with this slope: small against the time in which the state or its slope changes by itself.
+    /// A first step: short against the time in which the state changes by its own magnitude, and against the step that the tolerance allows;
+    /// at least 1e-5 of the latter.
     pub fn first_step<V: StateVector>(self, x: &V, slope: &V, tolerance: Tolerance) -> f64 {
         let (mut size, mut speed) = (0.0f64, 0.0f64);
         for (x, v) in x.as_slice().iter().zip(slope.as_slice()) {
@@ -65,11 +66,11 @@ impl StepControl {
 /// An attempted step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attempt {
-    /// Its length `[s]`.
+    /// Length of the step `[s]`.
     pub h: f64,
-    /// Relative to the tolerance, at most one if the step is good; not a number where it has left the range of doubles.
+    /// Error relative to the tolerance, at most one if the step is good. Not a number if the step has left the range of doubles.
     pub error: f64,
-    /// The step to attempt next, from its end if it is good, from the same place if not `[s]`.
+    /// Length of the next attempt `[s]`: from the end of this step if it is good, otherwise from the same place.
     pub wanted: f64,
 }
 
@@ -95,16 +96,16 @@ pub fn without_remainder(wanted: f64, most: f64) -> f64 {
     if wanted >= most { most } else { wanted.min(0.6 * most) }
 }
 
-/// `x^(1/n)` to one per cent, from the third root on to half of that, of normal numbers, the same on every machine: steps need no more.
+/// `x^(1/n)` of a normal positive number, the same on every machine. Right to 1 %, for `n >= 3` to 0.5 %: step lengths need no more.
 #[inline(always)]
 pub fn rough_root(x: f64, n: usize) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let (bits, one) = (x.to_bits(), 1.0f64.to_bits());
-    // A parabola through both ends of an octave for the logarithm, and its like for the power.
+    // Within an octave, the logarithm is taken as a parabola through both ends, and so is the power.
     let part = f64::from_bits(bits & MANTISSA | one) - 1.0;
     let octaves = (bits >> 52) as f64 - 1023.0 + part + BULGE * part * (1.0 - part);
     let root = octaves * (1.0 / n as f64);
-    // Rounded down: `floor` is a call where instructions are the plainest.
+    // Rounded down. With the plainest instructions `floor` would be a function call.
     let towards_zero = root as i64;
     let whole = towards_zero - i64::from(root < towards_zero as f64);
     let part = root - whole as f64;
@@ -112,7 +113,7 @@ pub fn rough_root(x: f64, n: usize) -> f64 {
     f64::from_bits(power.to_bits().wrapping_add_signed(whole << 52))
 }
 
-/// `4 (log₂ 3/2 - 1/2)`, about: the height of a logarithm over its chord.
+/// Curvature of the parabolas in [`rough_root`], from the height of a logarithm over its chord: about `4 (log₂ 3/2 - 1/2)`.
 const BULGE: f64 = 0.3435;
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ pub enum ErrorEstimate {
     None,
     /// Root mean square of one estimate.
     Embedded(&'static [Term]),
-    /// The same, with a weight for the slope at the end of the step.
+    /// Root mean square of one estimate, with a weight for the slope at the end of the step.
     EmbeddedWithEndSlope(&'static [Term]),
     /// Two estimates in one (DOP853): the fifth order corrected by the third.
     FifthAndThird {
@@ -122,7 +122,7 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
         }
     }
 
-    /// Evaluates the stages from `first` up to the one before `until`. Literal stage numbers make each of them straight-line code.
+    /// Evaluates the stages from `first` up to the one before `until`. Literal stage numbers make each stage straight-line code.
     #[inline(always)]
     fn stages<S: System<State = V>>(&mut self, system: &mut S, first: usize, until: usize) {
         macro_rules! each {
@@ -262,7 +262,7 @@ mod tests {
         x
     }
 
-    /// Observed order less the stated one.
+    /// Magnitude of the observed order minus the stated order.
     fn order_error<M: Tableau>(steps: usize) -> f64 {
         let exact = advance::<Dop853>(800);
         let error = |steps: usize| {
@@ -274,7 +274,7 @@ mod tests {
 
     #[test]
     fn observed_order_is_the_stated_one() {
-        // Measured 3.9 and 4.0 for the methods of order 4, 5.12 and 8.04: the next term of the error is a few per cent at these steps.
+        // Measured 3.9 and 4.0 for order 4, 5.12 for order 5, 8.04 for order 8: the next term of the error is a few per cent at these steps.
         assert!(order_error::<KuttaMerson>(128) < 0.2);
         assert!(order_error::<RungeKutta4>(128) < 0.2);
         assert!(order_error::<DormandPrince54>(128) < 0.2);

@@ -4,8 +4,8 @@
 //! x(s) = x₀ + s (F₀ + (1-s) (F₁ + s (F₂ + (1-s) (F₃ + …))))
 //! ```
 //!
-//! A linear function of the state is a polynomial too; [`Interpolant::bernstein`] gives its Bernstein coefficients, whose
-//! range bounds it from both sides.
+//! A linear function of the state is a polynomial too. [`Interpolant::bernstein`] gives its Bernstein coefficients; their range bounds
+//! the function from both sides.
 
 use crate::numerics::polynomial::bernstein::{Bernstein, COEFFICIENTS};
 use crate::numerics::state_vector::StateVector;
@@ -34,7 +34,7 @@ impl<V: StateVector> Interpolant<V> {
         Interpolant { start: 0.0, length: 0.0, x: zero.clone(), nested: vec![zero.clone(); NESTED_TERMS], terms: 1 }
     }
 
-    /// The first three terms, which meet values and slopes at both ends.
+    /// Sets the first three terms: the cubic through values and slopes at both ends.
     pub(super) fn hermite(&mut self, t: f64, h: f64, x: &V, end: &V, slope: &V, end_slope: &V) {
         (self.start, self.length) = (t, h);
         self.x.clone_from(x);
@@ -54,7 +54,7 @@ impl<V: StateVector> Interpolant<V> {
         &mut self.nested[CUBIC_TERMS + place]
     }
 
-    /// Whether a term stands behind a factor `s`, not `1 - s`.
+    /// True if a term is multiplied by `s`, false if by `1 - s`.
     #[inline(always)]
     fn rises(&self, term: usize) -> bool {
         term.is_multiple_of(2)
@@ -73,7 +73,7 @@ impl<V: StateVector> Interpolant<V> {
         }
     }
 
-    /// The polynomial of a linear function of the state.
+    /// A linear function of the state over the step, as a polynomial.
     pub fn bernstein(&self, linear: impl Fn(&[f64]) -> f64) -> Bernstein {
         let mut b = [0.0; COEFFICIENTS];
         let mut degree = 0;
@@ -118,7 +118,7 @@ mod tests {
             for s in [0.0, 0.1, 0.5, 0.8, 1.0] {
                 let mut value = [0.0];
                 interpolant.evaluate(s, &mut value);
-                // Both forms are a handful of roundings of numbers below one.
+                // The forms differ by a handful of roundings of numbers below one.
                 assert!((b.evaluate(s) - value[0]).abs() < 1e-15);
             }
         }

@@ -13,8 +13,8 @@ macro_rules! methods {
         #[serde(rename_all = "kebab-case")]
         #[non_exhaustive]
         pub enum Method {
-            /// What costs least, by the work-precision benchmark: Taylor series, closed forms of free swings, and multi-sample steps over the
-            /// record of one block. The default.
+            /// The default. Costs least by the work-precision benchmark: Taylor series, closed forms of free swings, and multi-sample steps over
+            /// the record of one block.
             #[default]
             Auto,
             $($(#[$doc])* #[serde(rename = $name)] $method,)*
@@ -43,7 +43,7 @@ macro_rules! methods {
                 }
             }
 
-            /// Calls back with the tableau of an explicit method; `None` for a Taylor series.
+            /// Calls `build` with the tableau of an explicit method. For a Taylor series, returns `build` itself as the error.
             pub(crate) fn explicit<B: ForTableau>(self, build: B) -> Result<B::Built, B> {
                 match self {
                     $(Method::$method => Ok(build.with::<$method>()),)*
@@ -79,10 +79,10 @@ impl Method {
         if self == Method::Auto { Method::Taylor } else { self }
     }
 
-    /// Methods that choose their steps by the tolerance and reach any: all named methods but those of order 4.
+    /// Methods with step control that can reach any tolerance: all but those of order 4. [`Method::Auto`] is left out: it steps by one of them.
     pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
 
-    /// The method of this name; `dopri5` is known as well.
+    /// The method of this name; `dopri5` is another name of `dormand-prince54`.
     pub fn parse(name: &str) -> Option<Method> {
         let name = if name == "dopri5" { "dormand-prince54" } else { name };
         Method::ALL.iter().copied().find(|method| method.name() == name)

@@ -1,8 +1,8 @@
 //! Initial value problems: one step, its error, and the state inside it.
 //!
-//! Explicit Runge-Kutta methods are tableaus ([`tableaus`]) run by one stepper ([`explicit`]); [`taylor`] expands equations that are linear
-//! in second derivatives, [`one_angle`] those of one angle from sample to sample of a record. Nothing here knows blocks, modes or impacts: a caller
-//! takes a step, inspects its inside, and keeps it, shortens it, or continues elsewhere.
+//! [`explicit`] is one stepper for all Runge-Kutta methods, which are tableaus ([`tableaus`]). [`taylor`] expands equations that are linear in
+//! second derivatives of sines and cosines, [`one_angle`] the equation of one angle from sample to sample of a record. Nothing here knows
+//! blocks, modes or impacts: a caller takes a step, inspects its inside, and keeps it, shortens it, or continues elsewhere.
 
 pub mod control;
 pub mod explicit;

@@ -11,17 +11,18 @@
 //! (k+1) Ω[k+1] = P C[k] + P' C[k-1] + Q S[k] + Q' S[k-1]
 //! ```
 //!
-//! Sine and cosine of the next angle are those of the last one turned by `δ`.
+//! Sine and cosine of the angle at the end are those of `θ_0`, turned by `δ`.
 
 use super::taylor::{BEFORE_LAST, RECIPROCAL, turned};
 use crate::numerics::polynomial::powers::Powers;
 use wide::f64x2;
 
-/// Least and highest order of the rate's series.
+/// Lowest order of the rate's series.
 pub const LEAST_ORDER: usize = 3;
+/// Highest order of the rate's series.
 pub const HIGHEST_ORDER: usize = 12;
 
-/// `[A, B]` and `[A', B']` of `(A + A' u) cos θ + (B + B' u) sin θ`: the second derivative of an angle in units of the step.
+/// Weights `[A, B]` and `[A', B']` of `(A + A' u) cos θ + (B + B' u) sin θ`, the second derivative of an angle with the step as unit of time.
 pub type Weights = [f64x2; 2];
 
 /// An angle, its rate in units of the step, and its cosine and sine.
@@ -43,9 +44,10 @@ pub struct OneAngle {
     order: usize,
     /// State at the end.
     pub end: Turning,
-    /// The sum over the sizes of the rate's coefficients but the first: no rate in the step is further from that at its start.
+    /// Sum of the magnitudes of the rate's coefficients, the constant one left out: bounds how far the rate moves from its start in the step.
     pub change: f64,
-    /// Size of the rate's last coefficient, or of a share of the one before: of an odd or even function every second one is zero.
+    /// Magnitude of the rate's last coefficient, or `BEFORE_LAST` times that of the one before, whichever is larger. The last one alone would
+    /// not do: every second coefficient of an odd or even function is zero.
     pub last: f64,
 }
 
@@ -56,7 +58,7 @@ struct Series {
 }
 
 impl Series {
-    /// The first three: `cos δ = 1 - Ω_0² u²/2`, `sin δ = Ω_0 u + Ω_1 u²/2`, with `Ω_1 = P`, `2 Ω_2 = P' + Q Ω_0`.
+    /// The first three coefficients: `cos δ = 1 - Ω_0² u²/2`, `sin δ = Ω_0 u + Ω_1 u²/2`, with `Ω_1 = P`, `2 Ω_2 = P' + Q Ω_0`.
     #[inline(always)]
     fn begin(rate: f64, [[p, q], [p_slope, _]]: [[f64; 2]; 2]) -> Series {
         let mut series = Series { circle: [f64x2::ZERO; HIGHEST_ORDER + 1], rates: [0.0; HIGHEST_ORDER + 1] };
@@ -69,13 +71,13 @@ impl Series {
         series
     }
 
-    /// What follows from the order `k`, two at least. A step waits for the coefficients one after another, from `Ω` over `sin δ` to `Ω`: they are
-    /// scalars, and what comes last is added last.
+    /// Computes the coefficients of order `k + 1` from those up to order `k`, at least 2. Each `Ω` waits for a coefficient of `sin δ`, which waits
+    /// for an earlier `Ω`: these coefficients are computed as scalars, and the newest term of a sum is added last.
     #[inline(always)]
     fn extend(&mut self, k: usize, [[p, q], [p_slope, q_slope]]: [[f64; 2]; 2]) {
         let Series { circle, rates } = self;
         let ([cos, sin], [cos_before, sin_before]) = (circle[k].to_array(), circle[k - 1].to_array());
-        // That of the constant coefficients, one and zero, is added last.
+        // The term of the constant coefficients `[1, 0]` of the circle, which is `rates[k]`, is added last, below.
         let mut turning = circle[k] * f64x2::splat(rates[0]);
         for j in 1..k {
             turning += circle[k - j] * f64x2::splat(rates[j]);
@@ -87,7 +89,7 @@ impl Series {
 }
 
 impl OneAngle {
-    /// The series of an order about a state.
+    /// The series of order `ORDER` about the state `start`.
     #[inline(always)]
     pub fn expand<const ORDER: usize>(weights: &Weights, start: Turning) -> OneAngle {
         let Turning { theta, rate, circle } = start;
@@ -103,7 +105,7 @@ impl OneAngle {
             )*};
         }
         each!(2 3 4 5 6 7 8 9 10 11);
-        // `[θ', δ]`, the sum over sizes, and the circle. The last terms, which are the last to be known, come last.
+        // `[θ' - Ω_0, δ - Ω_0]`, the sum of magnitudes, and `[cos δ, sin δ]` less `[1, 0]`. Terms are added in the order in which they become known.
         let (mut sums, mut change, mut turn) = (f64x2::ZERO, 0.0, f64x2::ZERO);
         macro_rules! each {
             ($($order:literal)*) => {$(
@@ -124,7 +126,7 @@ impl OneAngle {
         OneAngle { rates: series.rates, order: ORDER, end, change, last: if last > before { last } else { before } }
     }
 
-    /// `sign θ` over the step.
+    /// `sign θ` over the step as a polynomial, from `θ = start`.
     #[inline(always)]
     pub fn track(&self, sign: f64, start: f64) -> Powers {
         let terms = self.rates[..=self.order].iter().zip(&RECIPROCAL[1..]);
@@ -140,7 +142,7 @@ mod tests {
         Turning { theta, rate, circle: f64x2::new([libm::cos(theta), libm::sin(theta)]) }
     }
 
-    /// One step is as good as a thousand short ones, and each order by what its last coefficient says.
+    /// One step ends where a thousand short ones end, for each order to the error that its last coefficient indicates.
     #[test]
     fn a_step_ends_where_many_short_ones_do() {
         let (theta, rate) = (0.1, -0.05);
@@ -158,7 +160,7 @@ mod tests {
             let error = (step.end.theta - exact.theta).abs().max((step.end.rate - exact.rate).abs());
             assert!(error < step.last.max(1e-15), "order {order}: {error:e}, last {:e}", step.last);
             let [cos, sin] = step.end.circle.to_array();
-            // Of no account: it counts by the weights, which are some thousandths in a step from sample to sample.
+            // A larger error is allowed here: weights multiply it, and they are some thousandths in a step from sample to sample.
             let turned = (cos - libm::cos(exact.theta)).abs().max((sin - libm::sin(exact.theta)).abs());
             assert!(turned < 2.0 * step.last.max(1e-15), "order {order}: {turned:e}, last {:e}", step.last);
             let [angle, slope] = step.track(1.0, theta).with_slope(1.0);

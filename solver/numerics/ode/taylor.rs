@@ -1,11 +1,11 @@
 //! A Taylor method for angles whose equations are linear in second derivatives of their sines and cosines.
 //!
-//! The series about a state (`taylor/series.rs`) is computed to an order that the tolerance asks for, then a step is taken that is as long
-//! as its last terms allow. It is its own dense output, and a step that has to be shortened is the same series at another place.
+//! The series about a state (`taylor/series.rs`) is computed to an order that follows from the tolerance. The step is as long as the last
+//! terms allow. The series is its own dense output, and a shortened step is the same series evaluated at another place.
 //!
-//! Choose it wherever events are located: finding one costs no right-hand side. Order: about `2 - ln(rtol) / 2`, more with one angle,
-//! after which a higher one costs more than the longer step saves (Jorba & Zou, 2005, and what a step costs beside
-//! its coefficients); fewer where the step is short.
+//! Choose this method wherever events are located: finding one costs no right-hand side. The order is about `2 - ln(rtol) / 2`, more with one
+//! angle, less where the step is short. A higher order costs more than the longer step saves (Jorba & Zou, 2005; here also by what a step
+//! costs beside its coefficients).
 
 mod alone;
 mod coefficients;
@@ -25,40 +25,41 @@ use wide::f64x2;
 /// Lowest order.
 const MIN_ORDER: usize = 4;
 
-/// What a term before the last one still counts for: of an odd or even function every second coefficient is zero.
+/// Weight of the last term but one in the error. It counts because every second coefficient of an odd or even function is zero.
 pub const BEFORE_LAST: f64 = 0.1;
 
-/// Terms are kept this much smaller than the tolerance. Without, errors are what is asked for at best, several times that where the
-/// motion lingers at an unstable balance; it costs an eighth of the step.
+/// Factor by which terms are kept below the tolerance. Without it, errors reach the tolerance at best, and several times the tolerance where
+/// the motion lingers at an unstable balance. It shortens the step by an eighth.
 pub const MARGIN: f64 = 8.0;
 
-/// Error of a step of the largest order below which a lower one is looked for: above, it would save less than looking costs.
+/// Error of a step of the largest order below which a lower order is sought. Above it, a lower order saves less than the search costs.
 const SHORT: f64 = 1e-3;
 
-/// Steps aim this far below what just meets the tolerance.
+/// Length that a step aims at, as a share of the length that just meets the tolerance.
 pub const SAFETY: f64 = 0.9;
 
-/// Error of a step above which a longer one is not looked for: it would save less than looking costs.
+/// Error of a step above which no longer step is sought: it would save less than the search costs.
 const LONG_ENOUGH: f64 = 0.1;
 
-/// A step is no longer than so many times what was wanted: the last terms of a series say little of a step far beyond those that
-/// they were looked at for, where the motion lingers at an unstable balance most of all.
+/// Largest ratio of a step to the wanted length, and of the next wanted length to the step. The last terms of a series say little about a
+/// step far beyond the length for which they were examined, least of all where the motion lingers at an unstable balance.
 pub const LARGEST_GROWTH: f64 = 8.0;
 
-/// Rounds in which a step as long as the terms allow is looked for.
+/// Most rounds in the search for a step as long as the terms allow.
 const GUESSES: usize = 3;
 
 /// Steps on the series at a state.
 #[derive(Clone, Debug)]
 pub struct Taylor<V, L: StateVector> {
     series: Series<V, L>,
-    /// Length of the last attempt, and of the part of it up to an event `[s]`.
+    /// Length of the last attempt `[s]`.
     attempted: f64,
+    /// Length of its part up to an event `[s]`; the whole length if no event cuts it.
     h: f64,
     end: V,
     /// Highest order of the rates' coefficients that the last attempt uses.
     order: usize,
-    /// How far each angle, and its rate, move in the last attempt, at most.
+    /// Per angle: bounds of how far the angle `[rad]` and its rate `[rad/s]` move in the last attempt.
     reach: L::Of<[f64; 2]>,
 }
 
@@ -83,8 +84,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.series.forget();
     }
 
-    /// Attempts a step from `(t, x)`, as long as the terms allow and no longer than `most`; `wanted` is a guess of that. From the same
-    /// place again nothing is computed but what is missing.
+    /// Attempts a step from `(t, x)` that is as long as the terms allow, but no longer than `most`; `wanted` is a guess of this length. A repeated
+    /// attempt from the same place computes only the coefficients that are missing.
     #[inline(always)]
     pub fn attempt<S: SeriesSystem<State = V, Links = L>>(
         &mut self,
@@ -94,7 +95,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         [wanted, most]: [f64; 2],
         tolerance: Tolerance,
     ) -> Attempt {
-        // A step that something else cuts short, as the next sample of a record does, takes the orders that it needs.
+        // A step that is cut short, for example by the next sample of a record, begins with few orders and adds those that it needs.
         let orders = if wanted >= most { self.first_orders() } else { self.series.largest_order };
         self.series.expand(system, t, x, orders);
         let (mut target, mut guesses) = (wanted, 0);
@@ -104,7 +105,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             let (order, error) = self.measure(system, h, is_cut, tolerance);
             guesses += 1;
             if is_cut && error <= 1.0 {
-                // That says nothing of a longer one.
+                // The error of a cut step says nothing about a longer step.
                 break (h, order, error, target);
             }
             if error <= 1.0 && error > LONG_ENOUGH || guesses == GUESSES {
@@ -116,7 +117,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
                 break (without_remainder(target, most), order, 1.0, target);
             }
         };
-        // The step is the polynomial up to here, inside as at its end, whatever a longer attempt has left of higher orders.
+        // The step is the polynomial of this order, inside and at its end, even if a longer attempt has left higher orders.
         (self.attempted, self.h, self.order) = (h, h, order);
         let mut is_finite = error.is_finite();
         if error <= 1.0 {
@@ -126,13 +127,12 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
     }
 
-    /// Orders that a step takes in any case, where more are added as it needs them: those of several angles one by one, those of one angle all
-    /// together.
+    /// Orders that a step begins with if more are added as it needs them: one by one with several angles, all together with one angle.
     fn first_orders(&self) -> usize {
         if self.series.dof() == 1 { self.series.largest_order.div_ceil(2).max(MIN_ORDER) } else { MIN_ORDER }
     }
 
-    /// Order and error of a step: of one that something else cuts short the least order with which it is good.
+    /// Order and error of a step: the largest order, or, for a short step that is cut, the least order with which the step is good.
     #[inline(always)]
     fn measure<S: SeriesSystem<State = V, Links = L>>(
         &mut self,
@@ -146,7 +146,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         if is_cut && error < SHORT { self.least_order(system, h, &scale) } else { (order, error) }
     }
 
-    /// The least order with which a step is good, and its error; the largest one if none is.
+    /// The least order with which a step is good, and the error with this order; the largest order if none is good.
     #[inline(always)]
     fn least_order<S: SeriesSystem<State = V, Links = L>>(
         &mut self,
@@ -172,7 +172,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         (order, error)
     }
 
-    /// Error of a step of an order.
+    /// Error of a step with the series up to this order, relative to the tolerance.
     #[inline(always)]
     fn error_at(&self, order: usize, h: f64, scale: &L::Of<f64>) -> f64 {
         let (mut power, mut square, mut left) = (MARGIN, h, order - 1);
@@ -200,8 +200,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         }
     }
 
-    /// What a term of the rates weighs in a step, relative to what rates and angles may err by, which are as large in it as their
-    /// first terms let them be. An angle's term is the rate's times the step over its order, which is `MIN_ORDER` at least.
+    /// Weight of a term of each rate in a step of length `h`, relative to the errors allowed to rate and angle (the larger weight counts). Allowed
+    /// errors follow from the largest rate and angle that their first terms permit. An angle's term is the rate's term of order `k` times
+    /// `h / (k + 1)`; `k` counts as `MIN_ORDER`, the least order of a step.
     #[inline(always)]
     fn scale(&self, h: f64, tolerance: Tolerance) -> L::Of<f64> {
         let dof = self.series.dof();
@@ -217,7 +218,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         scale
     }
 
-    /// Size of the terms of one order in a step, relative to the tolerance.
+    /// Largest magnitude among the terms of one order in a step, relative to the tolerance.
     #[inline(always)]
     fn term(&self, order: usize, power: f64, scale: &L::Of<f64>) -> f64 {
         let mut size = 0.0f64;
@@ -227,7 +228,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         size
     }
 
-    /// Relative to the last step: where its last term would just meet the tolerance.
+    /// Factor from the last step to the next, within limits: [`SAFETY`] times the step at which the last term just meets the tolerance.
     fn factor_wanted(&self, error: f64, order: usize) -> f64 {
         (SAFETY / rough_root(error.max(1e-30), order)).clamp(1e-3, LARGEST_GROWTH)
     }
@@ -237,7 +238,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         &self.end
     }
 
-    /// Orders known of the series at a place: none if it is another one than the last attempt's.
+    /// Number of orders known of the series about this place; zero if the present series is about another place.
     pub fn known_at(&self, t: f64, x: &V) -> usize {
         if self.series.is_at(t, x) { self.series.known } else { 0 }
     }
@@ -247,19 +248,19 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.order
     }
 
-    /// `[c, s]` of order after order, per angle.
+    /// Coefficients `[c, s]` of cosine and sine, order by order from zero: per order, one entry per angle.
     pub fn circles(&self) -> impl Iterator<Item = &[f64x2]> {
         self.series.circle.iter().map(AsRef::as_ref)
     }
 
-    /// `[c̈, s̈]` of an order below [`Taylor::order`], by angle.
+    /// Coefficients of `[c̈, s̈]` of one order, below [`Taylor::order`], as a function of the angle's index.
     pub fn second_derivatives(&self, order: usize) -> impl Fn(usize) -> [f64; 2] {
         let circle = self.series.circle[order + 2].as_ref();
         let factor = NUMBER[order + 1] * NUMBER[order + 2];
         move |angle| circle[angle].to_array().map(|coefficient| factor * coefficient)
     }
 
-    /// `θ̈` of an order below [`Taylor::order`].
+    /// Coefficient of an angle's `θ̈` of one order, below [`Taylor::order`].
     pub fn acceleration(&self, order: usize, angle: usize) -> f64 {
         NUMBER[order + 1] * rate_of(&self.series.driver[order + 1].as_ref()[angle])
     }
@@ -273,7 +274,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.series.state_at(self.order, s * length, state);
     }
 
-    /// A difference of two angles over the last attempt, as a polynomial; exactly zero at the start where that is known.
+    /// An angle, or the difference of two, over the last attempt, as a polynomial; exactly zero at the start if `starts_at_zero`.
     #[inline(always)]
     pub fn track(&self, angles: Difference, starts_at_zero: bool) -> Powers {
         let mut power = 1.0;
@@ -285,15 +286,15 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         Powers::with_terms(if starts_at_zero { 0.0 } else { angles.of(self.series.x.as_slice()) }, terms)
     }
 
-    /// How far a difference of two angles moves from its start in the last attempt, at most.
+    /// Bound of how far an angle, or the difference of two, moves from its start in the last attempt `[rad]`.
     pub fn reach(&self, angles: Difference) -> f64 {
         let reach = self.reach.as_ref();
         reach[angles.upper][0] + angles.lower.map_or(0.0, |lower| reach[lower][0])
     }
 
-    /// Whether an angle, or the difference of two, surely goes one way all through the last attempt: its rate, taken positive at first,
-    /// is above zero at the end even without the terms that add to it beyond the first order. What is left is concave, so it is
-    /// above zero in between.
+    /// True only if an angle, or the difference of two, is monotonic in the last attempt. Let its rate be positive at first. The terms beyond the
+    /// first order that add to the rate are left out; the rest must be above zero at the end. The rest is concave, so it is above zero in
+    /// between, and so is the rate.
     pub fn is_monotonic(&self, angles: Difference) -> bool {
         let [start, first] = [0, 1].map(|order: usize| {
             let driver = self.series.driver[order].as_ref();
@@ -302,14 +303,14 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         let (first, reach) = (self.h * first, self.reach.as_ref());
         let way = if start == 0.0 { first } else { start };
         let end = angles.of(&self.end.as_slice()[self.series.dof()..]);
-        // No smaller than the sum over the sizes of the differences.
+        // Bound of the sum of the magnitudes of the difference's terms.
         let size = reach[angles.upper][1] + angles.lower.map_or(0.0, |lower| reach[lower][1]);
         let [start, first, end] = [start, first, end].map(|rate| if way < 0.0 { -rate } else { rate });
         let (sum, size) = (end - start - first, size - first.abs());
         start + first + 0.5 * (sum - size) > 0.0
     }
 
-    /// The end of a step, by Horner's rule up to an order, and how far the angles move until then.
+    /// Evaluates the end of a step of length `h`, by Horner's rule up to an order, and the bounds of how far angles and rates move until then.
     #[inline(always)]
     fn evaluate(&mut self, order: usize, h: f64) {
         let mut end = self.end.clone();
@@ -323,8 +324,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     }
 }
 
-/// By what a step with this error may be longer, or has to be shorter, and whether it is good then without another look: weights of
-/// terms grow with the step no faster than itself, and fall with it no faster than its square.
+/// Factor by which a step with this error may be longer, or has to be shorter; and whether the new step is good without another check. As a
+/// step grows, the weights of its terms rise no faster than its length, and fall no faster than the inverse square of its length.
 #[inline(always)]
 fn fitting(error: f64, order: usize) -> (f64, bool) {
     let is_too_long = error > 1.0;
@@ -343,7 +344,7 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Two pendulums in one: `θ̈ = -sin θ`, so `J = 1`, `C = 0`, `S = 1`; order by order only the constant term.
+    /// The pendulum `θ̈ = -sin θ`: `J = 1`, `C = 0`, `S = 1`. The weights have a constant term only.
     struct Pendulum;
 
     impl SeriesSystem for Pendulum {
@@ -387,7 +388,7 @@ mod tests {
                 let end = advance(steps, order);
                 (end[0] - exact[0]).hypot(end[1] - exact[1])
             };
-            // Half the step, 2^order of the error; measured 4.0, 6.1, 8.1.
+            // Half the step divides the error by 2^order; measured 4.0, 6.1, 8.1.
             let observed = (error(48) / error(96)).log2();
             assert!((observed - order as f64).abs() < 0.4, "{observed} for {order}");
         }

@@ -1,7 +1,7 @@
-//! Polynomials in Bernstein form on `[0, 1]`: bounds, first root, largest size.
+//! Polynomials in Bernstein form on `[0, 1]`: bounds, first root, largest magnitude.
 //!
-//! While all Bernstein coefficients of a piece are above zero there is no root in the piece; with one change of sign there is exactly one;
-//! otherwise the piece is halved. No root is missed, be it a pair inside one step.
+//! If all Bernstein coefficients of a piece are above zero, the piece has no root. With one change of sign it has exactly one root.
+//! Otherwise it is halved. No root is missed, not even a pair of roots inside one step.
 
 /// Bernstein coefficients on `[0, 1]`: `coefficients[..=degree]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ impl Bernstein {
 /// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
 const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// Bernstein coefficients of the longest dense output.
+/// Number of Bernstein coefficients of the longest dense output.
 pub const COEFFICIENTS: usize = Bernstein::LARGEST_DEGREE + 1;
 
 /// Binomial coefficients up to the degree of the longest dense output.
@@ -40,8 +40,8 @@ pub(crate) const BINOMIAL: [[f64; COEFFICIENTS]; COEFFICIENTS] = {
 };
 
 impl Bernstein {
-    /// Value at `s`, 0 to 1, by Horner's rule in `s / (1 - s)` from the nearer end: all terms have binomial weights, so nothing
-    /// cancels that does not cancel in the sum itself.
+    /// Value at `s`, 0 to 1, by Horner's rule in `s / (1 - s)`, or in its inverse beyond the middle. All weights are positive, so that only
+    /// coefficients of opposite sign cancel.
     pub fn evaluate(&self, s: f64) -> f64 {
         let (n, b) = (self.degree, &self.coefficients);
         let is_left = s <= 0.5;
@@ -58,7 +58,7 @@ impl Bernstein {
         sum * power
     }
 
-    /// Of a polynomial in powers: `b[j] = Σ_k C(j, k) / C(n, k) a[k]`.
+    /// Bernstein form of a polynomial in powers: `b[j] = Σ_k C(j, k) / C(n, k) a[k]`.
     pub(crate) fn of_powers(powers: &[f64]) -> Bernstein {
         let degree = powers.len() - 1;
         let mut coefficients = [0.0; COEFFICIENTS];
@@ -74,8 +74,8 @@ impl Bernstein {
         Bernstein { coefficients, degree }
     }
 
-    /// Gives the polynomial this value and these derivatives at 0, which are known better than dense output has them: just after
-    /// a reset they decide on which side of zero a guard is.
+    /// Sets value and derivatives of the polynomial at 0. They are known better than dense output gives them, and just after a reset they
+    /// decide on which side of zero a guard is.
     pub fn start_with(&mut self, value: f64, first: f64, second: f64) {
         let degree = self.degree as f64;
         let b = &mut self.coefficients;
@@ -120,13 +120,13 @@ impl Bernstein {
         (left, right)
     }
 
-    /// As many roots as the polynomial has inside, or an even number more.
+    /// Changes of sign among the coefficients: the number of roots inside, or an even number more.
     pub(crate) fn sign_changes(&self) -> usize {
         let signs = self.coefficients[..=self.degree].iter().map(|c| *c > 0.0);
         signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count()
     }
 
-    /// Largest coefficient by size: a bound of the polynomial's size.
+    /// Largest magnitude of a coefficient: a bound of the polynomial's magnitude.
     pub fn size(&self) -> f64 {
         self.coefficients[..=self.degree].iter().fold(0.0, |most, c| most.max(c.abs()))
     }
@@ -137,7 +137,8 @@ impl Bernstein {
     }
 }
 
-/// The first `s` in `(0, 1]` at which the polynomial is not above zero, `start_roots` known roots at `s = 0` left out.
+/// First `s` in `(0, 1]` at which the polynomial is not above zero; `start_roots` known roots at `s = 0` are left out. Zero if what remains
+/// is not above zero at the start.
 pub fn first_root(polynomial: &Bernstein, start_roots: usize) -> Option<f64> {
     let polynomial = if start_roots > 0 { polynomial.deflated(start_roots) } else { *polynomial };
     root_in_piece(&polynomial, 0.0, 1.0)
@@ -151,7 +152,7 @@ fn root_in_piece(piece: &Bernstein, start: f64, width: f64) -> Option<f64> {
     if first <= 0.0 {
         return Some(start);
     }
-    // With a zero at its end and one change before, there may be another zero inside.
+    // If the piece ends on zero and the one change of sign comes earlier, there may be another zero inside.
     let is_only_one = last < 0.0 || (last == 0.0 && piece.coefficients[piece.degree - 1] > 0.0);
     if piece.sign_changes() == 1 && is_only_one {
         return Some(start + width * only_root(piece));
@@ -188,10 +189,10 @@ fn only_root(polynomial: &Bernstein) -> f64 {
     s
 }
 
-/// Share by which a peak may be missed. Each halving gains a factor of four: a smaller one costs little.
+/// Relative error allowed in a peak. Each halving reduces it by a factor of four, so that a small one costs little.
 const PEAK_SHARE: f64 = 1e-14;
 
-/// The largest size of the polynomial on `[0, 1]`, if it is above `known` by more than rounding; else `known`.
+/// Largest magnitude of the polynomial on `[0, 1]` if it exceeds `known` by more than rounding, else `known`.
 pub fn largest_size(polynomial: &Bernstein, known: f64) -> f64 {
     largest_size_in_piece(polynomial, known, 1.0)
 }
@@ -211,7 +212,7 @@ fn largest_size_in_piece(polynomial: &Bernstein, known: f64, width: f64) -> f64 
     }
     if slope.coefficients[0] > 0.0 {
         match slope.sign_changes() {
-            // It goes one way.
+            // Monotonic: the largest magnitude is at an end.
             0 => return best,
             1 if slope.coefficients[slope.degree] < 0.0 => {
                 return best.max(polynomial.evaluate(only_root(&slope)).abs());

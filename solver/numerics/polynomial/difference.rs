@@ -7,18 +7,18 @@ pub struct Difference {
     pub sign: f64,
     /// Index of the component.
     pub upper: usize,
-    /// Index of the one that is subtracted.
+    /// Index of the component that is subtracted.
     pub lower: Option<usize>,
 }
 
 impl Difference {
-    /// Of the components of a vector.
+    /// Value for the components of a vector.
     #[inline(always)]
     pub fn of(self, x: &[f64]) -> f64 {
         self.by(|index| x[index])
     }
 
-    /// Of whatever has components.
+    /// Value for components that a function returns by index.
     #[inline(always)]
     pub fn by(self, x: impl Fn(usize) -> f64) -> f64 {
         self.sign * (x(self.upper) - self.lower.map_or(0.0, &x))

@@ -1,7 +1,7 @@
 //! Polynomials in powers: the dense output of a Taylor series.
 //!
-//! Their coefficients fall as those of the series do, so that sums over them bound the polynomial and its derivatives closely on the
-//! whole of `[0, 1]`. Where such bounds do not tell, the Bernstein form does ([`Powers::bernstein`]).
+//! The coefficients fall like those of the series, so that sums of them closely bound the polynomial and its derivatives on the
+//! whole of `[0, 1]`. Where such bounds do not decide, the Bernstein form does ([`Powers::bernstein`]).
 
 use super::bernstein::{self, Bernstein, COEFFICIENTS};
 
@@ -15,12 +15,13 @@ pub struct Powers {
 /// Most rounds of Halley's rule, each of which triples the digits; five suffice, the rest is for poor guesses.
 const ROUNDS: usize = 40;
 
-/// Where Newton's step to a root is shorter than this share of the way there, Halley's leaves less than rounding, or, where the slope is nearly
-/// zero as well, some millionths of the distance to the crest; to a crest, which is flat, less than rounding of its height.
+/// Length of Newton's step to a root, as a share of `s`, below which Halley's step is the last: it leaves less than rounding, or, where the
+/// slope is nearly zero as well, some millionths of the distance to the crest.
 const NEAR_ROOT: f64 = 1e-6;
+/// Length of Newton's step to a crest below which Halley's step is the last: a crest is flat, so that its height is right to rounding.
 const NEAR_CREST: f64 = 1e-4;
 
-/// Halley's step to where a function of this value, slope and half its bend is zero; Newton's where that would be more than twice as far.
+/// Halley's step to the zero of a function with this value, slope and half second derivative; Newton's if Halley's is over twice as long.
 #[inline(always)]
 fn bent_step(value: f64, slope: f64, half_bend: f64) -> f64 {
     let straight = -value / slope;
@@ -28,7 +29,7 @@ fn bent_step(value: f64, slope: f64, half_bend: f64) -> f64 {
     if share > 0.5 { straight / share } else { straight }
 }
 
-/// The first coefficients of a polynomial about `s`: value, slope, half the bend, and so on.
+/// The first `N` coefficients of a polynomial about `s`: value, slope, half the second derivative, and so on.
 #[inline(always)]
 fn around<const N: usize>(terms: &[f64], s: f64) -> [f64; N] {
     let mut around = [0.0; N];
@@ -41,7 +42,7 @@ fn around<const N: usize>(terms: &[f64], s: f64) -> [f64; N] {
     around
 }
 
-/// Where the parabola with this value and slope at 0 and this value at 1, the first above zero and the last not, comes down to zero.
+/// Zero of the parabola with value `start`, above zero, and this slope at 0, and value `end`, not above zero, at 1. One if it has none inside.
 #[inline(always)]
 fn root_guess([start, slope, end]: [f64; 3]) -> f64 {
     let bend = end - start - slope;
@@ -49,7 +50,8 @@ fn root_guess([start, slope, end]: [f64; 3]) -> f64 {
     if guess > 0.0 && guess < 1.0 { guess } else { 1.0 }
 }
 
-/// Where a slope with these values and bends at 0 and 1 is about zero: by the cubic that has place over slope as it has there.
+/// Approximate zero of a slope with these values and derivatives at 0 and 1: of the cubic that gives place as a function of slope and has
+/// the same values and derivatives at both ends.
 #[inline(always)]
 fn crest_guess([start, end]: [f64; 2], [start_bend, end_bend]: [f64; 2]) -> f64 {
     let (rise, t) = (end - start, start / (start - end));
@@ -70,7 +72,7 @@ pub enum FirstRoot {
 }
 
 impl Powers {
-    /// A constant and the terms of higher powers, in order: no more than there is room for.
+    /// The polynomial of a constant and the terms of higher powers, in order. Terms for which there is no room are dropped.
     #[inline(always)]
     pub fn with_terms(constant: f64, terms: impl Iterator<Item = f64>) -> Powers {
         let mut coefficients = [0.0; COEFFICIENTS];
@@ -82,7 +84,7 @@ impl Powers {
         Powers { coefficients, degree }
     }
 
-    /// Coefficients in time, with the powers of a step's length, and a constant added.
+    /// The polynomial of coefficients in time, each times its power of a step's length, plus a constant.
     #[inline(always)]
     pub fn scaled(powers: &[f64], constant: f64, coefficient: impl Fn(usize) -> f64) -> Powers {
         let mut coefficients = [0.0; COEFFICIENTS];
@@ -97,7 +99,7 @@ impl Powers {
         &self.coefficients[..=self.degree]
     }
 
-    /// Adds to the constant term, and takes the opposite of all others where `sign` is minus one.
+    /// `constant + sign` times the polynomial.
     pub fn shifted(mut self, sign: f64, constant: f64) -> Powers {
         self.coefficients[..=self.degree].iter_mut().for_each(|c| *c *= sign);
         self.coefficients[0] += constant;
@@ -136,14 +138,14 @@ impl Powers {
         around(self.terms(), s)
     }
 
-    /// A bound of the polynomial's size.
+    /// A bound of the polynomial's magnitude.
     pub fn size(&self) -> f64 {
         self.terms().iter().map(|c| c.abs()).sum()
     }
 
     /// The first `s` in `(0, 1]` at which the polynomial is not above zero, `roots` known roots at zero left out.
     pub fn first_root(&self, roots: usize) -> FirstRoot {
-        // Divided by the roots that are known. Sums of what its terms, and those of slope and bend, take away or add.
+        // The polynomial without its known roots. Sums of the terms that lower it, and of those that raise its slope and its second derivative.
         let terms = &self.coefficients[roots..=self.degree.max(roots + 2)];
         let (first, slope, half_bend) = (terms[0], terms[1], terms[2]);
         let (mut fall, mut end) = (slope.min(0.0) + half_bend.min(0.0), first + slope + half_bend);
@@ -166,7 +168,7 @@ impl Powers {
         if end > 0.0 {
             return FirstRoot::Absent;
         }
-        // Above zero at first, falling or bent downwards throughout, and below at the end: one root.
+        // Above zero at first, falling or concave throughout, and not above zero at the end: one root.
         let (mut above, mut below, mut s) = (0.0, 1.0, root_guess([first, slope, end]));
         for _ in 0..ROUNDS {
             let [value, slope, half_bend] = around(terms, s);
@@ -179,7 +181,7 @@ impl Powers {
             if slope < 0.0 && value.abs() <= NEAR_ROOT * s * slope.abs() {
                 return FirstRoot::At(next.min(1.0));
             }
-            // Before the crest steps lead elsewhere.
+            // Before the crest, where the slope is not negative, steps lead away from the root.
             s = if slope < 0.0 && next > above && next < below { next } else { 0.5 * (above + below) };
         }
         FirstRoot::At(s)
@@ -194,9 +196,9 @@ impl Powers {
         }
     }
 
-    /// The largest size on `[0, 1]`, if it is above `known`, else `known`; `None` where bounds do not tell.
+    /// Largest magnitude on `[0, 1]` if it is above `known`, else `known`; `None` if bounds do not decide.
     pub fn largest_size(&self, known: f64) -> Option<f64> {
-        // Sums of sizes, of terms, and of what the terms of slope and bend may take away or add.
+        // Sums of magnitudes, of terms, and of the negative and the positive terms of slope and second derivative.
         let (first, start_slope, start_bend) = (self.coefficients[0], self.coefficients[1], 2.0 * self.coefficients[2]);
         let [mut size, mut last] = [first.abs() + start_slope.abs(), first + start_slope];
         let [mut end_slope, mut fall, mut rise] = [start_slope, 0.0, 0.0];
@@ -235,7 +237,7 @@ impl Powers {
         if start_slope * end_slope >= 0.0 {
             return Some(known);
         }
-        // The slope falls (rises) throughout, or its signs are like that: one crest, where it is zero.
+        // The slope falls (or rises) throughout, or has just one root by the signs of its Bernstein form: one crest, where the slope is zero.
         let (mut a, mut b) = (0.0, 1.0);
         let mut s = crest_guess([start_slope, end_slope], [start_bend, end_bend]);
         for _ in 0..ROUNDS {
@@ -289,7 +291,7 @@ mod tests {
         assert_eq!(powers(&[1.0, -0.2, -0.3]).first_root(0), FirstRoot::Absent);
         // s (1 - 2 s): the root at zero is left out.
         assert_eq!(powers(&[0.0, 1.0, -2.0]).first_root(1), FirstRoot::At(0.5));
-        // 1 - s²/2: bent, and above at the end.
+        // 1 + 0.9 s - s²: concave, and above zero at the end.
         assert_eq!(powers(&[1.0, 0.9, -1.0]).first_root(0), FirstRoot::Absent);
         // Where Halley's first step leads beyond zero.
         for (terms, expected) in [
@@ -302,13 +304,13 @@ mod tests {
         // A short hop.
         let hop = at(powers(&[0.0, 1e-7, -1.0]).first_root(1));
         assert!((hop / 1e-7 - 1.0).abs() < 1e-15, "{hop:e}");
-        // 1 - 2 s + s²/2 falls, though it is bent upwards; and so does what is left of a product with s² or s³.
+        // 1 - 2 s + s²/2 falls, though it is convex; so does the quotient after s² or s³ has been divided out.
         for roots in [0, 2, 3] {
             let terms = [vec![0.0; roots], vec![1.0, -2.0, 0.5]].concat();
             let root = at(powers(&terms).first_root(roots));
             assert!((root - (2.0 - 2.0f64.sqrt())).abs() < 2e-16, "{root}");
         }
-        // A double root inside: bent the other way.
+        // A double root inside: convex.
         assert_eq!(powers(&[0.25, -1.0, 1.0]).first_root(0), FirstRoot::Unknown);
         // One that ends on zero.
         assert_eq!(powers(&[1.0, 0.0, -1.0]).first_root(0), FirstRoot::At(1.0));
@@ -332,7 +334,7 @@ mod tests {
         let root = at(series(0, 1.2).shifted(1.0, -libm::cos(1.08)).first_root(0));
         assert!((root - 0.9).abs() < 4e-16, "{root}");
         let wave = series(1, 2.0);
-        // sin 2s is largest at π/4, which the signs of its slope tell, not sizes; sin 6s goes up and down.
+        // sin 2s is largest at π/4, which follows from the signs of its slope, not from bounds; sin 6s goes up and down.
         let crest = wave.largest_size(0.1).expect("one crest");
         // The series leaves out (π/2)^19 / 19!.
         assert!((crest - 1.0).abs() < 5e-14, "{crest:.17}");
@@ -341,7 +343,7 @@ mod tests {
         // 1 - 3 s + 0.3 s² = 0 at s = (3 - √7.8) / 0.6.
         let s = (3.0 - 7.8f64.sqrt()) / 0.6;
         assert!((crest - (0.2 + s - 1.5 * s * s + 0.1 * s * s * s)).abs() < 1e-15);
-        // Hardly bent where the search begins.
+        // Hardly curved where the search begins.
         let flat = powers(&[1.0, 1.25e-5, -1e-9, -0.5 / 6.0]).largest_size(0.1).expect("bent");
         assert!((flat - 1.000_000_058_925_515_1).abs() < 1e-15, "{flat}");
         // Where the first guess is the crest.

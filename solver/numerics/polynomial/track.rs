@@ -6,14 +6,15 @@ use super::powers::Powers;
 /// A linear function of the state over a step.
 #[derive(Clone, Copy, Debug)]
 pub enum Track {
-    /// Of a Taylor series.
+    /// In powers, from a Taylor series.
     Powers(Powers),
-    /// Of any other dense output.
+    /// In Bernstein form, from any other dense output.
     Bernstein(Bernstein),
 }
 
 impl Track {
-    /// The first `s` in `(0, 1]` at which the function is not above zero; `start_roots` known roots at `s = 0` are left out.
+    /// The first `s` in `(0, 1]` at which the function is not above zero; `start_roots` known roots at `s = 0` are left out. Zero if what
+    /// remains is not above zero at the start.
     pub fn first_root(&self, start_roots: usize) -> Option<f64> {
         match self {
             Track::Powers(powers) => powers.root(start_roots),
@@ -21,7 +22,7 @@ impl Track {
         }
     }
 
-    /// The largest size on `[0, 1]` if it exceeds `known` by more than rounding, else `known`.
+    /// The largest magnitude on `[0, 1]` if it exceeds `known` by more than rounding, else `known`.
     pub fn largest_size(&self, known: f64) -> f64 {
         match self {
             Track::Powers(powers) => {
@@ -31,7 +32,7 @@ impl Track {
         }
     }
 
-    /// A bound of its size.
+    /// A bound of the function's magnitude.
     pub fn size(&self) -> f64 {
         match self {
             Track::Powers(powers) => powers.size(),
@@ -39,7 +40,7 @@ impl Track {
         }
     }
 
-    /// `constant + sign` times it.
+    /// `constant + sign` times the function.
     pub fn shifted(self, sign: f64, constant: f64) -> Track {
         match self {
             Track::Powers(powers) => Track::Powers(powers.shifted(sign, constant)),

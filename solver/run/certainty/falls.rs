@@ -1,26 +1,25 @@
 //! The proof that one block overturns whatever the ground still does.
 //!
-//! With `ψ` the angle of one block beyond the balance, out being positive, `p² = m g R / I_O`, and `a` the acceleration, towards the side to
-//! which it leans, of a ground without vertical motion,
+//! Let `ψ` be the angle of one block beyond the balance, outwards positive, and `p² = m g R / I_O`. The ground does not move vertically; `a` is its
+//! acceleration towards the side to which the block leans:
 //!
 //! ```text
 //!     ψ¨ = p² (sin ψ - a/g cos ψ),     z = ψ̇ + 2 p sin ψ/2,     ż = p cos(ψ/2) z - p² a/g cos ψ
 //! ```
 //!
-//! On a ground at rest the sign of `z` tells whether the block comes to pass the balance, or does not come back over it: it is zero on the
-//! two ways that end in it. On one that moves, as long as `z >= 0`, the block does not land, since `ψ̇ > 0` where `ψ < 0`; and until it
-//! has overturned, at `ψ_o`, both cosines are bounded from below, by `cos(ψ/2) >= c > 0` and `cos ψ >= 0` if `ψ_o <= π/2`. Hence, with `q = p c`,
+//! On a ground at rest the sign of `z` decides whether the block comes to pass the balance, or does not come back over it: `z` is zero on the two
+//! motions that end in the balance. On a moving ground the block does not land as long as `z >= 0`, since then `ψ̇ > 0` where `ψ < 0`. Until it has
+//! overturned, at `ψ_o`, `cos(ψ/2) >= c > 0`, and `cos ψ >= 0` if `ψ_o <= π/2`. Hence, with `q = p c`,
 //!
 //! ```text
 //!     z(s) >= e^{q (s - t)} (z(t) - J),     J = p²/g ∫ max(a, 0) e^{-q (s - t)} ds     over all that is to come
 //! ```
 //!
-//! If `z > J` now, `z` is above zero for ever: the block is past the point of no return. With `w` the widest way that may be left, to `ψ_o` from
-//! `ψ` or, if that is behind, from the balance, it overturns within `arsinh(½ (p + q) w / (z - J)) / q`: its rate is no less than
-//! `(z - J) e^{q (s - t)} - p x` where it has made the way `x`, no shorter than `ψ`, from there; so `x` is no less than
-//! `(z - J) (e^{q (s - t)} - e^{-p (s - t)}) / (p + q)`, with `p >= q`.
-//! Beyond the balance it only gets faster where nothing pushes it back. Nor does it matter what the ground does after that time, so that
-//! `J` need not go on for longer.
+//! If `z > J` now, `z` stays above zero for ever: the block is past the point of no return. Let `x` be how far it is beyond its present angle or, if
+//! it is beyond the balance now, beyond the balance, and `w` be `x` at `ψ_o`. As `x >= ψ`, the rate is at least `(z - J) e^{q (s - t)} - p x`, and
+//! so `x >= (z - J) (e^{q (s - t)} - e^{-p (s - t)}) / (p + q)`. Since `p >= q`, the block overturns within `arsinh(½ (p + q) w / (z - J)) / q`.
+//! Beyond the balance the block only gets faster as long as nothing pushes it back. Ground motion after the time of overturning does not matter, so
+//! that `J` need not extend beyond it.
 //!
 //! Several blocks have no such proof: their impacts may take any part of the energy that they have.
 
@@ -29,26 +28,26 @@ use crate::mechanics::pendulum::Pendulum;
 use crate::numerics::sines;
 use std::f64::consts::FRAC_PI_2;
 
-/// A block on a ground that moves to the side at most.
+/// A single block on a ground that moves horizontally only.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fall {
     pendulum: Pendulum,
     gravity: f64,
-    /// How fast it runs away at least, `q` `[1/s]`.
+    /// Least rate `q` at which the block runs away from its balance `[1/s]`.
     growth: f64,
-    /// Where it has overturned.
+    /// Angle at which the block has overturned `[rad]`.
     overturn_angle: f64,
 }
 
 impl Fall {
-    /// The fall of a block that is this pendulum on a ground at rest and runs away at least this fast; `None` where the proof does not hold.
+    /// The fall of a block, `pendulum` on a ground at rest, that runs away at the rate `growth` at least; `None` if it overturns at `ψ_o > π/2`.
     pub fn new(column: &Column, overturn_angle: f64, growth: f64, pendulum: Pendulum) -> Option<Fall> {
         let is_within = overturn_angle - column.slenderness() <= FRAC_PI_2;
         is_within.then_some(Fall { pendulum, gravity: column.gravity(), growth, overturn_angle })
     }
 
-    /// How far the block, leaning to a side, at an angle and a rate `[θ, θ̇]`, is beyond the point of no return on a ground at rest; `None` if
-    /// it is not, or by no more than `slack` of what they are.
+    /// How far the block, leaning to the side `sign` in the state `[θ, θ̇]`, is beyond the point of no return on a ground at rest. `None` if it is
+    /// beyond that by no more than the share `slack` of its angle and rate.
     pub fn excess(&self, [theta, omega]: [f64; 2], sign: f64, slack: f64) -> Option<Excess> {
         let (p, psi, rate) = (self.pendulum.rate(), self.pendulum.beyond(theta, sign), sign * omega);
         let z = rate + p * 2.0 * sines::sin_cos(0.5 * psi).0;
@@ -62,8 +61,8 @@ impl Fall {
         Some(Excess { z, unsure, way, unhindered })
     }
 
-    /// In which time it has overturned at the latest, if the ground pushes it back by no more than this, weighed by the growth `[m/s]`; `None`
-    /// if it need not.
+    /// Time in which the block has overturned at the latest `[s]`, if the ground pushes it back by no more than `push` `[m/s]`, later pushes
+    /// discounted by the growth. `None` if it need not overturn.
     pub fn latest(&self, Excess { z, unsure, way, unhindered }: Excess, push: f64) -> Option<f64> {
         let (p, q) = (self.pendulum.rate(), self.growth);
         let left = z - p * p / self.gravity * push;
@@ -72,15 +71,16 @@ impl Fall {
     }
 }
 
-/// What is in favour of a fall.
+/// How far a block is beyond the point of no return, and how far from having overturned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Excess {
-    /// `z`, and what of it may be an error `[rad/s]`.
+    /// `z` `[rad/s]`.
     z: f64,
+    /// The part of `z` that may be an error `[rad/s]`.
     unsure: f64,
-    /// The widest way that may be left `[rad]`.
+    /// `w`: how far it is to overturning `[rad]`, from the present angle or, if the block is beyond the balance, from the balance.
     way: f64,
-    /// In which time it has overturned if nothing pushes it back: beyond the balance it only gets faster `[s]`.
+    /// Time in which it has overturned if nothing pushes it back `[s]`: at its present rate, if it moves outwards beyond the balance; else infinite.
     unhindered: f64,
 }
 
@@ -92,7 +92,7 @@ mod tests {
     const P: f64 = 2.1;
     const GRAVITY: f64 = 9.81;
 
-    /// One that leans to a side, and has overturned when it lies on that.
+    /// The fall of a block that leans to a side and has overturned at a right angle.
     fn fall(balance: f64, sign: f64) -> Fall {
         let pendulum = Pendulum::new(1.0, [sign * P * P * balance.sin(), -P * P * balance.cos()]).expect("driven");
         let widest = balance.max(FRAC_PI_2 - balance);
@@ -100,7 +100,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever the ground does, if its pushes come to what was said, it has overturned in time and has not landed before.
+        /// Whatever the ground does, if its pushes sum up to `push`, the block has overturned in time and has not landed before.
         #[test]
         fn a_block_that_falls_overturns_in_time(
             balance in 0.05f64..0.8,
@@ -110,7 +110,7 @@ mod tests {
             pulls in prop::bool::ANY,
         ) {
             let (one, start) = (fall(balance, 1.0), balance * place);
-            // Stretches of constant acceleration, or of none instead of one outwards.
+            // Stretches of constant acceleration. Without `pulls`, those that would pull the block outwards have none.
             let accelerations = pushes.iter().map(|(_, share)| if pulls { 5.0 * share } else { (5.0 * share).max(0.0) });
             let ground: Vec<(f64, f64)> = pushes.iter().map(|(length, _)| *length).zip(accelerations).collect();
             let lost = |s: f64| -(-one.growth * s).exp_m1() / one.growth;
@@ -132,7 +132,7 @@ mod tests {
                     let middle = slope(t + 0.5 * h, [x[0] + 0.5 * h * first[0], x[1] + 0.5 * h * first[1]]);
                     x = [x[0] + h * middle[0], x[1] + h * middle[1]];
                     t += h;
-                    // The rule errs by far less than what was in its favour.
+                    // The midpoint rule errs by far less than the slack of the proof.
                     prop_assert!(x[0] > (start - balance).min(0.0) - 1e-3, "lands at {t}: {x:?}");
                     prop_assert!(t < latest + 1e-2, "late: {t} {latest} {x:?}");
                 }
@@ -152,7 +152,7 @@ mod tests {
             assert_eq!(latest[0], latest[1], "to the left as to the right");
             latest[0]
         };
-        // From upright: ½ ω² = p² (1 - cos α) on a ground at rest; a push takes off as much as it comes to.
+        // From upright the block needs ½ ω² = p² (1 - cos α) on a ground at rest; a push adds p²/g times itself to ω.
         let verge = P * (2.0 * (1.0 - balance.cos())).sqrt();
         for push in [0.0, 0.1] {
             let needed = verge + P * P / GRAVITY * push;
@@ -160,7 +160,7 @@ mod tests {
             let [slow, fast] = [1.0 + 1e-9, 1.1].map(|share| latest(0.0, needed * share, 0.0, push).expect("over it"));
             assert!(slow > 3.0 * fast);
         }
-        // Beyond the balance it may come back, if not over it.
+        // Beyond the balance the block may move back, as long as it does not pass the balance.
         assert!(latest(0.5, -0.5, 0.0, 0.0).is_some());
         assert_eq!(latest(0.5, -0.6, 0.0, 0.0), None);
         assert_eq!(latest(0.5, 0.1, 0.0, f64::INFINITY), None, "who knows what the ground does");

@@ -3,58 +3,56 @@
 //! # It stands
 //!
 //! On a ground at rest the mechanical energy never rises: smooth phases conserve it, impacts do not add to it (docs/book/model.md, section 5). With
-//! `q_i = sin θ_i`, `q_0 = 0`, and for sizes of angles up to a right one, the potential energy above rest is
+//! `q_i = sin θ_i`, `q_0 = 0`, and no angle larger than a right one, the potential energy above rest is
 //!
 //! ```text
 //!     V(q) = g Σ_i [ M_i c_i |q_i - q_{i-1}| - B_i (1 - √(1 - q_i²)) ],     B_i = m_i h_i + 2 h_i M_{i+1}
 //! ```
 //!
-//! with `M_i` the mass from block `i` up: an interface that opens lifts all above it by its contact's half-width, on whichever
-//! corner. The sub-stack from block `i` up, tilted as one body of slenderness `α_i`, has the energy `g ∫₀^q f_i dt`, with
+//! with `M_i` the mass from block `i` up: an open interface lifts it about a corner at the distance `c_i` from the axis, whichever corner that is.
+//! The sub-stack from block `i` up, tilted as one body of slenderness `α_i`, has the energy `g ∫₀^q f_i dt`, with
 //!
 //! ```text
 //!     f_i(t) = F_i (tan α_i - t / √(1 - t²)),     F_i = Σ_{j >= i} B_j
 //! ```
 //!
-//! and at its balance, `q = a_i = sin α_i`, it has `E_i = M_i g (R_i - ρ_i)`: `ρ_i` is the height of its centre of gravity, `R_i` the
-//! distance of that from its corner.
+//! and at its balance, `q = a_i = sin α_i`, it has `E_i = M_i g (R_i - ρ_i)`: `ρ_i` is the height of its centre of gravity, `R_i` the distance of
+//! this centre from the corner.
 //!
-//! **Out of the box `|q_i| <= a_i` leads no way over less than `E = min E_i`.** A column inside it with less energy stays inside for
-//! ever, and inside no block overturns. Nothing is given away: the sub-stack of that `E_i`, tilted as one body, leaves the box
-//! with hardly more.
+//! **No path leaves the box `|q_i| <= a_i` over less than `E = min E_i`.** A column inside the box with less energy stays inside for ever, and no
+//! block overturns inside. Nothing is given away: the sub-stack with the least `E_i`, tilted as one body, leaves the box with hardly more.
 //!
-//! *Proof.* V does not rise where all signs are made positive: take `q >= 0`, on the box's surface. Between the planes `q_i = q_{i-1}`
-//! V is concave, so on that surface it is smallest at a corner of planes and box: there each run of blocks with equal `q` has the
-//! ground's, zero, or the `a_l` of some block `l` in it, and `q_k = a_k` for some `k`. Cut V by levels: with `S(t)` the blocks
-//! with `q_i > t`,
+//! *Proof.* V does not rise if all signs are made positive: let `q >= 0`, on the box's surface. Between the planes `q_i = q_{i-1}` V is concave, so
+//! on that surface it is smallest at a corner of planes and box. There each run of blocks with equal `q` has `q = 0` of the ground, or the `a_l` of
+//! some block `l` in the run; and `q_k = a_k` for some `k`. Cut V by levels: with `S(t)` the set of blocks with `q_i > t`,
 //!
 //! ```text
 //!     V = g ∫ [ Σ_edges M c - t / √(1 - t²) Σ_{S(t)} B ] dt
 //! ```
 //!
-//! the edges being the interfaces between a block in `S(t)` and one, or the ground, that is not. A run of blocks in `S(t)`, from `i` up,
-//! counts for `f_i(t)` if it goes to the top, and for more if not; and `f_i(t) > 0`, as `t < q_i <= a_i`. Follow the run with `k` in it
-//! from `t = 0` up; let it begin with block `i` at first. Either it does so up to `a_k`: let `l = k`. Or a block below `k` drops out at
-//! a level below `a_k`, the first to do so; it is among blocks of equal `q` between `i` and `k`, and so the level is `a_l` for an `l >= i`. In
-//! both cases `V >= g ∫₀^{a_l} f_i dt` with `a_l <= q_i <= a_i`, hence `α_l <= α_i`, and `F_l <= F_i`: so `f_i >= f_l`, and `V >= E_l`. ∎
+//! The edges are the interfaces between a block in `S(t)` and the ground or a block outside `S(t)`. A run of blocks in `S(t)`, from `i` up,
+//! contributes `f_i(t)` if it reaches the top, and more otherwise; `f_i(t) > 0`, as `t < q_i <= a_i`. Follow the run that contains `k` from `t = 0`
+//! up; at first it begins with a block `i`. Either it begins with `i` up to `a_k`: let `l = k`. Or a block below `k` is the first to drop out, at a
+//! level below `a_k`. This block is among blocks of equal `q` between `i` and `k`, so the level is `a_l` for an `l >= i`. In both cases
+//! `V >= g ∫₀^{a_l} f_i dt` with `a_l <= q_i <= a_i`, hence `α_l <= α_i`, and `F_l <= F_i`: so `f_i >= f_l`, and `V >= E_l`. ∎
 //!
 //! Blocks that are displaced or taper add `- Σ D_i (q_i - q_{i-1})` to V, with `D_i` the first moment of the sub-stack about the centre of its
-//! contact. V is no less than without it and with `M_i c_i - |D_i|` for `M_i c_i`: the proof holds with the lever of the weight, to the
-//! nearer end of the contact, for `c_i`, and with `B_i = m_i e_i + 2 h_i M_{i+1}`. A sub-stack that does not stand by itself has no barrier.
+//! contact. V is no less than without this term and with `M_i c_i - |D_i|` in place of `M_i c_i`. So the proof holds with `c_i` the lever of the
+//! weight to the nearer end of the contact, and `B_i = m_i e_i + 2 h_i M_{i+1}`. A sub-stack that does not stand by itself has no barrier.
 //!
 //! A column that counts as overturned at an angle `β` before it is past its balance has a smaller box, `a_i = sin min(α_i, β)`, and `E_i` is the
-//! energy there. The proof holds: where `a_l = sin β` is cut off, `a_i` is no smaller, hence as large, and `V >= E_i` at once.
+//! energy there. The proof holds: if `a_l = sin β` is cut off, `a_i >= a_l` equals it, and `V >= E_i` at once.
 //!
-//! A ground that moves with the acceleration `a`, in both directions, adds power `-Σ m a·v` to the energy `W = T + V` relative to it. The
-//! block at the base turns about a corner, so that `m_1 v_1² = 2 κ T_1` with `κ = m_1 R_1² / I_O1`; with Cauchy's inequality, and as
-//! `V >= 0` in the box (it is concave on the way from rest, zero there, to the surface),
+//! A ground with the acceleration `a`, horizontal and vertical, adds power `-Σ m a·v` to the energy `W = T + V` relative to it. The block at the
+//! base turns about a corner, so that `m_1 v_1² = 2 κ T_1` with `κ = m_1 R_1² / I_O1`. With Cauchy's inequality, and as `V >= 0` in the box (V is
+//! zero at rest and concave on the straight line from there to the surface),
 //!
 //! ```text
 //!     Σ m |v| <= √(2 μ T) <= √(2 μ W),     μ = κ m_1 + M_2,     d√W/dt <= √(μ/2) |a|
 //! ```
 //!
-//! A column in the box stands if `√W + √(μ/2) ∫ |a| dt`, over all that is to come, is below `√E`: before the ground has come to rest. Runs that
-//! end while it moves are not judged so: what stands until then may not much later.
+//! A column in the box stands if `√W + √(μ/2) ∫ |a| dt`, over the ground motion to come, is below `√E`: that can be so before the ground has come to
+//! rest. Runs that end while the ground moves are not decided in this way: a column that stands until then may overturn soon after.
 
 use crate::column::Column;
 use crate::mechanics::kinematics::Turn;
@@ -70,24 +68,24 @@ pub struct Barrier {
     pub energy: f64,
     /// The box: no block's angle is larger than this, base first `[rad]`.
     pub angles: PerBlock<f64>,
-    /// The mass that a ground in motion takes hold of, `μ [kg]`: momenta are no larger than those of this mass with all of the energy.
+    /// Mass `μ` on which a moving ground acts `[kg]`: `Σ m |v|` is no larger than the momentum of this mass with the energy of the column.
     pub mass: f64,
 }
 
-/// What tells whether the outcome of a run is certain.
+/// Bounds by which the outcome of a run is certain or not.
 #[derive(Clone, Debug)]
 pub(crate) struct Prospects {
     pub barrier: Barrier,
-    /// `g M_i c_i`, `g B_i` and `g D_i` of each block `[J]`: what `V` is made of.
+    /// `g M_i c_i`, `g B_i` and `g D_i` of each block, the coefficients of `V` `[J]`.
     weights: PerBlock<[f64; 3]>,
-    /// What a ground's acceleration must come to, to take the column from rest over the barrier `[m/s]`.
+    /// Least `∫ |a| dt` of the ground's acceleration that may take the column from rest over the barrier `[m/s]`.
     pub impulse: f64,
-    /// How fast one block that may fall early runs away from its balance `[1/s]`.
+    /// Least rate `q` at which a single block runs away from its balance `[1/s]`; `None` if runs may not end with a certain fall.
     pub growth: Option<f64>,
 }
 
 impl Prospects {
-    /// Of runs of this scene, if they may end when what is wanted is certain.
+    /// The bounds for runs of this scene; `None` if more than the outcome is wanted.
     pub fn new(scene: &Scene) -> Option<Prospects> {
         let is_outcome_all = scene.options.wanted != Wanted::Everything;
         let barrier = is_outcome_all.then(|| scene.column.barrier(scene.options.overturn_angle))?;
@@ -109,8 +107,8 @@ impl Prospects {
         Lookahead { impulses: true, decay: self.growth }
     }
 
-    /// Potential energy above rest `[J]` of blocks turned like this, base first: `V`, term by term, as a difference of the energies
-    /// themselves would be rounding where a light block stands on heavy ones.
+    /// Potential energy above rest of blocks turned like this, base first: `V` `[J]`. It is summed term by term, since a difference of energies
+    /// would be rounding where a light block stands on heavy ones.
     pub fn potential(&self, turns: &[Turn]) -> f64 {
         let mut below = 0.0;
         let terms = turns.iter().zip(&self.weights).map(|(Turn { sin, cos }, [lifted, lowered, displaced])| {
@@ -120,16 +118,16 @@ impl Prospects {
         terms.sum()
     }
 
-    /// Whether a column in the box, with this energy above rest `[J]`, stays in it while the ground's acceleration comes to no more than this
-    /// `[m/s]`; `slack` is a share of the barrier's energy.
+    /// Whether a column in the box with this energy above rest `[J]` stays in the box while `∫ |a| dt` of the ground's acceleration is at most
+    /// `impulse` `[m/s]`. The energy must stay below the barrier by the share `slack`.
     pub fn stays(&self, energy: f64, impulse: f64, slack: f64) -> bool {
         let root = energy.max(0.0).sqrt() + (0.5 * self.barrier.mass).sqrt() * impulse;
         root * root < self.barrier.energy * (1.0 - slack)
     }
 }
 
-/// How fast one block that may fall early runs away from its balance at least, until it has overturned: `q` `[1/s]`. `None` where a run may
-/// not end with a fall that is certain: only that of one block can be.
+/// Least rate `q` at which a single block runs away from its balance until it has overturned `[1/s]`. `None` if the column has several blocks, or
+/// more is wanted than whether it overturns.
 fn growth_rate(scene: &Scene) -> Option<f64> {
     let (stack, limit) = (scene.column.stack(0), scene.options.overturn_angle);
     let widest = stack.slenderness().max((limit - stack.slenderness()).abs());
@@ -226,7 +224,7 @@ mod tests {
                     theta[index % n] = angles[index % n] * place[index % n].signum();
                     prop_assert!(potential(&column, &theta) >= energy * (1.0 - 1e-9));
                 }
-                // Corners of the proof: blocks at the angles of others, no more than their own.
+                // Corners of the proof: each block at zero or at the largest angle of some block, but not beyond its own.
                 for (index, levels) in levels.iter().enumerate() {
                     let at = |(level, own): (&usize, &f64)| angles.get(*level).map_or(0.0, |angle| angle.min(*own));
                     let mut theta: Vec<f64> = levels.iter().zip(&angles).map(at).collect();

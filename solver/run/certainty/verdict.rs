@@ -6,28 +6,28 @@ use crate::numerics::per_block::{PerBlock, for_size};
 use crate::run::problem::Problem;
 use rocking_codegen::pattern::Pattern;
 
-/// Share of the barrier that must be missing from the energy: roundings are far less, and runs that pass so close to the top take many
-/// seconds over it.
+/// Least share of the barrier that must be missing from the energy. Roundings are far less, and runs that pass closer to the top take many seconds
+/// over it.
 const LEAST_MISSING_SHARE: f64 = 1e-6;
 
-/// Relative tolerances of a step by which a run may have gained energy, over some hundred steps.
+/// Share of energy that a run may have gained by the errors of some hundred steps, as a multiple of the relative tolerance of a step.
 const ENERGY_DRIFT_TOLERANCES: f64 = 1e3;
 
-/// Share of the barrier beyond which nothing is asked for, however loose the tolerance. The proof is of the motion from the state on, whatever the
-/// tolerance was; what must be missing besides is for the steps of the run that it spares. A whole barrier, as the tolerances above would have
-/// it at 1e-3, left nothing provable: spectra took five times as long there as at 1e-4.
+/// Largest share of the barrier that must be missing, however loose the tolerance. The proof holds for the motion from the present state on,
+/// whatever the tolerance; the share allows for the errors of the steps that the proof spares the run. Without this bound a whole barrier would have
+/// to be missing at a tolerance of 1e-3: nothing could be proved, and spectra took five times as long as at 1e-4.
 const MOST_MISSING_SHARE: f64 = 0.1;
 
-/// Time over which pushes of the ground are summed, over the time to overturn on a ground at rest.
+/// Time over which pushes of the ground are summed, as a multiple of the time to overturn on a ground at rest.
 const LOOKAHEAD_FACTOR: f64 = 1.5;
 
-/// Share of an energy by which a proof must hold.
+/// Relative margin by which a proof must hold.
 fn slack(problem: &Problem) -> f64 {
     (ENERGY_DRIFT_TOLERANCES * problem.scene.options.rtol).clamp(LEAST_MISSING_SHARE, MOST_MISSING_SHARE)
 }
 
-/// Whether the column, with the angles and rates that `state` gives, is in the box of its barrier, and whatever the ground still does brings
-/// less energy than it takes to leave the box.
+/// Whether the column is certain to stand. With the angles and rates that `state` gives, it is in the box of its barrier, and the ground motion to
+/// come brings less energy than it takes to leave the box.
 pub(crate) fn stands(
     problem: &Problem,
     (segment, t): (usize, f64),
@@ -57,7 +57,7 @@ pub(crate) fn falls(fall: &Fall, problem: &Problem, (segment, t): (usize, f64), 
     if has_fallen_by(problem.scene.options.t_end, problem.ground.push_from(sign, segment, t)) {
         return true;
     }
-    // What comes once it lies on its side does not matter.
+    // Ground motion after the block has overturned does not matter.
     let soon = fall.latest(excess, 0.0).map_or(f64::INFINITY, |latest| t + LOOKAHEAD_FACTOR * latest);
     let end = problem.ground[segment].end;
     soon < end && has_fallen_by(soon, problem.ground.push_in(sign, segment, [t, soon]))

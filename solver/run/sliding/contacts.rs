@@ -7,13 +7,13 @@ use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use crate::run::problem::Problem;
 
-/// Share of a size, and of an angle, below which a gap is rounding.
+/// Gap that is rounding, as a share of the column's size; gap of angles that is rounding `[rad]`.
 const GAP_SHARE: f64 = 1e-12;
 
 /// Share of the speed of a fall from a block's height below which a speed is rounding.
 const SPEED_SHARE: f64 = 1e-9;
 
-/// Share of a block's size by which the other corner's gap tells which of two faces a contact lies on.
+/// Share of the column's size by which a corner of the upper block may be off the lower face and still count as on it.
 const FACE_SHARE: f64 = 1e-9;
 
 /// What a run takes for rounding, from the size of its column.
@@ -39,7 +39,7 @@ impl Resolution {
     }
 }
 
-/// What touches without force or with it.
+/// What touches at each interface, with or without force.
 pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) -> Vec<Touch> {
     let chain = Chain::new(&problem.scene.column, now);
     let rates = Rates::of(now);
@@ -63,8 +63,8 @@ pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) 
     (0..now.joints.len()).map(touch).collect()
 }
 
-/// Whether the corners of a side of a free interface touch and do not leave each other: a bounce lower than the resolution is none. Coinciding
-/// corners touch both faces, or neither.
+/// Whether a free interface touches at a side, and its corners there neither leave nor strike the faces. A bounce too low to be followed does not
+/// count as leaving. Coinciding corners touch both faces, or neither.
 fn stays_at(
     problem: &Problem,
     resolution: Resolution,
@@ -88,7 +88,7 @@ fn stays_at(
     !corners.is_empty() && corners.iter().all(stays)
 }
 
-/// The contact that a free interface has met without an impact, with its slide `[m]` and the direction of its slip.
+/// The state of a free interface that has come into contact without an impact, with the direction of its slip, and its slide `[m]`.
 pub fn met(
     column: &Column,
     resolution: Resolution,
@@ -115,13 +115,13 @@ pub fn met(
     (joint, slide)
 }
 
-/// Coinciding corners of a side that slide: the face that carries them an instant later carries them.
+/// The state of coinciding corners that slide: they are on the face that carries them an instant later.
 pub fn carried(side: Sign, direction: Sign) -> Joint {
     let face = if direction == side { Face::Upper } else { Face::Lower };
     Joint::Corner(side, face, Slip::Slides(direction))
 }
 
-/// Distance between the blocks of a free interface, at the corners that may land `[m]`.
+/// Least height of a corner of a free interface above the other block's face `[m]`; zero if no corner is over a face.
 pub fn lowest_gap(chain: &Chain, interface: usize) -> f64 {
     let gap = |corner: Corner| {
         let [beside, above] = gaps::gap(chain, corner);
@@ -132,7 +132,7 @@ pub fn lowest_gap(chain: &Chain, interface: usize) -> f64 {
     if least.is_finite() { least.max(0.0) } else { 0.0 }
 }
 
-/// The slide of an interface `[m]`; of a free one along the lower face.
+/// The slide of an interface `[m]`; if it is free, along the lower face.
 pub fn slide(chain: &Chain, now: &Configuration, interface: usize) -> f64 {
     match now.joints[interface] {
         Joint::Free => chain.in_block_axes(interface.checked_sub(1), chain.apart(interface))[0],

@@ -12,17 +12,17 @@ use crate::friction::search::{Search, Solution};
 use crate::response::{EventKind, Impulse, StopReason};
 
 impl Instant<'_> {
-    /// An interface whose gap of angles has closed.
+    /// Closes an interface whose gap of angles has fallen to zero.
     pub fn close(&mut self, interface: usize) {
         let Joint::Corner(side, _, slip) = self.now.joints[interface] else { return };
         let rate = self.now.gap_rate(interface);
         let angle = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
-        // Blocks that are joined to it turn with it.
+        // Blocks above that are joined to this one get the same angle.
         let is_joined = |joint: &Joint| matches!(joint, Joint::Closed(_));
         let joined = self.now.joints[interface + 1..].iter().take_while(|joint| is_joined(joint)).count();
         self.now.theta[interface..=interface + joined].fill(angle);
         if f64::from(side) * rate >= 0.0 {
-            // A hop that cannot be resolved: it is over.
+            // The rate is not closing the gap: the hop cannot be resolved and is over.
             let mut joints = self.now.joints.clone();
             joints[interface] = Joint::Closed(slip);
             return self.hold(&joints);
@@ -64,7 +64,7 @@ impl Instant<'_> {
         }
     }
 
-    /// An impact of all that touches, with the interfaces that close. One without is a jump of velocities that changes the motion.
+    /// An impact of all that touches; `closing` are the interfaces that close. If there are none, velocities jump, and the motion must change.
     ///
     /// # Errors
     /// Why the run ends, if no motion follows.
@@ -107,7 +107,7 @@ impl Instant<'_> {
         Ok(())
     }
 
-    /// A slide whose rate is against its direction has none but rounding: whether it begins is decided by accelerations.
+    /// Stops slides whose rate is against their direction: that is rounding. Accelerations decide whether these slides begin.
     fn stop_slides_without_direction(&mut self) {
         for (joint, rate) in self.now.joints.iter().zip(self.now.slide_rate.iter_mut()) {
             if joint.slip().is_some_and(|slip| slip.sign() * *rate < 0.0) {
@@ -116,7 +116,7 @@ impl Instant<'_> {
         }
     }
 
-    /// Coinciding corners that slide go on along the face that carries them an instant later, or part from each other where it is open.
+    /// Coinciding corners that slide part if their interface has a gap; otherwise they go on along the face that carries them an instant later.
     fn part_coinciding_corners(&mut self) {
         for interface in 0..self.now.joints.len() {
             let Joint::Corner(side, _, Slip::Slides(direction)) = self.now.joints[interface] else { continue };
@@ -131,7 +131,7 @@ impl Instant<'_> {
         }
     }
 
-    /// The answer of an impact with the restitution of the scene, where that breaks no cone and raises no energy.
+    /// The answer with the scene's restitution; the plastic one if something slides, nothing rebounds, or a cone or the energy forbids it.
     fn rebounding(
         &self,
         before: &Configuration,

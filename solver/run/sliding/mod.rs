@@ -35,16 +35,16 @@ use state::{Ended, State};
 use sticking::{Part, Progress, Sticking, Stuck};
 use transition::{start, transition};
 
-/// Events that follow each other within this share of the time, or of a second, count as one instant.
+/// Share of the time, or of a second if that is longer, within which events count as one instant.
 const AT_ONCE: f64 = 1e-12;
 
-/// So do those within so many hops of the least height: what goes on faster, without rest, is a circle of states of which none lasts.
+/// Hops of the least height whose time counts as one instant as well: faster events without end are a circle of states of which none lasts.
 const HOPS_AT_ONCE: f64 = 3.0;
 
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
 const EVENTS_AT_ONCE: usize = 16;
 
-/// Runs a scene with friction. `sticking` is the scene without, `modes` are the motions of its column.
+/// Runs a scene with friction. `sticking` is the scene without friction, `modes` are the motions of its column.
 ///
 /// # Errors
 /// [`SolveError`]
@@ -58,7 +58,7 @@ pub(super) fn run(
     let (mut sticking, mut mover) = (Sticking::new(problem, friction, sticking), Mover::new(problem, friction));
     let mut at = State::initial(problem);
     let mut recorder = Recorder::new(problem, friction, &at);
-    // Blocks that are dropped or thrown do not begin on each other.
+    // Blocks with given places are dropped or thrown: they do not begin on each other.
     let is_placed = !problem.scene.initial.x.is_empty();
     let stuck = if is_placed { Stuck::Nowhere } else { sticking.begin(modes, progress)? };
     let mut next = match stuck {
@@ -91,7 +91,7 @@ pub(super) fn run(
                 let (mut until, ended) = mover.pass(&at, &mut recorder)?;
                 recorder.leave(&at, &until);
                 if ended == Ended::Rest {
-                    // A column that stays at rest has been so since the rest began.
+                    // If nothing starts the column any more, the end is the time at which the rest began.
                     until.t = at.t;
                 }
                 (until, ended)
@@ -108,7 +108,7 @@ pub(super) fn run(
     }
 }
 
-/// How long a block takes for a hop of `stick_angle`, the least that is followed, or longer `[s]`.
+/// Time that a hop of `stick_angle`, the least hop that is followed, takes under the accelerations at work `[s]`.
 fn least_hop(problem: &Problem, at: &State) -> f64 {
     let (column, options) = (&problem.scene.column, &problem.scene.options);
     let acceleration = acceleration_scale(column, &at.configuration, problem.ground_at(at.segment, at.t));
@@ -124,7 +124,7 @@ struct Crowd {
 }
 
 impl Crowd {
-    /// Counts an event; whether there are so many in one instant that they go in a circle.
+    /// Counts an event; returns whether the events of one instant are so many that they go in a circle.
     fn is_stuck(&mut self, at: &State, hop: f64) -> bool {
         let instant = (HOPS_AT_ONCE * hop).max(AT_ONCE * at.t.max(1.0));
         let is_at_once = self.count > 0 && at.t - self.first <= instant;

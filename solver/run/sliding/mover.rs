@@ -1,5 +1,5 @@
-//! Time passes: at rest until the ground starts the column, in motion by steps until a guard falls to zero: here those of an explicit method, in
-//! `series_steps.rs` those of Taylor series.
+//! What moves a column with friction: at rest it waits until the ground starts it, in motion it takes steps until a guard falls to zero. Steps of
+//! explicit methods are here, steps on Taylor series in `series_steps.rs`.
 
 use super::recorder::{Moments, Recorder};
 use super::smooth::{Moment, Smooth};
@@ -21,12 +21,14 @@ use crate::scene::DynamicsSource;
 /// First step of a run `[s]`; step control corrects it.
 const FIRST_STEP: f64 = 1e-3;
 
-/// Safety factor of the step control, and the least error that it takes for one.
+/// Safety factor of the step control.
 const SAFETY: f64 = 0.9;
+/// Least error that the step control reckons with, so that its power is finite.
 const LEAST_ERROR: f64 = 1e-12;
 
-/// Factor by which a step is shortened to resolve what starts from zero, and the share of the longest step down to which it is.
+/// Factor by which a step is shortened to resolve a guard that starts from zero.
 pub(super) const RESOLVING: f64 = 0.125;
+/// Share of the longest step down to which steps are shortened for this.
 pub(super) const SHORTEST_SHARE: f64 = 1e-4;
 
 /// Time for which the column waits after a start in vain `[s]`; it doubles as long as starts are in vain.
@@ -38,8 +40,9 @@ pub struct Mover<'p> {
     pub(super) friction: &'p Coefficients,
     /// Step length that the steps before suggest `[s]`.
     pub(super) pace: Option<f64>,
-    /// When the last wait ended with a start `[s]`, and for how long a start at that time has been in vain `[s]`.
+    /// Time at which the last wait ended with a start `[s]`.
     started: f64,
+    /// Least time of a wait after a start in vain `[s]`; zero after a start that was not in vain.
     vain: f64,
     pub work: Work,
 }
@@ -69,7 +72,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Goes on to the segment that is not over; why the steps end if there is none, or the ground jumps.
+    /// Goes on to the segment that is not over. Returns why the steps end: there is no such segment, or the ground jumps; otherwise `None`.
     pub fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
         loop {
             let left = problem.ground[self.segment].end - self.t;
@@ -120,7 +123,7 @@ impl<'p> Mover<'p> {
             return Ok(self.wait(from, recorder));
         }
         let options = &self.problem.scene.options;
-        // Series by hand would be no check of generated equations by those written by hand: order 8 takes their place.
+        // Series have equations of their own. A run that asks for those written by hand, as a check of generated ones, takes order 8 instead.
         let method = match options.method.stepper() {
             Method::Taylor if options.dynamics == DynamicsSource::Generic => Method::Dop853,
             method => method,
@@ -139,7 +142,7 @@ impl<'p> Mover<'p> {
         let starts = |segment: usize, t: f64| rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
         let mut rest = Resting { smooth: self.smooth(from), moment: None };
         let (mut t, mut segment) = (from.t, from.segment);
-        // A ground that comes to what starts the column and goes no further has started nothing.
+        // A ground whose acceleration just reaches what starts the column, and goes no further, has started nothing: the start was in vain.
         let is_vain = from.t - self.started <= self.vain;
         self.vain = if is_vain { (2.0 * self.vain).max(LEAST_WAIT) } else { 0.0 };
         let ended = loop {

@@ -30,7 +30,7 @@ pub trait Moments<'p> {
 
 /// The inside of a step.
 pub trait Inside<'p>: Moments<'p> {
-    /// Raises the largest sizes of the blocks' angles `[rad]` to those up to a time `[s]`.
+    /// Raises the largest magnitudes of the blocks' angles `[rad]` by those up to a time `[s]`.
     fn peaks(&mut self, until: f64, peaks: &mut [f64]);
 
     /// Visits the nodes of a quadrature up to a time `[s]`.
@@ -41,15 +41,15 @@ pub trait Inside<'p>: Moments<'p> {
 pub struct Node<'m, 'p> {
     /// `[s]`
     pub t: f64,
-    /// What it stands for `[s]`.
+    /// Weight in the quadrature `[s]`.
     pub weight: f64,
     /// `Σ m v` relative to the ground `[kg m/s]`.
     pub momentum: Vec2,
-    /// In the axes of the faces that carry the contacts, by interface; none where the states determine none.
+    /// Contact forces by interface, in the axes of the faces that carry the contacts; empty if the states determine none.
     pub contacts: PerBlock<ContactForce>,
     /// `[m/s]`, by interface.
     pub slide_rates: PerBlock<f64>,
-    /// The column, where some interface may be free.
+    /// The column at the node; present at least where some interface is free.
     pub flying: Option<&'m Moment<'p>>,
 }
 
@@ -66,7 +66,7 @@ pub struct Recorder<'p> {
     peak_theta: Vec<f64>,
     /// Per interface, dimensionless.
     friction_demand: Vec<f64>,
-    /// The same of impulses at impacts.
+    /// Friction demand of impulses at impacts, per interface, dimensionless.
     impulse_friction_demand: Vec<f64>,
     /// Per interface `[N]`.
     min_normal_force: Vec<f64>,
@@ -185,8 +185,8 @@ impl<'p> Recorder<'p> {
         self.samples.len()
     }
 
-    /// Records a part in which everything sticks, of the column with its slides, between two states. Its ground's work is what the change of energy
-    /// leaves, impacts apart.
+    /// Records a part in which everything sticks, of the column with its slides, from one state to another. The work of the ground in it is the change of
+    /// energy plus the losses at impacts.
     pub fn append(&mut self, column: &Column, [from, until]: [&State; 2], response: Response) {
         self.work.add(&response.work);
         if !self.problem.is_recorded() {
@@ -235,7 +235,7 @@ impl<'p> Recorder<'p> {
         moment
     }
 
-    /// Records that the states of a stretch are left.
+    /// Records that a stretch with constant states has ended: times in modes and contacts, and slides.
     pub fn leave(&mut self, from: &State, until: &State) {
         let span = until.t - from.t;
         let (now, end) = (&from.configuration, &until.configuration);
@@ -276,7 +276,7 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Records rows, peaks, forces and work of a step, or of the part of it that a guard leaves.
+    /// Records rows, peaks, forces and work of a step, or of its part up to the zero of a guard.
     pub fn read(&mut self, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
         if !self.problem.is_recorded() {
             return;
@@ -311,7 +311,7 @@ impl<'p> Recorder<'p> {
         self.problem.rows.get(self.samples.len())
     }
 
-    /// The segment of the ground motion at a row that follows those before.
+    /// The segment of the ground motion at a row; rows come in order of time.
     fn segment_of_row(&mut self, t: f64) -> &'p Segment {
         let ground = self.problem.ground;
         while self.sample_segment + 1 < ground.len() && ground[self.sample_segment].end <= t {
@@ -352,7 +352,7 @@ impl<'p> Recorder<'p> {
         self.work.add(&steps);
         let mut smooth = Smooth::new(self.problem, self.friction, &end);
         let mut moment = smooth.moment(end.configuration);
-        // A run that ends as it begins has the row of its beginning all the same.
+        // A run that ends at its start still has the row of its start.
         if self.samples.is_empty() && self.next_row() == Some(0.0) {
             smooth.answer(end.t, &mut moment);
             self.row(end.t, &moment);
@@ -397,7 +397,7 @@ fn energy(column: &Column, configuration: &Configuration) -> f64 {
     energy_of(&chain, &chain.motion(&Rates::of(configuration)))
 }
 
-/// The same, from geometry and motion.
+/// Kinetic and potential energy relative to the moving ground, from geometry and motion `[J]`.
 fn energy_of(chain: &Chain, motion: &Motion) -> f64 {
     let column = chain.column();
     let lifted = column.blocks().iter().enumerate();

@@ -16,7 +16,7 @@ use crate::run::error::SolveError;
 /// Orders of second derivatives after which the terms are first compared with the tolerance.
 const LEAST_ORDERS: usize = 4;
 
-/// Rounds in which a step as long as the terms allow is looked for; then it is halved.
+/// Rounds in which the length of a step is computed from its last terms; in later rounds it is halved.
 const ROUNDS: usize = 4;
 
 impl<'p> Mover<'p> {
@@ -75,7 +75,7 @@ impl<'p> Mover<'p> {
             let first = step.first_of(&list);
             let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
             if is_unresolved && h > SHORTEST_SHARE * wanted {
-                // Sampled, a gap that has just opened may be less than the rounding of so long a step.
+                // A landing may be sampled: a gap that has just opened may be less than the rounding of so long a step.
                 longest = RESOLVING * h;
                 continue;
             }
@@ -95,13 +95,13 @@ impl<'p> Mover<'p> {
     }
 }
 
-/// Orders for steps of this tolerance: beyond, one costs more than the longer step saves.
+/// Most orders of steps of this tolerance: one more costs more than the longer step saves.
 fn most_orders(rtol: f64) -> usize {
     ((2.0 - 0.5 * libm::log(rtol)).ceil() as usize).clamp(LEAST_ORDERS, MOST_ORDERS)
 }
 
-/// A length up to `most` for which the last terms of the series meet the tolerance `[s]`; orders are added as far as they are needed. `None` where a number is
-/// not finite.
+/// A length up to `most` for which the last terms of the series meet the tolerance `[s]`; orders are added as far as they are needed. `None` if a
+/// number is not finite, or the length falls to zero.
 fn length(series: &mut Series, most: f64, most_orders: usize, tolerance: Tolerance) -> Option<f64> {
     loop {
         if series.orders() >= LEAST_ORDERS && error(series, most, tolerance) <= 1.0 {

@@ -84,7 +84,7 @@ impl<'p> Smooth<'p> {
         configuration
     }
 
-    /// Writes what moves into a configuration of these states.
+    /// Writes values and rates of the free coordinates into a configuration of these states.
     pub fn write(&self, x: &[f64], configuration: &mut Configuration) {
         let (values, rates) = x.split_at(self.coordinates.len());
         for ((coordinate, &value), &rate) in self.coordinates.iter().zip(values).zip(rates) {
@@ -106,7 +106,7 @@ impl<'p> Smooth<'p> {
         Moment { column: self.column, configuration, chain: OnceCell::new(), answer: None }
     }
 
-    /// Evaluates accelerations and forces of a moment at a time; none where the rows do not determine them.
+    /// Accelerations and forces of a moment at a time `[s]`, evaluated unless they are known; [`Answer::none`] if the rows do not determine them.
     pub fn answer<'m>(&mut self, t: f64, moment: &'m mut Moment<'p>) -> &'m Answer {
         let blocks = self.column.len();
         if moment.answer.is_none() {
@@ -115,7 +115,7 @@ impl<'p> Smooth<'p> {
         moment.answer.get_or_insert_with(|| Answer::none(blocks))
     }
 
-    /// Whether the forces at a time and a state are beyond all bounds: the rows are close to a state in which they determine none (Painlevé).
+    /// Whether some normal force at a time and a state exceeds `JAMMING` times the forces at work: the rows hardly determine it any more (Painlevé).
     pub fn is_jamming(&mut self, t: f64, x: &[f64]) -> bool {
         let ground = Ground::at(self.segment, t, self.gravity);
         let mut moment = self.moment(self.configuration(x));

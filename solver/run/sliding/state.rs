@@ -1,4 +1,4 @@
-//! Where a run with friction is, and why a stretch of it ended.
+//! The state of a run with friction, and why a stretch of it ended.
 
 use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
@@ -7,7 +7,7 @@ use crate::run::problem::Problem;
 use crate::run::transition;
 use crate::scene::Initial;
 
-/// An instant of a run.
+/// The state of a run at an instant.
 #[derive(Clone, Debug)]
 pub struct State {
     /// `[s]`
@@ -27,14 +27,14 @@ pub enum Ended {
     Jump,
     /// Forces grow without bound.
     Jam,
-    /// The run is over in time.
+    /// The time of the run is over.
     Time,
     /// Nothing starts the column any more.
     Rest,
 }
 
 impl Ended {
-    /// Why the run is over with the stretch, and the block or interface (from zero) that ended it.
+    /// Why the run is over with the stretch, and the block (from zero) that ended it; `None` if the run continues.
     pub fn over(self) -> Option<(StopReason, Option<usize>)> {
         match self {
             Ended::Time => Some((StopReason::EndOfTime, None)),

@@ -1,7 +1,7 @@
 //! The inside of a step: the first guard that falls to zero, and what the recorder reads.
 //!
-//! A step has a dense output ([`Output`]). Where that is a Taylor series, guards, forces and angles are polynomials, whose roots and crests are isolated;
-//! guards of forces are then refined on the forces themselves. Where it is the interpolant of an explicit method, guards are sampled.
+//! A step has a dense output ([`Output`]). Where that is a Taylor series, guards, forces and angles are polynomials, whose roots and crests are
+//! isolated; guards of forces are then refined on the forces themselves. Where it is the interpolant of an explicit method, guards are sampled.
 
 use super::recorder::{Inside, Moments, Node};
 use super::smooth::{Moment, Smooth};
@@ -18,16 +18,16 @@ use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::scene::SolveOptions;
 
-/// Share of its size below which a guard that starts from zero has not left it.
+/// Share of its scale below which a guard that starts from zero has not left zero.
 const START_ROUNDING: f64 = 1e-15;
 
-/// Share of the resolution of hops, bounces and slides below which a guard that starts from zero has not left it.
+/// Share of the resolution of hops, bounces and slides below which a guard that starts from zero has not left zero.
 const LOW_SHARE: f64 = 1e-3;
 
-/// Place in a step, as a share of what is before the first guard's zero, at which a guard that starts from zero is first examined.
+/// Place at which a guard that starts from zero is first examined, as a share of the step up to the earliest zero of the guards before it.
 const NEAR_START: f64 = 1e-4;
 
-/// Place in a step up to which a guard that is not above zero at the start by rounding must have risen.
+/// Place in a step at which a guard that is not above zero at the start must be above zero; otherwise its zero is at the start.
 const RISEN_BY: f64 = 0.03;
 
 /// Rounds in which a root of a polynomial is refined on the forces themselves: each squares the error.
@@ -91,8 +91,9 @@ pub struct Step<'s, 'p, O> {
     output: &'s O,
     t: f64,
     h: f64,
-    /// Places, and what was evaluated there.
+    /// Places that have been evaluated, 0 to 1.
     places: Vec<f64>,
+    /// The moments at these places.
     moments: Vec<Moment<'p>>,
     /// Storage of a state.
     state: Vec<f64>,
@@ -183,8 +184,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner)
     }
 
-    /// The first place up to `limit` at which a corner with this gap lands. Height and distance beside the face are smooth, the larger of both is not: a
-    /// corner that comes from above is followed by its height alone, whose first zero is `fall`.
+    /// The first place up to `limit` at which a corner with this gap lands. Height and distance beside the face are smooth, the larger of both is
+    /// not: a corner that comes from above is followed by its height alone, whose first zero is `fall`.
     fn landing(
         &mut self,
         guard: Guard,
@@ -205,8 +206,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         self.crossing(guard, &value, limit)
     }
 
-    /// The first place up to `limit` at which a guard falls to zero that is this polynomial. Roots at the start are divided out: as many as leading
-    /// coefficients are rounding. A guard that does not rise from there by more than rounding falls to zero where it is below it by more than rounding.
+    /// The first place up to `limit` at which a guard that is this polynomial falls to zero. As many roots at the start are divided out as leading
+    /// coefficients are rounding. A guard within rounding half-way to its root falls to zero where it is eight times as far below zero.
     fn root(&mut self, guard: Guard, track: &Powers, limit: f64) -> Option<f64> {
         let start = track.coefficient(0);
         let s = if guard.may_start_from_zero() {
@@ -220,7 +221,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
             let rises = track.coefficient(roots) > 0.0;
             let found = if rises { track.root(roots) } else { Some(0.0) };
             match found {
-                // What has not left its start by then is there all the time.
+                // A guard that has not left zero half-way to the root has been there all the time.
                 Some(s) if track.evaluate(0.5 * s) <= rounding[0] => track.shifted(1.0, below).root(0),
                 found => found,
             }
@@ -235,8 +236,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         if guard.needs_forces() { self.refined(guard, track, s, limit) } else { Some(s) }
     }
 
-    /// A root of a polynomial on the guard itself by Newton's rule: what a series leaves out of forces is more than of angles. `None` where the guard does
-    /// not fall to zero there.
+    /// Refines a root of a polynomial on the guard itself by Newton's rule: a series leaves out more of forces than of angles. `None` if the guard
+    /// does not fall to zero there, or only beyond `limit`.
     fn refined(&mut self, guard: Guard, track: &Powers, root: f64, limit: f64) -> Option<f64> {
         let mut s = root;
         for _ in 0..REFINEMENTS {
@@ -247,7 +248,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
             }
             let next = s - value / slope;
             if !(slope < 0.0 && next <= 1.0) {
-                // It only comes close, or falls in the next step.
+                // Unless it is at or below zero here, the guard only comes close, or falls to zero in the next step.
                 return (value <= 0.0).then_some(s);
             }
             let next = next.max(0.0);
@@ -260,7 +261,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         (s <= limit).then_some(s)
     }
 
-    /// The first place up to `limit` at which a guard falls to zero. A root at the start is divided out, as often as the guard's derivatives
+    /// The first place up to `limit` at which a guard falls to zero. A root at the start is divided out, as often as the guard and its derivatives
     /// vanish there.
     fn crossing(&mut self, guard: Guard, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64) -> Option<f64> {
         let start = value(self, 0.0);
@@ -281,7 +282,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         }
         let one = value(self, near);
         if one <= 8.0 * noise {
-            // It does not leave, or comes back before that can be resolved.
+            // The guard does not leave zero, or (`end < limit`) comes back before that can be resolved.
             return (end < limit).then_some(0.0);
         }
         let two = value(self, (2.0 * near).min(end));
@@ -290,8 +291,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }
 
-    /// What value, slope and half the bend of a guard over the step may be by rounding where it starts from zero. What the search for states takes for rounding of
-    /// accelerations leaves a bend, and of a slide's rate a slope.
+    /// Rounding of a guard that starts from zero: of its value, its slope and half its bend, with the step as the unit of time. An acceleration that
+    /// the search for states takes for rounding is a bend of a guard, but a slope of a slide's rate.
     fn rounding_at_start(&mut self, guard: Guard) -> [f64; 3] {
         let (column, h) = (self.smooth.column, self.h);
         let ground = Ground::at(self.smooth.segment, self.t, self.smooth.gravity);
@@ -307,8 +308,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         }
     }
 
-    /// What a guard's values that start from zero must exceed to have left it: rounding, and a share of the hops, bounces and slides that are too low to be
-    /// followed.
+    /// Value up to which a guard that starts from zero has not left zero: rounding, or a share of the hops, bounces and slides that are too low to
+    /// be followed, whichever is larger.
     fn noise(&self, guard: Guard) -> f64 {
         let size = self.smooth.column.size();
         let least = LOW_SHARE * self.stick_angle;
@@ -385,7 +386,7 @@ impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
 }
 
 impl<O: Output> Step<'_, '_, O> {
-    /// Raises peaks to the crests of angles between two places at which the blocks turn like this.
+    /// Raises peaks to the crests of angles between two places, at which the blocks turn with these rates.
     fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], peaks: &mut [f64]) {
         for block in 0..rates[0].len() {
             let [start, end] = rates.map(|rates| rates[block]);
@@ -403,7 +404,7 @@ impl<O: Output> Step<'_, '_, O> {
     }
 }
 
-/// Raises the largest sizes of angles to those of a configuration.
+/// Raises the largest magnitudes of angles by those of a configuration.
 fn raise(peaks: &mut [f64], configuration: &Configuration) {
     for (peak, angle) in peaks.iter_mut().zip(&configuration.theta) {
         *peak = peak.max(angle.abs());

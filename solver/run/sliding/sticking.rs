@@ -25,9 +25,9 @@ pub type Progress<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 pub enum Stuck {
     /// From the start of the run to its end.
     Throughout(Box<Response>),
-    /// In this part.
+    /// Up to the end of this part.
     Part(Box<Part>),
-    /// Something slides at once.
+    /// Nowhere: something slides or flies at once.
     Nowhere,
 }
 
@@ -41,7 +41,7 @@ pub struct Part {
     pub ended: Ended,
 }
 
-/// What passes time where everything sticks.
+/// What runs the parts in which everything sticks.
 pub struct Sticking<'p> {
     problem: &'p Problem<'p>,
     friction: &'p Coefficients,
@@ -51,7 +51,7 @@ pub struct Sticking<'p> {
     modes: Modes,
 }
 
-/// The scene of a run in which nothing slides: its forces are recorded, as they say how long it holds.
+/// The scene of a run in which nothing slides. Forces are recorded, since they decide how long such a run holds.
 pub fn without_sliding(scene: &Scene) -> Scene {
     let mut sticking = Scene { friction: None, ..scene.clone() };
     (sticking.options.wanted, sticking.options.record_forces) = (Wanted::Everything, true);
@@ -62,7 +62,7 @@ pub fn without_sliding(scene: &Scene) -> Scene {
 }
 
 impl<'p> Sticking<'p> {
-    /// For a run with friction; `scene` is that [`without_sliding`].
+    /// For a run with friction; `scene` is its scene [`without_sliding`].
     pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, scene: Scene) -> Sticking<'p> {
         Sticking { problem, friction, scene, modes: Modes::default() }
     }
@@ -75,7 +75,7 @@ impl<'p> Sticking<'p> {
         self.fold(modes, None, 0, progress)
     }
 
-    /// The part of a run that begins with a state, after so many rows; none if something slides, flies, or is about to.
+    /// The part of a run that begins with a state, after `rows` rows. `None` if the column stands still, or something slides, flies, or is about to.
     ///
     /// # Errors
     /// [`SolveError::Cancelled`]
@@ -86,7 +86,7 @@ impl<'p> Sticking<'p> {
         progress: &mut Progress,
     ) -> Result<Option<Box<Part>>, SolveError> {
         let Configuration { joints, theta, omega, slide, .. } = &from.configuration;
-        // A column that stands still waits for what makes it slide, too.
+        // A column that stands still is left to `Mover`, which waits for the start of a slide as well.
         if joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks)) && omega.iter().all(|rate| *rate == 0.0) {
             return Ok(None);
         }

@@ -19,13 +19,13 @@ pub struct Transition {
     pub after: Configuration,
     /// What happened on the way there, in order.
     pub changes: Vec<Change>,
-    /// Energy lost at impacts and at hops that end `[J]`.
+    /// Energy lost at impacts, and where hops and slides that are too low to be followed end `[J]`.
     pub energy_lost: f64,
     /// How often several motions were admissible.
     pub ambiguous: usize,
-    /// Whether no acceleration was admissible.
+    /// Whether no acceleration was admissible, or forces grew without bound.
     pub is_jammed: bool,
-    /// Why the run is over, and the block or interface (from zero) that ended it.
+    /// Why the run is over, and the block or interface (from zero) that ended it, if known; `None` if the run continues.
     pub stop: Option<(StopReason, Option<usize>)>,
 }
 
@@ -36,7 +36,7 @@ pub struct Change {
     pub interfaces: Vec<usize>,
     pub before: Configuration,
     pub after: Configuration,
-    /// Impulses of an impact, and the share of the energy that it took.
+    /// Impulses of an impact, and the share of the kinetic energy that it took; `None` for other events.
     pub impact: Option<(Vec<Impulse>, f64)>,
 }
 
@@ -140,14 +140,14 @@ impl<'p> Instant<'p> {
         Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop: Some((reason, place)) }
     }
 
-    /// The contact at an interface has come to its end.
+    /// The end of the run: the blocks at an interface have lost contact, as its length or their overlap has fallen to zero.
     fn collapsed(mut self, interface: usize) -> Transition {
         let before = self.now.clone();
         self.change(EventKind::Collapsed, vec![interface], &before, None);
         self.over(StopReason::Collapsed, Some(interface))
     }
 
-    /// Notes what has happened.
+    /// Notes an event that led from `before` to the present configuration.
     pub fn change(
         &mut self,
         kind: EventKind,
@@ -158,7 +158,7 @@ impl<'p> Instant<'p> {
         self.changes.push(Change { kind, interfaces, before: before.clone(), after: self.now.clone(), impact });
     }
 
-    /// The transition with the accelerations at `x⁺` decided. A hint is the state of an interface that the guard that ended the stretch names.
+    /// Decides the accelerations at `x⁺` and returns the transition. `hint` is the state of an interface named by the guard that ended the stretch.
     fn decided(mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> Transition {
         if self.stop.is_none() {
             let before = self.now.clone();
@@ -182,7 +182,7 @@ impl<'p> Instant<'p> {
         hint: Option<(usize, Joint)>,
     ) -> Result<PerBlock<Joint>, StopReason> {
         let touch = self.joined();
-        // States whose guard has just fallen to zero do not follow themselves, though they may be admissible but for rounding; a slide that has
+        // States whose guard has just fallen to zero do not follow themselves, even if they are admissible up to rounding. Only a slide that has
         // come to rest may begin anew.
         let is_new = |joint: Joint, interface: usize| joint.sticks() && !before.joints[interface].sticks();
         let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
@@ -209,7 +209,7 @@ impl<'p> Instant<'p> {
             self.hold(&held);
             let touch = self.joined();
             let Some(without) = self.accelerations(&touch, None) else {
-                // Where no motion follows without them, they go on.
+                // Without these hops and slides no motion follows: they go on.
                 (self.now, self.energy_lost) = moving;
                 break;
             };
@@ -229,7 +229,7 @@ impl<'p> Instant<'p> {
         touching(self.problem, self.resolution, &self.now)
     }
 
-    /// What touches, with free interfaces that have met joined and faces that stay on each other at one angle and rate to the last bit.
+    /// What touches. Free interfaces that have met are joined; faces that stay on each other get one angle and one rate, to the last bit.
     fn joined(&mut self) -> Vec<Touch> {
         let touch = self.touching();
         let has_met = |&i: &usize| touch[i] != Touch::Nothing && self.now.joints[i] == Joint::Free;
@@ -257,7 +257,7 @@ impl<'p> Instant<'p> {
         self.now.omega[interface] = below.map_or(0.0, |below| self.now.omega[below]);
     }
 
-    /// Notes what the states that follow are called.
+    /// Notes the event that leads to the present states. Its kind follows from its cause and the first interface that changes.
     fn name(&mut self, kind: EventKind, before: &Configuration) {
         let after = &self.now.joints;
         let changed: Vec<usize> = (0..after.len()).filter(|&i| before.joints[i] != after[i]).collect();
@@ -334,8 +334,8 @@ impl<'p> Instant<'p> {
         Some((interface, joint))
     }
 
-    /// The states without the hops and slides that would come back before they exceed the resolution; `None` if there are no new ones. All that
-    /// has been stilled in this instant is stilled together: one at a time, each would pass its momentum on to the others.
+    /// The states in which hops and slides that would come back before they exceed the resolution are stilled; `None` if none is new. All hops and
+    /// slides of this instant are stilled together: one at a time, each would pass its momentum on to the others.
     fn too_low(&self, solution: &Solution, stilled: &mut Stilled) -> Option<PerBlock<Joint>> {
         let least = self.problem.scene.options.stick_angle;
         let returns = |rate: f64, change: f64, least: f64| {
@@ -373,8 +373,8 @@ impl<'p> Instant<'p> {
         is_new.then(|| solution.joints.iter().enumerate().map(held).collect())
     }
 
-    /// Brings the blocks to the motion that these states allow, momentum conserved. A corner without a gap that would close by it is closed as well;
-    /// one that was closing before has its impact still to come.
+    /// Projects the motion onto the motions that these states allow, momentum conserved. A corner without a gap that would close by this is closed
+    /// as well, unless it was closing before: its impact is still to come.
     pub fn hold(&mut self, joints: &[Joint]) {
         let chain = Chain::new(self.column(), &self.now);
         let before = chain.motion(&Rates::of(&self.now));

@@ -45,8 +45,8 @@ impl Class {
     }
 }
 
-/// The classes that occur with their shares of all cells, those that overturn after the line of the least that does, if there is one; the first of
-/// them says that they do.
+/// Legend entries: each class that occurs, with its share of all cells. Classes that overturn come last, the most violent first.
+/// The line `least` of the lowest value that overturns, if given, comes just before these classes. The first of them says "overturns".
 pub fn legend(panels: &[Vec<Class>], least: Option<Stroke>) -> Vec<(Key, String)> {
     let shown = |class: &Class| Grid::share(panels, |found| found == *class) > 0.0;
     let entry = |class: Class| {

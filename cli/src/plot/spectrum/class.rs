@@ -7,7 +7,7 @@ pub enum Class {
     /// Blocks slid, and nothing rocked.
     Slides,
     Rocks,
-    /// The column overturned, and its impacts were not counted: the sweep asked only whether it does.
+    /// The column overturned, and impacts were not counted: the sweep asked only for the outcome.
     Overturns,
     /// The column overturned after three impacts or more.
     AfterMore,
@@ -22,7 +22,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// All, in this order.
+    /// All classes, in the order of the enum.
     pub const ALL: [Class; 10] = [
         Class::NoUplift,
         Class::Slides,

@@ -1,8 +1,8 @@
-//! Rocking spectra and their like: the largest angle over one axis of a sweep, a curve for each value of the others. Makris & Konstantinidis (2003),
-//! Earthq. Eng. Struct. Dyn. 32.
+//! Rocking spectra and their like: the largest angle over one axis of a sweep, a curve for each combination of values of the other axes.
+//! Makris & Konstantinidis (2003), Earthq. Eng. Struct. Dyn. 32.
 //!
-//! Over records: a panel for each value of the others, thin curves of the records and their fractiles. Where the column is lost a curve leaves at the
-//! top, and comes back where the column stands again.
+//! In a sweep over records, each combination (records left out) has a panel, with thin curves of the records and with their fractiles. Where the
+//! column is lost, a curve leaves at the top, and comes back where the column stands again.
 
 use super::family::{Family, Rows};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
@@ -15,25 +15,25 @@ use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
 use crate::plot::style::{self, Stroke};
 use rocking::studies::{FRACTILES, fractile};
 
-/// Panels of records beside one another.
+/// Largest number of panels of records beside one another.
 const MOST_COLUMNS: usize = 3;
 
-/// Heights `[px]`: of the only panel, and of panels by how many stand beside one another.
+/// Heights of panels, by the number of panels beside one another `[px]`.
 const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 300.0, 240.0];
 
 /// Room above the largest angle, as a share of it.
 const ROOM: f64 = 0.06;
 
-/// The same where some columns are lost: the edge has a name, and no number beside it.
+/// Room above the largest angle if some columns are lost, as a share of it. The upper edge has a name, which needs room free of numbers.
 const ROOM_BELOW_LOST: f64 = 0.1;
 
-/// Upper end of the angles of a column that never opens.
+/// Upper end of the axis of angles if no column ever opens.
 const NO_ANGLE: f64 = 1.0;
 
-/// Least upper end of the angles where some columns are lost: a curve that leaves there does not look like an angle of a column that stands.
+/// Smallest upper end of the axis of angles if some columns are lost: a curve that leaves there must not look like an angle of a column that stands.
 const LEAST_TOP: f64 = 1.1;
 
-/// Gap between the columns of panels of which only the first has numbers upwards `[px]`.
+/// Gap between columns of panels `[px]`. Only the first column has numbers upwards.
 const BETWEEN: f64 = 14.0;
 
 /// A position and the largest angle there, infinite where the column is lost; `None` where there is no answer.
@@ -110,12 +110,12 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     Figure::new("rocking-spectrum", caption(points, family, subject), sheet)
 }
 
-/// Largest angles of all blocks at the positions of rows.
+/// Position of each row, and the largest angle of all blocks in the row.
 fn demands(points: &Points, rows: &Rows) -> Vec<Value> {
     rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect()
 }
 
-/// The curves of a panel without fractiles: one for each value of the other axes, or, where there is none, one for each block.
+/// The curves of a panel without fractiles: those of the family, or one for each block if the family has a single curve and there are several blocks.
 fn single(points: &Points, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> {
     match (rows, points.blocks) {
         ([records], 2..) => {
@@ -137,7 +137,7 @@ fn single(points: &Points, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> {
     }
 }
 
-/// The curves of a panel of records: theirs, and those of their fractiles at each position.
+/// The curves of a panel of records: one for each record, and one for each fractile of the records at each position.
 fn of_records(records: &[Vec<Value>]) -> Vec<Curve> {
     let mut curves: Vec<Curve> =
         records.iter().map(|values| Curve { stroke: RECORD, name: String::new(), values: values.clone() }).collect();
@@ -187,7 +187,7 @@ fn caption(points: &Points, family: &Family, subject: &str) -> String {
 }
 
 impl Place<'_> {
-    /// A value to compare with, if the panel has it.
+    /// Line of a reference value, if the panel reaches the value.
     fn level(&self, sheet: &mut Sheet, value: f64) {
         let y = self.y.share(value);
         if (0.0..1.0).contains(&y) {
@@ -195,7 +195,7 @@ impl Place<'_> {
         }
     }
 
-    /// Says what the upper edge is, unless a number stands there.
+    /// Names the upper edge "lost", unless a number stands there.
     fn name_top(&self, sheet: &mut Sheet) {
         let at = [self.frame.left - 8.0, self.frame.top + 4.5];
         let is_free = |(value, _): &(f64, String)| {
@@ -206,7 +206,7 @@ impl Place<'_> {
         }
     }
 
-    /// A curve, interrupted where there is no answer; dots where points do not follow one another, and where an answer stands by itself.
+    /// A curve, interrupted where there is no answer. Points are drawn as dots if they are not joined, or if an answer stands alone.
     fn values(&self, sheet: &mut Sheet, curve: &Curve, is_joined: bool) {
         let at = |(x, demand): (f64, f64)| self.at([self.x.share(x), self.y.share(demand).min(1.0)]);
         let parts = curve.values.chunk_by(|a, b| a.1.is_some() && b.1.is_some());

@@ -1,4 +1,4 @@
-//! How the rows of a table make curves: what runs to the right, which rows are one curve, and which are records of one.
+//! How the rows of a table make curves: which axis runs to the right, which rows make one curve, and which rows are records of one curve.
 
 use super::points::{Axis, Points};
 use super::refusal::{MOST_CURVES, NoSpectrum};
@@ -6,13 +6,13 @@ use super::scale::{Scale, numbers, titles};
 use rocking::sweep::is_of_records;
 use std::f64::consts::TAU;
 
-/// Records from which on their fractiles are drawn in place of a named curve for each.
+/// Smallest number of records of which fractiles are drawn. Of fewer records, each has a named curve.
 pub const LEAST_RECORDS: usize = 3;
 
-/// Panels of curves of records beyond which nobody could read them.
+/// Largest number of panels of records that can be read.
 const MOST_RECORD_PANELS: usize = 9;
 
-/// Keys of the size of a column: along one of them runs a rocking spectrum.
+/// Keys of the size of a column, which a rocking spectrum has on its axis to the right.
 const SIZES: [&str; 3] = ["size.p", "size.rocking_period", "size.R"];
 
 /// What the values of an axis are in the figure.
@@ -20,15 +20,15 @@ const SIZES: [&str; 3] = ["size.p", "size.rocking_period", "size.R"];
 enum Role {
     /// Positions to the right.
     X(Vec<f64>),
-    /// Curves of their own: so many values.
+    /// Each value has curves of its own; number of values.
     Curves(usize),
-    /// Records of a curve: so many values.
+    /// Each value is a record of a curve; number of values.
     Records(usize),
-    /// The same in all rows, or told by the axis to the right.
+    /// The value is the same in all rows, or follows from the position to the right.
     Silent,
 }
 
-/// Positions of rows, from the left, and their numbers.
+/// Position and index of each row, from the left.
 pub type Rows = Vec<(f64, usize)>;
 
 /// The curves of a table.
@@ -36,20 +36,21 @@ pub type Rows = Vec<(f64, usize)>;
 pub struct Family {
     /// To the right.
     pub x: Scale,
-    /// Whether neighbouring points follow one another, so that a line joins them: not of samples.
+    /// Whether a line joins neighbouring points. False if positions neither rise nor fall from row to row throughout, e.g. those of samples.
     pub is_joined: bool,
     /// Whether all axes change together.
     pub is_paired: bool,
-    /// A title for each curve; empty if there is nothing to say.
+    /// A title for each curve, or for each panel of records. The empty string if no axis distinguishes curves.
     pub titles: Vec<String>,
-    /// Records of each curve; one where no axis is of records.
+    /// Number of records of each curve; 1 unless fractiles are drawn.
     pub records: usize,
-    /// Roles of the axes; empty where the number of the row runs to the right.
+    /// Roles of the axes; all silent if the index of the row is the position to the right.
     roles: Vec<Role>,
 }
 
 impl Family {
-    /// The curves of so many rows. Records are curves by themselves unless they are to be joined into fractiles.
+    /// The curves of a table with so many `rows`. Each record is a curve by itself unless fractiles are requested and there are at least
+    /// [`LEAST_RECORDS`] records.
     pub fn of(axes: &[Axis], rows: usize, with_fractiles: bool) -> Result<Family, NoSpectrum> {
         let varying = |place: &usize| axes[*place].1.len() > 1;
         let places: Vec<usize> = (0..axes.len()).filter(varying).collect();
@@ -93,7 +94,7 @@ impl Family {
         })
     }
 
-    /// Whether the figure can be read.
+    /// Whether there are few enough curves, or panels of records, to be read.
     pub fn is_drawn(&self) -> bool {
         self.titles.len() <= if self.records > 1 { MOST_RECORD_PANELS } else { MOST_CURVES }
     }
@@ -124,7 +125,8 @@ impl Family {
     }
 }
 
-/// One curve of rows in which all axes change together: along the first axis of numbers that has another one in each row, or by the numbers of the rows.
+/// One curve of rows in which all axes change together. It runs along the first axis of numbers with a different value in each row, or along the
+/// index of the row if no such axis exists.
 fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpectrum> {
     let mut distinct = places.iter().copied().filter(|place| axes[*place].1.len() == rows).peekable();
     if distinct.peek().is_none() {
@@ -146,7 +148,7 @@ fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpec
     Ok(Family { x, is_joined, is_paired: true, titles: vec![String::new()], records: 1, roles })
 }
 
-/// The axis to the right, and the positions of its values; `p` as the period of which it is the frequency.
+/// The axis to the right, and the positions of its values. The frequency parameter `p` is drawn as its period `2π/p`.
 fn scale((key, values): &Axis) -> Result<(Scale, Vec<f64>), NoSpectrum> {
     let values = numbers(values).unwrap_or_default();
     let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());

@@ -1,7 +1,7 @@
 //! The table of a sweep as panels of cells.
 //!
-//! The last two axes with numbers that vary span each panel, the last one upwards; every combination of the others is a panel.
-//! A class is all that is kept of a row.
+//! The last two axes with numbers that vary span each panel, the last one upwards. Every combination of values of the other axes is
+//! a panel. Of a row, only its class is kept.
 
 use super::class::Class;
 use super::points::{Axis, Points};
@@ -11,11 +11,11 @@ use super::scale::{Scale, numbers, titles};
 /// Positions of the values of an axis.
 #[derive(Clone, Debug, PartialEq)]
 enum Span {
-    /// In these columns.
+    /// Column of each value.
     X(Vec<usize>),
-    /// In these rows.
+    /// Row of each value.
     Y(Vec<usize>),
-    /// In panels of their own: so many values.
+    /// Each value has panels of its own; number of values.
     Panels(usize),
 }
 
@@ -26,9 +26,9 @@ pub struct Plane {
     pub x: Scale,
     /// Upwards.
     pub y: Scale,
-    /// A title for each panel; empty if there is nothing to say.
+    /// A title for each panel. The empty string if no axis distinguishes panels.
     pub titles: Vec<String>,
-    /// Positions of the values of each axis, in their order.
+    /// Positions of the values of each axis, in the order of the axes.
     spans: Vec<Span>,
 }
 
@@ -72,18 +72,18 @@ impl Plane {
         Ok(Plane { x, y, titles, spans })
     }
 
-    /// Points of the whole grid.
+    /// Number of points of the whole grid.
     fn points(&self) -> usize {
         self.x.values.len() * self.y.values.len() * self.titles.len()
     }
 
-    /// Whether so many points fill the grid.
+    /// Checks that the grid has as many points as there are rows.
     pub fn expects(&self, rows: usize) -> Result<(), NoSpectrum> {
         let points = self.points();
         if rows == points { Ok(()) } else { Err(NoSpectrum::NoGrid { rows, points }) }
     }
 
-    /// Panel, column and row of the point at which the axes have their values of these numbers.
+    /// Panel, column and row of a point. `numbers` has the index of the value of each axis.
     fn place(&self, numbers: &[usize]) -> [usize; 3] {
         let [mut panel, mut column, mut row] = [0; 3];
         for (span, number) in self.spans.iter().zip(numbers) {
@@ -116,18 +116,18 @@ impl Grid {
             panels[panel][y * columns + x] = Some(*class);
         }
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
-        // The number of rows is that of the cells, yet some points occur twice and others not at all.
+        // There are as many rows as cells. A cell without a row therefore means that another cell has two.
         let panels = panels.ok_or_else(|| NoSpectrum::NoTable("points are missing".into()))?;
         Ok(Grid { plane, panels })
     }
 
-    /// The share of a class in some panels.
+    /// Share of the cells of some panels whose class is `wanted`.
     pub fn share(panels: &[Vec<Class>], wanted: impl Fn(Class) -> bool) -> f64 {
         let cells = || panels.iter().flatten();
         cells().filter(|class| wanted(**class)).count() as f64 / cells().count() as f64
     }
 
-    /// The lowest cell of each column of a panel that overturns.
+    /// Row of the lowest cell that overturns, for each column of a panel; `None` if no cell of the column does.
     pub fn minimum(&self, panel: usize) -> Vec<Option<usize>> {
         let columns = self.plane.x.values.len();
         let overturns = |x: usize, y: usize| self.panels[panel][y * columns + x].overturns();

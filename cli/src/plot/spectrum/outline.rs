@@ -1,8 +1,8 @@
-//! Cells of equal class as polygons without holes, in an order of painting that needs none.
+//! Cells of equal class as polygons. The order of painting is such that no polygon needs a hole.
 //!
-//! Cells that share an edge and a class make a region; only its outer edge is drawn, and what lies within is painted over it.
-//! Regions of equal nesting depth do not overlap and are painted together, a polygon each. Between two regions that meet at an edge,
-//! a gap of rounding can therefore show only the region that holds both.
+//! Cells that share an edge and a class make a region. The whole inside of its outer edge is filled; regions within it are painted
+//! over it later. Regions of equal nesting depth do not overlap; those of one class are painted together, a polygon each. Where two
+//! of equal depth meet at an edge, a gap of rounding can therefore show only the region around both.
 
 use std::collections::BTreeMap;
 
@@ -12,16 +12,16 @@ pub type Corner = [usize; 2];
 /// Regions of one class that do not overlap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer<C> {
-    /// Their class.
+    /// Class of the regions.
     pub class: C,
-    /// Their outer edges: corners, anticlockwise.
+    /// Outer edge of each region: its corners, anticlockwise.
     pub outlines: Vec<Vec<Corner>>,
 }
 
 /// Right, up, left, down.
 const STEPS: [[isize; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// The layers in the order in which they are painted; cells a row after the other.
+/// The layers in the order in which they are painted. `cells` has one row after the other, the lowest first.
 pub fn layers<C: Copy + PartialEq>(cells: &[C], columns: usize) -> Vec<Layer<C>> {
     let rows = cells.len() / columns;
     let (region_of, first_cells) = regions(cells, columns);
@@ -46,7 +46,7 @@ pub fn layers<C: Copy + PartialEq>(cells: &[C], columns: usize) -> Vec<Layer<C>>
     layers.into_values().collect()
 }
 
-/// The region of each cell, and the first cell of each region: its lowest, of those the leftmost.
+/// Region of each cell, and first cell of each region: the leftmost cell of the region's lowest row.
 fn regions<C: Copy + PartialEq>(cells: &[C], columns: usize) -> (Vec<usize>, Vec<usize>) {
     let mut region_of = vec![usize::MAX; cells.len()];
     let mut first_cells = Vec::new();
@@ -94,8 +94,8 @@ fn outline(region_of: &[usize], [columns, rows]: [usize; 2], region: usize, firs
             return corners;
         }
         let [left, right] = ahead[step].map(|cell| is_inside(at, cell));
-        // The region stays on the left: without a cell there the edge turns left, with another one ahead on the right it turns
-        // right, unless that one only touches.
+        // The region stays on the left. If it has no cell ahead on the left, the edge turns left: a cell ahead on the right, if any,
+        // then only touches at the corner. If it has cells ahead on both sides, the edge turns right.
         let turned = match (left, right) {
             (false, _) => (step + 1) % 4,
             (true, true) => (step + 3) % 4,

@@ -11,15 +11,15 @@ pub const TITLE: f64 = 24.0;
 pub const NUMBERS: f64 = 26.0;
 pub const GAP: f64 = 14.0;
 const TICK: f64 = 4.0;
-/// Largest overhang of a number beyond the left end of its axis where another panel stands `[px]`.
+/// Bound of the overhang of a number beyond the left end of its axis, if another panel stands on the left `[px]`.
 const BESIDE: f64 = 2.0;
 
 const GRID: Stroke = Stroke::solid(style::FAINT, 0.9);
 
-/// Lines that differ; beyond, colours come with other dashes.
+/// Number of lines with different colours. Further lines repeat the colours with other dashes.
 const LINES: usize = 7;
 
-/// The line of a curve, from zero: beyond those that differ by colour, colours come with other dashes.
+/// The line of a curve, counted from zero. From the eighth curve on, colours are repeated with other dashes.
 pub fn line(number: usize) -> Stroke {
     Stroke { color: style::line(number).color, ..style::line(number + number / LINES) }
 }
@@ -32,7 +32,7 @@ pub struct Place<'g> {
 }
 
 impl Place<'_> {
-    /// From parts of the axes.
+    /// Point on paper `[px]` at these shares of the axes, from 0 to 1.
     pub fn at(&self, [x, y]: Point) -> Point {
         [self.frame.left + self.frame.width * x, self.frame.bottom() - self.frame.height * y]
     }
@@ -41,7 +41,7 @@ impl Place<'_> {
         self.at([self.x.edges[column], self.y.edges[row]])
     }
 
-    /// Frame, ticks and, if wanted, numbers of each axis; what has no numbers upwards has a panel on its left.
+    /// Draws frame, ticks and, as `numbers` says for `[x, y]`, numbers. A panel without numbers upwards is taken to have a panel on its left.
     pub fn axes(&self, sheet: &mut Sheet, numbers: [bool; 2]) {
         sheet.outline(&self.frame);
         for (value, text) in self.x_ticks() {

@@ -15,10 +15,10 @@ const MOST_COLUMNS: usize = 4;
 const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 320.0, 300.0, 300.0];
 const MINIMUM_HEIGHT: f64 = 300.0;
 
-/// The least that overturns, along the edge of cells: below it lie light ones.
+/// Line along the lower edges of the lowest cells that overturn. The cells below the line are light, so that black is seen.
 const LEAST: Stroke = Stroke::solid("#000000", 1.3);
 
-/// The key whose value is 1 where the base opens.
+/// Last part of the key for amplitudes as multiples of the one at which the base opens.
 const UPLIFT: &str = "amplitude_uplift";
 
 /// The figure of all panels.
@@ -35,7 +35,7 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
     for (panel, title) in titles.iter().enumerate() {
         let (row, column) = (panel / columns, panel % columns);
         let top = heading + row as f64 * (height + heading + 4.0);
-        // The last row may be shorter: what has no panel below it has numbers.
+        // The last row may be shorter. Every panel without a panel below it has numbers.
         let is_lowest = panel + columns >= titles.len();
         let frame = Frame { left: LEFT + column as f64 * (width + GAP), top, width, height };
         let place = Place { frame, x, y };
@@ -85,7 +85,7 @@ fn staircase(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
     runs.iter().map(|run| curve::straighten(run)).collect()
 }
 
-/// The curves of the least value that overturns, those of all panels in one.
+/// Figure of the least values that overturn: a curve for each panel of the spectrum, all in one panel.
 pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     let Plane { x, y, titles, .. } = &grid.plane;
     let what = format!("Least {} that overturns against {}", y.label(), x.label());
@@ -122,7 +122,8 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     Figure::new("overturning-minimum", format!("{what}.{note}"), sheet)
 }
 
-/// Lines through the lowest cells that overturn, interrupted where there are none; one by itself is as wide as its cell.
+/// Lines through the values of the lowest cells that overturn, interrupted at columns without such a cell. A single cell gives a line
+/// as wide as the cell.
 fn curves(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
     let point = |column: usize, row: usize| {
         place.at([place.x.share(place.x.values[column]), place.y.share(place.y.values[row])])

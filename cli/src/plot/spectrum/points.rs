@@ -1,4 +1,4 @@
-//! The table of a sweep as points: what its axes are there, what became of the column, and its largest angles.
+//! The table of a sweep as points. Each point has its values of the axes, the outcome of the column, and the largest angles.
 
 use super::class::Class;
 use super::refusal::NoSpectrum;
@@ -7,19 +7,19 @@ use crate::table::open;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// An axis by its key, and its different values as a table has them, in the order of their first rows.
+/// Key of an axis, and its different values as written in the table, in the order in which they first occur.
 pub type Axis = (String, Vec<String>);
 
 /// A whole table.
 #[derive(Clone, Debug)]
 pub struct Points {
     pub axes: Vec<Axis>,
-    /// Numbers of the values of the axes, row by row: as many for each row as there are axes.
+    /// Index of the value of each axis, row by row: as many entries per row as there are axes.
     numbers: Vec<usize>,
     /// Classes of the rows.
     pub classes: Vec<Class>,
-    /// Largest `|θ|/α` of each block, row by row, as many for each row as [`Points::blocks`]; `NaN` where a row has none, infinite where the column is
-    /// lost.
+    /// Largest `|θ|/α` of each block, row by row, with [`Points::blocks`] entries per row. `NaN` where a row has no answer, infinite where the
+    /// column is lost.
     peaks: Vec<f64>,
     /// Number of columns of peaks; zero where none were asked for.
     pub blocks: usize,
@@ -80,17 +80,17 @@ impl Points {
         self.classes.len()
     }
 
-    /// Numbers of the values of the axes of a row.
+    /// Index of the value of each axis in a row.
     pub fn numbers(&self, row: usize) -> &[usize] {
         &self.numbers[row * self.axes.len()..(row + 1) * self.axes.len()]
     }
 
-    /// Largest `|θ|/α` of a block of a row, from zero, infinite where the column is lost; `None` where the row has no answer, or no such block.
+    /// Largest `|θ|/α` of a block, counted from zero, in a row; infinite where the column is lost. `None` where the row has no answer.
     pub fn peak(&self, row: usize, block: usize) -> Option<f64> {
         self.peaks.get(row * self.blocks + block).copied().filter(|peak| !peak.is_nan())
     }
 
-    /// The same of all blocks.
+    /// Largest `|θ|/α` of all blocks in a row; infinite where the column is lost. `None` where the row has no answer.
     pub fn demand(&self, row: usize) -> Option<f64> {
         (0..self.blocks).filter_map(|block| self.peak(row, block)).reduce(f64::max)
     }

@@ -1,9 +1,9 @@
 //! Why a table makes no figure.
 
-/// Panels beyond which nobody could read them.
+/// Largest number of panels that can be read.
 pub const MOST_PANELS: usize = 16;
 
-/// Curves beyond which nobody could read them.
+/// Largest number of curves that can be read.
 pub const MOST_CURVES: usize = 12;
 
 /// Why a table makes no figure.
@@ -12,7 +12,7 @@ pub enum NoSpectrum {
     /// The file is not the table of a sweep.
     #[error("{0}; give the table that `rocking sweep` wrote")]
     NoTable(String),
-    /// No axis of numbers.
+    /// Too few axes of numbers with several values.
     #[error("no axis with numbers has several values; give e.g. amplitude_uplift several")]
     FewAxes,
     /// An axis has values beyond what is drawn.
@@ -26,7 +26,7 @@ pub enum NoSpectrum {
     /// So many curves could not be read.
     #[error("the other axes make {0} curves, and {MOST_CURVES} can be read; give those axes fewer values")]
     ManyCurves(usize),
-    /// A part of a sweep, or a point twice.
+    /// The table is part of a sweep, or has a point twice.
     #[error(
         "there are {rows} points and the values of the axes make {points}; draw a whole sweep whose axes have each value once, of shards \
          the table that `rocking merge` makes"

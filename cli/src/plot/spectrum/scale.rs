@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 pub struct Scale {
     /// The key that varies.
     pub key: String,
-    /// Rising, all different, at least two.
+    /// Values in rising order, all different. At least two, but for a strip, which has one.
     pub values: Vec<f64>,
     /// Edges of the cells along the axis, in parts of its length: one more than values.
     pub edges: Vec<f64>,
@@ -19,7 +19,7 @@ pub struct Scale {
     ends: [f64; 2],
 }
 
-/// Ratios and differences so close, relatively, are the same: values come from a table of decimals.
+/// Relative difference below which two steps between values count as equal: values come from a table of decimals.
 const SAME: f64 = 1e-6;
 
 impl Scale {
@@ -55,7 +55,7 @@ impl Scale {
         Scale { key: String::new(), values: vec![0.5], edges: vec![0.0, 1.0], is_log: false, ends: [0.0, 1.0] }
     }
 
-    /// The cell of a value.
+    /// Index of the cell of a value; `None` if the axis does not have the value.
     pub fn place(&self, value: f64) -> Option<usize> {
         // Zeros of either sign are the same.
         self.values.binary_search_by(|probe| probe.partial_cmp(&value).unwrap_or(Ordering::Less)).ok()
@@ -96,13 +96,13 @@ impl Scale {
     }
 }
 
-/// Whether at least three values are equally far from one another.
+/// Whether there are at least three values, and `step` is the same between all neighbours.
 fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
     let first = step(values[0], values[1]);
     values.len() > 2 && values.windows(2).all(|pair| (step(pair[0], pair[1]) / first - 1.0).abs() < SAME)
 }
 
-/// Keys of scenes by their last part, and what they are with their unit.
+/// Last part of a key of scenes, and the label of the quantity with its unit.
 const LABELS: [(&str, &str); 42] = [
     ("alpha_degrees", "α [°]"),
     ("alpha", "α [rad]"),
@@ -148,7 +148,7 @@ const LABELS: [(&str, &str); 42] = [
     ("overturn_angle", "Overturning angle [rad]"),
 ];
 
-/// A key in the field's words; what is not known is called by its last part. Of a block or the vertical motion, that is said.
+/// Label of a key in the words of the field, or the last part of an unknown key. The label says if it is that of a block or of the vertical motion.
 fn label(key: &str) -> String {
     let (above, last) = key.rsplit_once('.').unwrap_or(("", key));
     let known = LABELS.iter().find(|(name, _)| *name == last).map_or(last, |(_, label)| label);
@@ -174,13 +174,13 @@ pub fn title(key: &str, value: &str) -> String {
     }
 }
 
-/// The values of an axis as numbers; `None` where one is none, or not finite.
+/// The values of an axis as numbers; `None` if one of them is not a finite number.
 pub fn numbers(values: &[String]) -> Option<Vec<f64>> {
     let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
     numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
 }
 
-/// A title for each combination of the values of axes, the last axis fastest; an axis of one value has nothing to say.
+/// A title for each combination of the values of axes; the last axis varies fastest. An axis with a single value is not in the titles.
 pub fn titles<'a>(axes: impl IntoIterator<Item = &'a Axis>) -> Vec<String> {
     let mut titles = vec![String::new()];
     for (key, values) in axes.into_iter().filter(|(_, values)| values.len() > 1) {
@@ -194,7 +194,7 @@ pub fn titles<'a>(axes: impl IntoIterator<Item = &'a Axis>) -> Vec<String> {
     titles
 }
 
-/// Paths of files without the folder that all have in common; other texts as they are.
+/// Paths of files without the folder of the first one, if all are in that folder. Otherwise the texts are unchanged.
 fn shortened(values: &[String]) -> Vec<&str> {
     let folder = |value: &str| value.rfind(['/', '\\']).map_or(0, |end| end + 1);
     let common = folder(&values[0]);

@@ -1,4 +1,4 @@
-//! Strips: what becomes of the column over one axis of a sweep, a strip for each value of the others.
+//! Strips: what becomes of the column over one axis of a sweep, a strip for each combination of values of the other axes.
 
 use super::cells::{cells, legend, percent};
 use super::class::Class;
@@ -34,7 +34,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         let frame = Frame { left: EDGE, top: heading + number as f64 * (HEIGHT + heading), width, height: HEIGHT };
         let place = Place { frame, x: &x, y: &one };
         let own = &rows[number][0];
-        // Of points at one position the most violent.
+        // Of several points at one position, the most violent class is drawn.
         let at = |value: f64| own.iter().filter(move |(x, _)| *x == value).map(|(_, row)| points.classes[*row]);
         let order = |class: &Class| Class::ALL.iter().position(|own| own == class);
         let strip: Vec<Class> =

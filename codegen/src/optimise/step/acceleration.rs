@@ -37,7 +37,7 @@ pub fn acceleration_program(
     in_units(program, arena, form.units, parts.mass[0][0], symbols.steady_gravity)
 }
 
-/// Names of the constants that gravity makes: of the weight in the first equation, per angle, and gravity itself.
+/// Name of a constant that contains gravity: the weight in the first equation by cosine or sine ([`Weight::PerAngle`]), or gravity itself.
 fn constant_name(factors: &[String], arena: &Arena, constant: Expr) -> Option<String> {
     match factors {
         [only] if only == "cos_1" => Some("weight_lateral_1".into()),
@@ -68,7 +68,7 @@ fn weights(arena: &mut Arena, symbols: &Symbols, parts: &Parts, gravity: Expr, f
 struct Couplings {
     /// Strictly lower triangle of the mass matrix.
     mass: Vec<Vec<Expr>>,
-    /// Coefficients of the squared rates; zero where they come in shared sums.
+    /// Coefficients of the squared rates; all zero in the form [`Rates::SharedSums`].
     bias: Vec<Vec<Expr>>,
 }
 

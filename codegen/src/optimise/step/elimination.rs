@@ -1,9 +1,9 @@
 //! `θ̈` from `M θ̈ = load`: a block `L D Lᵀ` factorisation, unrolled.
 //!
-//! A division takes as long as several other operations, and each division waits for the one before. So the last two angles, which
-//! eliminate no other, are solved together by Cramer's rule: of two equations that is as accurate as elimination (forward stable: Higham, *Accuracy and
-//! Stability of Numerical Algorithms*, on Cramer's rule), if not of as small a residual. Pairs before the last would hand their residuals on
-//! to all that follow: with masses a million times as large as others, five angles lose four digits.
+//! A division takes as long as several other operations, and each division waits for the one before. The last two of three or more angles are
+//! therefore solved together by Cramer's rule, with one division. For two equations that is as accurate as elimination (forward stable: Higham,
+//! *Accuracy and Stability of Numerical Algorithms*, on Cramer's rule), though its residual may be larger. An earlier pair would pass its
+//! residual on to all later angles: with masses a million times as large as others, five angles would lose four digits.
 
 use crate::optimise::program::ProgramBuilder;
 use crate::symbolic::{Expr, Rational};
@@ -15,9 +15,9 @@ const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
 pub struct System<'a> {
     /// Diagonal of the mass matrix.
     pub inertia: &'a [Expr],
-    /// Reciprocal of its first entry.
+    /// Reciprocal of the first entry of the diagonal.
     pub inverse_of_first: Expr,
-    /// Strictly lower triangle, `[row][column]`.
+    /// Strictly lower triangle of the mass matrix, `[row][column]`.
     pub coupling: &'a [Vec<Expr>],
     /// Right-hand side.
     pub load: &'a [Expr],
@@ -56,7 +56,7 @@ enum Pivot {
 }
 
 impl Elimination {
-    /// Takes all blocks that have a pivot out of the equation of an angle.
+    /// Eliminates the angles of all blocks that already have a pivot from the equation of an angle.
     fn eliminate(&mut self, builder: &mut ProgramBuilder, system: &System, row: usize) {
         for (block, pivot) in self.blocks.iter().zip(&self.pivots) {
             for column in block.clone() {
@@ -72,7 +72,7 @@ impl Elimination {
         self.reduced.push(builder.define(format!("reduced_{}", row + 1), value));
     }
 
-    /// A block of `D`.
+    /// Computes the block of `D` over these angles.
     fn pivot(&self, builder: &mut ProgramBuilder, system: &System, block: &Range<usize>) -> Pivot {
         if block.start == 0 {
             return Pivot::One { inverse: system.inverse_of_first };
@@ -98,17 +98,17 @@ impl Elimination {
         Pivot::Two { diagonal: [lower, upper], coupling, inverse_of_determinant }
     }
 
-    /// An entry of the mass matrix less the share of the blocks before.
+    /// An entry of the mass matrix after elimination of the blocks before.
     fn remaining(&self, builder: &mut ProgramBuilder, entry: Expr, row: usize, column: usize) -> Expr {
         less(builder, entry, &self.scaled[row], &self.factor[column])
     }
 
-    /// `θ̈` from `D` and `reduced`.
+    /// Back substitution: `θ̈` from `L`, `D` and `reduced`.
     fn substitute(&self, builder: &mut ProgramBuilder) -> Vec<Expr> {
         let blocks = self.blocks.iter().zip(&self.pivots);
         let mut solution: Vec<Expr> =
             blocks.flat_map(|(block, pivot)| pivot.divide(builder, &self.reduced[block.clone()])).collect();
-        // From the top down. A block that is known is taken out of all below at once: the last one waits for as little as can be.
+        // From the top down. A solved block is at once subtracted from all angles below: the last angle then waits as little as possible.
         for (place, block) in self.blocks.iter().enumerate().rev() {
             for angle in block.clone() {
                 solution[angle] = builder.define(format!("theta_ddot_{}", angle + 1), solution[angle]);
@@ -143,7 +143,7 @@ impl Pivot {
     }
 }
 
-/// The angles of each block: one alone after the other, up to the last two of three or more.
+/// The angles of each block: one angle per block, but the last two of three or more angles form one block.
 fn blocks(dof: usize) -> Vec<Range<usize>> {
     let alone = if dof > 2 { dof - 2 } else { dof };
     (0..alone).map(|angle| angle..angle + 1).chain((alone < dof).then_some(alone..dof)).collect()

@@ -41,12 +41,12 @@ pub enum Units {
     Si,
     /// The lowest link's moment of inertia is one.
     UnitInertia,
-    /// The lowest link's moment of inertia and gravity are one. Where gravity is a scene constant.
+    /// The lowest link's moment of inertia and gravity are one. Only where gravity is a scene constant: for horizontal ground motion.
     UnitInertiaAndGravity,
 }
 
 impl Form {
-    /// All forms, in the order in which equals are preferred.
+    /// All forms. Of equally cheap ones, the earlier is preferred.
     pub fn all() -> impl Iterator<Item = Form> {
         [Rates::Pairs, Rates::SharedSums].into_iter().flat_map(|rates| {
             [Weight::TurnedVector, Weight::PerAngle].into_iter().flat_map(move |weight| {

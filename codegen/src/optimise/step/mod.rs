@@ -1,7 +1,6 @@
 //! The step-time programs of a linkage: accelerations in the cheapest of several forms, mass matrix and energies.
 //!
-//! Every form is written out, its operations are counted, and the cheapest is kept; forms that are not the same equations
-//! (proved by multiplying out) are not considered.
+//! Every form that gives the equations of motion (proved by multiplying out) is written and its operations are counted. The cheapest is kept.
 
 mod acceleration;
 mod elimination;
@@ -20,7 +19,7 @@ use crate::ground::GroundMotion;
 use crate::mechanics::Symbols;
 use crate::symbolic::{Arena, Expr, Level, Rational};
 
-/// The forms in which these equations can be written, with the cost of one evaluation, in order of preference among equals.
+/// The forms in which these equations can be written, each with the operations of one evaluation. Of equally cheap ones, the first is preferred.
 pub fn admitted(arena: &mut Arena, symbols: &Symbols, parts: &Parts, ground: GroundMotion) -> Vec<(Form, Operations)> {
     let mut result = Vec::new();
     for form in Form::all() {
@@ -34,7 +33,7 @@ pub fn admitted(arena: &mut Arena, symbols: &Symbols, parts: &Parts, ground: Gro
     result
 }
 
-/// The cheapest of the admitted forms.
+/// The admitted form with the fewest divisions, and of those the one with the fewest flops.
 pub fn cheapest(admitted: &[(Form, Operations)]) -> Option<Form> {
     admitted.iter().min_by_key(|(_, operations)| (operations.divisions, operations.flops())).map(|(form, _)| *form)
 }

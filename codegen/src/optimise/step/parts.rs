@@ -15,7 +15,7 @@ pub struct Parts {
     pub bias: Vec<Vec<Expr>>,
     /// `Σ m ∂G/∂θ` per link.
     pub moment: Vec<Vector>,
-    /// Lever to the next pivot per link; nothing uses that of the last link.
+    /// Lever to the next pivot, per link. The lever of the last link is not used.
     pub lever: Vec<Vector>,
     /// Coefficients of ground acceleration and gravity per equation.
     pub forcing: Vec<[Expr; 2]>,
@@ -67,9 +67,9 @@ impl Parts {
         }
     }
 
-    /// Whether a sum over rates gives these equations of motion: proved by multiplying out.
+    /// Whether the form `rates` gives these equations of motion, proved by multiplying out.
     pub fn admit(&self, arena: &mut Arena, symbols: &Symbols, rates: Rates) -> bool {
-        // No form has a term with the square of a link's own rate: that of a rigid link is zero.
+        // No form has a term with the square of a link's own rate in the link's equation: for rigid links its coefficient is zero.
         let is_chain = (0..self.mass.len()).all(|link| arena.is_zero(self.bias[link][link]));
         is_chain && (rates == Rates::Pairs || self.shared_sums_hold(arena, symbols))
     }

@@ -1,7 +1,7 @@
 //! Units in which constants become one and vanish.
 //!
-//! The result of a program is in rad/s² in whatever units its constants are measured. With the moment of inertia of the lowest
-//! link as unit of mass times length², and gravity as unit of acceleration, both vanish from the code; seconds are kept.
+//! The result of a program is in rad/s² whatever the units of its constants. With the moment of inertia of the lowest link as unit of mass
+//! times length², and gravity as unit of acceleration, this inertia and gravity are one and vanish from the code. Seconds are kept.
 
 use super::form::Units;
 use crate::optimise::program::{Constant, Program};
@@ -15,7 +15,7 @@ pub fn in_units(mut program: Program, source: &mut Arena, units: Units, inertia:
     }
     let (inertia_unit, gravity_power) = (source.unit(inertia), i32::from(units == Units::UnitInertiaAndGravity));
     debug_assert_eq!(inertia_unit, Unit(2, 1, 0));
-    // One length is gravity · s² or a metre, one mass the inertia over length².
+    // The unit of length is gravity · s², or a metre if gravity keeps its unit. The unit of mass is the inertia over the unit of length squared.
     for constant in &mut program.constants {
         let Unit(metres, kilograms, _) = constant.unit;
         let lengths = gravity_power * (2 * kilograms - metres);

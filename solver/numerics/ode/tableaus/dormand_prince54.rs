@@ -1,5 +1,5 @@
-//! Dormand & Prince's pair of order 5(4) with dense output of order 4; choose it for comparison. Under records one step a sample is
-//! right to 1e-10 whatever is asked.
+//! Dormand & Prince's pair of order 5(4) with dense output of order 4; choose it for comparison. Under records, one step per sample
+//! is right to 1e-10 at any tolerance.
 //!
 //! Coefficients: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, table II.5.2 and section II.6.
 

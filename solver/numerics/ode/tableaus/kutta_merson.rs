@@ -1,5 +1,5 @@
 //! Merson's method: order 4 with an error estimate in five stages, the one that the paper used. For comparison with older work.
-//! At errors around 1e-4 it can be the cheapest, but its errors grow to tens of tolerances where those of the others stay near one.
+//! At errors around 1e-4 it can be the cheapest, but its errors grow to tens of tolerances where other methods stay near one tolerance.
 //!
 //! Coefficients: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, table II.4.1 (Merson 1957). Dense output:
 //! the cubic through both ends, of order 3.
@@ -23,7 +23,7 @@ impl Tableau for KuttaMerson {
     ];
     const END: &'static [Term] = &[(0, 1.0 / 6.0), (3, 2.0 / 3.0), (4, 1.0 / 6.0)];
     const END_SLOPE: usize = 5;
-    /// A fifth of the difference from the last stage's own argument.
+    /// A fifth of the difference between the end of the step and the argument of the last stage.
     const ERROR: ErrorEstimate =
         ErrorEstimate::Embedded(&[(0, -1.0 / 15.0), (2, 3.0 / 10.0), (3, -4.0 / 15.0), (4, 1.0 / 30.0)]);
 }

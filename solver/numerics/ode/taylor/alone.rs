@@ -1,6 +1,5 @@
-//! The orders of one angle, whose weights are those of the forcing: nothing couples, nothing is solved for, and nothing needs to be known
-//! from order to order but the coefficients themselves. Code without loops, a piece for each order: sums as short as these
-//! cost less than ending a loop does.
+//! Taylor coefficients of one angle alone. Its weights come from the forcing only: nothing couples, no system is solved, and an order needs
+//! only the coefficients before it. Code without loops, a piece for each order: sums as short as these cost less than ending a loop.
 
 use super::coefficients::{TERMS, reciprocal, turned};
 use crate::numerics::state_vector::StateVector;
@@ -8,8 +7,8 @@ use crate::numerics::widest::widest;
 use std::ops::Range;
 use wide::f64x2;
 
-/// Computes the coefficients that follow from each of these orders of the weights, which are divided by minus the inertia: those of the rate
-/// one order higher, and of the circle two.
+/// Computes the coefficients that follow from these orders of the weights: of the rate one order higher, of the circle two orders higher.
+/// The weights have been divided by minus the inertia.
 #[inline(never)]
 pub fn extend<L: StateVector>(
     circle: &mut [L::Of<f64x2>; TERMS],
@@ -27,7 +26,7 @@ pub fn extend<L: StateVector>(
     widest(
         #[inline(always)]
         || {
-            // A few that a longer step needs after all.
+            // Some orders are known already: a longer step needs a few more.
             if orders.start > 0 {
                 return orders.for_each(|order| one_more::<L>(circle, driver, order));
             }
@@ -36,7 +35,7 @@ pub fn extend<L: StateVector>(
     );
 }
 
-/// What follows from the order `k`.
+/// Computes the rate of order `k + 1` and the circle of order `k + 2` from the weights of orders up to `k`.
 #[inline(always)]
 fn one_more<L: StateVector>(circle: &mut [L::Of<f64x2>; TERMS], driver: &mut [L::Of<[f64x2; 2]>; TERMS], k: usize) {
     let circle_of = |k: usize, circle: &[L::Of<f64x2>; TERMS]| circle[k].as_ref()[0];
@@ -44,7 +43,7 @@ fn one_more<L: StateVector>(circle: &mut [L::Of<f64x2>; TERMS], driver: &mut [L:
     for i in 0..k + 1 {
         of_weights += circle_of(i, circle) * driver[k + 1 - i].as_ref()[0][1];
     }
-    // What has only just been computed comes last: all else is summed meanwhile.
+    // The newest coefficients come last, so that all other products are summed while the newest are still being computed.
     for i in 2..k + 1 {
         of_rate += circle_of(i, circle) * driver[k + 1 - i].as_ref()[0][0];
     }

@@ -2,7 +2,7 @@
 
 use wide::f64x2;
 
-/// Largest order: beyond, what the last term does not tell of those left out outgrows rounding at the tightest tolerances.
+/// Largest order. Beyond it, the truncation error that the last term does not show exceeds rounding at the tightest tolerances.
 pub const MAX_ORDER: usize = 19;
 
 /// Coefficients kept of each series: those of cosine and sine run two orders ahead.

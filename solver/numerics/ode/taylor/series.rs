@@ -4,14 +4,14 @@
 //! J_a θ̈_a + cos θ_a · C_a + sin θ_a · S_a = 0,     C, S linear in (cos θ)¨, (sin θ)¨ of the other angles and in a forcing
 //! ```
 //!
-//! Coefficients of any order come one after another. With `c, s` those of cosine and sine, `ω` of the rate,
+//! Coefficients are computed order by order. With `c, s` the coefficients of cosine and sine, `ω` those of the rate,
 //!
 //! ```text
 //! (k+2) s[k+2] = Σ c[j] ω[k+1-j],     (k+2) c[k+2] = -Σ s[j] ω[k+1-j]
 //! M(θ) θ̈[k]    = -(c[0] C°[k] + s[0] S°[k] + Σ_{j>0} c[j] C[k-j] + s[j] S[k-j])
 //! ```
 //!
-//! where `°` leaves out what `θ̈[k]` itself contributes; that share is the coupling, so one factorisation of `M` serves all
+//! where `°` leaves out the contribution of `θ̈[k]` itself. That contribution is in `M`, so that one factorisation of `M` serves all
 //! orders. Four convolutions per angle, in two pairs, are all the work that grows with the order.
 
 use super::alone;
@@ -27,7 +27,7 @@ pub trait SeriesSystem {
     /// One value per angle.
     type Links: StateVector;
 
-    /// Goes to another expansion point: the forcing's coefficients are those at `t`.
+    /// Moves the expansion point to `t`: computes the first `orders` coefficients of the forcing there.
     fn expand_at(&mut self, t: f64, orders: usize);
 
     /// The matrix `M`, row by row, at a state whose cosines and sines are given too.
@@ -43,20 +43,20 @@ pub trait SeriesSystem {
 /// The series at a state.
 #[derive(Clone)]
 pub struct Series<V, L: StateVector> {
-    /// When `[s]`.
+    /// Time of the expansion point `[s]`.
     pub t: f64,
-    /// The state `[θ, θ̇]`.
+    /// State `[θ, θ̇]` at the expansion point.
     pub x: V,
     /// Highest order of the rates' coefficients that has been computed.
     pub known: usize,
-    /// Highest one that there may be.
+    /// Largest order of the rates' coefficients that may be computed.
     pub largest_order: usize,
     is_begun: bool,
     /// `[c, s]` per angle, order by order.
     pub circle: [L::Of<f64x2>; TERMS],
-    /// `[ω, ω]` and `[C, S]` per angle, order by order, the weights one place later.
+    /// `[ω, ω]` and `[C, S]` per angle, order by order; the weights of order `k` stand at `k + 1`.
     pub driver: [L::Of<[f64x2; 2]>; TERMS],
-    /// `L` below the diagonal, `1 / D` on it.
+    /// Factors of `M = L D Lᵀ`, row by row: `L` below the diagonal, `1 / D` on it.
     factor: Vec<f64>,
     cos_ddot: L,
     sin_ddot: L,
@@ -102,7 +102,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
         self.cos_ddot.each(value)
     }
 
-    /// The equations have changed: no series is known.
+    /// Forgets the series: the equations have changed.
     pub fn forget(&mut self) {
         self.is_begun = false;
     }
@@ -112,7 +112,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
         self.is_begun && self.t == t && self.x.as_slice() == x.as_slice()
     }
 
-    /// The series about a place, up to an order.
+    /// Computes the series about a place, at least up to an order.
     #[inline(always)]
     pub fn expand<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, t: f64, x: &V, order: usize) {
         if !self.is_at(t, x) {
@@ -143,7 +143,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
         factorise(&mut self.factor, dof);
     }
 
-    /// One more order, or of one angle all up to this one.
+    /// Adds one more order; with one angle, all orders up to `order`.
     #[inline(always)]
     pub fn extend<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
         if self.cos_ddot.as_slice().len() == 1 {
@@ -153,7 +153,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
         }
     }
 
-    /// Of one angle all orders up to this one.
+    /// Adds all orders of one angle up to `order`.
     #[inline(always)]
     fn extend_alone<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S, order: usize) {
         let share = f64x2::splat(-self.factor[0]);
@@ -165,7 +165,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
         self.known = order;
     }
 
-    /// One more order of several angles.
+    /// Adds one more order of several angles.
     #[inline(always)]
     fn extend_coupled<S: SeriesSystem<State = V, Links = L>>(&mut self, system: &mut S) {
         // The bound spares checks of indices.
@@ -179,7 +179,7 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
             self.sin_ddot.as_mut_slice()[link] = next * cos_omega;
         }
         let [cos_weight, sin_weight] = system.weights(k, &self.cos_ddot, &self.sin_ddot);
-        // Zero-initialised by way of clone: lengths are those of the angles.
+        // A clone has the length of the angles; all its entries are overwritten.
         let mut load = self.cos_ddot.clone();
         let start = self.circle[0].as_ref();
         for link in 0..dof {
@@ -199,16 +199,17 @@ impl<V: StateVector, L: StateVector> Series<V, L> {
         let (start, later) = (known[0].as_ref(), later[k + 1].as_mut());
         let driver = self.driver[k + 1].as_mut();
         for link in 0..dof {
-            // Products of pairs, so that they are stored as the next order reads them: in one piece.
+            // Products of pairs, so that each pair is stored in one piece, as the next order reads it.
             let rate = f64x2::splat(acceleration[link]) * reciprocal(k + 1);
-            // The convolutions' own share of the next coefficients, and that of θ̈.
+            // Next coefficients: the share of the convolutions, and the share of θ̈.
             later[link] = (turned(sums[link][0]) + turned(start[link]) * rate) * reciprocal(k + 2);
             driver[link] = [rate, f64x2::new([cos_weight.as_slice()[link], sin_weight.as_slice()[link]])];
         }
         self.known = k + 1;
     }
 
-    /// A state of the series, and the sums over the sizes of the terms of `[rate, mean rate]`, the first left out.
+    /// Writes the state after `h`, by the series up to an order. Returns per angle the sums of the magnitudes of the terms of
+    /// `[rate, mean rate]`, the constant term left out.
     #[inline(always)]
     pub fn state_at(&self, order: usize, h: f64, state: &mut V) -> L::Of<f64x2> {
         let dof = self.cos_ddot.as_slice().len();
@@ -239,8 +240,8 @@ pub fn rate_of(driver: &[f64x2; 2]) -> f64 {
     driver[0].as_array()[0]
 }
 
-/// `[Σ c ω, Σ s ω]` and `[Σ c C, Σ s S]` of each angle, with indices that sum to that of the last ones. Those, which have only just
-/// been computed, come last: all else is summed meanwhile.
+/// `[Σ c ω, Σ s ω]` and `[Σ c C, Σ s S]` of each angle: products of the first entry of `circle` with the last of `driver`, and so on. The newest
+/// entries come last, so that all other products are summed while the newest are still being computed.
 #[inline(always)]
 fn convolve<L: StateVector>(like: &L, circle: &[L::Of<f64x2>], driver: &[L::Of<[f64x2; 2]>]) -> L::Of<[f64x2; 2]> {
     let (dof, last) = (like.as_slice().len(), circle.len().min(driver.len()) - 1);
@@ -263,7 +264,7 @@ fn convolve<L: StateVector>(like: &L, circle: &[L::Of<f64x2>], driver: &[L::Of<[
     sums
 }
 
-/// `L D Lᵀ` in place: `L` below the diagonal, `1 / D` on it; the upper triangle is left alone.
+/// Factorises into `L D Lᵀ` in place: `L` below the diagonal, `1 / D` on it, `D Lᵀ` above it.
 #[inline(always)]
 fn factorise(matrix: &mut [f64], dof: usize) {
     let matrix = &mut matrix[..dof * dof];
@@ -271,7 +272,7 @@ fn factorise(matrix: &mut [f64], dof: usize) {
         for column in 0..row {
             let mut value = matrix[row * dof + column];
             for inner in 0..column {
-                // Above the diagonal stand L D of the rows done.
+                // Above the diagonal stands D Lᵀ of the rows done.
                 value -= matrix[inner * dof + row] * matrix[column * dof + inner];
             }
             matrix[column * dof + row] = value;
