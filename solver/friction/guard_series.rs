@@ -11,6 +11,7 @@ use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::polynomial::bernstein::COEFFICIENTS;
 use crate::numerics::polynomial::powers::Powers;
+use std::cell::OnceCell;
 
 /// A step on a series.
 pub struct SeriesSpan<'s> {
@@ -27,6 +28,8 @@ pub struct SeriesSpan<'s> {
     pub slack: f64,
     /// `[rad]`
     pub overturn_angle: f64,
+    /// Poses that have been asked for, by interface.
+    pub poses: Vec<OnceCell<[Vec<Vec2>; 3]>>,
 }
 
 /// Powers of a length, from the zeroth on.
@@ -112,9 +115,9 @@ impl SeriesSpan<'_> {
         visit(&self.of_values(limit, &x));
     }
 
-    /// [`Series::pose`] up to the order of the step.
-    fn pose(&self, interface: usize) -> [Vec<Vec2>; 3] {
-        self.series.pose(interface, self.series.orders() + 1)
+    /// [`Series::pose`] up to the order of the step, evaluated once.
+    fn pose(&self, interface: usize) -> &[Vec<Vec2>; 3] {
+        self.poses[interface].get_or_init(|| self.series.pose(interface, self.series.orders() + 1))
     }
 
     /// How far the force at a sticking contact is inside its cone ([`super::contact::cone_margins`]).

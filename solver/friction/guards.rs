@@ -47,9 +47,12 @@ impl Guard {
     }
 }
 
+/// Most guards of an interface and its block: those of a closed one that sticks, or of a free one.
+const MOST_GUARDS: usize = 6;
+
 /// The guards of these states.
 pub fn guards(joints: &[Joint]) -> Vec<Guard> {
-    let mut guards = Vec::new();
+    let mut guards = Vec::with_capacity(MOST_GUARDS * joints.len());
     for (i, joint) in joints.iter().enumerate() {
         match joint.slip() {
             Some(Slip::Sticks) => guards.extend([Guard::Cone(i, 1), Guard::Cone(i, -1)]),

@@ -42,6 +42,14 @@ impl Coordinate {
         }
     }
 
+    /// The lowest block that it moves (from zero).
+    fn lowest_block(&self) -> usize {
+        match self {
+            Coordinate::Angle(blocks) => blocks.start,
+            Coordinate::Slide(interface) | Coordinate::Apart(interface, _) => *interface,
+        }
+    }
+
     /// Sets the rate of the coordinate.
     fn give(&self, rate: f64, rates: &mut Rates) {
         match self {
@@ -141,12 +149,16 @@ impl<'c, 'a> Rows<'c, 'a> {
         Rows { chain, coordinates, motions, points: points(chain, joints, centres) }
     }
 
-    /// `Σ m_j a_j · δr_j + I_j α_j δθ_j` of the motion `(a, α)` of each block.
+    /// `Σ m_j a_j · δr_j + I_j α_j δθ_j` of the motion `(a, α)` of each block, from the lowest block on that moves in both.
     #[inline(always)]
-    fn work(&self, test: &[Planar], motion: impl Iterator<Item = Planar>) -> f64 {
-        self.chain.column().blocks().iter().zip(test).zip(motion).fold(0.0, |sum, ((block, d), a)| {
-            sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + block.inertia * a[2] * d[2]
-        })
+    fn work(&self, lowest: usize, test: &[Planar], motion: impl Fn(usize) -> Planar) -> f64 {
+        let blocks = self.chain.column().blocks();
+        let mut sum = 0.0;
+        for j in lowest..blocks.len() {
+            let (block, d, a) = (&blocks[j], test[j], motion(j));
+            sum = sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + block.inertia * a[2] * d[2];
+        }
+        sum
     }
 
     /// Rates of the coordinates for which the rows balance the loads of these motions; `None` where the rows do not determine them.
@@ -156,10 +168,12 @@ impl<'c, 'a> Rows<'c, 'a> {
         let mut factors = Factors::with_size(size);
         let mut values = SmallVec::<[f64; USUAL_SIZE]>::new();
         for (row, test) in tests.chunks_exact(blocks).enumerate() {
+            let lowest = self.coordinates[row].lowest_block();
             for (column, motion) in columns.chunks_exact(blocks).enumerate() {
-                *factors.entry(row, column) = self.work(test, motion.iter().copied());
+                let lowest = lowest.max(self.coordinates[column].lowest_block());
+                *factors.entry(row, column) = self.work(lowest, test, |block| motion[block]);
             }
-            values.push(self.work(test, (0..blocks).map(&load)));
+            values.push(self.work(lowest, test, &load));
         }
         factors.factorise()?;
         factors.solve(&mut values);

@@ -228,7 +228,8 @@ impl Series {
     pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Series {
         let Configuration { joints, slide, .. } = configuration;
         let coordinates = coordinates(joints);
-        let mut links = vec![Link::new(None)];
+        let mut links = Vec::with_capacity(joints.len() + 1);
+        links.push(Link::new(None));
         let place = |wanted: &dyn Fn(&Coordinate) -> bool| coordinates.iter().position(wanted).unwrap_or_default();
         let mut levels = Vec::with_capacity(joints.len());
         for (i, (block, &joint)) in column.blocks().iter().zip(joints).enumerate() {

@@ -20,16 +20,18 @@ use std::sync::Arc;
 
 /// The part of an integrator that takes steps. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
 pub(crate) trait Steps {
-    /// Begins at a state; step lengths learnt from earlier steps are forgotten.
+    /// Begins at a state.
     fn begin(&mut self, t: f64, x: &[f64]);
-    /// Continues from another state; step lengths learnt from earlier steps are kept.
-    fn restart(&mut self, t: f64, x: &[f64]);
     /// State at the start of the next step.
     fn start(&self) -> &[f64];
     /// Writes `[θ̇, θ̈]` at the start of the next step into `slope`.
     fn start_slope(&mut self, t: f64, slope: &mut [f64]);
     /// A first step length for the state at the start `[s]`.
     fn first_step(&self, tolerance: Tolerance) -> f64;
+    /// Whether a shorter step costs less. If so, a step ends soon after the event that is expected in it.
+    fn cost_follows_length(&self) -> bool {
+        false
+    }
     /// Attempts a step of length `wanted`, or of a length that the method finds better, but of no more than `most` `[s]`.
     fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt;
     /// Accepts the last attempt. Then its inside may be read.
@@ -184,10 +186,6 @@ impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
     fn begin(&mut self, t: f64, x: &[f64]) {
         self.start.as_mut_slice().copy_from_slice(x);
         self.system.slope(t, &self.start, &mut self.slope);
-    }
-
-    fn restart(&mut self, t: f64, x: &[f64]) {
-        self.begin(t, x);
     }
 
     fn start(&self) -> &[f64] {
@@ -365,11 +363,7 @@ impl<D: Dynamics> TaylorSteps<D> {
 const LONGEST_FIRST_STEP: f64 = 1.0;
 
 impl<D: Dynamics> Steps for TaylorSteps<D> {
-    fn begin(&mut self, t: f64, x: &[f64]) {
-        self.restart(t, x);
-    }
-
-    fn restart(&mut self, _: f64, x: &[f64]) {
+    fn begin(&mut self, _: f64, x: &[f64]) {
         self.start.as_mut_slice().copy_from_slice(x);
     }
 
@@ -387,6 +381,11 @@ impl<D: Dynamics> Steps for TaylorSteps<D> {
     /// No estimate is needed: the first attempt finds its step length from its coefficients.
     fn first_step(&self, _: Tolerance) -> f64 {
         LONGEST_FIRST_STEP
+    }
+
+    /// With several angles: orders are added one by one, as the step needs them.
+    fn cost_follows_length(&self) -> bool {
+        self.series.adds_orders_singly()
     }
 
     fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {

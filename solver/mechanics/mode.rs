@@ -236,13 +236,10 @@ impl Mode {
         for segment in segments.iter().filter(|segment| segment.end > first) {
             let end = segment.end.min(last);
             integrator.enter(segment);
-            if has_begun {
-                let start = integrator.start().to_vec();
-                integrator.restart(t, &start);
-            } else {
-                integrator.begin(t, x);
-                wanted = integrator.first_step(tolerance);
-                has_begun = true;
+            let start = if has_begun { integrator.start().to_vec() } else { x.to_vec() };
+            integrator.begin(t, &start);
+            if !has_begun {
+                (wanted, has_begun) = (integrator.first_step(tolerance), true);
             }
             let mut longest = f64::INFINITY;
             while t < end {

@@ -55,7 +55,7 @@ impl Phase {
                 (until, self.segment)
             }
             Kind::Samples(samples) => {
-                self.integrator.restart(samples.until, &samples.x);
+                self.integrator.begin(samples.until, &samples.x);
                 self.integrator.enter(&problem.ground[samples.last_segment]);
                 self.is_outcome_open = problem.prospects.is_some();
                 (samples.until, samples.last_segment)

@@ -14,7 +14,7 @@ use rocking_ground::Segment;
 use std::collections::BTreeMap;
 
 /// Room made for events when the first one comes.
-const USUAL_EVENTS: usize = 32;
+pub(super) const USUAL_EVENTS: usize = 32;
 
 /// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
 pub(crate) const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
@@ -91,6 +91,12 @@ impl Recorder {
         recorder
     }
 
+    /// Leaves out the account of validity: a run with friction has none.
+    pub fn without_validity(mut self) -> Recorder {
+        self.needs = None;
+        self
+    }
+
     /// The present place in the record.
     pub fn mark(&self) -> Mark {
         Mark {
@@ -154,11 +160,20 @@ impl Recorder {
 
     /// Records the forces of a stretch.
     fn read_forces(&mut self, problem: &Problem, stretch: &mut Stretch) {
-        let Some(mut needs) = self.needs.take() else { return };
-        needs.begin(stretch.inside, stretch.end, &self.peak_theta);
-        stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, &mut needs));
-        needs.end(stretch.inside);
-        self.needs = Some(needs);
+        if !problem.records_forces() {
+            return;
+        }
+        match self.needs.take() {
+            Some(mut needs) => {
+                needs.begin(stretch.inside, stretch.end, &self.peak_theta);
+                stretch.inside.forces(problem, &mut |panel| {
+                    self.record_forces(panel, |interface, extremes| needs.add(interface, panel, extremes));
+                });
+                needs.end(stretch.inside);
+                self.needs = Some(needs);
+            }
+            None => stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, |_, _| ())),
+        }
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -198,7 +213,8 @@ impl Recorder {
     }
 
     /// Records the extremes within a panel from its contact forces at start, middle and end: those of the parabolas through them.
-    fn record_forces(&mut self, panel: &Panel, needs: &mut Needs) {
+    #[inline(always)]
+    fn record_forces(&mut self, panel: &Panel, mut account: impl FnMut(usize, &InPanel)) {
         for interface in 0..self.friction_demand.len() {
             let [a, b, c] = panel.forces.map(|forces| forces[interface]);
             let normal = [a, b, c].map(|force| force.normal);
@@ -210,7 +226,7 @@ impl Recorder {
             let most = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
             self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
             self.friction_demand[interface] = self.friction_demand[interface].max(most);
-            needs.add(interface, panel, &InPanel { demand, normal, largest_demand: most, least_normal: least });
+            account(interface, &InPanel { demand, normal, largest_demand: most, least_normal: least });
         }
     }
 

@@ -127,9 +127,14 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
     }
 
-    /// Orders that a step begins with if more are added as it needs them: one by one with several angles, all together with one angle.
+    /// Whether orders are added one by one, as a step needs them. With one angle all together cost hardly more.
+    pub fn adds_orders_singly(&self) -> bool {
+        self.series.dof() > 1
+    }
+
+    /// Orders that a step begins with if more are added as it needs them.
     fn first_orders(&self) -> usize {
-        if self.series.dof() == 1 { self.series.largest_order.div_ceil(2).max(MIN_ORDER) } else { MIN_ORDER }
+        if self.adds_orders_singly() { MIN_ORDER } else { self.series.largest_order.div_ceil(2).max(MIN_ORDER) }
     }
 
     /// Order and error of a step: the largest order, or, for a short step that is cut, the least order with which the step is good.

@@ -16,7 +16,7 @@ use crate::response::{
     StopReason, Work,
 };
 use crate::run::problem::Problem;
-use crate::run::recorder::NEGLIGIBLE_IMPULSE;
+use crate::run::recorder::{NEGLIGIBLE_IMPULSE, USUAL_EVENTS};
 use crate::run::rest;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
@@ -88,7 +88,7 @@ impl<'p> Recorder<'p> {
             friction,
             samples: Vec::new(),
             sample_segment: 0,
-            events: Vec::new(),
+            events: Vec::with_capacity(if problem.is_recorded() { USUAL_EVENTS } else { 0 }),
             impacts: 0,
             peak_theta: sizes(theta),
             friction_demand: vec![0.0; blocks],

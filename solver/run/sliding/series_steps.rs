@@ -6,12 +6,15 @@ use super::state::{Ended, State};
 use super::step::Step;
 use crate::friction::guard_series::{SeriesSpan, powers};
 use crate::friction::guards::{self, Guard};
+use crate::friction::joint::Joint;
 use crate::friction::search::force_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
 use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, MARGIN, SAFETY};
 use crate::run::error::SolveError;
+use crate::run::step::{CLOSING_MARGIN, LEAST_SHARE_OF_STEP, first_closing};
+use std::cell::OnceCell;
 
 /// Orders of second derivatives after which the terms are first compared with the tolerance.
 const LEAST_ORDERS: usize = 4;
@@ -48,7 +51,7 @@ impl<'p> Mover<'p> {
             segment.vertical.expand_at(t, &mut ground[1][..most_orders]);
             ground[1][0] += smooth.gravity;
             let begun = series.begin(&x, [&ground[0], &ground[1]]);
-            let most = left.min(LARGEST_GROWTH * wanted).min(longest);
+            let most = left.min(LARGEST_GROWTH * wanted).min(longest).min(expected_end(&series, joints, wanted));
             let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
             self.work.rhs_calls += series.orders();
             let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
@@ -70,6 +73,7 @@ impl<'p> Mover<'p> {
                 powers: powers(h),
                 slack: force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity)),
                 overturn_angle: options.overturn_angle,
+                poses: vec![OnceCell::new(); joints.len()],
             };
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
@@ -93,6 +97,23 @@ impl<'p> Mover<'p> {
         self.work.rhs_calls += smooth.calls;
         Ok((State { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }
+}
+
+/// A time soon after a slide is expected to stop or a gap to close `[s]`; infinite if none is. The second derivatives at the start are taken for constant.
+fn expected_end(series: &Series, joints: &[Joint], wanted: f64) -> f64 {
+    let mut first = f64::INFINITY;
+    for (interface, joint) in joints.iter().enumerate() {
+        if let Some(slide) = series.slide(interface) {
+            let stop = -slide[1] / (2.0 * slide[2]);
+            first = if stop > 0.0 { first.min(stop) } else { first };
+        }
+        if let Joint::Corner(side, ..) = joint {
+            let below = interface.checked_sub(1).map_or(&[0.0; 3][..], |below| series.angle(below));
+            let gap = |k: usize| f64::from(*side) * (series.angle(interface)[k] - below[k]);
+            first = first.min(first_closing([gap(0), gap(1), 2.0 * gap(2)]));
+        }
+    }
+    (CLOSING_MARGIN * first).max(LEAST_SHARE_OF_STEP * wanted)
 }
 
 /// Most orders of steps of this tolerance: one more costs more than the longer step saves.

@@ -124,6 +124,9 @@ impl<'p> Sticking<'p> {
         let is_beginning = from.is_none();
         let start = from.clone().unwrap_or_else(|| transition::initial(&problem));
         let mut recorder = recorder::Recorder::new(&problem, &start, rows);
+        if !is_beginning {
+            recorder = recorder.without_validity();
+        }
         let leaving = fold(&problem, modes, from, &mut recorder, &cones, progress)?;
         let (last, ended, status) = match leaving {
             Leaving::Over(last, over) if is_beginning => {

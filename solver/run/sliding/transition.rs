@@ -123,7 +123,7 @@ impl<'p> Instant<'p> {
             segment: at.segment,
             t: at.t,
             now: at.configuration.clone(),
-            changes: Vec::new(),
+            changes: Vec::with_capacity(1),
             energy_lost: 0.0,
             ambiguous: 0,
             is_jammed: false,
