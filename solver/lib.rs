@@ -14,7 +14,7 @@
 //!
 //! ```text
 //! x⁺, motion  <- initial state, by the laws of contact                                         run/transition.rs
-//! loop                                                                                         run/fold.rs
+//! loop                                                                                   run/event_loop.rs
 //!     stretch <- motion.next:  rest, free swing, step over samples, or one step of a method    run/rest.rs, phase_motion.rs
 //!     recorder reads the stretch: rows, peaks, forces                                          run/recorder.rs
 //!     no event:                                                            continue

@@ -6,7 +6,7 @@ mod arguments;
 mod commands;
 mod error;
 mod files;
-mod ground;
+mod ground_in_words;
 mod keys;
 mod number;
 mod output;

@@ -101,6 +101,30 @@ fn assert_same(kind: &str, asked: &BTreeSet<String>) {
     assert!(known.len() > 10, "{known:?}");
 }
 
+/// The values that a definition of the schema of scenes may have.
+fn values_of(definition: &str) -> BTreeSet<String> {
+    let schema = schema("scene");
+    let values = schema["$defs"][definition]["enum"].as_array().expect("a list of values");
+    values.iter().map(|value| value.as_str().expect("a text").to_owned()).collect()
+}
+
+#[test]
+fn the_schema_of_scenes_has_every_method_and_every_kind_of_motion() {
+    let methods = values_of("Method");
+    for method in rocking::Method::ALL {
+        assert!(methods.contains(method.name()), "cli/src/keys/scene.rs does not know the method `{}`", method.name());
+    }
+    let scene = format!("{COLUMN}[excitation.horizontal]\nkind = \"none\"\n");
+    let error = rocking::Scene::from_toml(&scene, "s.toml".as_ref()).expect_err("there is no such kind").to_string();
+    let (_, kinds) = error.split_once("choose one of ").expect("a list of kinds");
+    let known = values_of("Kind");
+    let names: Vec<&str> = kinds.split(',').map(|name| name.split_whitespace().next().unwrap_or_default()).collect();
+    assert!(names.len() > 10, "{error}");
+    for name in names {
+        assert!(known.contains(name), "cli/src/keys/motion.rs does not know the kind `{name}`");
+    }
+}
+
 #[test]
 fn the_schema_of_scenes_has_the_keys_that_the_reader_takes() {
     let mut asked = BTreeSet::new();

@@ -1,5 +1,5 @@
 //! Readers of record files. Each format has a file of its own, with its layout in the first lines: [`peer`], [`dyna`] (ESM, ITACA),
-//! [`knet`], [`csmip`], [`cosmos`], [`table`]. [`read`] recognises the format; [`numbers`] and [`header`] serve all of them.
+//! [`knet`], [`csmip`], [`cosmos`], [`table`]. [`recognition`] recognises the format; [`numbers`] and [`header`] serve all of them.
 
 mod cosmos;
 mod csmip;
@@ -8,7 +8,7 @@ mod header;
 mod knet;
 mod numbers;
 mod peer;
-mod read;
+mod recognition;
 mod record_file;
 mod table;
 

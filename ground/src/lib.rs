@@ -6,7 +6,7 @@ mod error;
 mod excitation;
 mod file;
 mod formats;
-mod impulse;
+mod impulse_bounds;
 mod linear;
 mod mean_period;
 mod measure;

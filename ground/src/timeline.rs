@@ -1,7 +1,7 @@
 //! A ground motion divided into segments, with bounds of the motion that is still to come. The division is kept from run to run.
 
 use crate::excitation::Excitation;
-use crate::impulse::decayed;
+use crate::impulse_bounds::decayed;
 use crate::piece::Piece;
 use crate::segment::Segment;
 use std::ops::Deref;

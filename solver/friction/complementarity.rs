@@ -11,7 +11,7 @@
 //! accelerations may have none. The solution is only a guess for the search, which examines it like any other: rounding decides critical contacts.
 
 use super::chain::{Chain, Motion, Rates, plus, scaled};
-use super::contact::{Question, Touch};
+use super::contact_problem::{Question, Touch};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use crate::column::Column;

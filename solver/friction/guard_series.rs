@@ -120,7 +120,7 @@ impl SeriesSpan<'_> {
         self.poses[interface].get_or_init(|| self.series.pose(interface, self.series.orders() + 1))
     }
 
-    /// How far the force at a sticking contact is inside its cone ([`super::contact::cone_margins`]).
+    /// How far the force at a sticking contact is inside its cone ([`super::contact_problem::cone_margins`]).
     fn cone(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let coefficient = self.fixed[i];
         let margin = |[along, across]: [f64; 2]| coefficient * across + f64::from(side) * along;

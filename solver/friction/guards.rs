@@ -6,7 +6,7 @@
 //! ```
 
 use super::chain::Pose;
-use super::contact::{cone_margins, half_length};
+use super::contact_problem::{cone_margins, half_length};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip};
 use super::rows::Answer;

@@ -11,7 +11,7 @@
 
 pub mod chain;
 mod complementarity;
-pub mod contact;
+pub mod contact_problem;
 pub mod gaps;
 pub mod generated;
 pub mod guard_series;
@@ -30,7 +30,7 @@ mod series_test;
 
 use crate::column::Column;
 use chain::Pose;
-use contact::Coefficients;
+use contact_problem::Coefficients;
 use joint::Configuration;
 use rocking_codegen::pattern::Pattern;
 use serde::{Deserialize, Serialize};

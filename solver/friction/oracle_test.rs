@@ -2,7 +2,7 @@
 //! (`tests/common/friction_oracle.rs`).
 
 use super::chain::{Chain, Rates};
-use super::contact::{Coefficients, Question, Touch};
+use super::contact_problem::{Coefficients, Question, Touch};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use super::search::Search;
 use crate::column::{Block, Column, Shape};

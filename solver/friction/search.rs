@@ -13,7 +13,7 @@
 
 use super::chain::{Chain, Rates};
 use super::complementarity;
-use super::contact::{Coefficients, Question, Touch, centre, cone_margins, half_length};
+use super::contact_problem::{Coefficients, Question, Touch, centre, cone_margins, half_length};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};

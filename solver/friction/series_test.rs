@@ -1,7 +1,7 @@
 //! Taylor series against the hand-written rows, in all combinations of states of one to three blocks, at the start of a step and inside it.
 
 use super::chain::{Chain, Rates};
-use super::contact::centre;
+use super::contact_problem::centre;
 use super::generated_test::{Random, combinations, random_configuration};
 use super::joint::{Configuration, Joint};
 use super::rows::{Answer, Coordinate, Rows};

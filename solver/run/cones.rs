@@ -4,7 +4,7 @@ use super::recorder::{NEGLIGIBLE_IMPULSE, Recorder};
 use super::state::State;
 use super::transition::Transition;
 use crate::column::{Block, Column};
-use crate::friction::contact::Coefficients;
+use crate::friction::contact_problem::Coefficients;
 
 /// Share of a width by which an upper block must reach beyond the lower face to count as wider.
 const WIDTH_ROUNDING: f64 = 1e-12;

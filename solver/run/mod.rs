@@ -4,7 +4,7 @@ pub mod certainty;
 mod cones;
 mod diagnostics;
 mod error;
-mod fold;
+mod event_loop;
 mod modes;
 mod multi_sample_step;
 mod needs;

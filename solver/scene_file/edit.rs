@@ -1,6 +1,6 @@
 //! Changes of the values in a table: keys are set by their dotted names, and replace keys that they exclude.
 
-use super::setting::Setting;
+use super::key_value::Setting;
 use super::table::{Entry, Table, Value, without_index};
 use std::sync::Arc;
 

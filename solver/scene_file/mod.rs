@@ -3,16 +3,16 @@
 pub(crate) mod edit;
 mod error;
 pub(crate) mod excitation;
+mod key_value;
 pub(crate) mod reader;
-pub(crate) mod records;
-mod setting;
+pub(crate) mod record_cache;
 pub(crate) mod stations;
 pub(crate) mod table;
 mod template;
 
 pub use error::{SceneFileError, text};
+pub use key_value::Setting;
 pub use reader::{Derived, MOST_BLOCKS, SceneFile};
-pub use setting::Setting;
 pub use table::Cause;
 #[doc(hidden)]
 pub use table::keys_asked_by;

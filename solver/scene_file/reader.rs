@@ -4,7 +4,7 @@
 //! when it is closed, refuses keys that were not asked for. Units are converted while a file is read and nowhere else.
 
 use super::error::{SceneFileError, text};
-use super::records::Records;
+use super::record_cache::Records;
 use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Block, Column, ColumnError, Shape};
 use crate::friction::Friction;

@@ -1,6 +1,6 @@
 //! A TOML table that knows where each key and value stands in the file, and which keys have been asked for.
 
-use super::setting::Setting;
+use super::key_value::Setting;
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeSet;

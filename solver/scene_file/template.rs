@@ -2,9 +2,9 @@
 
 use super::error::{SceneFileError, text};
 use super::excitation::set_amplitude;
+use super::key_value::Setting;
 use super::reader::{Reader, end_after_free_swing};
-use super::records::Records;
-use super::setting::Setting;
+use super::record_cache::Records;
 use super::stations;
 use super::table::{Cause, Table, Wrong};
 use crate::scene::Scene;

@@ -8,7 +8,7 @@ use crate::intensity::{Intensity, NAMES};
 use crate::scene::Scene;
 use crate::scene_file::excitation::{noise, spectrum, text_options};
 use crate::scene_file::reader::Reader;
-use crate::scene_file::records::Records;
+use crate::scene_file::record_cache::Records;
 use crate::scene_file::stations::{Component, records_of};
 use crate::scene_file::table::{Table, Wrong};
 use crate::scene_file::{SceneFileError, Setting, text};

@@ -2,7 +2,7 @@
 
 use crate::commands::{inputs, sweep, thresholds};
 use crate::error::Failure;
-use crate::ground;
+use crate::ground_in_words;
 use crate::number::{coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
@@ -437,8 +437,11 @@ impl Findings {
         }
         for (component, motion) in components {
             let Some(motion) = motion else { continue };
-            let words =
-                ground::words(&serde_json::to_value(motion.motion.description()).unwrap_or_default(), gravity, 0.0);
+            let words = ground_in_words::words(
+                &serde_json::to_value(motion.motion.description()).unwrap_or_default(),
+                gravity,
+                0.0,
+            );
             let _ = writeln!(text, "\n{component} ground motion: {words}");
             let _ = writeln!(
                 text,

@@ -1,6 +1,6 @@
 //! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
-use crate::ground;
+use crate::ground_in_words;
 use crate::number::{coefficients, percent, significant, widths};
 use crate::report::html::definitions;
 use crate::text::escape;
@@ -16,7 +16,7 @@ pub fn inputs(results: &Results) -> String {
     let peaks = results.peak_ground_acceleration;
     let component = |name: &str, axis: usize| {
         let motion = results.excitation.get(name).unwrap_or(&Value::Null);
-        escape(&ground::words(motion, column.gravity(), peaks[axis]))
+        escape(&ground_in_words::words(motion, column.gravity(), peaks[axis]))
     };
     let mut rows = vec![
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),

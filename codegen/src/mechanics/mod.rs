@@ -3,15 +3,15 @@
 //! Expressions stay as derived; [`crate::optimise`] simplifies them.
 //! Time stepping, scenes and code are unknown here.
 
-mod contact;
+mod contact_forces;
 mod dalembert;
 mod kinematics;
 mod lagrange;
 mod series;
 mod translation;
 
-pub(crate) use contact::normal_and_tangent;
-pub use contact::{InterfaceForces, interface_forces};
+pub(crate) use contact_forces::normal_and_tangent;
+pub use contact_forces::{InterfaceForces, interface_forces};
 pub use dalembert::{Coordinate, Kind, Quantities, Rows, rows_of_motion};
 pub(crate) use kinematics::block_angles;
 pub use kinematics::{Bodies, Symbols, Vector, centroids};

@@ -2,7 +2,7 @@
 
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
-use crate::friction::contact::Touch;
+use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use crate::run::problem::Problem;

@@ -4,7 +4,7 @@ use super::contacts::carried;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Motion, Rates};
-use crate::friction::contact::{Question, Touch, centre};
+use crate::friction::contact_problem::{Question, Touch, centre};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Slip, difference, face};
 use crate::friction::rows::{Answer, Rows};

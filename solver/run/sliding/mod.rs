@@ -25,7 +25,7 @@ mod transition;
 use super::error::SolveError;
 use super::modes::Modes;
 use super::problem::Problem;
-use crate::friction::contact::Coefficients;
+use crate::friction::contact_problem::Coefficients;
 use crate::friction::search::acceleration_scale;
 use crate::response::{Response, StopReason};
 use crate::scene::Scene;

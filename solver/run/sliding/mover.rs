@@ -6,7 +6,7 @@ use super::smooth::{Moment, Smooth};
 use super::state::{Ended, State};
 use super::step::Step;
 use crate::column::Column;
-use crate::friction::contact::Coefficients;
+use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards;
 use crate::friction::joint::{Joint, Slip};
 use crate::numerics::ode::explicit::{Explicit, System, Tableau};

@@ -6,7 +6,7 @@ use super::state::State;
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Motion, Rates};
-use crate::friction::contact::Coefficients;
+use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::ContactForce;
 use crate::mechanics::kinematics::Vec2;

@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
-use crate::friction::contact::{Coefficients, centre};
+use crate::friction::contact_problem::{Coefficients, centre};
 use crate::friction::generated::Generated;
 use crate::friction::joint::Configuration;
 use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};

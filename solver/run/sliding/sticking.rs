@@ -4,13 +4,13 @@
 
 use super::state::{Ended, State};
 use crate::column::Column;
-use crate::friction::contact::Coefficients;
+use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards::Guard;
 use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
-use crate::run::fold::{Leaving, Place, fold};
+use crate::run::event_loop::{Leaving, Place, event_loop};
 use crate::run::modes::Modes;
 use crate::run::problem::Problem;
 use crate::run::stretch::{self, Over};
@@ -127,7 +127,7 @@ impl<'p> Sticking<'p> {
         if !is_beginning {
             recorder = recorder.without_validity();
         }
-        let leaving = fold(&problem, modes, from, &mut recorder, &cones, progress)?;
+        let leaving = event_loop(&problem, modes, from, &mut recorder, &cones, progress)?;
         let (last, ended, status) = match leaving {
             Leaving::Over(last, over) if is_beginning => {
                 let response = recorder.finish(&problem, &last, over, modes);

@@ -4,7 +4,7 @@ use super::contacts::{self, Resolution, touching};
 use super::state::{Ended, State};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
-use crate::friction::contact::{Coefficients, Question, Touch, half_length};
+use crate::friction::contact_problem::{Coefficients, Question, Touch, half_length};
 use crate::friction::guards::Guard;
 use crate::friction::joint::{Configuration, Joint, Sign, Slip, difference, face};
 use crate::friction::rows::Rows;

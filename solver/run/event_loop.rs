@@ -1,6 +1,6 @@
-//! The fold: the pseudo-code of the crate's documentation, line by line.
+//! The loop of a run, a fold over stretches: the pseudo-code of the crate's documentation, line by line.
 //!
-//! With limited friction, the fold continues as long as forces are within the cones ([`super::cones`]), and stops where they are not.
+//! With limited friction, the loop continues as long as forces are within the cones ([`super::cones`]), and stops where they are not.
 
 use super::cones::Limits;
 use super::error::SolveError;
@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 /// Stretches between two calls of a progress function within a phase.
 const STRETCHES_BETWEEN_REPORTS: usize = 1024;
 
-/// Why a fold is left.
+/// Why the loop is left.
 pub(crate) enum Leaving {
     /// The run is over, in this state.
     Over(State, Over),
@@ -46,7 +46,7 @@ struct Event {
 ///
 /// # Errors
 /// [`SolveError`]. With limits, only [`SolveError::Cancelled`]: all other errors count as motions beyond the limits.
-pub(crate) fn fold<L: Limits>(
+pub(crate) fn event_loop<L: Limits>(
     problem: &Problem,
     modes: &mut Modes,
     from: Option<State>,
