@@ -98,7 +98,12 @@ pub fn folder(py: Python<'_>, error: &FolderError) -> PyErr {
     exception(py, "FolderError", (error.to_string(),))
 }
 
-/// A failure of JSON: of a pickle that is damaged, or of another version.
-pub fn json(error: serde_json::Error) -> PyErr {
+/// A value that cannot be written as JSON.
+pub fn unwritable(error: serde_json::Error) -> PyErr {
+    pyo3::exceptions::PyValueError::new_err(error.to_string())
+}
+
+/// A pickle that is damaged, or of another version.
+pub fn damaged_pickle(error: serde_json::Error) -> PyErr {
     pyo3::exceptions::PyValueError::new_err(format!("{error}; the pickle is damaged, or of another version of rocking"))
 }

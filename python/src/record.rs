@@ -195,7 +195,7 @@ impl Record {
     /// Measures by name.
     fn measures<'py>(&self, py: Python<'py>, gravity: f64) -> PyResult<Bound<'py, PyDict>> {
         let measures = py.detach(|| self.record.measures(gravity));
-        let text = serde_json::to_string(&measures).map_err(error::json)?;
+        let text = serde_json::to_string(&measures).map_err(error::unwritable)?;
         py.import("json")?.getattr("loads")?.call1((text,))?.cast_into().map_err(Into::into)
     }
 
@@ -226,12 +226,12 @@ impl Record {
 
     /// All of it, to be pickled.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &serde_json::to_vec(&self.record).map_err(error::json)?))
+        Ok(PyBytes::new(py, &serde_json::to_vec(&self.record).map_err(error::unwritable)?))
     }
 
     #[staticmethod]
     fn from_state(state: &[u8]) -> PyResult<Record> {
-        Ok(Record { record: serde_json::from_slice(state).map_err(error::json)? })
+        Ok(Record { record: serde_json::from_slice(state).map_err(error::damaged_pickle)? })
     }
 
     fn equals(&self, other: &Record) -> bool {

@@ -273,13 +273,13 @@ impl Response {
 
     /// The text of `summary.json`.
     fn summary(&self) -> PyResult<String> {
-        self.run().summary_json().map_err(error::json)
+        self.run().summary_json().map_err(error::unwritable)
     }
 
     /// The text of `events.json`, as one list.
     fn events_json(&self) -> PyResult<String> {
         let events: Vec<Explicit<&Event>> = self.response.events.iter().map(Explicit).collect();
-        serde_json::to_string(&events).map_err(error::json)
+        serde_json::to_string(&events).map_err(error::unwritable)
     }
 
     /// Writes the files of the run.
@@ -303,7 +303,7 @@ impl Response {
             with_slides: self.has_slides(),
             with_blocks: self.has_blocks(),
         };
-        let json = serde_json::to_vec(&pickled).map_err(error::json)?;
+        let json = serde_json::to_vec(&pickled).map_err(error::unwritable)?;
         let mut state = (json.len() as u64).to_le_bytes().to_vec();
         state.extend(json);
         for sample in self.samples() {
@@ -327,7 +327,7 @@ impl Response {
         let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
         let (json, rows) = rest.split_at_checked(length).ok_or_else(damaged)?;
         let read: Pickled<rocking::Scene, rocking::Response, Vec<Event>, Option<Trust>> =
-            serde_json::from_slice(json).map_err(error::json)?;
+            serde_json::from_slice(json).map_err(error::damaged_pickle)?;
         let blocks = read.scene.column.len();
         let mut numbers = rows.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes));
         let mut next = || numbers.next().ok_or_else(damaged);

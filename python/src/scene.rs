@@ -161,7 +161,7 @@ impl Scene {
 
     /// The scene as the solver has it.
     fn json(&self) -> PyResult<String> {
-        serde_json::to_string(&*self.scene).map_err(error::json)
+        serde_json::to_string(&*self.scene).map_err(error::unwritable)
     }
 
     /// Sizes of the blocks, base first, a list each.
@@ -224,13 +224,13 @@ impl Scene {
     /// All of it, to be pickled.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let pickled = Pickled { scene: &*self.scene, origin: &*self.origin };
-        Ok(PyBytes::new(py, &serde_json::to_vec(&pickled).map_err(error::json)?))
+        Ok(PyBytes::new(py, &serde_json::to_vec(&pickled).map_err(error::unwritable)?))
     }
 
     #[staticmethod]
     fn from_state(py: Python<'_>, state: &[u8]) -> PyResult<Scene> {
         let Pickled { scene, origin }: Pickled<rocking::Scene, Origin> =
-            serde_json::from_slice(state).map_err(error::json)?;
+            serde_json::from_slice(state).map_err(error::damaged_pickle)?;
         scene.check().map_err(|errors| error::faults(py, Path::new(&origin.file), &errors))?;
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
     }

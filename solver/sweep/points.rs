@@ -429,7 +429,11 @@ impl Sweep {
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {
         let with_peaks = self.ask.is_of_peaks();
-        let last_mode = || response.events.last().map_or(ModeName::REST, |event| event.mode).to_string();
+        // A column that no event stops stays in the mode in which it begins.
+        let last_mode = || match response.events.last() {
+            Some(event) => event.mode.to_string(),
+            None => response.time_in_mode.keys().next().cloned().unwrap_or_else(|| ModeName::REST.to_string()),
+        };
         Outcome {
             fate: Fate::of(response),
             impacts: response.impacts,

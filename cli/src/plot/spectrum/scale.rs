@@ -151,7 +151,8 @@ const LABELS: [(&str, &str); 42] = [
 /// Label of a key in the words of the field, or the last part of an unknown key. The label says if it is that of a block or of the vertical motion.
 fn label(key: &str) -> String {
     let (above, last) = key.rsplit_once('.').unwrap_or(("", key));
-    let known = LABELS.iter().find(|(name, _)| *name == last).map_or(last, |(_, label)| label);
+    let named = |name: &str| LABELS.iter().find(|(own, _)| *own == name).map(|(_, label)| *label);
+    let known = named(key).or_else(|| named(last)).unwrap_or(last);
     match above {
         "excitation.vertical" => format!("{known}, vertical"),
         block if block.starts_with("block") => format!("{known}, {block}"),
