@@ -18,7 +18,7 @@ use std::fmt;
 pub enum StopReason {
     /// Some angle reached the overturning angle.
     Overturned,
-    /// All interfaces are closed and the excitation up to `t_end` does not start one again.
+    /// All interfaces are closed, and the remaining ground motion up to `t_end` does not set the column in motion.
     AtRest,
     /// The run reached `t_end`.
     EndOfTime,
@@ -102,7 +102,7 @@ pub struct Event {
     pub mode_before: ModeName,
     /// Mode after.
     pub mode: ModeName,
-    /// Whether the pattern after is the mirror image of the labelled mode.
+    /// Whether the pattern after the event is the mirror image of the pattern that `mode` names.
     pub mirrored: bool,
     /// Angles `[rad]`, per block.
     pub theta: PerBlock<f64>,

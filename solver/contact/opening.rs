@@ -8,9 +8,9 @@ use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Examines every interface that is closed, or open without gap and rate yet, at the level of forces (docs/book/model.md, section 4): the
-/// pattern that the blocks' angles `theta`, rates `omega` and the ground's motion require. `released` are interfaces whose resultants have
-/// reached a corner in this instant, with the side of that corner: they open unless they are driven back by more than a tolerance.
+/// Finds the pattern that forces require (docs/book/model.md, section 4) at angles `theta` and rates `omega`. Every interface that is closed, or
+/// open with zero gap and zero gap rate, may change its state. `released` are interfaces whose resultants have just reached a corner, with the
+/// side of that corner. They open; those that accelerate shut by more than a tolerance are searched like the others.
 ///
 /// # Errors
 /// [`SingularMass`]

@@ -105,7 +105,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             let Some((lowest, state)) = lowest else { return Ok(false) };
             visited.push(states.clone());
             if was_visited(&visited, &next) {
-                // Changing all at once goes in circles: only the lowest one changes.
+                // `next` was tried before: the search would go in circles. Only the lowest violated interface changes.
                 next = states;
                 next[lowest] = state;
             }

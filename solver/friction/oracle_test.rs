@@ -137,7 +137,7 @@ const SAME: f64 = 1e-8;
 /// Margin of a condition, as a share of the problem's scale, within which search and oracle may take different states.
 const NEAR: f64 = 1e-7;
 
-/// Largest relative difference of motions where the worst margin is below [`NEAR`].
+/// Largest relative difference between the motions of search and oracle if the oracle's worst margin is within [`NEAR`] of zero.
 const NEAR_SAME: f64 = 1e-6;
 
 fn compare(seed: u64, cases: usize) {

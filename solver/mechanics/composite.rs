@@ -8,7 +8,7 @@ use crate::column::{Block, Column, Seat};
 use rocking_codegen::pattern::Pattern;
 use std::ops::Range;
 
-/// A rigid body, in its axes and from the centre of the contact below.
+/// Properties of a rigid body. Positions are in the body's own axes, with the origin at the centre of the contact below the body.
 #[derive(Clone, Copy, Debug, Default)]
 struct Body {
     /// `[kg]`

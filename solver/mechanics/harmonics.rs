@@ -48,7 +48,8 @@ impl Harmonics {
         self.mean + self.first[0] + self.second[0]
     }
 
-    /// Lower bounds of the margins on a path of this angle, from value and slope at the start and a bound of the curvature.
+    /// Lower bounds of both margins while the free angle changes from the start by up to `way` `[rad]`, positive or negative. They follow from
+    /// the margins' values and slopes at the start and from a bound of their curvature.
     fn least(&self, way: f64) -> f64x2 {
         let size = |[of_cos, of_sin]: [f64x2; 2]| of_cos.abs() + of_sin.abs();
         let slope = self.first[1] + f64x2::splat(2.0) * self.second[1];

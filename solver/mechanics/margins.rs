@@ -224,8 +224,8 @@ impl Corners {
 /// has settled; higher, and terms are computed for nothing.
 const SETTLED: usize = 5;
 
-/// Bound of all terms that follow, relative to the last three. It is 2 if each term falls by an eighth; those of an accepted step fall by more.
-/// Lower, and an opening late in a long step could be missed.
+/// Bound of the sum of all later terms, relative to the sum of the last three. The value 2 holds if each term is at most 0.87 of the term before;
+/// the terms of an accepted step fall faster. With a smaller bound, an opening late in a long step could be missed.
 const REST: f64 = 2.0;
 
 /// Largest fall of a margin, relative to its error (the doubt), from the earliest place where it may be zero to the place where its

@@ -153,8 +153,8 @@ pub trait EnergyProgram<S: Scalar> {
     ) -> [S; 2];
 }
 
-/// What the links and translations of a column carry, at the slides of the moment, in SI units. Vectors are [lateral, axial] components in
-/// the axes of a link: across its axis to the left, and along it upwards.
+/// Inertias, first moments, levers and masses of links and translations at the present slides, and coefficients of friction, in SI units.
+/// Vectors are [lateral, axial] in the axes of a link: lateral to the left across the link's axis, axial upwards along the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<S, const ANGLES: usize, const TRANSLATIONS: usize> {
     /// Moment of inertia of each link about its pivot, with all masses above placed in the next pivot `[kg m²]`.
@@ -223,7 +223,7 @@ pub struct InterfaceEquations<S> {
 /// Generated equations of links that are general rigid bodies, on a body that stands on the ground.
 #[derive(Clone, Debug)]
 pub struct CompositeEquations<S> {
-    /// The linkage; its first interface is that below the body on the ground.
+    /// The linkage. Its first interface is the contact below the lowest body, which stands on the ground.
     pub linkage: LinkageEquations<S>,
     /// Per link, base first: equations of a closed interface inside the link, which divides it into two bodies.
     pub inside: Vec<InterfaceEquations<S>>,

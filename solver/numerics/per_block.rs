@@ -231,8 +231,8 @@ pub trait Size: Copy {
     /// Number of blocks.
     fn blocks(self) -> usize;
 
-    /// Number of columns of a table, and of links that loops run over, where `moving` links move. A size known at compile time returns the number
-    /// of blocks instead, so that no loop branches on the number of moving links.
+    /// Number of links that loops run over, which is also the number of columns of a table. It is `moving`, the number of links that move. A size
+    /// known at compile time returns its number of blocks instead, so that no loop branches on `moving`.
     fn links(self, moving: usize) -> usize;
 
     /// A list with an entry per block.

@@ -41,7 +41,7 @@ pub(crate) struct Cones<'a> {
     friction: &'a Coefficients,
     /// Per interface, whether a corner of the lower block may carry the upper face.
     may_be_below: Vec<bool>,
-    /// Rate up to which a block is about to come to rest `[rad/s]`: slower blocks hop no higher than `stick_angle`.
+    /// Largest rate of all blocks up to which impulses are not checked `[rad/s]`: no block that slow hops higher than `stick_angle`.
     last_rate: f64,
 }
 
@@ -62,8 +62,8 @@ impl<'a> Cones<'a> {
         }
     }
 
-    /// Whether a demand `|T| / N`, in the axes of the lower face, is within a coefficient. If the upper face may carry the contact, it is turned
-    /// against the lower face: by no more than the sum of both blocks' largest angles so far, `peaks` `[rad]`.
+    /// Whether a demand `|T| / N`, in the axes of the lower face, is within a coefficient. If the upper face may carry the contact, the angle
+    /// `atan(demand)` is first increased by a bound of the angle between the faces: the sum of both blocks' entries in `peaks` `[rad]`.
     fn is_within(&self, interface: usize, demand: f64, coefficient: f64, peaks: &[f64]) -> bool {
         match interface.checked_sub(1).filter(|_| self.may_be_below[interface]) {
             Some(below) => libm::atan(demand) + peaks[interface] + peaks[below] <= libm::atan(coefficient),

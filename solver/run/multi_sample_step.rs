@@ -193,7 +193,8 @@ impl Walk<'_> {
         let sign = self.gap.across.sign;
         let Place { mut t, mut segment, mut omega, mut angle } = self.place;
         let (mut peak, mut needs_order) = (self.peak, self.needs_order);
-        // Rate at the start in units of the step before, and that unit `[1/s]`.
+        // The angular rate at the start of a step is `rate · unit` `[rad/s]`, with `unit = 1 / h` of the step before `[1/s]`. The first step has
+        // no step before it: its unit is 1/s.
         let (mut rate, mut unit) = (omega, 1.0);
         let end = loop {
             let span = &ground[segment];

@@ -31,7 +31,7 @@ enum Guard {
     Contact { interface: usize },
 }
 
-/// Newton's rounds when a step is made to end at a zero: the dense output is good to some digits, each round doubles them.
+/// Most Newton rounds that move the end of a step to the zero of a guard. The dense output gives the first digits; a round doubles their number.
 const NEWTON_ROUNDS: usize = 4;
 
 /// A gap that moves by less than its value at the start cannot close in the step: value and move together are below this multiple of the value.

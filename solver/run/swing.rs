@@ -104,7 +104,8 @@ impl Phase {
         if swing.is_endless() {
             return None;
         }
-        // The link goes out if it moves outwards, or if it turns or is at rest beyond the balance, from where it falls outwards.
+        // The link goes out if it moves outwards at the start. If it starts beyond the balance, it also goes out from rest, or if it moves
+        // inwards and turns back before it reaches the balance.
         let goes_out = rate > 0.0 || (swing.turns() || rate == 0.0) && start > 0.0;
         let has_crest = swing.turns() && start < 0.0;
         // The overturning angle is most often beyond the balance, and no swing with a crest comes that far.

@@ -3,8 +3,8 @@
 //! A sweep is data: each point follows from its index alone, so that a range of points gives the same rows wherever, whenever and in whatever
 //! order it is run. Points run in parallel; a scene that cannot be read or solved is a row with its error.
 //!
-//! Within a thread points run one after another. Sixteen points side by side, with Taylor coefficients in vectors of eight, take longer: events,
-//! contact and set-up remain scalar, and their data are displaced from the cache.
+//! Points of one thread run one after another. Sixteen points solved at once, with Taylor coefficients in vectors of eight, take longer: events,
+//! contact and set-up remain scalar, and the data of sixteen points displace each other from the cache.
 
 use crate::column::Column;
 use crate::response::{ModeName, Response, StopReason};

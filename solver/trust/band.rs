@@ -16,7 +16,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// The band of runs with rows at the same times, up to the end of the longest run.
+    /// Band of runs with rows at the same times, up to the end of the longest run. A shorter run keeps its last angles to the end.
     pub(super) fn of<'a>(runs: impl Iterator<Item = &'a Response> + Clone, blocks: usize) -> Band {
         let longest = runs.clone().max_by_key(|run| run.samples.len());
         let t: Vec<f64> = longest.iter().flat_map(|run| &run.samples).map(|row| row.t).collect();

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Relative changes of the ground motion's amplitude that are tried, each up and down.
 const TRIED: [f64; 8] = [1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1];
 
-/// Changes that are tried for runs in which blocks slide or fly, which take longer.
+/// Relative changes of the amplitude that are tried for runs in which blocks slide or fly: fewer, since such runs take longer.
 const TRIED_WITH_SLIDING: [f64; 3] = [1e-3, 0.01, 0.1];
 
 /// The changes tried, up to the first that changes the verdict.

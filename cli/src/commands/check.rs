@@ -100,7 +100,7 @@ struct SweepFindings {
     axes: Vec<AxisFindings>,
     /// Columns of the table.
     columns: Vec<String>,
-    /// Number of points whose scenes were read: all, or evenly spread ones, the first and the last among them.
+    /// Number of points whose scenes were read: all points, or evenly spread points that include the first and the last.
     read: usize,
     /// Number of the scenes read that are refused. Their points would be rows with errors.
     refused: usize,

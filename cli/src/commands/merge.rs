@@ -125,8 +125,8 @@ fn first(path: &Path) -> Result<Option<u64>, Failure> {
     row.map(|row| index(&row, path)).transpose()
 }
 
-/// Passes the rows of tables to `write`, in order. The rows must be those of one sweep, whole, with each point once. Returns the number of
-/// rows.
+/// Passes the rows of tables to `write`, in order, and returns their number. The tables must have the same columns. Each row must have an outcome
+/// or an error. Points must count up from zero without gap or repetition. If `wanted` is given, the rows must be all rows of that sweep.
 fn join(
     tables: &[&Path],
     wanted: Option<&Wanted>,

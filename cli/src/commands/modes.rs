@@ -148,7 +148,7 @@ pub struct MovingRow {
     states: u64,
     /// Name of the program that serves all these combinations.
     program: String,
-    /// Whether this build has the program. If not, the hand-written equations serve.
+    /// Whether the generated program is compiled into this build. If not, hand-written equations replace the program.
     built: bool,
 }
 

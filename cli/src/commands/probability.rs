@@ -1,4 +1,5 @@
-//! The probability that the column is lost, of a sweep over distributions: a line and a row for each combination of the other axes.
+//! Probability that the column is lost (overturns or collapses), for a sweep over distributions. Each combination of the other axes gives a row
+//! of a table. The first ten combinations are also printed, a line each.
 
 use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};

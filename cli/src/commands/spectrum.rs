@@ -62,7 +62,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failu
     Ok(text)
 }
 
-/// The files of the figures of a table: `picture`, and the one with `-minimum` that only a spectrum over two axes has.
+/// Paths for the figures of a table: `picture`, and `picture` with `-minimum` in its name. Only a spectrum over the plane of two axes has the second.
 pub fn files(picture: &Path) -> [PathBuf; 2] {
     [picture.into(), beside(picture, "minimum")]
 }

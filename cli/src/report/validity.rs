@@ -214,7 +214,7 @@ fn at(value: String, extreme: Option<&Extreme>) -> String {
     }
 }
 
-/// Demands and forces per interface, the top one first, and what they mean.
+/// HTML text: friction demand and smallest normal force per interface, the top one first, with their meaning; slides or separations; warnings.
 pub fn details(results: &Results) -> String {
     let (response, column) = (&results.response, &results.column);
     let (demands, forces) = response.counted_forces();

@@ -316,8 +316,8 @@ impl<'a> ProgramBuilder<'a> {
         symbol
     }
 
-    /// Names the components of a body vector turned by the angle of `link` (from 1), and its constants `*_axial` (along the axis of the link) and
-    /// `*_lateral` (across the axis). Names of the constants begin with `prefix`.
+    /// Names the components of `vector`: the derivative, by the angle of `link` (from 1), of a body vector turned by this angle. The constants of
+    /// `vector` are named `*_axial` (along the axis of the link) and `*_lateral` (across the axis), and begin with `prefix`.
     pub fn define_turned_vector(&mut self, prefix: &str, name: &str, link: usize, vector: Vector) {
         for (coefficient, term) in self.source.terms(vector[0]) {
             let factors = self.source.factors(term);

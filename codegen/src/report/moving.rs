@@ -154,7 +154,7 @@ fn title(joints: &Joints, record: &MovingRecord) -> String {
     out
 }
 
-/// The state of an interface in words, with the direction along which the row of a slide is tested.
+/// The state of an interface in words. For a slide, the words include the direction of the virtual motion that gives the slide's equation.
 fn described(joint: Joint, number: usize, friction: &str) -> String {
     let Joint::Contact(interface, slip, carrier) = joint else {
         return format!(

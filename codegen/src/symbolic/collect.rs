@@ -8,7 +8,7 @@ use super::arena::{Arena, Expr, Node};
 use super::rational::Rational;
 
 impl Arena {
-    /// The shortest of `expr` and the two forms named above, all equal. `family` lists the symbols to group by.
+    /// The shortest of three equal forms: `expr` itself, `expr` with common factors taken out, and `expr` grouped by the symbols of `family`.
     pub fn collect_for_reading(&mut self, expr: Expr, family: &[Expr]) -> Expr {
         let by_family = self.group_by_family(expr, family);
         let by_factor = self.take_out_factors(expr);

@@ -20,7 +20,7 @@ impl Series {
         &self.links[self.levels[block].link].theta
     }
 
-    /// Coefficient, of an order, of the force at an interface, in the axes of the upper or of the lower block `[N]`.
+    /// Taylor coefficient of order `order` of the force at an interface `[N/s^order]`, in the axes of the upper block if `is_upper`, else the lower.
     pub fn force(&self, interface: usize, is_upper: bool, order: usize) -> InAxes {
         let level = &self.levels[interface];
         if is_upper { level.in_upper[order] } else { level.in_lower[order] }.to_array()

@@ -127,7 +127,8 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
     }
 
-    /// Whether orders are added one by one, as a step needs them. With one angle all together cost hardly more.
+    /// Whether orders are added one by one, as a step needs them: true for several angles. With one angle, adding all missing orders at once
+    /// costs hardly more.
     pub fn adds_orders_singly(&self) -> bool {
         self.series.dof() > 1
     }
@@ -349,7 +350,7 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The pendulum `θ̈ = -sin θ`: `J = 1`, `C = 0`, `S = 1`. The weights have a constant term only.
+    /// The pendulum `θ̈ = -sin θ`: `J = 1`, `C = 0`, `S = 1`. `C` and `S` are constant in time, so their higher Taylor coefficients are zero.
     struct Pendulum;
 
     impl SeriesSystem for Pendulum {

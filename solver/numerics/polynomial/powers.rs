@@ -196,7 +196,8 @@ impl Powers {
         }
     }
 
-    /// Largest magnitude on `[0, 1]` if it is above `known`, else `known`; `None` if bounds do not decide.
+    /// The larger of `known` and the largest magnitude on `[0, 1]`. `None` if it is proved neither that `known` is a bound nor that
+    /// there is at most one crest.
     pub fn largest_size(&self, known: f64) -> Option<f64> {
         // Sums of magnitudes, of terms, and of the negative and the positive terms of slope and second derivative.
         let (first, start_slope, start_bend) = (self.coefficients[0], self.coefficients[1], 2.0 * self.coefficients[2]);

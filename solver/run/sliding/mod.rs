@@ -1,11 +1,12 @@
-//! Runs in which blocks slide and fly (docs/book/model.md, section 18): the same fold as that of rocking, over the states of `friction/`.
+//! Runs in which blocks slide and fly (docs/book/model.md, section 18). Like a rocking run, such a run is a fold from event to event, here over
+//! the states of `friction/`. `x⁻` is the state before an event, `x⁺` the state after it.
 //!
 //! ```text
 //! x⁻  <- the run without sliding, as far as friction holds         sticking.rs
 //! loop
 //!     x⁺  <- impact or acceleration, searched for                  transition.rs, impact.rs, contacts.rs, friction/search.rs
-//!     x⁻  <- everything sticks: without sliding, as above          sticking.rs
-//!            otherwise at rest, or steps until a guard is zero     mover.rs, series_steps.rs, step.rs
+//!     x⁻  <- if moving and all sticks: the run without sliding     sticking.rs
+//!            otherwise: rest, or steps until a guard is zero       mover.rs, series_steps.rs, step.rs
 //!            rows, peaks, forces, work on the way                  recorder.rs
 //! ```
 //!

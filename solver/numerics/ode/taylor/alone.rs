@@ -26,7 +26,7 @@ pub fn extend<L: StateVector>(
     widest(
         #[inline(always)]
         || {
-            // Some orders are known already: a longer step needs a few more.
+            // The lower orders are known already. The step needs a few orders more.
             if orders.start > 0 {
                 return orders.for_each(|order| one_more::<L>(circle, driver, order));
             }
