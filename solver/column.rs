@@ -139,6 +139,17 @@ pub struct Column {
     slides: Vec<f64>,
     #[serde(skip)]
     seats: Vec<Seat>,
+    /// The blocks above each interface, base first, length N.
+    #[serde(skip)]
+    stacks: Vec<Above>,
+}
+
+/// The blocks above an interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Above {
+    stack: Stack,
+    /// How far the centre of gravity is to the right of the centre of the contact `[m]`.
+    offset: f64,
 }
 
 /// How a block sits on what is below it: lengths along the block's axes `[m]`, from the centre of the contact below.
@@ -274,7 +285,8 @@ impl Column {
         }
         let slides = vec![0.0; blocks.len()];
         let seats = seats(&blocks, &slides)?;
-        Ok(Column { blocks, gravity, slides, seats })
+        let stacks = stacks(&blocks, &seats, gravity);
+        Ok(Column { blocks, gravity, slides, seats, stacks })
     }
 
     /// The column with its blocks displaced by these slides `u_i [m]`, base first, length N: block `i` stands `u_i` to the right of the
@@ -295,6 +307,7 @@ impl Column {
             return Err(ColumnError::SlideCount { slides: slides.len(), interfaces: self.blocks.len() });
         }
         self.seats = seats(&self.blocks, &slides)?;
+        self.stacks = stacks(&self.blocks, &self.seats, self.gravity);
         self.slides = slides;
         Ok(self)
     }
@@ -378,52 +391,23 @@ impl Column {
 
     /// Mass of the stack above an interface, from zero `[kg]`.
     pub fn mass_above(&self, interface: usize) -> f64 {
-        self.blocks[interface..].iter().map(|block| block.mass).sum()
-    }
-
-    /// First moment `[kg m]` of the stack above an interface (from zero) about the centre of its contact.
-    fn moment_above(&self, interface: usize) -> [f64; 2] {
-        let (mut place, mut moment) = ([0.0, 0.0], [0.0, 0.0]);
-        for (block, seat) in self.blocks.iter().zip(&self.seats).skip(interface) {
-            for axis in 0..2 {
-                moment[axis] += block.mass * (place[axis] + seat.centroid[axis]);
-                place[axis] += seat.top[axis];
-            }
-        }
-        moment
+        self.stacks[interface].stack.mass
     }
 
     /// Height `h_Pi [m]` of the centre of gravity of the stack above an interface (from zero) above that interface.
     pub fn centroid_height(&self, interface: usize) -> f64 {
-        self.moment_above(interface)[1] / self.mass_above(interface)
+        self.stacks[interface].stack.centroid_height
     }
 
     /// How far the centre of gravity of the stack above an interface (from zero) is to the right of the centre of the contact `[m]`:
     /// zero for aligned blocks.
     pub fn centroid_offset(&self, interface: usize) -> f64 {
-        self.moment_above(interface)[0] / self.mass_above(interface)
+        self.stacks[interface].offset
     }
 
     /// The blocks above an interface (from zero) as one body; the stack above interface 0 is the whole column.
     pub fn stack(&self, interface: usize) -> Stack {
-        let (contact, offset) = (self.contact_half_width(interface), self.centroid_offset(interface));
-        let near = f64::copysign(contact, offset);
-        let (mut base, mut inertia) = ([0.0, 0.0], 0.0);
-        for (block, seat) in self.blocks.iter().zip(&self.seats).skip(interface) {
-            let lever = near - (base[0] + seat.centroid[0]);
-            let height = base[1] + seat.centroid[1];
-            inertia += block.inertia + block.mass * (lever * lever + height * height);
-            base = [base[0] + seat.top[0], base[1] + seat.top[1]];
-        }
-        Stack {
-            mass: self.mass_above(interface),
-            height: base[1],
-            half_width: contact - offset.abs(),
-            contact_half_width: contact,
-            centroid_height: self.centroid_height(interface),
-            inertia,
-            gravity: self.gravity,
-        }
+        self.stacks[interface].stack
     }
 
     /// Horizontal ground acceleration `[m/s²]` at which the interface (from zero) of the column at rest opens:
@@ -480,6 +464,42 @@ fn seats(blocks: &[Block], slides: &[f64]) -> Result<Vec<Seat>, ColumnError> {
         Seat { half_width, on_lower, centroid, top }
     };
     Ok(blocks.iter().enumerate().map(seat).collect())
+}
+
+/// The blocks above each interface, base first.
+fn stacks(blocks: &[Block], seats: &[Seat], gravity: f64) -> Vec<Above> {
+    let above = |interface: usize| {
+        let parts = || blocks.iter().zip(seats).skip(interface);
+        let mass: f64 = blocks[interface..].iter().map(|block| block.mass).sum();
+        // First moment about the centre of the contact `[kg m]`.
+        let (mut place, mut moment) = ([0.0, 0.0], [0.0, 0.0]);
+        for (block, seat) in parts() {
+            for axis in 0..2 {
+                moment[axis] += block.mass * (place[axis] + seat.centroid[axis]);
+                place[axis] += seat.top[axis];
+            }
+        }
+        let (contact, offset) = (seats[interface].half_width, moment[0] / mass);
+        let near = f64::copysign(contact, offset);
+        let (mut base, mut inertia) = ([0.0, 0.0], 0.0);
+        for (block, seat) in parts() {
+            let lever = near - (base[0] + seat.centroid[0]);
+            let height = base[1] + seat.centroid[1];
+            inertia += block.inertia + block.mass * (lever * lever + height * height);
+            base = [base[0] + seat.top[0], base[1] + seat.top[1]];
+        }
+        let stack = Stack {
+            mass,
+            height: base[1],
+            half_width: contact - offset.abs(),
+            contact_half_width: contact,
+            centroid_height: moment[1] / mass,
+            inertia,
+            gravity,
+        };
+        Above { stack, offset }
+    };
+    (0..blocks.len()).map(above).collect()
 }
 
 /// The blocks above an interface as one body that rocks on it.

@@ -401,13 +401,15 @@ impl Scene {
             let quantities =
                 [("half_width", block.half_width(), 0), ("half_height", block.half_height, 0), ("mass", block.mass, 1)];
             for (name, value, kind) in quantities {
-                let (key, (range, ratio, unit)) = (format!("block[{}].{name}", index + 1), &extremes[kind]);
+                let (range, ratio, unit) = &extremes[kind];
+                // Written in words only for a fault: scenes of a sweep are checked a million times.
+                let key = || format!("block[{}].{name}", index + 1);
                 if !range.contains(&value) {
                     let remedy = format!("give {:e} to {:e} {unit}", range.start(), range.end());
-                    faults.note(&key, format!("{value:e} {unit} is out of range"), &remedy);
+                    faults.note(&key(), format!("{value:e} {unit} is out of range"), &remedy);
                 } else if range.contains(&largest[kind]) && value * ratio < largest[kind] {
                     let problem = format!("{value:e} {unit} is lost in rounding beside {:e} {unit}", largest[kind]);
-                    faults.note(&key, problem, &format!("let sizes differ by less than a factor of {ratio:e}"));
+                    faults.note(&key(), problem, &format!("let sizes differ by less than a factor of {ratio:e}"));
                 }
             }
             let diagonal = block.half_width() * block.half_width() + block.half_height * block.half_height;

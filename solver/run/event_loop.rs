@@ -42,25 +42,44 @@ struct Event {
     mark: Mark,
 }
 
-/// Runs a problem as far as the limits reach: from its beginning, or from a state whose pattern is decided already.
+/// The state with which a loop begins.
+pub(crate) enum Departure {
+    /// That at the beginning of the run: the laws of contact are asked for the pattern.
+    Beginning(State),
+    /// One whose pattern is decided already.
+    Decided(State),
+}
+
+impl Departure {
+    /// The state.
+    pub fn state(&self) -> &State {
+        match self {
+            Departure::Beginning(state) | Departure::Decided(state) => state,
+        }
+    }
+}
+
+/// Runs a problem from a state as far as the limits reach.
 ///
 /// # Errors
 /// [`SolveError`]. With limits, only [`SolveError::Cancelled`]: all other errors count as motions beyond the limits.
 pub(crate) fn event_loop<L: Limits>(
     problem: &Problem,
     modes: &mut Modes,
-    from: Option<State>,
+    departure: Departure,
     recorder: &mut Recorder,
     limits: &L,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Leaving, SolveError> {
     modes.begin(problem);
-    let is_given = from.is_some();
-    let mut initial = from.unwrap_or_else(|| transition::initial(problem));
+    let (mut initial, is_beginning) = match departure {
+        Departure::Beginning(state) => (state, true),
+        Departure::Decided(state) => (state, false),
+    };
     let mut storage = initial.clone();
     // Two states serve all events.
     let (mut spare, mut after) = (&mut initial, &mut storage);
-    if !is_given {
+    if is_beginning {
         match transition::start(problem, spare) {
             Ok(None) => {}
             Ok(Some(first)) => {

@@ -3,7 +3,7 @@
 use super::certainty::stands::Prospects;
 use super::cones::Unlimited;
 use super::error::SolveError;
-use super::event_loop::{Leaving, event_loop};
+use super::event_loop::{Departure, Leaving, event_loop};
 use super::modes::Modes;
 use super::problem::{Problem, Skips};
 use super::recorder::Recorder;
@@ -131,8 +131,10 @@ impl Simulator {
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
         let records_gaps = self.records_gaps;
         let problem = Problem { records_gaps, ..Problem::new(scene, &ground, self.prospects.as_ref(), self.skips) };
-        let mut recorder = Recorder::new(&problem, &transition::initial(&problem), 0);
-        match event_loop(&problem, &mut self.modes, None, &mut recorder, &Unlimited, progress)? {
+        let initial = transition::initial(&problem);
+        let mut recorder = Recorder::new(&problem, &initial, 0);
+        let departure = Departure::Beginning(initial);
+        match event_loop(&problem, &mut self.modes, departure, &mut recorder, &Unlimited, progress)? {
             Leaving::Over(last, over) => Ok(recorder.finish(&problem, &last, over, &mut self.modes)),
             Leaving::Beyond(_) => unreachable!("there are no limits"),
         }

@@ -10,7 +10,7 @@ use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
-use crate::run::event_loop::{Leaving, Place, event_loop};
+use crate::run::event_loop::{Departure, Leaving, Place, event_loop};
 use crate::run::modes::Modes;
 use crate::run::problem::Problem;
 use crate::run::stretch::{self, Over};
@@ -122,12 +122,15 @@ impl<'p> Sticking<'p> {
         problem.kappa.clone_from(&self.problem.kappa);
         let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
         let is_beginning = from.is_none();
-        let start = from.clone().unwrap_or_else(|| transition::initial(&problem));
-        let mut recorder = recorder::Recorder::new(&problem, &start, rows);
+        let departure = match from {
+            Some(state) => Departure::Decided(state),
+            None => Departure::Beginning(transition::initial(&problem)),
+        };
+        let mut recorder = recorder::Recorder::new(&problem, departure.state(), rows);
         if !is_beginning {
             recorder = recorder.without_validity();
         }
-        let leaving = event_loop(&problem, modes, from, &mut recorder, &cones, progress)?;
+        let leaving = event_loop(&problem, modes, departure, &mut recorder, &cones, progress)?;
         let (last, ended, status) = match leaving {
             Leaving::Over(last, over) if is_beginning => {
                 let response = recorder.finish(&problem, &last, over, modes);
