@@ -20,15 +20,16 @@ pub fn extend<L: StateVector>(
             if orders.end == $order {
                 return;
             }
-            // Lower orders of this series may be known already.
-            if orders.start <= $order {
-                one_more::<L>(circle, driver, $order);
-            }
+            one_more::<L>(circle, driver, $order);
         )*};
     }
     widest(
         #[inline(always)]
         || {
+            // The lower orders are known already. The step needs a few orders more.
+            if orders.start > 0 {
+                return orders.for_each(|order| one_more::<L>(circle, driver, order));
+            }
             each!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18);
         },
     );
