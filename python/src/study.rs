@@ -262,7 +262,7 @@ pub fn fragility(
     // One part with one item, which computes its bands on the threads of the pool.
     let made = in_parts(py, 0..1, 0, 1, |_| vec![Fragility::of(&runs, state, &options)])?;
     let found = made.first().ok_or_else(|| error::of_study(py, "no curve was made"))?;
-    Ok((serde_json::to_string(found).map_err(error::json)?, found.statements()))
+    Ok((serde_json::to_string(found).map_err(error::unwritable)?, found.statements()))
 }
 
 /// Probability of the lognormal curve at levels.
