@@ -14,6 +14,22 @@ fn sweep(combine: Combine, axes: &[(&str, &[f64])]) -> Sweep {
     Sweep { template, axes: axes.iter().map(axis).collect(), combine, ask: Ask::Peaks }
 }
 
+/// A column that begins beyond its balance overturns without an event, in the mode in which it begins.
+#[test]
+fn the_last_mode_without_events_is_the_first() {
+    let scene =
+        "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.3]\n[solver]\nt_end = 5\n";
+    let template = Template::from_toml(scene.into(), "tilted.toml".as_ref()).expect("a scene");
+    let values = vec![Setting::Number(0.3), Setting::Number(-0.3)];
+    let axes = vec![Axis { key: "initial.theta[1]".into(), values }];
+    let sweep = Sweep { template, axes, combine: Combine::Cartesian, ask: Ask::Peaks };
+    for row in sweep.rows(0..2) {
+        let outcome = row.result.expect("a run");
+        assert_eq!((outcome.impacts, outcome.last_mode.as_deref()), (0, Some("1.1")));
+        assert!(outcome.overturned_at.is_some());
+    }
+}
+
 /// Rows that say whether a column overturns say nothing else than those that say when as well.
 #[test]
 fn whether_is_answered_as_when() {

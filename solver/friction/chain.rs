@@ -264,7 +264,7 @@ impl<'a> Chain<'a> {
         Motion { linear, angular: rates.omega.clone() }
     }
 
-    /// Motion of each block, `[x, y, angle]`, for a unit rate of the common angle of these ones.
+    /// Writes the motion of each block, `[x, y, angle]`, for a unit rate of the common angle of the blocks in `range`. Entries below `range` stay as they are.
     pub fn turned(&self, range: Range<usize>, motion: &mut [[f64; 3]]) {
         let mut below = [0.0, 0.0];
         for i in range.clone() {

@@ -105,7 +105,7 @@ impl SeriesSpan<'_> {
     /// Visits `limit - x` and `limit + x`.
     #[inline(always)]
     fn within(&self, limit: f64, x: impl Fn(usize) -> f64, visit: &mut dyn FnMut(&Powers)) {
-        // Neither falls to zero where the sum of the sizes of all terms stays below the limit.
+        // If the magnitudes of all terms add up to less than the limit, neither polynomial falls to zero.
         let powers = &self.powers[..self.series.orders() + 2];
         let size: f64 = powers.iter().enumerate().map(|(k, power)| (x(k) * power).abs()).sum();
         if size < limit {

@@ -42,7 +42,7 @@ impl Coordinate {
         }
     }
 
-    /// The lowest block that it moves (from zero).
+    /// Lowest block (from zero) that the coordinate moves.
     fn lowest_block(&self) -> usize {
         match self {
             Coordinate::Angle(blocks) => blocks.start,

@@ -44,9 +44,9 @@ struct Event {
 
 /// The state with which a loop begins.
 pub(crate) enum Departure {
-    /// That at the beginning of the run: the laws of contact are asked for the pattern.
+    /// State at the beginning of the run. The laws of contact decide its pattern.
     Beginning(State),
-    /// One whose pattern is decided already.
+    /// State whose pattern is decided already.
     Decided(State),
 }
 

@@ -5,6 +5,7 @@ mod cones;
 mod diagnostics;
 mod error;
 mod event_loop;
+mod expected_event;
 mod modes;
 mod multi_sample_step;
 mod needs;

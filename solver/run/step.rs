@@ -10,6 +10,7 @@
 //! | `c_i N_i - abs(M_i)` | closed interface `i` opens | its Taylor series, or samples |
 
 use super::error::SolveError;
+use super::expected_event;
 use super::phase::{Gap, Kind, Phase, StepEnd};
 use super::problem::Problem;
 use super::stretch::{Ended, Found, Over, Panel};
@@ -38,13 +39,6 @@ const NEWTON_ROUNDS: usize = 4;
 /// Safety factor of the bound, below 2 so that rounding cannot close a gap.
 const CLEAR_GAP_FACTOR: f64 = 1.999;
 
-/// Ratio of a step to the time at which a gap is expected to close. Smaller, and the gap closes in the next step more often; larger, and the step takes
-/// more orders.
-pub(super) const CLOSING_MARGIN: f64 = 1.25;
-
-/// Least share of the step that the method wants to which an expected closing shortens the step.
-pub(super) const LEAST_SHARE_OF_STEP: f64 = 1e-6;
-
 /// Panels per radian that the fastest link turns in a step: forces vary with sines and squares of rates, and a parabola over a twentieth of
 /// a radian is right to 1e-4 of the weight.
 pub(super) const PANELS_PER_TURN: f64 = 20.0;
@@ -62,7 +56,10 @@ impl Phase {
         let t = self.t;
         let held = self.held_until - t;
         let most = if held > 0.0 { left.min(held) } else { left }.min(self.longest);
-        let most = if self.integrator.cost_follows_length() { most.min(self.expected_closing()) } else { most };
+        let most = match self.integrator.cost_follows_length() {
+            true => most.min(expected_event::longest_step(self.expected_closing(), self.wanted)),
+            false => most,
+        };
         let attempt = self.integrator.attempt(t, self.wanted, most, problem.tolerance);
         self.wanted = attempt.wanted;
         if !attempt.is_good() {
@@ -81,15 +78,13 @@ impl Phase {
         Ok(Found::Stretch(event.and_then(|(guard, s)| self.cut_at(problem, guard, h, s))))
     }
 
-    /// A time soon after the first gap is expected to close `[s]`; infinite if none is. The accelerations at the start are taken for constant.
+    /// Time at which the first gap is expected to close `[s]`; infinite if none is.
     fn expected_closing(&mut self) -> f64 {
         self.integrator.start_slope(self.t, &mut self.slope);
         let (angles, rates) = self.integrator.start().split_at(self.dof);
-        let mut first = f64::INFINITY;
-        for gap in &self.gaps {
-            first = first.min(first_closing([angles, rates, &self.slope[self.dof..]].map(|x| gap.across.of(x))));
-        }
-        (CLOSING_MARGIN * first).max(LEAST_SHARE_OF_STEP * self.wanted)
+        let derivatives = [angles, rates, &self.slope[self.dof..]];
+        let closing = |gap: &Gap| expected_event::closing(derivatives.map(|x| gap.across.of(x)));
+        self.gaps.iter().map(closing).fold(f64::INFINITY, f64::min)
     }
 
     #[cold]
@@ -345,14 +340,6 @@ impl Phase {
         self.integrator.state_inside(step.part, s, &mut self.inside);
         self.evaluate_forces_inside(problem, self.t + s * step.h);
     }
-}
-
-/// When a gap of this value, rate and constant acceleration closes; infinite if it does not.
-pub(super) fn first_closing([value, rate, acceleration]: [f64; 3]) -> f64 {
-    // Where the parabola comes down to zero, without cancellation; not a number if it does not.
-    let root = (rate * rate - 2.0 * acceleration * value).sqrt();
-    let closing = if rate > 0.0 { (rate + root) / -acceleration } else { 2.0 * value / (root - rate) };
-    if closing > 0.0 { closing } else { f64::INFINITY }
 }
 
 /// Bernstein coefficients of the cubic with value and rate `a, u` at the start and `b, v` at the end of a step `h`.

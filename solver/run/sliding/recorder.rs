@@ -185,7 +185,7 @@ impl<'p> Recorder<'p> {
         self.samples.len()
     }
 
-    /// Records a part in which everything sticks, of the column with its slides, from one state to another. The work of the ground in it is the change of
+    /// Records the response of a part in which everything sticks: its column with slides, and the states at its two ends. The work of the ground in it is the change of
     /// energy plus the losses at impacts.
     pub fn append(&mut self, column: &Column, [from, until]: [&State; 2], response: Response) {
         self.work.add(&response.work);

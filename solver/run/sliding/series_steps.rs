@@ -13,7 +13,7 @@ use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
 use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, MARGIN, SAFETY};
 use crate::run::error::SolveError;
-use crate::run::step::{CLOSING_MARGIN, LEAST_SHARE_OF_STEP, first_closing};
+use crate::run::expected_event;
 use std::cell::OnceCell;
 
 /// Orders of second derivatives after which the terms are first compared with the tolerance.
@@ -51,7 +51,8 @@ impl<'p> Mover<'p> {
             segment.vertical.expand_at(t, &mut ground[1][..most_orders]);
             ground[1][0] += smooth.gravity;
             let begun = series.begin(&x, [&ground[0], &ground[1]]);
-            let most = left.min(LARGEST_GROWTH * wanted).min(longest).min(expected_end(&series, joints, wanted));
+            let most = left.min(LARGEST_GROWTH * wanted).min(longest);
+            let most = most.min(expected_event::longest_step(expected_end(&series, joints), wanted));
             let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
             self.work.rhs_calls += series.orders();
             let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
@@ -99,21 +100,20 @@ impl<'p> Mover<'p> {
     }
 }
 
-/// A time soon after a slide is expected to stop or a gap to close `[s]`; infinite if none is. The second derivatives at the start are taken for constant.
-fn expected_end(series: &Series, joints: &[Joint], wanted: f64) -> f64 {
+/// Time at which the first slide is expected to stop or gap to close `[s]`; infinite if none is.
+fn expected_end(series: &Series, joints: &[Joint]) -> f64 {
     let mut first = f64::INFINITY;
     for (interface, joint) in joints.iter().enumerate() {
         if let Some(slide) = series.slide(interface) {
-            let stop = -slide[1] / (2.0 * slide[2]);
-            first = if stop > 0.0 { first.min(stop) } else { first };
+            first = first.min(expected_event::stop([slide[1], 2.0 * slide[2]]));
         }
         if let Joint::Corner(side, ..) = joint {
             let below = interface.checked_sub(1).map_or(&[0.0; 3][..], |below| series.angle(below));
             let gap = |k: usize| f64::from(*side) * (series.angle(interface)[k] - below[k]);
-            first = first.min(first_closing([gap(0), gap(1), 2.0 * gap(2)]));
+            first = first.min(expected_event::closing([gap(0), gap(1), 2.0 * gap(2)]));
         }
     }
-    (CLOSING_MARGIN * first).max(LEAST_SHARE_OF_STEP * wanted)
+    first
 }
 
 /// Most orders of steps of this tolerance: one more costs more than the longer step saves.

@@ -223,6 +223,20 @@ mod tests {
     }
 
     #[test]
+    fn labels_know_whole_keys_before_their_last_parts() {
+        let labels =
+            ["friction.static", "friction", "excitation.vertical.pga", "block[2].mass", "other.unknown"].map(label);
+        let expected = [
+            "Static friction coefficient",
+            "Friction coefficient",
+            "Peak ground acc. [m/s²], vertical",
+            "Mass [kg], block[2]",
+            "unknown",
+        ];
+        assert_eq!(labels, expected);
+    }
+
+    #[test]
     fn ticks_are_round_and_inside() {
         let words = |values: Vec<f64>, count| -> Vec<String> {
             Scale::of("eta", values).ticks(count).into_iter().map(|(_, word)| word).collect()
