@@ -261,50 +261,59 @@ impl Motion {
             return terms.iter().enumerate().find_map(term);
         }
         let is_bad = |(_, value, above): &Parameter| value.is_nan() || value.abs() > largest || value <= above;
-        let (name, value, _) = self.parameters().into_iter().find(is_bad)?;
+        let first = |parts: [&[Parameter]; 2]| parts.into_iter().flatten().find(|parameter| is_bad(parameter)).copied();
+        let (name, value, _) = self.with_parameters(first)?;
         Some((name.into(), value))
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    /// The result of a function of the parameters. They come in two slices, without allocation: scenes of a sweep are checked a million times.
+    fn with_parameters<R>(&self, of: impl FnOnce([&[Parameter]; 2]) -> R) -> R {
         const ANY: f64 = f64::NEG_INFINITY;
-        let wave = |amplitude: f64, omega: f64, start: f64, more: &[Parameter]| {
-            [&[("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)], more].concat()
+        let wave = |amplitude: f64, omega: f64, start: f64| {
+            [("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)]
         };
-        let envelope = |velocity: f64, omega: f64, start: f64, phase: f64, gamma: Parameter| {
-            let others = wave(velocity * omega, omega, start, &[("phase", phase, ANY), gamma]);
-            [&[("velocity", velocity, ANY)], others.as_slice()].concat()
+        let lasting = |amplitude: f64, start: f64, duration: f64| {
+            [("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)]
+        };
+        // The acceleration of a pulse of velocity has its amplitude at the crest.
+        let envelope = |velocity: f64, omega: f64, start: f64| {
+            [
+                ("velocity", velocity, ANY),
+                ("omega", omega, 0.0),
+                ("start", start, ANY),
+                ("velocity", velocity * omega, ANY),
+            ]
         };
         match *self {
             Motion::SinePulse { amplitude, omega, start }
             | Motion::CosinePulse { amplitude, omega, start }
             | Motion::HalfSine { amplitude, omega, start }
             | Motion::Ricker { amplitude, omega, start }
-            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start, &[]),
+            | Motion::AntisymmetricRicker { amplitude, omega, start } => of([&wave(amplitude, omega, start), &[]]),
             Motion::TypeC { amplitude, omega, start, cycles } => {
-                wave(amplitude, omega, start, &[("cycles", f64::from(cycles), 0.0)])
+                of([&wave(amplitude, omega, start), &[("cycles", f64::from(cycles), 0.0)]])
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                wave(amplitude, omega, start, &[("phase", phase, ANY)])
+                of([&wave(amplitude, omega, start), &[("phase", phase, ANY)]])
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                wave(amplitude, omega, start, &[("phase", phase, ANY), ("duration", duration, 0.0)])
+                of([&wave(amplitude, omega, start), &[("phase", phase, ANY), ("duration", duration, 0.0)]])
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
-                envelope(velocity, omega, start, phase, ("gamma", gamma, 1.0))
+                of([&envelope(velocity, omega, start), &[("phase", phase, ANY), ("gamma", gamma, 1.0)]])
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
-                envelope(velocity, omega, start, phase, ("gamma", gamma, 0.0))
+                of([&envelope(velocity, omega, start), &[("phase", phase, ANY), ("gamma", gamma, 0.0)]])
             }
             Motion::Rectangular { amplitude, start, duration }
             | Motion::DoubleRectangular { amplitude, start, duration } => {
-                vec![("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)]
+                of([&lasting(amplitude, start, duration), &[]])
             }
-            Motion::Sum { .. } => Vec::new(),
-            Motion::Record(ref record) => vec![
-                ("file", record.peak(), ANY),
-                ("start", record.start(), ANY),
-                ("dt", record.dt(), SHORTEST_INTERVAL),
-            ],
+            Motion::Sum { .. } => of([&[], &[]]),
+            Motion::Record(ref record) => of([
+                &[("file", record.peak(), ANY), ("start", record.start(), ANY), ("dt", record.dt(), SHORTEST_INTERVAL)],
+                &[],
+            ]),
         }
     }
 }
@@ -408,5 +417,8 @@ pub(crate) mod tests {
         let bad =
             Motion::Sum { terms: vec![terms[0].clone(), Motion::HalfSine { amplitude: 1.0, omega: 0.0, start: 0.0 }] };
         assert_eq!(bad.invalid(1e6), Some(("term[2].omega".into(), 0.0)));
+        let gabor = |velocity| Motion::Gabor { velocity, omega: 2e3, start: 0.0, phase: 0.0, gamma: 2.0 };
+        assert_eq!(gabor(100.0).invalid(1e6), None);
+        assert_eq!(gabor(1e3).invalid(1e6), Some(("velocity".into(), 2e6)), "the acceleration is out of range");
     }
 }

@@ -10,6 +10,12 @@
 
 use crate::numerics::polynomial::bernstein::{Bernstein, COEFFICIENTS};
 
+/// Root between two places, to the last bit, of a function that is above zero at the first and not above zero at the second.
+pub fn root_between(from: f64, until: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    let width = until - from;
+    from + width * bisect(|share| f(if share == 1.0 { until } else { from + width * share }))
+}
+
 /// Root in `(0, 1]`, to the last bit, of a function that is above zero at 0 and not above zero at 1. Inverse quadratic interpolation where its
 /// result can be trusted, otherwise bisection (Chandrupatla 1997). Steps are no shorter than the resolution, so that both ends close in.
 fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
@@ -290,6 +296,14 @@ mod tests {
         assert!((root - std::f64::consts::FRAC_PI_4).abs() < 4e-16, "{root}");
         assert_eq!(polished(guard, 0.78, -1.99, 0.785), None, "beyond reach");
         assert_eq!(polished(|s| 0.1 + (s - 0.5) * (s - 0.5), 0.5, -1e-3, 1.0), None, "a touch");
+    }
+
+    #[test]
+    fn a_root_between_two_places_is_right_to_the_last_bit() {
+        // e is where 1 - ln t changes its sign; its slope there is 1 / e, so that rounding of the function moves the root by one or two roundings.
+        let root = root_between(2.0, 3.5, |t| 1.0 - libm::log(t));
+        assert!((root - std::f64::consts::E).abs() <= 4.0 * f64::EPSILON, "{root}");
+        assert_eq!(root_between(0.5, 2.0, |t| 2.0 - t), 2.0);
     }
 
     fn assert_root(found: Option<f64>, expected: f64) {

@@ -36,7 +36,7 @@ impl Sample {
         let ground = Ground { x: self.ground[0], gravity: column.gravity() + self.ground[1] };
         match Mode::new(column, &self.pattern) {
             Some(mode) => mode.contact_forces(&self.state_of_links(), ground),
-            None => rest::contact_forces(column, ground),
+            None => rest::contact_forces(column, ground).to_vec(),
         }
     }
 

@@ -5,11 +5,9 @@
 
 use super::stretch::{Inside, Panel};
 use crate::column::Column;
+use crate::numerics::guards::root_between;
 use crate::numerics::per_block::PerBlock;
 use crate::validity::{COEFFICIENTS, ContactNeeds, Exceedance, Extreme, Span, Validity};
-
-/// Rounds of bisection for the time at which a block passes its balance: so many halvings bring a stretch below the resolution of doubles.
-const ROUNDS: usize = 60;
 
 /// What all contacts have needed so far.
 pub(crate) struct Needs {
@@ -73,16 +71,20 @@ impl Account {
     /// Adds a panel between two times `[s]` that counts for `seconds` of the run; returns whether it has a new extreme.
     fn add(&mut self, own: &InPanel, times: [f64; 2], seconds: f64) -> bool {
         let (is_higher, is_lower) = (own.largest_demand > self.demand.value, own.least_normal < self.normal.value);
-        let least_at = place(own.normal.map(|normal| -normal), times);
+        let pull = own.normal.map(|normal| -normal);
         if is_higher {
-            let t = if own.largest_demand.is_finite() { place(own.demand, times) } else { least_at };
-            self.demand = Found { value: own.largest_demand, t, theta: f64::NAN };
+            let extreme = if own.largest_demand.is_finite() { own.demand } else { pull };
+            self.demand = Found { value: own.largest_demand, t: place(extreme, times), theta: f64::NAN };
         }
         if is_lower {
-            self.normal = Found { value: own.least_normal, t: least_at, theta: f64::NAN };
+            self.normal = Found { value: own.least_normal, t: place(pull, times), theta: f64::NAN };
         }
-        self.tension += seconds * share_above(own.normal.map(|normal| -normal), 0.0);
-        for (time, level) in self.above.iter_mut().zip(COEFFICIENTS) {
+        if own.least_normal < 0.0 {
+            self.tension += seconds * share_above(pull, 0.0);
+        }
+        // The coefficients rise: the demand is above the first few of them.
+        let is_reached = |(_, level): &(&mut f64, f64)| own.largest_demand > *level;
+        for (time, level) in self.above.iter_mut().zip(COEFFICIENTS).take_while(is_reached) {
             *time += seconds * share_above(own.demand, level);
         }
         is_higher || is_lower
@@ -139,13 +141,7 @@ impl Needs {
                 self.come_back();
                 self.beyond = if is_any_beyond { end } else { f64::INFINITY };
             } else if is_any_beyond && !self.beyond.is_finite() {
-                let (mut short, mut long) = (self.last_end, end);
-                for _ in 0..ROUNDS {
-                    let middle = 0.5 * (short + long);
-                    let is_long = is_beyond(&inside.state_at(middle).0, &self.balances);
-                    *(if is_long { &mut long } else { &mut short }) = middle;
-                }
-                self.beyond = long;
+                self.beyond = root_between(self.last_end, end, |t| left(&inside.state_at(t).0, &self.balances));
             }
         }
         self.last_end = end;
@@ -234,7 +230,12 @@ impl Needs {
 
 /// Whether some block is past its balance.
 fn is_beyond(theta: &[f64], balances: &[f64]) -> bool {
-    theta.iter().zip(balances).any(|(theta, balance)| theta.abs() > *balance)
+    left(theta, balances) < 0.0
+}
+
+/// The least angle that is left to a block before its balance `[rad]`; negative if some block is past its balance.
+fn left(theta: &[f64], balances: &[f64]) -> f64 {
+    theta.iter().zip(balances).map(|(theta, balance)| balance - theta.abs()).fold(f64::INFINITY, f64::min)
 }
 
 /// Time of the largest value of a quantity with these values at start, middle and end `[s]`: the crest of their parabola, or one of the three.

@@ -163,16 +163,17 @@ impl Recorder {
         if !problem.records_forces() {
             return;
         }
-        match self.needs.take() {
-            Some(mut needs) => {
-                needs.begin(stretch.inside, stretch.end, &self.peak_theta);
+        let Recorder { needs, peak_theta, friction_demand, min_normal_force, .. } = self;
+        let known = (&mut friction_demand[..], &mut min_normal_force[..]);
+        match needs {
+            Some(needs) => {
+                needs.begin(stretch.inside, stretch.end, peak_theta);
                 stretch.inside.forces(problem, &mut |panel| {
-                    self.record_forces(panel, |interface, extremes| needs.add(interface, panel, extremes));
+                    raise_forces(panel, (known.0, known.1), |interface, own| needs.add(interface, panel, own));
                 });
                 needs.end(stretch.inside);
-                self.needs = Some(needs);
             }
-            None => stretch.inside.forces(problem, &mut |panel| self.record_forces(panel, |_, _| ())),
+            None => stretch.inside.forces(problem, &mut |panel| raise_forces(panel, (known.0, known.1), |_, _| ())),
         }
     }
 
@@ -209,24 +210,6 @@ impl Recorder {
         let mut below = 0.0;
         for (largest, theta) in self.largest_gaps.iter_mut().zip(theta) {
             *largest = largest.max((theta - std::mem::replace(&mut below, *theta)).abs());
-        }
-    }
-
-    /// Records the extremes within a panel from its contact forces at start, middle and end: those of the parabolas through them.
-    #[inline(always)]
-    fn record_forces(&mut self, panel: &Panel, mut account: impl FnMut(usize, &InPanel)) {
-        for interface in 0..self.friction_demand.len() {
-            let [a, b, c] = panel.forces.map(|forces| forces[interface]);
-            let normal = [a, b, c].map(|force| force.normal);
-            let least = -crest(normal.map(|normal| -normal));
-            let demand = [a, b, c].map(|force| friction(&force));
-            let is_finite = demand.iter().all(|demand| demand.is_finite());
-            // Between the three places the contact may part while a tangential force acts.
-            let parts = least <= 0.0 && [a, b, c].iter().any(|force| force.tangential != 0.0);
-            let most = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
-            self.min_normal_force[interface] = self.min_normal_force[interface].min(least);
-            self.friction_demand[interface] = self.friction_demand[interface].max(most);
-            account(interface, &InPanel { demand, normal, largest_demand: most, least_normal: least });
         }
     }
 
@@ -343,6 +326,28 @@ impl Recorder {
             used_generic: modes.used_generic(),
             sliding: None,
         }
+    }
+}
+
+/// Raises the largest friction demands and lowers the least normal forces, per interface, by those of a panel: extremes of the parabolas through its
+/// contact forces at start, middle and end. Calls `account` with each interface and its values.
+#[inline(always)]
+fn raise_forces(
+    panel: &Panel,
+    (friction_demand, min_normal_force): (&mut [f64], &mut [f64]),
+    mut account: impl FnMut(usize, &InPanel),
+) {
+    for (interface, (largest, least)) in friction_demand.iter_mut().zip(min_normal_force).enumerate() {
+        let forces = panel.forces.map(|forces| forces[interface]);
+        let normal = forces.map(|force| force.normal);
+        let least_normal = -crest(normal.map(|normal| -normal));
+        let demand = forces.map(|force| friction(&force));
+        let is_finite = demand.iter().all(|demand| demand.is_finite());
+        // Between the three places the contact may part while a tangential force acts.
+        let parts = least_normal <= 0.0 && forces.iter().any(|force| force.tangential != 0.0);
+        let largest_demand = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
+        (*least, *largest) = (least.min(least_normal), largest.max(largest_demand));
+        account(interface, &InPanel { demand, normal, largest_demand, least_normal });
     }
 }
 

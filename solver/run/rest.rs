@@ -352,7 +352,7 @@ impl Shaking {
 }
 
 /// At rest the whole weight stands on each interface, and the ground drags it along. Base first, length N.
-pub fn contact_forces(column: &Column, ground: Ground) -> Vec<ContactForce> {
+pub fn contact_forces(column: &Column, ground: Ground) -> PerBlock<ContactForce> {
     let force = |interface: usize| {
         let mass = column.mass_above(interface);
         let (normal, tangential) = (mass * ground.gravity, mass * ground.x);

@@ -281,6 +281,9 @@ impl Phase {
 
     /// Writes the state at a time of the step into `inside`.
     pub(super) fn state_in_step(&mut self, step: StepEnd, t: f64) {
+        if t == step.end {
+            return self.inside.copy_from_slice(self.integrator.end());
+        }
         let s = ((t - self.t) / step.attempted).clamp(0.0, 1.0);
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
@@ -314,17 +317,18 @@ impl Phase {
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
         let panels = (PANELS_PER_TURN * turned + PANELS_PER_RADIAN * radians).ceil().clamp(1.0, MOST_PANELS) as usize;
         let at = |place: f64| place / panels as f64;
-        let mut start = self.forces.start.clone();
+        let (mut start, mut end) = (self.forces.start.clone(), last.clone());
         for panel in 0..panels {
-            let mut end = last.clone();
             if panel + 1 < panels {
                 self.evaluate_forces_at_share(problem, step, at(panel as f64 + 1.0));
-                end.copy_from_slice(&self.forces.last);
+                std::mem::swap(&mut end, &mut self.forces.last);
+            } else {
+                end.copy_from_slice(&last);
             }
             self.evaluate_forces_at_share(problem, step, at(panel as f64 + 0.5));
             let times = || [panel as f64, panel as f64 + 1.0].map(|place| self.t + step.h * at(place));
             note(&Panel { forces: [&start, &self.forces.last, &end], times: &times, weight: 1.0 });
-            start = end;
+            std::mem::swap(&mut start, &mut end);
         }
         self.forces.last.copy_from_slice(&last);
         for index in 0..self.closed.len() {
