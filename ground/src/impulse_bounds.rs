@@ -1,5 +1,6 @@
 //! Upper bounds of the impulse `∫ |a| dt` of a ground acceleration over a span of time, and of the push: the part of it to one side.
 
+use crate::linear::LinearInterval;
 use crate::piece::Piece;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
 
@@ -87,6 +88,9 @@ impl Piece {
         };
         let impulse = match *self {
             Piece::Zero => 0.0,
+            Piece::Linear { .. } => {
+                LinearInterval { a: self.value(from), b: self.value(to), h: to - from, v: 0.0, d: 0.0 }.absolute()
+            }
             Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
             Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
             // For a Gabor wavelet, the bound of the push also bounds `∫ |a| dt`.
