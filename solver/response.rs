@@ -253,15 +253,33 @@ pub struct Work {
 impl Work {
     /// Adds the work of another part of a run.
     pub(crate) fn add(&mut self, other: &Work) {
-        self.steps += other.steps;
-        self.rejected += other.rejected;
-        self.repeated += other.repeated;
-        self.rhs_calls += other.rhs_calls;
-        self.force_calls += other.force_calls;
-        self.phases += other.phases;
-        self.closed_form_swings += other.closed_form_swings;
-        self.multi_sample_steps += other.multi_sample_steps;
-        self.rest_stretches += other.rest_stretches;
+        // Field by field, so that no field is forgotten.
+        let Work {
+            steps,
+            rejected,
+            repeated,
+            rhs_calls,
+            force_calls,
+            with_vertical,
+            modes_entered,
+            phases,
+            closed_form_swings,
+            multi_sample_steps,
+            rest_stretches,
+            ended_early,
+        } = *other;
+        self.steps += steps;
+        self.rejected += rejected;
+        self.repeated += repeated;
+        self.rhs_calls += rhs_calls;
+        self.force_calls += force_calls;
+        self.with_vertical |= with_vertical;
+        self.modes_entered += modes_entered;
+        self.phases += phases;
+        self.closed_form_swings += closed_form_swings;
+        self.multi_sample_steps += multi_sample_steps;
+        self.rest_stretches += rest_stretches;
+        self.ended_early |= ended_early;
     }
 }
 
@@ -334,6 +352,9 @@ pub struct Response {
     pub truncated: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
+    /// The block that slid or flew off its support, from 1; only with friction.
+    #[serde(default)]
+    pub collapsed_block: Option<usize>,
     /// The column at the output times.
     #[serde(skip)]
     pub samples: Vec<Sample>,
@@ -389,10 +410,9 @@ impl Response {
         self.peak_theta.iter().enumerate().map(|(block, peak)| peak / column.stack(block).slenderness()).collect()
     }
 
-    /// The block that lost its support, from 1; events must have been recorded.
-    pub fn collapsed_block(&self) -> Option<usize> {
-        let event = self.events.last().filter(|event| event.kind == EventKind::Collapsed)?;
-        event.interface
+    /// The block with which the column was lost, from 1: it overturned or collapsed. `None` for a column that stands.
+    pub fn lost_block(&self) -> Option<usize> {
+        self.overturned_block.or(self.collapsed_block)
     }
 
     /// What slid and flew; `None` where nothing did, with friction or without.

@@ -6,11 +6,12 @@ use crate::scene::{Origin, Scene};
 use crate::sweep::{ERROR, in_parts, layout, per_block, range};
 use crate::table::{Column, Names, Values, into_python, whole};
 use numpy::PyReadonlyArray2;
+use numpy::ndarray::ArrayView1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rocking::intensity::Intensity;
-use rocking::studies::{self, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError};
+use rocking::studies::{self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError};
 use rocking::sweep::Fate;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -183,72 +184,74 @@ fn run_error(py: Python<'_>, failed: &RunError) -> PyErr {
     }
 }
 
-/// Runs of a table as observations. `peaks` and `slides` have the shape (runs, blocks), with NaN for blanks.
-fn observations(
+/// Columns of a table of runs.
+#[derive(FromPyObject)]
+pub struct Runs<'py> {
     records: Vec<String>,
     levels: Vec<f64>,
     outcomes: Vec<Option<String>>,
-    uplift: Vec<bool>,
-    peaks: &PyReadonlyArray2<'_, f64>,
-    slides: &PyReadonlyArray2<'_, f64>,
-) -> PyResult<Vec<Observation>> {
-    let runs = records.len();
-    let (peaks, slides) = (peaks.as_array(), slides.as_array());
-    if [levels.len(), outcomes.len(), uplift.len(), peaks.nrows(), slides.nrows()].iter().any(|length| *length != runs)
-    {
-        return Err(PyValueError::new_err("columns of a study must be equally long"));
+    /// Cells of the column `trust`, if there is one.
+    trust: Option<Vec<Option<String>>>,
+    /// Whether the column `first_uplift` is filled, if there is one.
+    uplift: Option<Vec<bool>>,
+    /// Shape (runs, blocks), with NaN for blanks.
+    peaks: PyReadonlyArray2<'py, f64>,
+    /// Shape (runs, interfaces), with NaN for blanks `[m]`.
+    slides: PyReadonlyArray2<'py, f64>,
+}
+
+impl Runs<'_> {
+    fn observations(&self) -> PyResult<Vec<Observation>> {
+        let (peaks, slides) = (self.peaks.as_array(), self.slides.as_array());
+        let runs = self.records.len();
+        let lengths = [self.levels.len(), self.outcomes.len(), peaks.nrows(), slides.nrows()];
+        let optional = [self.trust.as_ref().map(Vec::len), self.uplift.as_ref().map(Vec::len)];
+        if lengths.into_iter().chain(optional.into_iter().flatten()).any(|length| length != runs) {
+            return Err(PyValueError::new_err("columns of a study must be equally long"));
+        }
+        (0..runs).map(|run| self.observation(run, peaks.row(run), slides.row(run))).collect()
     }
-    let numbers =
-        |row: numpy::ndarray::ArrayView1<'_, f64>| row.iter().copied().filter(|number| !number.is_nan()).collect();
-    records
-        .into_iter()
-        .zip(outcomes)
-        .enumerate()
-        .map(|(run, (record, outcome))| {
-            let level = levels[run];
-            if !(level.is_finite() && level > 0.0) {
-                return Err(PyValueError::new_err(format!("row {run}: the level {level} is not a number above zero")));
-            }
-            let fate = match outcome.as_deref() {
-                None | Some(ERROR) => None,
-                Some(name) => Some(
-                    Fate::ALL
-                        .into_iter()
-                        .find(|fate| fate.name() == name)
-                        .ok_or_else(|| PyValueError::new_err(format!("row {run}: `{name}` is no outcome of a run")))?,
-                ),
-            };
-            Ok(Observation {
-                record,
-                level,
-                fate,
-                has_uplift: uplift[run],
-                peaks: numbers(peaks.row(run)),
-                residual_slides: numbers(slides.row(run)),
-            })
-        })
-        .collect()
+
+    fn observation(&self, run: usize, peaks: ArrayView1<'_, f64>, slides: ArrayView1<'_, f64>) -> PyResult<Observation> {
+        let level = self.levels[run];
+        if !(level.is_finite() && level > 0.0) {
+            return Err(PyValueError::new_err(format!("row {run}: the level {level} is not a number above zero")));
+        }
+        let numbers = |row: ArrayView1<'_, f64>| row.iter().copied().filter(|number| !number.is_nan()).collect();
+        let outcome = self.outcomes[run].as_deref();
+        let cells = Cells {
+            record: self.records[run].clone(),
+            level,
+            outcome,
+            trust: self.trust.as_ref().and_then(|trust| trust[run].as_deref()),
+            has_uplift: self.uplift.as_ref().map(|uplift| uplift[run]),
+            peaks: numbers(peaks),
+            residual_slides: numbers(slides),
+        };
+        let wrong = |refused| PyValueError::new_err(format!("row {run}: `{}` is {refused}", outcome.unwrap_or_default()));
+        Observation::try_from(cells).map_err(wrong)
+    }
+}
+
+/// The columns that name the record of a run, by the headings of a table.
+#[pyfunction]
+pub fn record_columns(header: Vec<String>) -> Vec<usize> {
+    studies::record_columns(&header)
 }
 
 /// The fragility of a limit state as JSON, and its statements.
 #[pyfunction]
-#[pyo3(signature = (records, levels, outcomes, uplift, peaks, slides, state, replicates, confidence, seed, layout_name))]
-#[expect(clippy::too_many_arguments, reason = "columns of a table and options, one argument each")]
+#[pyo3(signature = (runs, state, replicates, confidence, seed, layout_name))]
 pub fn fragility(
     py: Python<'_>,
-    records: Vec<String>,
-    levels: Vec<f64>,
-    outcomes: Vec<Option<String>>,
-    uplift: Vec<bool>,
-    peaks: PyReadonlyArray2<'_, f64>,
-    slides: PyReadonlyArray2<'_, f64>,
+    runs: Runs<'_>,
     state: &str,
     replicates: usize,
     confidence: f64,
     seed: u64,
     layout_name: Option<&str>,
 ) -> PyResult<(String, Vec<String>)> {
-    let runs = observations(records, levels, outcomes, uplift, &peaks, &slides)?;
+    let runs = runs.observations()?;
     let state: LimitState =
         state.parse().map_err(|refused| error::of_study(py, &format!("there is no state `{state}`; {refused}")))?;
     if !(confidence > 0.0 && confidence < 1.0) {
@@ -273,16 +276,8 @@ pub fn probability(median: f64, dispersion: f64, levels: Vec<f64>) -> Vec<f64> {
 
 /// Stripes of the runs of a table, as columns.
 #[pyfunction]
-pub fn stripes<'py>(
-    py: Python<'py>,
-    records: Vec<String>,
-    levels: Vec<f64>,
-    outcomes: Vec<Option<String>>,
-    uplift: Vec<bool>,
-    peaks: PyReadonlyArray2<'py, f64>,
-    slides: PyReadonlyArray2<'py, f64>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let stripes = studies::stripes(&observations(records, levels, outcomes, uplift, &peaks, &slides)?);
+pub fn stripes<'py>(py: Python<'py>, runs: Runs<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let stripes = studies::stripes(&runs.observations()?);
     let columns = PyDict::new(py);
     columns.set_item("level", stripes.iter().map(|stripe| stripe.level).collect::<Vec<_>>())?;
     columns.set_item("runs", stripes.iter().map(|stripe| stripe.runs).collect::<Vec<_>>())?;

@@ -311,6 +311,7 @@ impl Recorder {
             t_final: last.t,
             truncated: false,
             overturned_block: None,
+            collapsed_block: None,
             samples: self.samples,
             events: self.events,
             impacts: self.impacts,

@@ -165,8 +165,12 @@ impl Results {
         if response.validity.as_ref().is_some_and(|validity| validity.contacts.len() != length) {
             return Some(format!("`validity` is not of {length} interface(s)"));
         }
-        if response.overturned_block.is_some_and(|block| !(1..=length).contains(&block)) {
+        let is_block = |block: Option<usize>| block.is_none_or(|block| (1..=length).contains(&block));
+        if !is_block(response.overturned_block) {
             return Some("`overturned_block` is no block of the column".into());
+        }
+        if !is_block(response.collapsed_block) {
+            return Some("`collapsed_block` is no block of the column".into());
         }
         if response.sliding.as_ref().is_some_and(|report| !report.is_of(length)) {
             return Some(format!("what slid is not of {length} block(s), or a number is out of range"));

@@ -347,7 +347,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
     IdaOutcome {
         fate: Fate::of(response),
         impacts: response.impacts,
-        block: response.overturned_block.or_else(|| response.collapsed_block()),
+        block: response.lost_block(),
         overturned_at: response.overturned_at(),
         first_uplift: first_uplift(response),
         largest_gap: largest_gap(column, response),

@@ -20,6 +20,6 @@ mod stripes;
 pub use file::IdaFile;
 pub use fragility::{Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout};
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
-pub use observation::{LimitState, NoLimitState, Observation};
+pub use observation::{Cells, LimitState, NoLimitState, NoOutcome, Observation, record_columns};
 pub use proportion::Proportion;
 pub use stripes::{FRACTILES, Stripe, fractile, stripes};

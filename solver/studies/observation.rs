@@ -1,6 +1,6 @@
 //! What a study observes of a run, and the limit states that an observation reaches or not.
 
-use crate::sweep::Fate;
+use crate::sweep::{Fate, is_of_records};
 use std::fmt;
 use std::str::FromStr;
 
@@ -42,11 +42,68 @@ impl Observation {
     }
 }
 
+/// The cells of a row in a table of runs: of a study, or of a sweep over records and a measure.
+#[derive(Clone, Debug)]
+pub struct Cells<'t> {
+    /// The name of the record, from the cells of [`record_columns`].
+    pub record: String,
+    /// Size of the ground motion in the measure of the study.
+    pub level: f64,
+    /// The column `outcome`; `None` and `error` stand for a run that failed.
+    pub outcome: Option<&'t str>,
+    /// The column `trust`; `None` in a table without it.
+    pub trust: Option<&'t str>,
+    /// Whether the column `first_uplift` is filled; `None` in a table without it.
+    pub has_uplift: Option<bool>,
+    /// The columns `peak_1, ...`, dimensionless.
+    pub peaks: Vec<f64>,
+    /// The columns `residual_slide_1, ...` `[m]`.
+    pub residual_slides: Vec<f64>,
+}
+
+/// The text is no outcome of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no outcome of a run")]
+pub struct NoOutcome;
+
+impl TryFrom<Cells<'_>> for Observation {
+    type Error = NoOutcome;
+
+    fn try_from(cells: Cells<'_>) -> Result<Observation, NoOutcome> {
+        let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
+        let named = |name: &str| Fate::ALL.into_iter().find(|fate| fate.name() == name);
+        let fate = match outcome {
+            None | Some("error") => None,
+            Some(name) => Some(named(name).ok_or(NoOutcome)?),
+        };
+        let is_open = trust == Some(Fate::NotDetermined.name());
+        let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined));
+        Ok(Observation {
+            record,
+            level,
+            fate: if is_open { Some(Fate::NotDetermined) } else { fate },
+            has_uplift: has_uplift.unwrap_or(rocks || is_open),
+            // Peaks of a run that is not determined mean nothing: its companions have other peaks.
+            peaks: if is_open { Vec::new() } else { peaks },
+            residual_slides,
+        })
+    }
+}
+
+/// The columns of a table of runs that name the record of a run: `record` in the table of a study, in that of a sweep the axes over records
+/// ([`is_of_records`]). Empty if there is none: then each row has a record of its own.
+pub fn record_columns<S: AsRef<str>>(header: &[S]) -> Vec<usize> {
+    match header.iter().position(|name| name.as_ref() == "record") {
+        Some(record) => vec![record],
+        None => (0..header.len()).filter(|place| is_of_records(header[*place].as_ref())).collect(),
+    }
+}
+
 /// A limit state of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LimitState {
-    /// An interface opens: `uplift`.
+    /// An interface opens: `uplift`. A lost column counts.
     Uplift,
     /// Largest `|θ|/α` of any block or of one block is above a limit: `peak > 0.35`, `peak_2 > 0.35`. A lost column is above every limit.
     Peak {
@@ -70,7 +127,7 @@ impl LimitState {
     pub fn is_reached(&self, run: &Observation) -> Option<bool> {
         let largest = |values: &[f64]| values.iter().map(|value| value.abs()).fold(0.0, f64::max);
         let reached = match *self {
-            LimitState::Uplift => run.has_uplift,
+            LimitState::Uplift => run.has_uplift || run.is_lost(),
             LimitState::Overturned => run.is_lost(),
             LimitState::Peak { block: None, .. } if run.peaks.is_empty() && !run.is_lost() => return None,
             LimitState::Peak { block: None, above } => run.is_lost() || largest(&run.peaks) > above,
@@ -156,7 +213,7 @@ mod tests {
             record: String::new(),
             level: 1.0,
             fate,
-            has_uplift: peak > 0.0,
+            has_uplift: peak > 0.0 && fate != Some(Fate::Collapses),
             peaks: vec![0.5 * peak, peak],
             residual_slides: Vec::new(),
         };
@@ -179,5 +236,36 @@ mod tests {
         );
         assert_eq!(reached("uplift", &run(None, 0.0)), None);
         assert_eq!([lost.demand(), standing.demand(), undecided.demand()], [Some(f64::INFINITY), Some(0.4), None]);
+    }
+
+    #[test]
+    fn rows_of_tables_are_read_whoever_wrote_them() {
+        let cells = |outcome: &'static str, trust: Option<&'static str>, has_uplift: Option<bool>| Cells {
+            record: "a".into(),
+            level: 0.5,
+            outcome: Some(outcome),
+            trust,
+            has_uplift,
+            peaks: vec![0.3],
+            residual_slides: Vec::new(),
+        };
+        let read = |outcome, trust, has_uplift| Observation::try_from(cells(outcome, trust, has_uplift));
+        let fate = |outcome, trust| read(outcome, trust, None).map(|run| (run.fate, run.has_uplift, run.peaks.len()));
+        assert_eq!(fate("rocks", None), Ok((Some(Fate::Rocks), true, 1)));
+        assert_eq!(fate("no-uplift", Some("determined")), Ok((Some(Fate::NoUplift), false, 1)));
+        assert_eq!(fate("rocks", Some("not-determined")), Ok((Some(Fate::NotDetermined), true, 0)));
+        assert_eq!(fate("error", None), Ok((None, false, 1)));
+        assert_eq!(fate("falls over", None), Err(NoOutcome));
+        assert!(!read("slides", None, Some(false)).expect("an outcome").has_uplift);
+        // A column that collapsed without a word on uplift has reached that state.
+        assert_eq!(LimitState::Uplift.is_reached(&read("collapses", None, None).expect("an outcome")), Some(true));
+    }
+
+    #[test]
+    fn all_axes_over_records_name_the_record() {
+        let station = ["excitation.station.record", "excitation.station.component", "excitation.scale.pga", "outcome"];
+        assert_eq!(record_columns(&station), [0, 1]);
+        assert_eq!(record_columns(&["pgv", "record", "excitation.horizontal.seed"]), [1]);
+        assert_eq!(record_columns(&["excitation.horizontal.omega", "outcome"]), [] as [usize; 0]);
     }
 }

@@ -437,7 +437,7 @@ impl Sweep {
         Outcome {
             fate: Fate::of(response),
             impacts: response.impacts,
-            block: response.overturned_block.or_else(|| response.collapsed_block()),
+            block: response.lost_block(),
             overturned_at: response.overturned_at().filter(|_| self.ask != Ask::Overturns),
             truncated: response.truncated,
             peaks: if with_peaks { response.peaks(&scene.column) } else { Vec::new() },

@@ -49,5 +49,5 @@ impl fmt::Display for Verdict {
 
 /// The block that overturned or collapsed, from 1.
 pub(super) fn lost_block(response: &Response) -> Option<usize> {
-    response.overturned_block.or_else(|| response.collapsed_block())
+    response.lost_block()
 }

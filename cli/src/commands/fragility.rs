@@ -3,7 +3,7 @@
 use crate::arguments::{self, Layout};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{NOT_DETERMINED, OUTCOME, TRUST};
+use crate::commands::sweep::{OUTCOME, TRUST};
 use crate::error::{Failure, at};
 use crate::table::{Format, open};
 use crate::terminal::{json, print};
@@ -11,8 +11,7 @@ use crate::text::shown;
 use crate::{output, plot};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
-use rocking::studies::{self, Fit, Fragility, FragilityOptions, LimitState, Observation};
-use rocking::sweep::Fate;
+use rocking::studies::{self, Cells, Fit, Fragility, FragilityOptions, LimitState, Observation};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -121,10 +120,7 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
     let Some(outcome) = column(OUTCOME) else {
         return Err(refused(format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`")));
     };
-    let records: Vec<usize> = match column("record") {
-        Some(record) => vec![record],
-        None => (0..names.len()).filter(|place| ["file", "seed"].contains(&last(&names[*place]).as_str())).collect(),
-    };
+    let records = studies::record_columns(&names);
     let (uplift, error, trust) = (column("first_uplift"), column("error"), column(TRUST));
     let numbered = |prefix: &str| -> Vec<usize> {
         let is_of = |name: &String| name.strip_prefix(prefix).is_some_and(|block| block.parse::<usize>().is_ok());
@@ -141,31 +137,23 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
         let size: Option<f64> = row[level].parse().ok();
         let size =
             size.filter(|size| size.is_finite() && *size > 0.0).ok_or_else(|| wrong(level, "a number above zero"))?;
-        let fate = Fate::ALL.into_iter().find(|fate| fate.name() == &row[outcome]);
-        if fate.is_none() && &row[outcome] != "error" {
-            return Err(wrong(outcome, "an outcome"));
-        }
-        if let (None, Some(error)) = (fate, error) {
+        if let ("error", Some(error)) = (&row[outcome], error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
-        let open = trust.is_some_and(|trust| &row[trust] == NOT_DETERMINED);
-        let fate = if open { Some(Fate::NotDetermined) } else { fate };
         let numbers = |places: &[usize]| -> Result<Vec<f64>, Failure> {
             let filled = places.iter().filter(|place| !row[**place].is_empty());
             filled.map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
         };
-        runs.push(Observation {
+        let cells = Cells {
             record: record_of(&row, &records, number),
             level: size,
-            fate,
-            has_uplift: match uplift {
-                Some(uplift) => !row[uplift].is_empty(),
-                None => matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined)),
-            },
-            // Peaks of a run that is not determined mean nothing: its companions have other peaks.
-            peaks: if open { Vec::new() } else { numbers(&peaks)? },
+            outcome: Some(&row[outcome]),
+            trust: trust.map(|trust| &row[trust]),
+            has_uplift: uplift.map(|uplift| !row[uplift].is_empty()),
+            peaks: numbers(&peaks)?,
             residual_slides: numbers(&slides)?,
-        });
+        };
+        runs.push(Observation::try_from(cells).map_err(|_| wrong(outcome, "an outcome"))?);
     }
     if runs.is_empty() {
         return Err(refused("it has no row; give the table of a finished study".into()));

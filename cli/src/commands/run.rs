@@ -105,7 +105,7 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
         StopReason::AtRest => format!("{fate} and stands, at rest from t = {t:.4} s on"),
         StopReason::Collapsed => format!(
             "{fate} at t = {t:.4} s ({} lost its support)",
-            response.collapsed_block().map_or("a block".into(), |block| named(scene, block))
+            response.collapsed_block.map_or("a block".into(), |block| named(scene, block))
         ),
         StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
         _ => format!("{fate} and stands at t = {t:.4} s, still rocking"),

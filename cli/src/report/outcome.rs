@@ -43,7 +43,7 @@ pub fn sentence(results: &Results) -> String {
             ("overturned", "The column <strong>overturns</strong>: nothing can stop it any more.".to_string())
         }
         StopReason::Collapsed => {
-            let who = match response.collapsed_block() {
+            let who = match response.collapsed_block {
                 Some(block) => format!("block {block} loses its support"),
                 None => "a block loses its support".into(),
             };

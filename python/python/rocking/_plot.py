@@ -53,10 +53,13 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
 
 def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
     ax = plt.subplots(figsize=(6, 5), layout="constrained")[1] if ax is None else ax
-    labels, levels, outcomes, _, peaks, _ = drawn._columns()
+    runs = drawn._runs
+    labels, levels, outcomes, peaks = runs.records, runs.levels, runs.outcomes, runs.peaks
     demand = np.fmax.reduce(peaks, axis=1) if peaks.shape[1] else np.full(len(levels), np.nan)
     # Runs that failed or are not determined have no answer, as in the figure of the command line.
-    undecided = np.array([outcome in (None, "undetermined", "not-determined") for outcome in outcomes], dtype=bool)
+    undecided = np.array([outcome in (None, "error", "undetermined", "not-determined") for outcome in outcomes], dtype=bool)
+    if runs.trust is not None:
+        undecided |= np.array([trust == "not-determined" for trust in runs.trust], dtype=bool)
     demand = np.where(undecided, np.nan, demand)
     lost = np.isin(np.array(outcomes, dtype=object), ["overturns", "collapses"])
     right = max(1.0, float(np.nanmax(np.where(lost, np.nan, demand), initial=0.0))) * 1.1

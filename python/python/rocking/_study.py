@@ -6,6 +6,7 @@ import json
 import os
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -143,6 +144,19 @@ def ida(
     return Ida(column, records, measure, levels, **periods, **arguments).run(threads=threads)
 
 
+@dataclass(frozen=True)
+class Runs:
+    """Columns of a table of runs. `trust` and `uplift` are none where the table has no such column; blanks of `peaks` and `slides` are NaN."""
+
+    records: list[str]
+    levels: list[float]
+    outcomes: list[str | None]
+    trust: list[str | None] | None
+    uplift: list[bool] | None
+    peaks: "Array"
+    slides: "Array"
+
+
 class Study:
     """The runs of a study, and what follows from them.
 
@@ -178,31 +192,37 @@ class Study:
         """Label of an axis of the measure: quantity and unit."""
         return _rocking.measure_label(_last(self.measure)) or self.measure
 
-    def _columns(self) -> tuple[list[str], list[float], list[str | None], list[bool], Array, Array]:
+    @cached_property
+    def _runs(self) -> "Runs":
         table = self.table
         names = [str(name) for name in table.columns]
-        records = ["record"] if "record" in names else [name for name in names if _last(name) in ("file", "seed")]
-        if records:
-            labels = table[records].astype(str).agg(", ".join, axis=1).tolist()
+        of_records = [table.columns[place] for place in _rocking.record_columns(names)]
+        if of_records:
+            records = table[of_records].astype(str).agg(", ".join, axis=1).tolist()
         else:
-            labels = [f"run {number}" for number in range(1, len(table) + 1)]
-        outcomes = [None if pd.isna(outcome) else str(outcome) for outcome in table["outcome"]]
-        if "first_uplift" in names:
-            uplift = table["first_uplift"].notna().tolist()
-        else:
-            uplift = [outcome in ("rocks", "overturns") for outcome in outcomes]
+            records = [f"run {number}" for number in range(1, len(table) + 1)]
+
+        def texts(name: str) -> list[str | None]:
+            return [None if pd.isna(cell) else str(cell) for cell in table[name]]
 
         def grid(prefix: str) -> Array:
             own = [name for name in names if name.startswith(prefix) and name[len(prefix) :].isdigit()]
             return np.ascontiguousarray(table[own].to_numpy(dtype=np.float64, na_value=np.nan)).reshape(len(table), len(own))
 
-        levels = table[self.measure].to_numpy(dtype=np.float64).tolist()
-        return labels, levels, outcomes, uplift, grid("peak_"), grid("residual_slide_")
+        return Runs(
+            records=records,
+            levels=table[self.measure].to_numpy(dtype=np.float64).tolist(),
+            outcomes=texts("outcome"),
+            trust=texts("trust") if "trust" in names else None,
+            uplift=table["first_uplift"].notna().tolist() if "first_uplift" in names else None,
+            peaks=grid("peak_"),
+            slides=grid("residual_slide_"),
+        )
 
     @cached_property
     def stripes(self) -> pd.DataFrame:
         """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost."""
-        columns = _rocking.stripes(*self._columns())
+        columns = _rocking.stripes(self._runs)
         return pd.DataFrame(columns).rename(columns={"level": self.measure})
 
     def fragility(
@@ -225,16 +245,16 @@ class Study:
         layout : str
             ``stripes`` or ``cloud``; as the data have it unless given.
         """
-        columns = self._columns()
+        runs = self._runs
         kind = state.strip().split("_")[0].split()[0] if state.strip() else ""
-        if kind.startswith("peak") and columns[4].shape[1] == 0:
+        if kind.startswith("peak") and runs.peaks.shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns peak_1, ...: run the sweep with ask = \"peaks\"")
-        blocks, named = columns[4].shape[1], re.match(r"\s*peak_(\d+)", state)
+        blocks, named = runs.peaks.shape[1], re.match(r"\s*peak_(\d+)", state)
         if named is not None and int(named[1]) > blocks:
             raise StudyError(f"the state `{state}` needs the column peak_{named[1]}, and the columns of the table have {blocks} block(s)")
-        if kind.startswith("slide") and columns[5].shape[1] == 0:
+        if kind.startswith("slide") and runs.slides.shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: give the scene friction")
-        text, statements = _rocking.fragility(*columns, state, replicates, confidence, seed, layout)
+        text, statements = _rocking.fragility(runs, state, replicates, confidence, seed, layout)
         return Fragility(json.loads(text), statements, self.measure, self.label)
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

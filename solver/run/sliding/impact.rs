@@ -1,6 +1,7 @@
 //! Impacts with friction: gaps that close, corners that land, and velocities that jump because no acceleration is admissible.
 
 use super::contacts::carried;
+use super::state::Stop;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Motion, Rates};
@@ -9,7 +10,7 @@ use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Slip, difference, face};
 use crate::friction::rows::{Answer, Rows};
 use crate::friction::search::{Search, Solution};
-use crate::response::{EventKind, Impulse, StopReason};
+use crate::response::{EventKind, Impulse};
 
 impl Instant<'_> {
     /// Closes an interface whose gap of angles has fallen to zero.
@@ -42,7 +43,7 @@ impl Instant<'_> {
             // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
             let before = self.now.clone();
             self.change(EventKind::Collapsed, vec![interface], &before, None);
-            self.stop = Some(StopReason::Collapsed);
+            self.stop = Some(Stop::Collapsed(interface));
             return;
         }
         let [beside, other_above] = gaps::gap(&chain, Corner { side: -side, ..corner });
@@ -68,7 +69,7 @@ impl Instant<'_> {
     ///
     /// # Errors
     /// Why the run ends, if no motion follows.
-    pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), StopReason> {
+    pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), Stop> {
         let before = self.now.clone();
         let chain = Chain::new(self.column(), &before);
         let motion = chain.motion(&Rates::of(&before));
@@ -85,7 +86,7 @@ impl Instant<'_> {
             }
             search.solve_from(first)
         };
-        let solution = found.ok_or(StopReason::Undetermined)?;
+        let solution = found.ok_or(Stop::Undetermined)?;
         self.ambiguous += usize::from(solution.is_ambiguous);
         let answer = self.rebounding(&before, touch, &motion, &solution, closing);
         for (interface, joint) in solution.joints.iter().enumerate() {

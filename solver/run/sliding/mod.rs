@@ -28,11 +28,11 @@ use super::modes::Modes;
 use super::problem::Problem;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::search::acceleration_scale;
-use crate::response::{Response, StopReason};
+use crate::response::Response;
 use crate::scene::Scene;
 use mover::Mover;
 use recorder::Recorder;
-use state::{Ended, State};
+use state::{Ended, Stop, State};
 use sticking::{Part, Progress, Sticking, Stuck};
 use transition::{start, transition};
 
@@ -75,12 +75,10 @@ pub(super) fn run(
     let mut crowd = Crowd::default();
     loop {
         recorder.transition(at.t, &next);
-        let stop = next
-            .stop
-            .or_else(|| crowd.is_stuck(&at, least_hop(problem, &at)).then_some((StopReason::Undetermined, None)));
+        let stop = next.stop.or_else(|| crowd.is_stuck(&at, least_hop(problem, &at)).then_some(Stop::Undetermined));
         at.configuration = next.after;
-        if let Some((reason, place)) = stop {
-            return Ok(recorder.finish(at, reason, place, mover.work));
+        if let Some(stop) = stop {
+            return Ok(recorder.finish(at, stop, mover.work));
         }
         let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
             Some(part) => {
@@ -101,8 +99,8 @@ pub(super) fn run(
         if progress(until.t).is_break() {
             return Err(SolveError::Cancelled { time: until.t });
         }
-        if let Some((reason, place)) = ended.over() {
-            return Ok(recorder.finish(until, reason, place, mover.work));
+        if let Some(stop) = ended.stop() {
+            return Ok(recorder.finish(until, stop, mover.work));
         }
         next = transition(problem, friction, &until, ended);
         at = until;

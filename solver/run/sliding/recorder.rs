@@ -2,7 +2,7 @@
 
 use super::contacts::{lowest_gap, slide};
 use super::smooth::{Moment, Smooth};
-use super::state::State;
+use super::state::{Stop, State};
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Motion, Rates};
@@ -71,6 +71,8 @@ pub struct Recorder<'p> {
     /// Per interface `[N]`.
     min_normal_force: Vec<f64>,
     time_in_mode: BTreeMap<String, f64>,
+    /// Whether a part in which everything sticks ran on generic equations because this build has no generated ones.
+    used_generic: bool,
     report: SlidingReport,
     /// Relative to the ground `[J]`.
     energy_at_start: f64,
@@ -95,6 +97,7 @@ impl<'p> Recorder<'p> {
             impulse_friction_demand: vec![0.0; blocks],
             min_normal_force: vec![f64::INFINITY; blocks],
             time_in_mode: BTreeMap::new(),
+            used_generic: false,
             report: SlidingReport {
                 peak_slide: sizes(slide),
                 way_slid: vec![0.0; blocks],
@@ -189,6 +192,7 @@ impl<'p> Recorder<'p> {
     /// energy plus the losses at impacts.
     pub fn append(&mut self, column: &Column, [from, until]: [&State; 2], response: Response) {
         self.work.add(&response.work);
+        self.used_generic |= response.used_generic;
         if !self.problem.is_recorded() {
             self.impacts += response.impacts;
             return;
@@ -347,9 +351,11 @@ impl<'p> Recorder<'p> {
         });
     }
 
-    /// The response of a run that ends in a state, with the block or interface (from zero) that ended it.
-    pub fn finish(mut self, end: State, status: StopReason, place: Option<usize>, steps: Work) -> Response {
+    /// The response of a run that ends in a state.
+    pub fn finish(mut self, end: State, stop: Stop, steps: Work) -> Response {
         self.work.add(&steps);
+        let status = stop.status();
+        self.work.ended_early = status == StopReason::AtRest;
         let mut smooth = Smooth::new(self.problem, self.friction, &end);
         let mut moment = smooth.moment(end.configuration);
         // A run that ends at its start still has the row of its start.
@@ -372,7 +378,8 @@ impl<'p> Recorder<'p> {
             status,
             t_final: end.t,
             truncated: false,
-            overturned_block: (status == StopReason::Overturned).then_some(place).flatten().map(|block| block + 1),
+            overturned_block: if let Stop::Overturned(block) = stop { Some(block + 1) } else { None },
+            collapsed_block: if let Stop::Collapsed(block) = stop { Some(block + 1) } else { None },
             samples: self.samples,
             events: self.events,
             impacts: self.impacts,
@@ -385,7 +392,7 @@ impl<'p> Recorder<'p> {
             separations: Vec::new(),
             validity: None,
             work: self.work,
-            used_generic: false,
+            used_generic: self.used_generic,
             sliding: Some(self.report),
         }
     }

@@ -34,13 +34,40 @@ pub enum Ended {
 }
 
 impl Ended {
-    /// Why the run is over with the stretch, and the block (from zero) that ended it; `None` if the run continues.
-    pub fn over(self) -> Option<(StopReason, Option<usize>)> {
+    /// Why the run ends with the stretch; `None` if the run continues.
+    pub fn stop(self) -> Option<Stop> {
         match self {
-            Ended::Time => Some((StopReason::EndOfTime, None)),
-            Ended::Rest => Some((StopReason::AtRest, None)),
-            Ended::Guard(Guard::Overturn(block)) => Some((StopReason::Overturned, Some(block))),
+            Ended::Time => Some(Stop::EndOfTime),
+            Ended::Rest => Some(Stop::AtRest),
+            Ended::Guard(Guard::Overturn(block)) => Some(Stop::Overturned(block)),
             Ended::Guard(_) | Ended::Jump | Ended::Jam => None,
+        }
+    }
+}
+
+/// Why a run ends. Blocks are counted from zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The angle of this block reached the overturning angle.
+    Overturned(usize),
+    /// This block slid or flew off its support.
+    Collapsed(usize),
+    /// No motion follows from the laws of contact.
+    Undetermined,
+    /// Nothing can start the column any more.
+    AtRest,
+    /// The time is over.
+    EndOfTime,
+}
+
+impl Stop {
+    pub fn status(self) -> StopReason {
+        match self {
+            Stop::Overturned(_) => StopReason::Overturned,
+            Stop::Collapsed(_) => StopReason::Collapsed,
+            Stop::Undetermined => StopReason::Undetermined,
+            Stop::AtRest => StopReason::AtRest,
+            Stop::EndOfTime => StopReason::EndOfTime,
         }
     }
 }

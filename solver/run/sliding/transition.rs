@@ -1,7 +1,7 @@
 //! Transitions: from `x⁻` at the end of a stretch to `x⁺`, by the laws of contact with friction.
 
 use super::contacts::{self, Resolution, touching};
-use super::state::{Ended, State};
+use super::state::{Ended, State, Stop};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, Question, Touch, half_length};
@@ -10,7 +10,7 @@ use crate::friction::joint::{Configuration, Joint, Sign, Slip, difference, face}
 use crate::friction::rows::Rows;
 use crate::friction::search::{Search, Solution};
 use crate::numerics::per_block::PerBlock;
-use crate::response::{EventKind, Impulse, StopReason};
+use crate::response::{EventKind, Impulse};
 use crate::run::problem::Problem;
 
 /// A transition of a run: what the laws of contact have decided about `x⁻`.
@@ -25,8 +25,8 @@ pub struct Transition {
     pub ambiguous: usize,
     /// Whether no acceleration was admissible, or forces grew without bound.
     pub is_jammed: bool,
-    /// Why the run is over, and the block or interface (from zero) that ended it, if known; `None` if the run continues.
-    pub stop: Option<(StopReason, Option<usize>)>,
+    /// Why the run ends; `None` if it continues.
+    pub stop: Option<Stop>,
 }
 
 /// An event within a transition.
@@ -57,7 +57,7 @@ pub fn transition(problem: &Problem, friction: &Coefficients, before: &State, en
         Ended::Jump | Ended::Time | Ended::Rest => return instant.decided(EventKind::Jump, None),
     };
     let (kind, hint) = match guard {
-        Guard::Overturn(block) => return instant.over(StopReason::Overturned, Some(block)),
+        Guard::Overturn(block) => return instant.end(Stop::Overturned(block)),
         Guard::Collapse(interface) => return instant.collapsed(interface),
         Guard::Close(interface) => {
             instant.close(interface);
@@ -98,7 +98,7 @@ pub(super) struct Instant<'p> {
     pub energy_lost: f64,
     pub ambiguous: usize,
     is_jammed: bool,
-    pub stop: Option<StopReason>,
+    pub stop: Option<Stop>,
 }
 
 /// Hops and slides, per interface, that have been ended in an instant because they are too low.
@@ -135,16 +135,21 @@ impl<'p> Instant<'p> {
         &self.problem.scene.column
     }
 
-    fn over(self, reason: StopReason, place: Option<usize>) -> Transition {
-        let Instant { now, changes, energy_lost, ambiguous, is_jammed, .. } = self;
-        Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop: Some((reason, place)) }
+    /// The transition with which the run ends.
+    fn end(self, stop: Stop) -> Transition {
+        Instant { stop: Some(stop), ..self }.transition()
+    }
+
+    fn transition(self) -> Transition {
+        let Instant { now, changes, energy_lost, ambiguous, is_jammed, stop, .. } = self;
+        Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop }
     }
 
     /// The end of the run: the blocks at an interface have lost contact, as its length or their overlap has fallen to zero.
     fn collapsed(mut self, interface: usize) -> Transition {
         let before = self.now.clone();
         self.change(EventKind::Collapsed, vec![interface], &before, None);
-        self.over(StopReason::Collapsed, Some(interface))
+        self.end(Stop::Collapsed(interface))
     }
 
     /// Notes an event that led from `before` to the present configuration.
@@ -167,12 +172,10 @@ impl<'p> Instant<'p> {
                     self.adopt(&joints);
                     self.name(kind, &before);
                 }
-                Err(reason) => self.stop = Some(reason),
+                Err(stop) => self.stop = Some(stop),
             }
         }
-        let stop = self.stop.map(|reason| (reason, None));
-        let Instant { now, changes, energy_lost, ambiguous, is_jammed, .. } = self;
-        Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop }
+        self.transition()
     }
 
     /// The states with which the column moves on from here.
@@ -180,7 +183,7 @@ impl<'p> Instant<'p> {
         &mut self,
         before: &Configuration,
         hint: Option<(usize, Joint)>,
-    ) -> Result<PerBlock<Joint>, StopReason> {
+    ) -> Result<PerBlock<Joint>, Stop> {
         let touch = self.joined();
         // States whose guard has just fallen to zero do not follow themselves, even if they are admissible up to rounding. Only a slide that has
         // come to rest may begin anew.
@@ -196,10 +199,10 @@ impl<'p> Instant<'p> {
             Some(solution) => solution,
             None => {
                 self.jam();
-                if let Some(reason) = self.stop {
-                    return Err(reason);
+                if let Some(stop) = self.stop {
+                    return Err(stop);
                 }
-                self.accelerations(&self.touching(), None).ok_or(StopReason::Undetermined)?
+                self.accelerations(&self.touching(), None).ok_or(Stop::Undetermined)?
             }
         };
         // Hops, bounces and slides lower than the resolution end at once.
