@@ -405,9 +405,14 @@ impl Response {
     }
 
     /// Largest `|θ|` of each block over the slenderness of the stack from that block up, base first, dimensionless. Above one, the block has been
-    /// past its balance. Empty where nothing but the outcome is wanted.
+    /// past its balance; so it is from the start in a stack that does not stand by itself, whose share is infinite. Empty where nothing but the
+    /// outcome is wanted.
     pub fn peaks(&self, column: &Column) -> Vec<f64> {
-        self.peak_theta.iter().enumerate().map(|(block, peak)| peak / column.stack(block).slenderness()).collect()
+        let share = |(block, peak): (usize, &f64)| match column.stack(block).slenderness() {
+            slenderness if slenderness > 0.0 => peak / slenderness,
+            _ => f64::INFINITY,
+        };
+        self.peak_theta.iter().enumerate().map(share).collect()
     }
 
     /// The block with which the column was lost, from 1: it overturned or collapsed. `None` for a column that stands.

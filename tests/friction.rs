@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use rocking::column::Shape;
-use rocking::ground::Motion;
+use rocking::ground::{Motion, Record};
 use rocking::{Block, Column, EventKind, Friction, Response, Scene, StopReason, simulate};
 
 const GRAVITY: f64 = 9.81;
@@ -104,6 +104,75 @@ fn blocks_fly_and_land_together() {
         }
         assert_eq!(response.status, StopReason::AtRest, "{:?}", response.events);
     }
+}
+
+/// Two flat blocks under accelerations that change linearly, horizontal to 4 m/s² and vertical to -5 m/s² at 0.5 s: the kink between two steps. The upper
+/// block slides, so that the demand of the lower contact is `(m A + μ_2 m (g + ÿ)) / (2 m (g + ÿ))` there.
+#[test]
+fn extremes_of_forces_are_those_of_the_ends_of_steps_as_well() {
+    let mut scene = scene(vec![Block { mass: 100.0, ..Block::rectangle(1.0, 0.3, 1.0) }; 2], vec![0.9, 0.2]);
+    let record = |peak: f64| Some(Motion::Record(Record::new(vec![0.0, peak, 0.0], 0.5, 0.0).expect("valid")));
+    (scene.excitation.horizontal, scene.excitation.vertical) = (record(4.0), record(-5.0));
+    scene.options.t_end = 2.0;
+    let response = run(&scene);
+    let gravity = GRAVITY - 5.0;
+    assert_relative_eq!(response.min_normal_force[0], 200.0 * gravity, max_relative = 1e-9);
+    assert_relative_eq!(response.min_normal_force[1], 100.0 * gravity, max_relative = 1e-9);
+    let demand = (100.0 * 4.0 + 0.2 * 100.0 * gravity) / (200.0 * gravity);
+    assert_relative_eq!(response.friction_demand[0], demand, max_relative = 1e-9);
+}
+
+/// A block thrown up at 2 m/s from 0.7 m above the ground, with and without spin: the top of its flight is `v²/2g` higher.
+#[test]
+fn the_highest_flight_is_that_between_the_steps_as_well() {
+    for spin in [0.0, 0.3] {
+        let mut scene = scene(vec![Block::rectangle(1.0, 0.3, 1.0)], vec![0.5]);
+        let initial = &mut scene.initial;
+        (initial.x, initial.y, initial.vx, initial.vy) = (vec![0.0], vec![1.0], vec![0.5], vec![2.0]);
+        initial.omega = vec![spin];
+        scene.options.t_end = 5.0;
+        let response = run(&scene);
+        let report = response.sliding.as_ref().expect("with friction");
+        // The lower corner of a block that has turned by θ is b sin θ + h (cos θ - 1) below the middle of its base.
+        let t: f64 = 2.0 / GRAVITY;
+        let corner = |t: f64| {
+            let (sin, cos) = libm::sincos(spin * t);
+            1.0 + 2.0 * t - 0.5 * GRAVITY * t * t - 0.3 * cos - sin
+        };
+        let highest = (0..=4000).map(|k| corner(t * f64::from(k) / 2000.0)).fold(0.0, f64::max);
+        // The gap of a block that spins is a parabola to 1e-3 of its height over a step.
+        assert_relative_eq!(report.highest_flight, highest, max_relative = if spin == 0.0 { 1e-12 } else { 1e-4 });
+        // The flight began with the run.
+        assert!(report.flights[0] >= 1);
+    }
+}
+
+/// Above a block that slides at `μ g`, a contact of the same friction is exactly critical: it sticks (docs/book/model.md, section 17).
+#[test]
+fn equal_friction_lets_the_lowest_contact_slide_alone() {
+    for count in 2..=4 {
+        let mut scene = scene(vec![Block::rectangle(0.5, 0.2, 1.0); count], vec![0.3; count]);
+        scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.6 * GRAVITY, start: 0.0, duration: 0.5 });
+        scene.options.t_end = 3.0;
+        let response = run(&scene);
+        let report = response.sliding.as_ref().expect("with friction");
+        assert_relative_eq!(report.times[0].sliding, 1.0, max_relative = 1e-9);
+        assert!(report.times[1..].iter().all(|times| times.sliding == 0.0), "{:?}", report.times);
+        assert!(report.way_slid[1..].iter().all(|way| *way == 0.0), "{:?}", report.way_slid);
+    }
+}
+
+/// A drum beyond the edge of the one below has no angle of balance: its share is infinite from the start.
+#[test]
+fn a_stack_that_does_not_stand_by_itself_is_past_its_balance() {
+    let blocks = vec![Block::rectangle(0.3, 0.5, 100.0), Block::rectangle(0.5, 0.8, 80.0)];
+    let mut scene = scene(blocks, vec![2.0; 2]);
+    scene.column = scene.column.displaced(vec![0.0, 0.35]).expect("the faces overlap");
+    scene.options.t_end = 3.0;
+    assert_eq!(scene.openings_at_rest()[1], Some(0.0));
+    let response = run(&scene);
+    assert_eq!((response.status, response.lost_block()), (StopReason::Overturned, Some(2)));
+    assert_eq!(response.peaks(&scene.column)[1], f64::INFINITY);
 }
 
 /// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`.

@@ -66,6 +66,37 @@ fn friction_that_holds_is_said_to_hold() {
     assert!(page(folder.path()).contains("Friction holds: no block slides or flies."));
 }
 
+/// Blocks placed one by one whose friction is never used up: the companions that say how far the verdict can be trusted have friction, too.
+#[test]
+fn a_block_that_is_dropped_lands_and_rests() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let dropped = "friction = 0.9\n[[block]]\nhalf_width = 1.0\nhalf_height = 0.3\n\
+                   [initial]\nx = [0.0]\ny = [1.2]\nvx = [0.0]\nvy = [0.0]\n";
+    let account = run(folder.path(), dropped);
+    // From 0.9 m: √(2 · 0.9 / 9.81) s.
+    assert!(account.contains("at rest from t = 0.4284 s on"), "{account}");
+    assert!(account.contains("companions agree to the end") && account.contains("1 flight(s)"), "{account}");
+    // At rest from the start on.
+    let account = run(folder.path(), &dropped.replace("y = [1.2]", "y = [0.3]"));
+    assert!(account.contains("friction holds"), "{account}");
+}
+
+#[test]
+fn a_check_counts_the_vertical_ground_motion() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = "friction = 5.0\n[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\n\
+                 [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = 0.8\nduration = 1.0\n\
+                 [excitation.vertical]\nkind = \"rectangular\"\namplitude_g = -0.4\nduration = 1.0\n";
+    std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+    let text = succeeds(folder.path(), &["check", "scene.toml"]);
+    // A cube opens at 1 g, and at 0.6 g while the ground falls at 0.4 g.
+    assert!(
+        text.contains("with the vertical motion it opens interface(s) 1 of the column at rest, the first at t = 0"),
+        "{text}"
+    );
+    assert!(!text.contains("at the PGA it"), "{text}");
+}
+
 #[test]
 fn a_drum_pushed_off_its_support_has_collapsed() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -73,6 +104,7 @@ fn a_drum_pushed_off_its_support_has_collapsed() {
     let account =
         run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
     assert_eq!(summary(folder.path())["status"], "collapsed", "{account}");
+    assert_eq!(summary(folder.path())["collapsed_block"], 2);
     assert!(account.contains("collapses at t = ") && account.contains("(block 2 lost its support)"), "{account}");
     let page = page(folder.path());
     assert!(page.contains("<strong>collapses</strong>") && page.contains("block 2 loses its support"));

@@ -68,7 +68,21 @@ impl Piece {
     }
 
     /// Upper bound `[m/s]` of `∫ |a| dt` over `from .. to` `[s]`, `from <= to`. It is `None` if the bound reaches `limit` `[m/s]`.
+    #[inline]
     pub fn impulse(&self, [from, to]: [f64; 2], limit: f64) -> Option<f64> {
+        let impulse = match self {
+            Piece::Zero => 0.0,
+            // A record has many of them.
+            Piece::Linear { .. } => {
+                LinearInterval { a: self.value(from), b: self.value(to), h: to - from, v: 0.0, d: 0.0 }.absolute()
+            }
+            _ => return self.impulse_of_curve([from, to], limit),
+        };
+        (impulse < limit).then_some(impulse)
+    }
+
+    /// [`Piece::impulse`] of any piece but a straight line.
+    fn impulse_of_curve(&self, [from, to]: [f64; 2], limit: f64) -> Option<f64> {
         if self.is_short(to - from) {
             let impulse = (to - from) * self.largest_of_short(f64::abs, [from, to]);
             return (impulse < limit).then_some(impulse);
@@ -87,10 +101,6 @@ impl Piece {
             amplitude.abs() / omega * (up_to(x + radians) - up_to(x))
         };
         let impulse = match *self {
-            Piece::Zero => 0.0,
-            Piece::Linear { .. } => {
-                LinearInterval { a: self.value(from), b: self.value(to), h: to - from, v: 0.0, d: 0.0 }.absolute()
-            }
             Piece::Sine { amplitude, omega, start, phase } => wave(amplitude, omega, start, phase),
             Piece::Cosine { amplitude, omega, start } => wave(amplitude, omega, start, FRAC_PI_2),
             // For a Gabor wavelet, the bound of the push also bounds `∫ |a| dt`.

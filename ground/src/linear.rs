@@ -43,6 +43,7 @@ impl LinearInterval {
     }
 
     /// `∫ |a| dt` over the interval `[m/s]`.
+    #[inline]
     pub fn absolute(&self) -> f64 {
         let (a, b) = (self.a.abs(), self.b.abs());
         // Two triangles where the sign changes.

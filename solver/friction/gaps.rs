@@ -158,7 +158,7 @@ pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize) -> f64 
     corners.map(depth).fold(0.0, f64::max)
 }
 
-/// How far the faces of a free interface reach over each other, along the lower one `[m]`.
+/// How far the faces of a free interface reach over each other, along the lower one, as if they were parallel `[m]`.
 pub fn overlap(column: &Column, pose: &Pose, interface: usize) -> f64 {
     let blocks = column.blocks();
     let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| blocks[below].top_half_width);

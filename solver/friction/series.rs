@@ -230,7 +230,9 @@ impl Series {
         let coordinates = coordinates(joints);
         let mut links = Vec::with_capacity(joints.len() + 1);
         links.push(Link::new(None));
-        let place = |wanted: &dyn Fn(&Coordinate) -> bool| coordinates.iter().position(wanted).unwrap_or_default();
+        let place = |wanted: &dyn Fn(&Coordinate) -> bool| {
+            coordinates.iter().position(wanted).expect("each free angle, slide and flight is a coordinate")
+        };
         let mut levels = Vec::with_capacity(joints.len());
         for (i, (block, &joint)) in column.blocks().iter().zip(joints).enumerate() {
             let below = links.len() - 1;

@@ -181,7 +181,7 @@ impl Corners {
     fn new(column: &Column, pattern: &Pattern, interface: usize) -> Corners {
         let links = pattern.linkage().link_of_block();
         let link = links[interface];
-        let first = links.iter().position(|own| *own == link).unwrap_or(0);
+        let first = links.iter().position(|own| *own == link).expect("the interface carries a block of its link");
         let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
         // The part that stands on the ground has no pivot; any place serves as one.
         let pivot_of_link = pivot(first);

@@ -73,6 +73,20 @@ pub enum IntegrateError {
         /// Time given `[s]`.
         time: f64,
     },
+    /// A segment does not begin where the one before it ends.
+    #[error("the segments must adjoin between the first and the last time; none covers t = {time} s")]
+    Gap {
+        /// End of the segment before the gap `[s]`.
+        time: f64,
+    },
+    /// A tolerance or a step is not a finite number above zero.
+    #[error("{name} = {value} must be a finite number above zero")]
+    Options {
+        /// Name of the field of [`IntegrateOptions`].
+        name: &'static str,
+        /// Value given.
+        value: f64,
+    },
     /// The tolerance cannot be met with steps that still advance the time.
     #[error("at t = {time} s: the step has fallen to {step:e} s; loosen rtol and atol")]
     StepTooSmall {
@@ -174,16 +188,25 @@ impl Mode {
     }
 
     /// Energies relative to the moving ground, with the effective gravity `g + ÿ_g [m/s²]`.
+    ///
+    /// # Panics
+    /// If `x` has not length 2·dof.
     pub fn energy(&self, x: &[f64], gravity: f64) -> Energy {
         self.equations.energy(x, gravity)
     }
 
     /// Mass matrix `[kg m²]`, row by row, dof × dof.
+    ///
+    /// # Panics
+    /// If `x` has not length 2·dof.
     pub fn mass_matrix(&self, x: &[f64]) -> Vec<f64> {
         self.equations.mass_matrix(x)
     }
 
     /// Contact forces at all interfaces, base first, length N.
+    ///
+    /// # Panics
+    /// If `x` has not length 2·dof.
     pub fn contact_forces(&self, x: &[f64], ground: Ground) -> Vec<ContactForce> {
         let mut forces = vec![ContactForce::default(); self.pattern.0.len()];
         self.equations.contact_forces(x, ground, &mut forces);
@@ -217,6 +240,11 @@ impl Mode {
         if x.len() != expected {
             return Err(IntegrateError::StateLength { expected, found: x.len() });
         }
+        let IntegrateOptions { rtol, atol, step, .. } = *options;
+        let sizes = [("rtol", rtol), ("atol", atol), ("step", step)];
+        if let Some((name, value)) = sizes.into_iter().find(|(_, size)| !(size.is_finite() && *size > 0.0)) {
+            return Err(IntegrateError::Options { name, value });
+        }
         let mut least = f64::NEG_INFINITY;
         for (index, &time) in times.iter().enumerate() {
             if !(time.is_finite() && time >= least) {
@@ -230,6 +258,10 @@ impl Mode {
         let uncovered = |time: f64| segments.iter().all(|segment| time < segment.start || time > segment.end);
         if let Some((index, &time)) = times.iter().enumerate().find(|(_, time)| uncovered(**time)) {
             return Err(IntegrateError::Times { index, time });
+        }
+        let is_gap = |pair: &&[Segment]| pair[0].end != pair[1].start && pair[0].end < last && pair[1].start > first;
+        if let Some(pair) = segments.windows(2).find(is_gap) {
+            return Err(IntegrateError::Gap { time: pair[0].end });
         }
         let (mut t, mut states) = (first, vec![x.to_vec()]);
         let (mut wanted, mut has_begun) = (f64::INFINITY, false);
@@ -268,5 +300,36 @@ impl Mode {
         // Times equal to the first one.
         states.resize_with(times.len(), || x.to_vec());
         Ok(states)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::column::Column;
+    use rocking_ground::{Excitation, Motion};
+
+    /// A hole in the ground motion, and steps or tolerances with which a run would not end.
+    #[test]
+    fn a_mode_alone_refuses_what_it_cannot_integrate() {
+        let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid");
+        let mode = Mode::generic(&column, &Pattern::from_signs(&[1])).expect("it moves");
+        let pulse = Motion::Rectangular { amplitude: 1.0, start: 0.2, duration: 0.3 };
+        let mut segments = Excitation { horizontal: Some(pulse), vertical: None }.segments(2.0);
+        let run = |segments: &[Segment], options: &IntegrateOptions| {
+            mode.integrate(&[0.1, 0.0], segments, &[0.0, 1.5], options).map(|states| states.len())
+        };
+        let usual = IntegrateOptions::default();
+        assert_eq!(run(&segments, &usual), Ok(2));
+        for options in [
+            IntegrateOptions { method: Method::RungeKutta4, step: 0.0, ..usual },
+            IntegrateOptions { rtol: f64::NAN, ..usual },
+            IntegrateOptions { atol: -1.0, ..usual },
+        ] {
+            let refused = run(&segments, &options);
+            assert!(matches!(refused, Err(IntegrateError::Options { .. })), "{refused:?}");
+        }
+        segments.remove(1);
+        assert_eq!(run(&segments, &usual), Err(IntegrateError::Gap { time: 0.2 }));
     }
 }

@@ -48,7 +48,7 @@ pub(crate) struct Cones<'a> {
 impl<'a> Cones<'a> {
     /// The cones of a column with its present slides. Impacts of hops up to `stick_angle` `[rad]` are not checked.
     pub fn new(column: &Column, friction: &'a Coefficients, stick_angle: f64) -> Cones<'a> {
-        let smallest = |size: f64, block: &Block| size.min(block.half_height.hypot(block.half_width()));
+        let smallest = |size: f64, block: &Block| size.min(libm::hypot(block.half_height, block.half_width()));
         let size = column.blocks().iter().fold(f64::INFINITY, smallest);
         let may_be_below = |interface: usize| {
             let reach = column.blocks()[interface].bottom_half_width + column.slides()[interface].abs();

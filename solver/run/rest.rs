@@ -14,6 +14,7 @@ use crate::friction::guards::Guard;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
+use crate::scene::Scene;
 use rocking_codegen::pattern::Interface;
 use rocking_ground::{Piece, Segment};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -225,6 +226,50 @@ fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> 
     None
 }
 
+impl Scene {
+    /// When the ground motion first opens each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
+    /// if it does not open up to the end of the run. Both components of the ground motion count.
+    ///
+    /// ```
+    /// use rocking::{Column, Motion, Scene};
+    /// let mut scene = Scene::new(Column::equal_blocks(1, 0.5, 0.5, 1.0, 9.81)?);
+    /// scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.8 * 9.81, start: 0.5, duration: 1.0 });
+    /// assert_eq!(scene.openings_at_rest(), [None]); // a cube opens at 1 g
+    /// scene.excitation.vertical = Some(Motion::Rectangular { amplitude: -0.4 * 9.81, start: 0.7, duration: 1.0 });
+    /// assert_eq!(scene.openings_at_rest(), [Some(0.7)]);
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    pub fn openings_at_rest(&self) -> Vec<Option<f64>> {
+        let segments = self.excitation.segments(self.options.t_end);
+        let opening =
+            |interface: usize| segments.iter().find_map(|segment| opening_in(&self.column, segment, interface));
+        (0..self.column.len()).map(opening).collect()
+    }
+}
+
+/// The first instant in a segment at which an interface of a column at rest opens, if no other does.
+fn opening_in(column: &Column, segment: &Segment, interface: usize) -> Option<f64> {
+    let mut t = segment.start;
+    while t < segment.end {
+        let motion = Shaking::at(segment, column.gravity(), t);
+        let mut step = f64::INFINITY;
+        for side in [Interface::Right, Interface::Left] {
+            let arm = arm(column, interface, side);
+            // Where the ground jumps, a guard may be below zero without having fallen there.
+            if motion.guard(arm, side) < 0.0 {
+                return Some(t);
+            }
+            match motion.step_to_zero(arm, side) {
+                Some(0.0) => return Some(t),
+                Some(own) => step = step.min(own),
+                None => {}
+            }
+        }
+        t += step;
+    }
+    None
+}
+
 /// The first instant in a segment from a time on at which an interface of a column at rest tips or slides, with the coefficients `fixed` of static
 /// friction: as [`earliest_start`], with the guards `μ (g + ÿ_g) ± ẍ_g` beside those of the corners.
 pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
@@ -322,12 +367,17 @@ impl Shaking {
         }
     }
 
-    /// A time within which the guard `c (g + ÿ_g) + s h ẍ_g` of a side does not fall below zero `[s]` (positive `ẍ_g` tips to the left). Zero if it
+    /// The guard `c (g + ÿ_g) + s h ẍ_g` of a side at this instant: positive `ẍ_g` tips to the left `[m²/s²]`.
+    fn guard(&self, [half_width, height]: [f64; 2], side: Interface) -> f64 {
+        half_width * self.ground.gravity + f64::from(side.sign()) * height * self.ground.x
+    }
+
+    /// A time within which the guard of a side does not fall below zero `[s]`. Zero if it
     /// falls below zero at this instant, `None` if it never does.
     fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
         let Shaking { t, ground, rates, bends } = self;
         let sign = f64::from(side.sign());
-        let value = half_width * ground.gravity + sign * height * ground.x;
+        let value = self.guard([half_width, height], side);
         let slope = half_width * rates[1] + sign * height * rates[0];
         let bend = half_width * bends[1] + height * bends[0];
         let scale = half_width * ground.gravity.abs() + height * ground.x.abs();

@@ -266,7 +266,7 @@ impl Fragility {
         told.extend(self.extrapolation());
         if let Some(bands) = &self.bands {
             let Bands { confidence, replicates, fitted, .. } = bands;
-            let percent = 100.0 * confidence;
+            let percent = brief(100.0 * confidence);
             told.push(match (bands.median, bands.dispersion) {
                 (Some([low, high]), Some([least, most])) => format!(
                     "{percent} % bands by resampling {} records: median {} to {}, dispersion {} to {}{}",
@@ -401,7 +401,7 @@ impl Table {
         records.sort();
         records.dedup();
         let place = |run: &Observation| {
-            let record = records.binary_search(&run.record).unwrap_or(0);
+            let record = records.binary_search(&run.record).expect("the names come from these runs");
             let level = levels.partition_point(|level| *level < run.level);
             (record, level, state.is_reached(run))
         };

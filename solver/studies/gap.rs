@@ -17,7 +17,7 @@ struct Knot<'r> {
 /// The largest gap at an interface of the column `[m]`, flights included. The response must have largest gaps or samples.
 pub(super) fn largest_gap(column: &Column, response: &Response) -> f64 {
     let of = |interface: usize, angle: f64| {
-        2.0 * column.contact_half_width(interface) * angle.min(std::f64::consts::FRAC_PI_2).sin()
+        2.0 * column.contact_half_width(interface) * libm::sin(angle.min(std::f64::consts::FRAC_PI_2))
     };
     if !response.largest_gaps.is_empty() {
         return response.largest_gaps.iter().enumerate().fold(0.0, |largest, (i, angle)| largest.max(of(i, *angle)));

@@ -48,7 +48,7 @@ impl Change {
                 let options = &mut changed.options;
                 options.rtol = (options.rtol * factor).max(TIGHTEST_RTOL.min(options.rtol));
                 options.atol *= factor;
-                options.step *= factor.powf(0.25);
+                options.step *= factor.sqrt().sqrt();
             }
             Change::Excitation(change) => {
                 let initial = &mut changed.initial;

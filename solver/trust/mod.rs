@@ -230,8 +230,8 @@ fn certain_at(
     run: impl Fn(&Scene) -> Result<Response, SolveError>,
 ) -> Result<f64, SolveError> {
     let may_be_proved = matches!(response.status, StopReason::AtRest | StopReason::EndOfTime);
-    // No proof makes a verdict certain before the end where blocks slide.
-    if !may_be_proved || response.motion_at_contacts().is_some() {
+    // No proof makes a verdict certain before the end where blocks slide or are placed one by one.
+    if !may_be_proved || response.motion_at_contacts().is_some() || !scene.initial.x.is_empty() {
         return Ok(response.t_final);
     }
     let mut outcome = scene.clone();

@@ -209,6 +209,8 @@ struct Findings {
     vertical: Option<MotionFindings>,
     /// Interfaces, from 1, that the largest horizontal ground acceleration would open from rest, without vertical ground motion.
     opens: Vec<usize>,
+    /// When the first of them opens `[s]`.
+    first_opening: Option<f64>,
     method: &'static str,
     rows: u64,
     /// Warnings of the readers of record files.
@@ -226,24 +228,27 @@ struct ContactFindings {
     slides_at: f64,
     /// Horizontal ground acceleration at which the contact opens `[m/s²]`.
     opens_at: f64,
-    /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground.
-    at_pga: &'static str,
+    /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground; `None` if the ground moves vertically
+    /// as well.
+    at_pga: Option<&'static str>,
     /// Least coefficient with which the stack would rock at the PGA without sliding; `None` if the contact slides first, or does not open.
     coefficient_to_rock: Option<f64>,
 }
 
 impl ContactFindings {
-    /// The contact below a stack under a peak ground acceleration `[m/s²]`.
-    fn of(stack: &thresholds::Row, friction: &Friction, pga: f64) -> ContactFindings {
+    /// The contact below a stack under a peak ground acceleration `[m/s²]`; `None` if the ground moves vertically as well.
+    fn of(stack: &thresholds::Row, friction: &Friction, pga: Option<f64>) -> ContactFindings {
         let coefficient = friction.fixed[(stack.interface - 1).min(friction.fixed.len() - 1)];
         let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
-        let needed = (slides_at > opens_at && pga > opens_at).then(|| stack.stack.coefficient_to_rock(pga));
-        let at_pga = match needed {
+        let opens_by = pga.filter(|pga| slides_at > opens_at && *pga > opens_at && opens_at > 0.0);
+        let needed = opens_by.map(|pga| stack.stack.coefficient_to_rock(pga));
+        let at_pga = pga.map(|pga| match needed {
             Some(needed) if coefficient < needed => "slides-and-rocks",
             Some(_) => "rocks",
+            None if opens_at <= 0.0 => "rocks",
             None if pga > slides_at && slides_at <= opens_at => "slides",
             None => "rests",
-        };
+        });
         let interface = stack.interface;
         ContactFindings { interface, coefficient, slides_at, opens_at, at_pga, coefficient_to_rock: needed }
     }
@@ -253,13 +258,16 @@ impl ContactFindings {
         let ContactFindings { interface, coefficient, .. } = self;
         let [slides, opens] =
             [self.slides_at, self.opens_at].map(|acceleration| significant(acceleration / gravity, 4));
+        if self.opens_at <= 0.0 {
+            return format!("interface {interface} opens by itself: the stack above leans beyond its support");
+        }
         if self.slides_at <= self.opens_at {
             return format!("interface {interface} slides at {slides} g before it opens at {opens} g");
         }
         let both = self.coefficient_to_rock.map(|needed| {
             let (needed, verb) = (
                 significant(needed, 4),
-                if self.at_pga == "rocks" { "rocks without sliding" } else { "slides and rocks" },
+                if self.at_pga == Some("rocks") { "rocks without sliding" } else { "slides and rocks" },
             );
             format!("; at the PGA it {verb}: that takes {needed} (mu_c), and it has {}", significant(*coefficient, 4))
         });
@@ -301,16 +309,19 @@ impl Findings {
             |motion: &Option<Motion>| motion.as_ref().map(|motion| MotionFindings::of(motion, scene.options.t_end));
         let horizontal = component(&scene.excitation.horizontal);
         let pga = horizontal.as_ref().map_or(0.0, |motion| motion.pga);
-        let opens = stacks.iter().filter(|stack| pga > stack.uplift_acceleration);
+        let openings = scene.openings_at_rest();
+        let opened = (1..).zip(&openings).filter(|(_, opening)| opening.is_some());
+        let pga_alone = scene.excitation.vertical.is_none().then_some(pga);
         Findings {
             title: scene.title.clone(),
             blocks: column.blocks().to_vec(),
             derived,
-            opens: opens.map(|stack| stack.interface).collect(),
+            opens: opened.map(|(interface, _)| interface).collect(),
+            first_opening: openings.into_iter().flatten().reduce(f64::min),
             contacts: scene
                 .friction
                 .iter()
-                .flat_map(|friction| stacks.iter().map(|stack| ContactFindings::of(stack, friction, pga)))
+                .flat_map(|friction| stacks.iter().map(|stack| ContactFindings::of(stack, friction, pga_alone)))
                 .collect(),
             stacks,
             restitution_factors: scene.restitution.factors(column),
@@ -470,7 +481,16 @@ impl Findings {
         if let Some(motion) = &self.horizontal {
             let lowest = self.stacks.iter().map(|stack| stack.uplift_acceleration).fold(f64::INFINITY, f64::min);
             let interfaces: Vec<String> = self.opens.iter().map(usize::to_string).collect();
-            let _ = if interfaces.is_empty() {
+            let _ = if self.vertical.is_some() {
+                match self.first_opening {
+                    Some(t) => writeln!(
+                        text,
+                        "  with the vertical motion it opens interface(s) {} of the column at rest, the first at t = {t:.4} s",
+                        interfaces.join(", ")
+                    ),
+                    None => writeln!(text, "  with the vertical motion it opens no interface of the column at rest"),
+                }
+            } else if interfaces.is_empty() {
                 writeln!(
                     text,
                     "  {:.4} g opens no interface of the column at rest, which takes {:.4} g",

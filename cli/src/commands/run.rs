@@ -108,7 +108,10 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
             response.collapsed_block.map_or("a block".into(), |block| named(scene, block))
         ),
         StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
-        _ => format!("{fate} and stands at t = {t:.4} s, still rocking"),
+        _ => {
+            let moves = if Fate::of(response) == Fate::Slides { "sliding" } else { "rocking" };
+            format!("{fate} and stands at t = {t:.4} s, still {moves}")
+        }
     };
     let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
     // Names of blocks are printed once, in the first list.

@@ -7,6 +7,7 @@ use crate::text::escape;
 use rocking::Event;
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::run_folder::Results;
+use rocking::sweep::Fate;
 use rocking::{EventKind, StopReason};
 use std::fmt::Write as _;
 
@@ -59,12 +60,13 @@ pub fn sentence(results: &Results) -> String {
         StopReason::EndOfTime if results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
-        _ => (
-            "rocking",
-            format!(
-                "The column <strong>stands</strong>, but is still rocking at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
-            ),
-        ),
+        _ => {
+            let moves = if Fate::of(&results.response) == Fate::Slides { "sliding" } else { "rocking" };
+            let words = format!(
+                "The column <strong>stands</strong>, but is still {moves} at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
+            );
+            ("rocking", words)
+        }
     };
     let (class, words) = trust::qualified(results, class, words);
     // Outcomes differ by the shape of their sign, not by colour alone.

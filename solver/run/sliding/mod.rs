@@ -32,7 +32,7 @@ use crate::response::Response;
 use crate::scene::Scene;
 use mover::Mover;
 use recorder::Recorder;
-use state::{Ended, Stop, State};
+use state::{Ended, State, Stop};
 use sticking::{Part, Progress, Sticking, Stuck};
 use transition::{start, transition};
 

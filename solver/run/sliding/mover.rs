@@ -9,6 +9,7 @@ use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards;
 use crate::friction::joint::{Joint, Slip};
+use crate::numerics::ode::control::StepControl;
 use crate::numerics::ode::explicit::{Explicit, System, Tableau};
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::numerics::ode::methods::{ForTableau, Method};
@@ -20,11 +21,6 @@ use crate::scene::DynamicsSource;
 
 /// First step of a run `[s]`; step control corrects it.
 const FIRST_STEP: f64 = 1e-3;
-
-/// Safety factor of the step control.
-const SAFETY: f64 = 0.9;
-/// Least error that the step control reckons with, so that its power is finite.
-const LEAST_ERROR: f64 = 1e-12;
 
 /// Factor by which a step is shortened to resolve a guard that starts from zero.
 pub(super) const RESOLVING: f64 = 0.125;
@@ -193,6 +189,7 @@ impl<'p> Mover<'p> {
         let mut slope = x.clone();
         let list = guards::guards(&from.configuration.joints);
         let mut wanted = self.first_step();
+        let control = StepControl::new(M::ERROR_ORDER);
         let mut pace = 0.0f64;
         self.work.phases += 1;
         let ended = 'stretch: loop {
@@ -209,13 +206,13 @@ impl<'p> Mover<'p> {
             pace = pace.max(h);
             loop {
                 let error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
-                let factor = SAFETY * error.max(LEAST_ERROR).powf(-1.0 / M::ERROR_ORDER as f64);
                 if error <= 1.0 {
-                    wanted = if h < wanted && factor > 1.0 { wanted } else { h * factor.clamp(0.2, 4.0) };
+                    let factor = control.factor(error);
+                    wanted = if h < wanted && factor > 1.0 { wanted } else { h * factor };
                     break;
                 }
                 self.work.rejected += 1;
-                h *= if error.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 };
+                h *= if error.is_finite() { control.factor(error) } else { 0.1 };
                 wanted = h;
                 if t + h <= t {
                     if smooth.is_jamming(t, &x) {

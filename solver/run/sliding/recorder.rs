@@ -2,7 +2,7 @@
 
 use super::contacts::{lowest_gap, slide};
 use super::smooth::{Moment, Smooth};
-use super::state::{Stop, State};
+use super::state::{State, Stop};
 use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Motion, Rates};
@@ -35,6 +35,9 @@ pub trait Inside<'p>: Moments<'p> {
 
     /// Visits the nodes of a quadrature up to a time `[s]`.
     fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>));
+
+    /// Visits a time of the step `[s]`: contact forces as in [`Node::contacts`], and the column as in [`Node::flying`].
+    fn contacts(&mut self, t: f64, visit: &mut dyn FnMut(&[ContactForce], Option<&Moment<'p>>));
 }
 
 /// A node of the quadrature over a step.
@@ -60,6 +63,8 @@ pub struct Recorder<'p> {
     samples: Vec<Sample>,
     /// Segment of the row recorded last.
     sample_segment: usize,
+    /// End of the step that was read last, NaN after a change of state `[s]`.
+    read_until: f64,
     events: Vec<Event>,
     impacts: usize,
     /// Per block `[rad]`.
@@ -90,6 +95,7 @@ impl<'p> Recorder<'p> {
             friction,
             samples: Vec::new(),
             sample_segment: 0,
+            read_until: f64::NAN,
             events: Vec::with_capacity(if problem.is_recorded() { USUAL_EVENTS } else { 0 }),
             impacts: 0,
             peak_theta: sizes(theta),
@@ -242,17 +248,25 @@ impl<'p> Recorder<'p> {
     /// Records that a stretch with constant states has ended: times in modes and contacts, and slides.
     pub fn leave(&mut self, from: &State, until: &State) {
         let span = until.t - from.t;
-        let (now, end) = (&from.configuration, &until.configuration);
+        self.read_until = f64::NAN;
+        let (now, end, size) = (&from.configuration, &until.configuration, self.column().size());
         *self.time_in_mode.entry(ModeName::of(&now.pattern()).to_string()).or_insert(0.0) += span;
-        let SlidingReport { times, way_slid, peak_slide, .. } = &mut self.report;
+        let SlidingReport { times, way_slid, peak_slide, flights, .. } = &mut self.report;
         for (interface, times) in times.iter_mut().enumerate() {
             match now.joints[interface].slip() {
                 Some(Slip::Sticks) => times.sticking += span,
                 Some(Slip::Slides(_)) => {
-                    times.sliding += span;
-                    way_slid[interface] += (end.slide[interface] - now.slide[interface]).abs();
+                    let way = (end.slide[interface] - now.slide[interface]).abs();
+                    // A contact above one of the same friction that slides is exactly critical: it sticks, whatever its state is called.
+                    let is_critical = way <= CRITICAL_WAY * size;
+                    *(if is_critical { &mut times.sticking } else { &mut times.sliding }) += span;
+                    way_slid[interface] += if is_critical { 0.0 } else { way };
                 }
-                None => times.free += span,
+                None => {
+                    times.free += span;
+                    // A flight that no event began: blocks are dropped or thrown at the start of the run.
+                    flights[interface] = flights[interface].max(1);
+                }
             }
             peak_slide[interface] = peak_slide[interface].max(end.slide[interface].abs());
         }
@@ -290,9 +304,30 @@ impl<'p> Recorder<'p> {
         }
         inside.peaks(until, &mut self.peak_theta);
         inside.nodes(until, &mut |node| self.node(segment, node));
+        // A step that follows another one begins with the forces at its end.
+        let begins = from != self.read_until;
+        for t in begins.then_some(from).into_iter().chain([until]) {
+            inside.contacts(t, &mut |contacts, flying| self.contacts(contacts, flying));
+        }
+        self.read_until = until;
+        for interface in 0..self.peak_theta.len() {
+            if inside.moment(from, false).configuration.joints[interface] == Joint::Free {
+                let gap = |t: f64| lowest_gap(inside.moment(t, false).chain(), interface);
+                self.report.highest_flight = self.report.highest_flight.max(highest(gap, [from, until]));
+            }
+        }
     }
 
-    /// Records forces, flights and work at a node of the quadrature over a step.
+    /// Records the forces of contacts at a place of a step; `flying` is the column there, if some interface is free.
+    fn contacts(&mut self, contacts: &[ContactForce], flying: Option<&Moment>) {
+        let is_free =
+            |interface: usize| flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free);
+        for (interface, contact) in contacts.iter().enumerate().filter(|(interface, _)| !is_free(*interface)) {
+            self.contact(interface, contact);
+        }
+    }
+
+    /// Records forces and work at a node of the quadrature over a step.
     fn node(&mut self, segment: usize, node: &Node) {
         let Node { t, weight, momentum: [px, py], contacts, slide_rates, flying } = node;
         let [ax, ay] = self.problem.ground[segment].accelerations(*t);
@@ -300,14 +335,11 @@ impl<'p> Recorder<'p> {
         let is_free =
             |interface: usize| flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free);
         for (interface, (contact, rate)) in contacts.iter().zip(slide_rates).enumerate() {
-            if let Some(moment) = flying.filter(|_| is_free(interface)) {
-                let gap = lowest_gap(moment.chain(), interface);
-                self.report.highest_flight = self.report.highest_flight.max(gap);
-                continue;
+            if !is_free(interface) {
+                self.report.friction_work += weight * contact.tangential * rate;
             }
-            self.report.friction_work += weight * contact.tangential * rate;
-            self.contact(interface, contact);
         }
+        self.contacts(contacts, *flying);
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -396,6 +428,29 @@ impl<'p> Recorder<'p> {
             sliding: Some(self.report),
         }
     }
+}
+
+/// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
+const CRITICAL_WAY: f64 = 1e-13;
+
+/// Places at which a gap is sampled over a step of a flight. A gap is nearly a parabola of time, so that the crest of one through three of them is right.
+const PLACES_OF_GAP: usize = 5;
+
+/// The largest value of a function over a span of time `[s]`: at one of several places, or at the crest of the parabola around the highest of them.
+fn highest(mut value: impl FnMut(f64) -> f64, [from, until]: [f64; 2]) -> f64 {
+    let spacing = (until - from) / (PLACES_OF_GAP - 1) as f64;
+    let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|place| value(from + place as f64 * spacing));
+    let (place, most) = values
+        .into_iter()
+        .enumerate()
+        .fold((0, f64::NEG_INFINITY), |most, own| if own.1 > most.1 { own } else { most });
+    if place == 0 || place + 1 == PLACES_OF_GAP {
+        return most;
+    }
+    let (slope, bend) =
+        (0.5 * (values[place + 1] - values[place - 1]), values[place - 1] - 2.0 * most + values[place + 1]);
+    let crest = if bend < 0.0 { place as f64 - slope / bend } else { place as f64 };
+    most.max(value(from + crest * spacing))
 }
 
 /// Kinetic and potential energy relative to the moving ground `[J]`.

@@ -14,6 +14,7 @@ use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale, force_slac
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::numerics::guards::first_crossing;
 use crate::numerics::ode::interpolant::Interpolant;
+use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::scene::SolveOptions;
@@ -287,7 +288,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         }
         let two = value(self, (2.0 * near).min(end));
         let limit = end;
-        let order = (two / one).abs().log2().round().clamp(1.0, 3.0) as i32;
+        let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as i32;
         first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }
 
@@ -357,15 +358,9 @@ impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
             let (t, weight) = (self.t + s * self.h, weight * part);
             match self.output.series() {
                 Some(&SeriesSpan { series, joints, h, .. }) => {
-                    let contact = |interface: usize| {
-                        let [tangential, normal] = series.contact_force_at(interface, s * h);
-                        ContactForce { normal, tangential, moment: 0.0 }
-                    };
-                    let contacts = (0..joints.len()).map(contact).collect();
                     let slide_rates = (0..joints.len()).map(|i| series.slide_rate_at(i, s * h)).collect();
                     let momentum = series.momentum_at(s * h);
-                    let has_flight = self.smooth.base.joints.contains(&Joint::Free);
-                    let flying = has_flight.then(|| self.at(s, false));
+                    let (contacts, flying) = self.series_contacts(s);
                     visit(&Node { t, weight, momentum, contacts, slide_rates, flying });
                 }
                 None => {
@@ -376,12 +371,41 @@ impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
                         column.blocks().iter().zip(&motion.linear).fold([0.0, 0.0], |sum, (block, v)| {
                             [sum[0] + block.mass * v[0], sum[1] + block.mass * v[1]]
                         });
-                    let contacts = moment.answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect();
                     let slide_rates = moment.configuration.slide_rate.clone();
-                    visit(&Node { t, weight, momentum, contacts, slide_rates, flying: Some(moment) });
+                    visit(&Node { t, weight, momentum, contacts: contacts(moment), slide_rates, flying: Some(moment) });
                 }
             }
         }
+    }
+
+    fn contacts(&mut self, t: f64, visit: &mut dyn FnMut(&[ContactForce], Option<&Moment<'p>>)) {
+        let s = ((t - self.t) / self.h).clamp(0.0, 1.0);
+        if self.output.series().is_some() {
+            let (contacts, flying) = self.series_contacts(s);
+            visit(&contacts, flying);
+        } else {
+            let moment = self.at(s, true);
+            visit(&contacts(moment), Some(moment));
+        }
+    }
+}
+
+/// Contact forces of a moment; empty if its states determine none.
+fn contacts(moment: &Moment) -> PerBlock<ContactForce> {
+    moment.answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect()
+}
+
+impl<'p, O: Output> Step<'_, 'p, O> {
+    /// Contact forces at a place of a step on a series, by interface; the column there, if some interface is free.
+    fn series_contacts(&mut self, s: f64) -> (PerBlock<ContactForce>, Option<&Moment<'p>>) {
+        let Some(&SeriesSpan { series, joints, h, .. }) = self.output.series() else { return (PerBlock::new(), None) };
+        let contact = |interface: usize| {
+            let [tangential, normal] = series.contact_force_at(interface, s * h);
+            ContactForce { normal, tangential, moment: 0.0 }
+        };
+        let contacts = (0..joints.len()).map(contact).collect();
+        let has_flight = self.smooth.base.joints.contains(&Joint::Free);
+        (contacts, has_flight.then(|| self.at(s, false)))
     }
 }
 

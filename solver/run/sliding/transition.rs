@@ -179,11 +179,7 @@ impl<'p> Instant<'p> {
     }
 
     /// The states with which the column moves on from here.
-    fn accelerated(
-        &mut self,
-        before: &Configuration,
-        hint: Option<(usize, Joint)>,
-    ) -> Result<PerBlock<Joint>, Stop> {
+    fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<PerBlock<Joint>, Stop> {
         let touch = self.joined();
         // States whose guard has just fallen to zero do not follow themselves, even if they are admissible up to rounding. Only a slide that has
         // come to rest may begin anew.
