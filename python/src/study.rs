@@ -11,7 +11,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rocking::intensity::Intensity;
-use rocking::studies::{self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError};
+use rocking::studies::{
+    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError,
+};
 use rocking::sweep::Fate;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -212,7 +214,12 @@ impl Runs<'_> {
         (0..runs).map(|run| self.observation(run, peaks.row(run), slides.row(run))).collect()
     }
 
-    fn observation(&self, run: usize, peaks: ArrayView1<'_, f64>, slides: ArrayView1<'_, f64>) -> PyResult<Observation> {
+    fn observation(
+        &self,
+        run: usize,
+        peaks: ArrayView1<'_, f64>,
+        slides: ArrayView1<'_, f64>,
+    ) -> PyResult<Observation> {
         let level = self.levels[run];
         if !(level.is_finite() && level > 0.0) {
             return Err(PyValueError::new_err(format!("row {run}: the level {level} is not a number above zero")));
@@ -228,7 +235,8 @@ impl Runs<'_> {
             peaks: numbers(peaks),
             residual_slides: numbers(slides),
         };
-        let wrong = |refused| PyValueError::new_err(format!("row {run}: `{}` is {refused}", outcome.unwrap_or_default()));
+        let wrong =
+            |refused| PyValueError::new_err(format!("row {run}: `{}` is {refused}", outcome.unwrap_or_default()));
         Observation::try_from(cells).map_err(wrong)
     }
 }

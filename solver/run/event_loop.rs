@@ -8,7 +8,7 @@ use super::modes::Modes;
 use super::problem::Problem;
 use super::recorder::{Mark, Recorder};
 use super::state::State;
-use super::stretch::{Ended, Over};
+use super::stretch::{Ended, Over, Stretch};
 use super::transition::{self, break_circle, transition};
 use crate::numerics::per_block::PerBlock;
 use std::ops::ControlFlow;
@@ -76,50 +76,29 @@ pub(crate) fn event_loop<L: Limits>(
         Departure::Beginning(state) => (state, true),
         Departure::Decided(state) => (state, false),
     };
-    let mut storage = initial.clone();
     // Two states serve all events.
+    let mut storage = initial.clone();
     let (mut spare, mut after) = (&mut initial, &mut storage);
     if is_beginning {
-        match transition::start(problem, spare) {
-            Ok(None) => {}
-            Ok(Some(first)) => {
-                after = first.after(spare, after);
-                recorder.transition(problem, spare, &first, after);
-            }
+        match begin(problem, spare, after, recorder) {
             Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(Place::Start)),
-            Err(error) => return Err(error),
+            done => done?,
         }
     }
-    // The event that began the present phase; only noted with limits.
-    let mut event: Option<Event> = None;
+    let mut phase = Phase::new::<L>(recorder, None);
     let (mut mode, mut motion) = modes.enter(problem, after);
-    // End of the last stretch within the present phase `[s]`, if there is one.
-    let mut reached: Option<f64> = None;
-    let mut stretches = 0;
     loop {
-        let mark = L::ARE_THERE.then(|| recorder.mark());
         let mut stretch = match motion.next(problem) {
             Ok(stretch) => stretch,
-            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(before_phase(recorder, event, spare))),
+            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(phase.before(recorder, spare))),
             Err(error) => return Err(error),
         };
         recorder.read(problem, &mut stretch);
-        if let Some(mark) = mark.filter(|_| !limits.hold(recorder)) {
-            let Some(t) = reached else { return Ok(Leaving::Beyond(before_phase(recorder, event, spare))) };
-            recorder.undo(mark);
-            let (theta, omega) = stretch.inside.state_at(t);
-            let begun = |segment: &usize| problem.ground[*segment].end > t;
-            let segment = (after.segment..problem.ground.len()).find(begun).unwrap_or(after.segment);
-            let now = State { t, segment, theta, omega, ..after.clone() };
-            recorder.leave(problem, mode, &now);
-            return Ok(Leaving::Beyond(Place::Phase(now)));
+        if L::ARE_THERE && !limits.hold(recorder) {
+            return Ok(Leaving::Beyond(phase.beyond(problem, &mut stretch, mode, recorder, [spare, after])));
         }
         let Some(ended) = stretch.ended else {
-            reached = Some(stretch.end);
-            stretches += 1;
-            if stretches % STRETCHES_BETWEEN_REPORTS == 0 {
-                report(progress, stretch.end)?;
-            }
+            phase.goes_on::<L>(stretch.end, recorder, progress)?;
             continue;
         };
         let before = stretch.inside.end(after);
@@ -139,34 +118,97 @@ pub(crate) fn event_loop<L: Limits>(
                 return Ok(Leaving::Beyond(place));
             }
         };
-        if L::ARE_THERE {
-            event = Some(Event { ended, closing: PerBlock::from_slice(closing), mark: recorder.mark() });
-        }
+        phase = Phase::new::<L>(recorder, Some((ended, closing)));
         after = next.after(before, spare);
         recorder.transition(problem, before, next, after);
         spare = before;
-        if L::ARE_THERE && next.may_circle(after) {
-            return Ok(Leaving::Beyond(before_phase(recorder, event, spare)));
-        }
-        if next.may_circle(after)
-            && let Some(forced) = break_circle(problem, after)?
-        {
-            let closed = forced.after(after, spare);
-            recorder.transition(problem, after, &forced, closed);
-            (spare, after) = (after, closed);
+        if next.may_circle(after) {
+            if L::ARE_THERE {
+                return Ok(Leaving::Beyond(phase.before(recorder, spare)));
+            }
+            if let Some(forced) = break_circle(problem, after)? {
+                let closed = forced.after(after, spare);
+                recorder.transition(problem, after, &forced, closed);
+                (spare, after) = (after, closed);
+            }
         }
         (mode, motion) = modes.enter(problem, after);
-        reached = None;
     }
 }
 
-/// The place before the event that began a phase, or the start. What is recorded from that event on is undone.
-fn before_phase(recorder: &mut Recorder, event: Option<Event>, before: &State) -> Place {
-    match event {
-        None => Place::Start,
-        Some(Event { ended, closing, mark }) => {
-            recorder.undo(mark);
-            Place::Event(before.clone(), ended, closing)
+/// Decides the pattern in which a run begins; `after` is a copy of the state before that.
+fn begin(problem: &Problem, before: &State, after: &mut State, recorder: &mut Recorder) -> Result<(), SolveError> {
+    // By reference: a transition is large, and `?` would copy it.
+    match &transition::start(problem, before) {
+        Ok(None) => {}
+        Ok(Some(first)) => {
+            first.after(before, after);
+            recorder.transition(problem, before, first, after);
+        }
+        Err(error) => return Err(error.clone()),
+    }
+    Ok(())
+}
+
+/// The present phase. What it can be undone to is kept with limits only.
+struct Phase {
+    /// The event that began the phase; `None` at the start of the run.
+    event: Option<Event>,
+    /// End of the last stretch `[s]`, and the place in the record there; `None` before the first stretch has ended.
+    reached: Option<(f64, Mark)>,
+    stretches: usize,
+}
+
+impl Phase {
+    /// A phase that begins with an event: why the stretch before it ended, and the interfaces that close.
+    #[inline(always)]
+    fn new<L: Limits>(recorder: &Recorder, event: Option<(Ended, &[usize])>) -> Phase {
+        let marked = |(ended, closing)| Event { ended, closing: PerBlock::from_slice(closing), mark: recorder.mark() };
+        Phase { event: event.filter(|_| L::ARE_THERE).map(marked), reached: None, stretches: 0 }
+    }
+
+    /// Goes on after a stretch without an event.
+    #[inline(always)]
+    fn goes_on<L: Limits>(
+        &mut self,
+        end: f64,
+        recorder: &Recorder,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<(), SolveError> {
+        if L::ARE_THERE {
+            self.reached = Some((end, recorder.mark()));
+        }
+        self.stretches += 1;
+        if self.stretches.is_multiple_of(STRETCHES_BETWEEN_REPORTS) { report(progress, end) } else { Ok(()) }
+    }
+
+    /// The place before a stretch that is beyond the limits. `spare` is `x⁻` of the event that began the phase, `after` the state that followed.
+    fn beyond(
+        self,
+        problem: &Problem,
+        stretch: &mut Stretch,
+        mode: usize,
+        recorder: &mut Recorder,
+        [spare, after]: [&State; 2],
+    ) -> Place {
+        let Some((t, mark)) = self.reached else { return Phase { reached: None, ..self }.before(recorder, spare) };
+        recorder.undo(mark);
+        let (theta, omega) = stretch.inside.state_at(t);
+        let begun = |segment: &usize| problem.ground[*segment].end > t;
+        let segment = (after.segment..problem.ground.len()).find(begun).unwrap_or(after.segment);
+        let now = State { t, segment, theta, omega, ..after.clone() };
+        recorder.leave(problem, mode, &now);
+        Place::Phase(now)
+    }
+
+    /// The place before the event that began the phase, or the start. What is recorded from that event on is undone.
+    fn before(self, recorder: &mut Recorder, before: &State) -> Place {
+        match self.event {
+            None => Place::Start,
+            Some(Event { ended, closing, mark }) => {
+                recorder.undo(mark);
+                Place::Event(before.clone(), ended, closing)
+            }
         }
     }
 }

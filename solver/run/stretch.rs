@@ -8,8 +8,10 @@ use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use rocking_codegen::pattern::Interface;
 
-/// Why a stretch ended.
+/// Why a stretch ended. The tag is a word, as in [`Over`]: a value with a tag of one byte is copied in pieces of words that overlap what was stored,
+/// and each piece waits for the stores before it. Runs of one block would take a twentieth longer.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(u64)]
 pub(crate) enum Ended {
     /// Open interfaces closed: those that [`Inside::closing`] lists.
     Closing,
@@ -32,6 +34,7 @@ pub(crate) enum Found {
 
 /// Why a run is over. Blocks are counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u64)]
 pub(crate) enum Over {
     /// It is certain that the column does not overturn any more.
     Stands,
