@@ -74,9 +74,9 @@ pub enum IntegrateError {
         time: f64,
     },
     /// A segment does not begin where the one before it ends.
-    #[error("the segments must adjoin between the first and the last time; none covers t = {time} s")]
+    #[error("each segment must begin where the one before it ends; none begins at t = {time} s")]
     Gap {
-        /// End of the segment before the gap `[s]`.
+        /// End of the segment before `[s]`.
         time: f64,
     },
     /// A tolerance or a step is not a finite number above zero.

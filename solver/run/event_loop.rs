@@ -85,7 +85,7 @@ pub(crate) fn event_loop<L: Limits>(
             done => done?,
         }
     }
-    let mut phase = Phase::new::<L>(recorder, None);
+    let mut phase = PresentPhase::new::<L>(recorder, None);
     let (mut mode, mut motion) = modes.enter(problem, after);
     loop {
         let mut stretch = match motion.next(problem) {
@@ -118,7 +118,7 @@ pub(crate) fn event_loop<L: Limits>(
                 return Ok(Leaving::Beyond(place));
             }
         };
-        phase = Phase::new::<L>(recorder, Some((ended, closing)));
+        phase = PresentPhase::new::<L>(recorder, Some((ended, closing)));
         after = next.after(before, spare);
         recorder.transition(problem, before, next, after);
         spare = before;
@@ -151,7 +151,7 @@ fn begin(problem: &Problem, before: &State, after: &mut State, recorder: &mut Re
 }
 
 /// The present phase. What it can be undone to is kept with limits only.
-struct Phase {
+struct PresentPhase {
     /// The event that began the phase; `None` at the start of the run.
     event: Option<Event>,
     /// End of the last stretch `[s]`, and the place in the record there; `None` before the first stretch has ended.
@@ -159,12 +159,12 @@ struct Phase {
     stretches: usize,
 }
 
-impl Phase {
+impl PresentPhase {
     /// A phase that begins with an event: why the stretch before it ended, and the interfaces that close.
     #[inline(always)]
-    fn new<L: Limits>(recorder: &Recorder, event: Option<(Ended, &[usize])>) -> Phase {
+    fn new<L: Limits>(recorder: &Recorder, event: Option<(Ended, &[usize])>) -> PresentPhase {
         let marked = |(ended, closing)| Event { ended, closing: PerBlock::from_slice(closing), mark: recorder.mark() };
-        Phase { event: event.filter(|_| L::ARE_THERE).map(marked), reached: None, stretches: 0 }
+        PresentPhase { event: event.filter(|_| L::ARE_THERE).map(marked), reached: None, stretches: 0 }
     }
 
     /// Goes on after a stretch without an event.
@@ -191,7 +191,9 @@ impl Phase {
         recorder: &mut Recorder,
         [spare, after]: [&State; 2],
     ) -> Place {
-        let Some((t, mark)) = self.reached else { return Phase { reached: None, ..self }.before(recorder, spare) };
+        let Some((t, mark)) = self.reached else {
+            return PresentPhase { reached: None, ..self }.before(recorder, spare);
+        };
         recorder.undo(mark);
         let (theta, omega) = stretch.inside.state_at(t);
         let begun = |segment: &usize| problem.ground[*segment].end > t;

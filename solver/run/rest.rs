@@ -204,21 +204,38 @@ fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usi
     }
 }
 
-/// The first opening between two instants: the first zero of a guard. All guards are evaluated at the same places, spaced so that none of them can
-/// pass zero in between.
+/// The first opening between two instants.
 fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
     let column = &problem.scene.column;
+    let guards = || (0..column.len()).flat_map(|interface| corners(column, interface));
+    first_zero(segment, column.gravity(), [from, until], guards).map(|(t, (interface, side))| (t, interface, side))
+}
+
+/// The guards of the two corners of an interface: arm, side, and what they guard.
+fn corners(column: &Column, interface: usize) -> impl Iterator<Item = ([f64; 2], Interface, (usize, Interface))> {
+    [Interface::Right, Interface::Left]
+        .into_iter()
+        .map(move |side| (arm(column, interface, side), side, (interface, side)))
+}
+
+/// The first zero of some guards between two instants of a segment `[s]`, and the guard that has it. Each guard has an arm, a side and a name. All
+/// guards are evaluated at the same places, spaced so that none of them can pass zero in between.
+#[inline(always)]
+fn first_zero<G, I: Iterator<Item = ([f64; 2], Interface, G)>>(
+    segment: &Segment,
+    gravity: f64,
+    [from, until]: [f64; 2],
+    guards: impl Fn() -> I,
+) -> Option<(f64, G)> {
     let mut t = from;
     while t < until {
-        let motion = Shaking::at(segment, column.gravity(), t);
+        let motion = Shaking::at(segment, gravity, t);
         let mut step = f64::INFINITY;
-        for interface in 0..column.len() {
-            for side in [Interface::Right, Interface::Left] {
-                match motion.step_to_zero(arm(column, interface, side), side) {
-                    Some(0.0) => return Some((t, interface, side)),
-                    Some(own) => step = step.min(own),
-                    None => {}
-                }
+        for (arm, side, guard) in guards() {
+            match motion.step_to_zero(arm, side) {
+                Some(0.0) => return Some((t, guard)),
+                Some(own) => step = step.min(own),
+                None => {}
             }
         }
         t += step;
@@ -249,52 +266,26 @@ impl Scene {
 
 /// The first instant in a segment at which an interface of a column at rest opens, if no other does.
 fn opening_in(column: &Column, segment: &Segment, interface: usize) -> Option<f64> {
-    let mut t = segment.start;
-    while t < segment.end {
-        let motion = Shaking::at(segment, column.gravity(), t);
-        let mut step = f64::INFINITY;
-        for side in [Interface::Right, Interface::Left] {
-            let arm = arm(column, interface, side);
-            // Where the ground jumps, a guard may be below zero without having fallen there.
-            if motion.guard(arm, side) < 0.0 {
-                return Some(t);
-            }
-            match motion.step_to_zero(arm, side) {
-                Some(0.0) => return Some(t),
-                Some(own) => step = step.min(own),
-                None => {}
-            }
-        }
-        t += step;
+    let at_start = Shaking::at(segment, column.gravity(), segment.start);
+    // Where the ground jumps, a guard may be below zero without having fallen there.
+    if corners(column, interface).any(|(arm, side, _)| at_start.guard(arm, side) < 0.0) {
+        return Some(segment.start);
     }
-    None
+    let span = [segment.start, segment.end];
+    first_zero(segment, column.gravity(), span, || corners(column, interface)).map(|(t, _)| t)
 }
 
 /// The first instant in a segment from a time on at which an interface of a column at rest tips or slides, with the coefficients `fixed` of static
 /// friction: as [`earliest_start`], with the guards `μ (g + ÿ_g) ± ẍ_g` beside those of the corners.
 pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
-    let mut t = from;
-    while t < segment.end {
-        let motion = Shaking::at(segment, column.gravity(), t);
-        let mut step = f64::INFINITY;
-        for (interface, coefficient) in fixed.iter().enumerate() {
-            for side in [Interface::Right, Interface::Left] {
-                let guards = [
-                    ([*coefficient, 1.0], Guard::Cone(interface, side.sign())),
-                    (arm(column, interface, side), Guard::Tip(interface, side.sign())),
-                ];
-                for (arm, guard) in guards {
-                    match motion.step_to_zero(arm, side) {
-                        Some(0.0) => return Some((t, guard)),
-                        Some(own) => step = step.min(own),
-                        None => {}
-                    }
-                }
-            }
-        }
-        t += step;
-    }
-    None
+    let of_interface = |(interface, coefficient): (usize, &f64)| {
+        let cone = [*coefficient, 1.0];
+        corners(column, interface).flat_map(move |(arm, side, _)| {
+            let sign = side.sign();
+            [(cone, side, Guard::Cone(interface, sign)), (arm, side, Guard::Tip(interface, sign))]
+        })
+    };
+    first_zero(segment, column.gravity(), [from, segment.end], || fixed.iter().enumerate().flat_map(of_interface))
 }
 
 /// Whether a jump of the ground to a segment may start a column whose friction is limited: some guard of [`first_start`] is not above rounding.
@@ -372,8 +363,7 @@ impl Shaking {
         half_width * self.ground.gravity + f64::from(side.sign()) * height * self.ground.x
     }
 
-    /// A time within which the guard of a side does not fall below zero `[s]`. Zero if it
-    /// falls below zero at this instant, `None` if it never does.
+    /// A time within which the guard of a side does not fall below zero `[s]`. Zero if it falls below zero at this instant, `None` if it never does.
     fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
         let Shaking { t, ground, rates, bends } = self;
         let sign = f64::from(side.sign());
@@ -423,16 +413,8 @@ mod tests {
     use super::*;
 
     /// First zero of one guard.
-    fn first_zero(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {
-        let mut t = segment.start;
-        while t < segment.end {
-            match Shaking::at(segment, 9.81, t).step_to_zero(arm, side) {
-                Some(0.0) => return Some(t),
-                Some(step) => t += step,
-                None => return None,
-            }
-        }
-        None
+    fn zero_of(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {
+        first_zero(segment, 9.81, [segment.start, segment.end], || [(arm, side, ())].into_iter()).map(|(t, ())| t)
     }
 
     fn segment(amplitude: f64) -> Segment {
@@ -445,9 +427,9 @@ mod tests {
         // sin(10 t) = c g / (h A) = 0.5, tipping to the left.
         let arm = [0.2, 0.8];
         let amplitude = 0.2 * 9.81 / (0.8 * 0.5);
-        let t = first_zero(&segment(amplitude), arm, Interface::Left).expect("it starts");
+        let t = zero_of(&segment(amplitude), arm, Interface::Left).expect("it starts");
         assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
-        let later = first_zero(&segment(amplitude), arm, Interface::Right).expect("it starts");
+        let later = zero_of(&segment(amplitude), arm, Interface::Right).expect("it starts");
         assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
     }
 
@@ -473,11 +455,11 @@ mod tests {
 
     #[test]
     fn a_needle_starts_at_once_and_a_threshold_above_the_crest_is_never_reached() {
-        let t = first_zero(&segment(3.0), [1e-200, 1.6], Interface::Left).expect("it starts");
+        let t = zero_of(&segment(3.0), [1e-200, 1.6], Interface::Left).expect("it starts");
         assert!(t < 1e-199);
         let arm = [0.2, 0.8];
         let crest = 0.2 * 9.81 / 0.8;
-        assert_eq!(first_zero(&segment(crest * (1.0 - 1e-12)), arm, Interface::Left), None);
-        assert!(first_zero(&segment(crest * (1.0 + 1e-9)), arm, Interface::Left).is_some());
+        assert_eq!(zero_of(&segment(crest * (1.0 - 1e-12)), arm, Interface::Left), None);
+        assert!(zero_of(&segment(crest * (1.0 + 1e-9)), arm, Interface::Left).is_some());
     }
 }

@@ -266,6 +266,9 @@ mod tests {
         let station = ["excitation.station.record", "excitation.station.component", "excitation.scale.pga", "outcome"];
         assert_eq!(record_columns(&station), [0, 1]);
         assert_eq!(record_columns(&["pgv", "record", "excitation.horizontal.seed"]), [1]);
+        assert_eq!(record_columns(&["pgv", "excitation.horizontal.file", "outcome"]), [1]);
+        // A table written by hand.
+        assert_eq!(record_columns(&["seed", "pgv", "outcome"]), [0]);
         assert_eq!(record_columns(&["excitation.horizontal.omega", "outcome"]), [] as [usize; 0]);
     }
 }

@@ -28,9 +28,11 @@ pub struct Axis {
 /// Last parts of the keys whose values choose a record. Each run has one record, and fractiles are taken over all records.
 const OF_RECORDS: [&str; 4] = ["file", "record", "component", "seed"];
 
-/// Whether the values of a key, under its dotted name, are records: files, records of stations, components of them, seeds of synthetic ones.
+/// Whether the values of a key, under its dotted name or by its last part alone, are records: files, records of stations, components of them, seeds of
+/// synthetic ones.
 pub fn is_of_records(key: &str) -> bool {
-    key.starts_with("excitation.") && key.rsplit('.').next().is_some_and(|last| OF_RECORDS.contains(&last))
+    let last = key.strip_prefix("excitation.").map_or(key, |inner| inner.rsplit('.').next().unwrap_or(inner));
+    OF_RECORDS.contains(&last)
 }
 
 /// How axes make points.

@@ -1,7 +1,7 @@
 //! Companions of a run: the same scene, changed by less than anybody can know.
 
 use super::history::Comparison;
-use super::verdict::{Verdict, lost_block};
+use super::verdict::Verdict;
 use crate::column::{Block, Column};
 use crate::response::Response;
 use crate::scene::{DynamicsSource, Scene, TIGHTEST_RTOL};
@@ -134,7 +134,7 @@ impl Companion {
         Companion {
             change,
             verdict: run.map(|run| Verdict::of(run.status)),
-            block: run.and_then(lost_block),
+            block: run.and_then(Response::lost_block),
             ends_at: run.map_or(0.0, |run| run.t_final),
             parts_at: comparison.as_ref().map_or(Some(0.0), |found| found.parts_at),
             difference: comparison.map_or(0.0, |found| found.difference),

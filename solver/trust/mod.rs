@@ -40,7 +40,6 @@ use history::Comparison;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
-use verdict::lost_block;
 
 /// Interval between the rows that are compared, as a share of `1/p` of the stack that rocks fastest.
 const ROW_INTERVAL_OF_P: f64 = 0.1;
@@ -174,8 +173,8 @@ pub fn follow_run_observed(
     let horizon = until(|one| one.change.is_small());
     let verdict = Verdict::of(response.status);
     let same_verdict = companions.iter().all(|one| one.verdict == Some(verdict));
-    let block = lost_block(response);
-    let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| lost_block(run) == block));
+    let block = response.lost_block();
+    let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| run.lost_block() == block));
     let certain_at = certain_at(scene, response, run)?;
     let determined = same_verdict && horizon >= certain_at && verdict != Verdict::Undetermined;
     let (amplification, grows_on) = companions::amplification(&companions);

@@ -1,6 +1,6 @@
 //! What becomes of a column, and which block is lost.
 
-use crate::response::{Response, StopReason};
+use crate::response::StopReason;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -45,9 +45,4 @@ impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.words())
     }
-}
-
-/// The block that overturned or collapsed, from 1.
-pub(super) fn lost_block(response: &Response) -> Option<usize> {
-    response.lost_block()
 }

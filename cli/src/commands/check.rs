@@ -207,7 +207,7 @@ struct Findings {
     contacts: Vec<ContactFindings>,
     horizontal: Option<MotionFindings>,
     vertical: Option<MotionFindings>,
-    /// Interfaces, from 1, that the largest horizontal ground acceleration would open from rest, without vertical ground motion.
+    /// Interfaces, from 1, that the ground motion opens from rest, if none of the others opens or slides before.
     opens: Vec<usize>,
     /// When the first of them opens `[s]`.
     first_opening: Option<f64>,
@@ -479,7 +479,8 @@ impl Findings {
             }
         }
         if let Some(motion) = &self.horizontal {
-            let lowest = self.stacks.iter().map(|stack| stack.uplift_acceleration).fold(f64::INFINITY, f64::min);
+            let lowest =
+                self.stacks.iter().map(|stack| stack.uplift_acceleration).fold(f64::INFINITY, f64::min).max(0.0);
             let interfaces: Vec<String> = self.opens.iter().map(usize::to_string).collect();
             let _ = if self.vertical.is_some() {
                 match self.first_opening {

@@ -320,9 +320,7 @@ impl<'p> Recorder<'p> {
 
     /// Records the forces of contacts at a place of a step; `flying` is the column there, if some interface is free.
     fn contacts(&mut self, contacts: &[ContactForce], flying: Option<&Moment>) {
-        let is_free =
-            |interface: usize| flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free);
-        for (interface, contact) in contacts.iter().enumerate().filter(|(interface, _)| !is_free(*interface)) {
+        for (interface, contact) in contacts.iter().enumerate().filter(|(interface, _)| !is_free(flying, *interface)) {
             self.contact(interface, contact);
         }
     }
@@ -332,10 +330,8 @@ impl<'p> Recorder<'p> {
         let Node { t, weight, momentum: [px, py], contacts, slide_rates, flying } = node;
         let [ax, ay] = self.problem.ground[segment].accelerations(*t);
         self.report.ground_work -= weight * (ax * px + ay * py);
-        let is_free =
-            |interface: usize| flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free);
         for (interface, (contact, rate)) in contacts.iter().zip(slide_rates).enumerate() {
-            if !is_free(interface) {
+            if !is_free(*flying, interface) {
                 self.report.friction_work += weight * contact.tangential * rate;
             }
         }
@@ -428,6 +424,11 @@ impl<'p> Recorder<'p> {
             sliding: Some(self.report),
         }
     }
+}
+
+/// Whether an interface is free; `flying` is the column, if some interface is.
+fn is_free(flying: Option<&Moment>, interface: usize) -> bool {
+    flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free)
 }
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
