@@ -1,5 +1,5 @@
 //! Derives the equations of motion of columns of up to N blocks and writes them to `OUT_DIR`. N is `ROCKING_MAX_BLOCKS` if that is set, else
-//! the largest enabled feature of `blocks-6` to `blocks-8`, else five. With five, a cold release build takes less than a minute on two cores.
+//! the largest enabled feature of `blocks-6` to `blocks-8`, else five.
 
 use std::path::PathBuf;
 

@@ -89,8 +89,8 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
     }
 
     /// Attempts a step of length `h` from `(t, x)`, where the slope is `slope`, and returns its error relative to
-    /// `tolerance`: at most one if the step is good. The result is [`Explicit::end`].
-    #[inline(always)]
+    /// `tolerance`: at most one if the step is good. The result is [`Explicit::end`]. Compiled once for all callers: a method's stages are long.
+    #[inline(never)]
     pub fn attempt<S: System<State = V>>(
         &mut self,
         system: &mut S,
