@@ -12,10 +12,10 @@
 mod common;
 
 use rayon::prelude::*;
+use rocking::Fate;
 use rocking::ground::Synthetic;
 use rocking::intensity::Intensity;
 use rocking::studies::{Ida, StudyRecord};
-use rocking::sweep::Fate;
 use rocking::{Block, Column, Scene, Simulator, StopReason, Sweep, Wanted};
 use std::path::Path;
 use std::time::Instant;

@@ -74,7 +74,7 @@ pub use mechanics::{dynamics, generated, generic, kinematics, program};
 pub use numerics::per_block::PerBlock;
 pub use numerics::scalar_types as scalar;
 pub use response::{
-    BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport,
+    BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Fate, Impulse, ModeName, Response, Sample, SlidingReport,
     StopReason, Work,
 };
 pub use rocking_codegen::{GroundMotion, pattern};

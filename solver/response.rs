@@ -1,5 +1,11 @@
 //! What a run returns: history, events, and what a user must know of the model's validity.
 
+mod fate;
+mod sliding_report;
+
+pub use fate::Fate;
+pub use sliding_report::{ContactTimes, SlidingReport};
+
 use crate::column::Column;
 use crate::json::{number, numbers};
 use crate::mechanics::dynamics::ContactForce;
@@ -293,50 +299,6 @@ pub struct Separation {
     pub during: EventKind,
 }
 
-/// What a run with friction reports in addition. Lists have one entry per interface, base first.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-#[non_exhaustive]
-pub struct SlidingReport {
-    /// Largest magnitude of the slide, counted from the aligned column `[m]`, flights left out.
-    pub peak_slide: Vec<f64>,
-    /// Slide at the end `[m]`, counted along the lower face where the interface is free.
-    pub residual_slide: Vec<f64>,
-    /// Length of the path slid `[m]`, back and forth.
-    pub way_slid: Vec<f64>,
-    /// Time in each kind of contact.
-    pub times: Vec<ContactTimes>,
-    /// Number of flights.
-    pub flights: Vec<usize>,
-    /// Largest gap of a flight `[m]`.
-    pub highest_flight: f64,
-    /// Work of friction at sliding contacts `[J]`, zero or negative.
-    pub friction_work: f64,
-    /// Energy lost at impacts `[J]`.
-    pub impact_losses: f64,
-    /// Work of the ground's inertial forces on the column `[J]`. While everything sticks, it is the change of energy plus the losses at impacts.
-    pub ground_work: f64,
-    /// Energy at the end less that at the start, relative to the ground `[J]`.
-    pub energy_change: f64,
-    /// Times at which several motions were admissible `[s]`.
-    pub ambiguous: Vec<f64>,
-    /// Times at which no acceleration was admissible `[s]`.
-    pub jammed: Vec<f64>,
-}
-
-/// Time that an interface spends in each kind of contact `[s]`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-#[non_exhaustive]
-pub struct ContactTimes {
-    /// `[s]`
-    pub sticking: f64,
-    /// `[s]`
-    pub sliding: f64,
-    /// `[s]`
-    pub free: f64,
-}
-
 /// The response of a column to a scene. Lists have N entries, per block or interface, base first.
 ///
 /// A serialised response has neither samples nor events: these are separate files in the folder of a run ([`crate::run_folder`]).
@@ -432,13 +394,26 @@ impl Response {
         modes
     }
 
-    /// What a user must know before believing the run, up to the point of no return ([`crate::validity`]): separations, tension and, if a `friction`
-    /// coefficient is given, contacts that need more. For a scene with friction, the warnings about its sliding instead.
-    pub fn warnings(&self, friction: Option<f64>) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if let Some(sliding) = &self.sliding {
-            return self.with_build(sliding.warnings(self.status, self.t_final));
+    /// What a user must know before believing the run, up to the point of no return ([`crate::validity`]): separations and tension. For a scene with
+    /// friction, the warnings about its sliding instead.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = match &self.sliding {
+            Some(sliding) => sliding.warnings(self.status, self.t_final),
+            None => self.warnings_of_parting(),
+        };
+        if self.used_generic {
+            warnings.push(format!(
+                "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
+                 (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
+                crate::mechanics::generated::MAX_BLOCKS
+            ));
         }
+        warnings
+    }
+
+    /// Separations and tension, which a run without friction cannot follow.
+    fn warnings_of_parting(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
         let (separations, first) = match &self.validity {
             Some(validity) => (validity.separations, validity.first_separation),
             None => (self.separations.len(), self.separations.first().map(|first| first.t)),
@@ -449,28 +424,14 @@ impl Response {
                  what comes after is not reliable"
             ));
         }
-        let (friction_demand, min_normal_force) = self.counted_forces();
-        let model = "which the model excludes";
-        let parted = |normal: &f64| *normal < 0.0;
-        if let Some((interfaces, least)) = worst(&min_normal_force, parted, |a, b| a < b) {
+        let (_, min_normal_force) = self.counted_forces();
+        if let Some((interfaces, least)) = in_tension(&min_normal_force) {
             let least = four_digits(least);
-            warnings
-                .push(format!("{interfaces}: the normal force falls to {least} N: the contact would part, {model}"));
-        }
-        let Some(available) = friction else { return self.with_build(warnings) };
-        let slides = |demand: &f64| demand.is_finite() && *demand > available;
-        if let Some((interfaces, _)) = worst(&friction_demand, |demand| demand.is_infinite(), |_, _| false) {
             warnings.push(format!(
-                "{interfaces}: no friction coefficient is enough, as the contact parts: the blocks would slide, {model}"
+                "{interfaces}: the normal force falls to {least} N: the contact would part, which the model excludes"
             ));
         }
-        if let Some((interfaces, most)) = worst(&friction_demand, slides, |a, b| a > b) {
-            warnings.push(format!(
-                "{interfaces}: the run needs a friction coefficient of {most:.3}, the scene has {available}: the blocks would \
-                 slide, {model}"
-            ));
-        }
-        self.with_build(warnings)
+        warnings
     }
 
     /// Largest friction demand and smallest normal force `[N]` per interface, up to the point of no return if that is known, else of the whole run.
@@ -482,95 +443,22 @@ impl Response {
             None => (self.friction_demand.clone(), self.min_normal_force.clone()),
         }
     }
-
-    /// The warnings, and what must be known of the build that ran.
-    fn with_build(&self, mut warnings: Vec<String>) -> Vec<String> {
-        if self.used_generic {
-            warnings.push(format!(
-                "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
-                 (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
-                crate::mechanics::generated::MAX_BLOCKS
-            ));
-        }
-        warnings
-    }
 }
 
-impl SlidingReport {
-    /// Whether the report has one entry per interface in each list, and finite slides, energies and instants.
-    pub(crate) fn is_of(&self, blocks: usize) -> bool {
-        let lengths = [&self.peak_slide, &self.residual_slide, &self.way_slid];
-        let sums = [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.energy_change];
-        let moments = self.ambiguous.iter().chain(&self.jammed);
-        lengths.iter().all(|list| list.len() == blocks)
-            && (self.times.len(), self.flights.len()) == (blocks, blocks)
-            && lengths.into_iter().flatten().chain(&sums).chain(moments).all(|value| value.is_finite())
-    }
-
-    /// Whether an interface has slid or flown.
-    pub fn is_any(&self) -> bool {
-        (0..self.way_slid.len()).any(|interface| self.has_moved(interface))
-    }
-
-    /// Whether an interface (from zero) has slid or flown.
-    pub fn has_moved(&self, interface: usize) -> bool {
-        self.way_slid[interface] > 0.0 || self.flights[interface] > 0
-    }
-
-    /// Error of the energy balance, relative to the work of the ground or, without such work, to the largest of the other terms; `None` where
-    /// nothing slid or flew, or only the outcome was wanted.
-    pub fn balance(&self) -> Option<f64> {
-        let SlidingReport { ground_work, friction_work, impact_losses, energy_change, .. } = *self;
-        let open = ground_work + friction_work - impact_losses - energy_change;
-        let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs());
-        let scale = if ground_work == 0.0 { largest } else { ground_work.abs() };
-        (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
-    }
-
-    /// What a user must know before believing a run with friction.
-    fn warnings(&self, status: StopReason, t_final: f64) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let times = |list: &[f64]| list.first().map_or(0.0, |first| *first);
-        if !self.ambiguous.is_empty() {
-            warnings.push(format!(
-                "at {} instant(s), the first at t = {:.4} s, friction admits several motions: the one with the fewest changes was taken",
-                self.ambiguous.len(),
-                times(&self.ambiguous)
-            ));
-        }
-        if !self.jammed.is_empty() {
-            warnings.push(format!(
-                "at {} instant(s), the first at t = {:.4} s, friction admits no smooth motion: the blocks jam, and strike",
-                self.jammed.len(),
-                times(&self.jammed)
-            ));
-        }
-        if status == StopReason::Undetermined {
-            warnings
-                .push(format!("the run ends at t = {t_final:.4} s: no motion follows from the laws of contact there"));
-        }
-        warnings
-    }
-}
-
-/// The interfaces whose values satisfy `is_told`, in words, and the worst value among these; `None` if no interface does.
-fn worst(values: &[f64], is_told: impl Fn(&f64) -> bool, is_worse: impl Fn(f64, f64) -> bool) -> Option<(String, f64)> {
-    let told: Vec<usize> = (0..values.len()).filter(|&index| is_told(&values[index])).collect();
-    let first = *told.first()?;
-    let at = told
-        .iter()
-        .copied()
-        .fold(first, |worst, other| if is_worse(values[other], values[worst]) { other } else { worst });
-    let words = match &told[..] {
+/// The interfaces with negative normal forces, in words, and the lowest force; `None` if there is no such interface.
+fn in_tension(normal_forces: &[f64]) -> Option<(String, f64)> {
+    let parted: Vec<usize> = (0..normal_forces.len()).filter(|&interface| normal_forces[interface] < 0.0).collect();
+    let lowest = parted.iter().copied().min_by(|a, b| normal_forces[*a].total_cmp(&normal_forces[*b]))?;
+    let words = match &parted[..] {
         [one] => format!("interface {}", one + 1),
         many => {
-            let numbers: Vec<String> = many.iter().map(|index| (index + 1).to_string()).collect();
-            let equal = many.iter().all(|&index| values[index] == values[at]);
-            let at = if equal { String::new() } else { format!(", most at {}", at + 1) };
+            let numbers: Vec<String> = many.iter().map(|interface| (interface + 1).to_string()).collect();
+            let are_equal = many.iter().all(|&interface| normal_forces[interface] == normal_forces[lowest]);
+            let at = if are_equal { String::new() } else { format!(", most at {}", lowest + 1) };
             format!("interfaces {}{at}", numbers.join(", "))
         }
     };
-    Some((words, values[at]))
+    Some((words, normal_forces[lowest]))
 }
 
 /// A number other than zero for a sentence: with four digits, or with all digits before the point if these are more.

@@ -94,7 +94,7 @@ fn digests(response: &Response) -> [u64; 2] {
         own.numbers([&separation.t]);
         own.text(&serde_json::to_string(&separation.during).expect("a name"));
     }
-    response.warnings(Some(0.4)).iter().for_each(|warning| words.text(warning));
+    response.warnings().iter().for_each(|warning| words.text(warning));
     [numbers.0, words.0]
 }
 

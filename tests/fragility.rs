@@ -1,8 +1,8 @@
 //! Fragility on made-up data: against closed forms, a search by brute force, and statsmodels.
 
+use rocking::Fate;
 use rocking::studies::probit::{Maximum, Probit, Trial, fit};
 use rocking::studies::{Fit, Fragility, FragilityOptions, LimitState, Observation};
-use rocking::sweep::Fate;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};

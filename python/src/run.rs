@@ -241,7 +241,7 @@ impl Response {
     /// What became of the column, as in the table of a sweep.
     #[getter]
     fn outcome(&self) -> &'static str {
-        rocking::sweep::Fate::of(&self.response).name()
+        rocking::Fate::of(&self.response).name()
     }
 
     #[getter]

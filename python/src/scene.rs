@@ -117,7 +117,7 @@ impl Scene {
     }
 
     /// Runs the scene, and its companions where trust is asked for.
-    #[pyo3(signature = (rows, forces, wanted, trust))]
+    #[pyo3(signature = (*, rows, forces, wanted, trust))]
     fn run(&self, py: Python<'_>, rows: bool, forces: bool, wanted: &str, trust: bool) -> PyResult<Response> {
         let wanted = match wanted {
             "everything" => Wanted::Everything,

@@ -10,11 +10,11 @@ use numpy::ndarray::ArrayView1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
     self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError,
 };
-use rocking::sweep::Fate;
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -7,8 +7,9 @@ use crate::table::{Column, Names, Values, into_python, truth, whole};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use rocking::Fate;
 use rocking::scene_file::{Setting, Template};
-use rocking::sweep::{Ask, Axis, Fate, Field, Needs, Outcome, PointError};
+use rocking::sweep::{Ask, Axis, Field, Needs, Outcome, PointError};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -128,12 +129,6 @@ impl Sweep {
     fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], fields: &[Field]) -> Vec<Column> {
         let ask = self.sweep.ask;
         let found = || results.iter().map(|result| result.as_ref().ok());
-        // Whether the impacts are reported: a run that ends as soon as its outcome is certain has not had all its impacts.
-        let is_counted = |found: &&Outcome| match found.fate {
-            Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
-            Fate::Overturns => ask != Ask::Overturns,
-            _ => ask.is_of_peaks(),
-        };
         let number = |of: &dyn Fn(&Outcome) -> Option<f64>| {
             Values::Number(found().map(|found| found.and_then(of).unwrap_or(f64::NAN)).collect())
         };
@@ -148,7 +143,7 @@ impl Sweep {
                 let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
                 fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))
             }
-            Field::Impacts => whole(found().map(|found| found.filter(is_counted).map(|found| found.impacts))),
+            Field::Impacts => whole(found().map(|found| found?.counted_impacts(ask))),
             Field::Block => whole(found().map(|found| found.and_then(|found| found.block))),
             Field::OverturnedAt => number(&|found| found.overturned_at),
             Field::Peak(block) => number(&|found| found.peaks.get(block).copied()),

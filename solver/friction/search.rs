@@ -53,6 +53,10 @@ const AMBIGUOUS_FROM: f64 = 0.8;
 /// Largest number of interfaces for which all combinations are tried to find a second answer.
 const MOST_BLOCKS_TRIED: usize = 3;
 
+/// Least difference of some velocity, or acceleration, between two answers with other motions, as a share of the speed, or acceleration, at work. Smaller,
+/// and the rounding of one motion counts as two.
+const OTHER_SHARE: f64 = 1e-6;
+
 /// A contact problem with friction.
 pub struct Search<'a> {
     column: &'a Column,
@@ -78,10 +82,13 @@ struct Slack {
     angular: f64,
 }
 
+/// Least scale of accelerations, as a share of gravity: a column in free fall has none otherwise, and its rounding would count.
+const LEAST_SHARE: f64 = 1e-3;
+
 /// Scale of the accelerations at work `[m/s²]`.
 pub fn acceleration_scale(column: &Column, now: &Configuration, ground: Ground) -> f64 {
     let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
-    ground.x.abs() + ground.gravity.abs() + 1e-3 * column.gravity() + fastest * fastest * column.size()
+    ground.x.abs() + ground.gravity.abs() + LEAST_SHARE * column.gravity() + fastest * fastest * column.size()
 }
 
 /// Violation of a condition on forces at which a state ends `[N]`. Contacts that are exactly critical, such as flat interfaces of equal friction
@@ -363,7 +370,7 @@ impl<'a> Search<'a> {
         let (_, _, joints, answer) = admissible.first()?.clone();
         let is_other = |other: &Answer| {
             let pairs = other.change.linear.iter().zip(&answer.change.linear);
-            pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > 1e-6 * self.linear)
+            pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)
         };
         let is_ambiguous = admissible.iter().any(|(_, _, _, other)| is_other(other));
         Some(Solution { joints, answer, is_ambiguous })

@@ -5,9 +5,9 @@ use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
 use crate::column::{Column, Stack};
 use crate::friction::Friction;
 use crate::json::Explicit;
+use crate::response::Fate;
 use crate::response::{BlockState, Event, Response, Sample};
 use crate::scene::{Initial, Look, OutputColumn, Restitution, Scene, SolveOptions};
-use crate::sweep::Fate;
 use crate::trust::Trust;
 use rocking_ground::{Description, Motion};
 use serde::Serialize;
@@ -42,7 +42,7 @@ impl<'a> Run<'a> {
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         let mut warnings = scene.excitation.warnings();
         warnings.extend(cut(scene, response));
-        warnings.extend(response.warnings(None));
+        warnings.extend(response.warnings());
         let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, vec![COMPANIONS.into()]);
         Run { scene, response, scene_text, wall_seconds, warnings, trust: None, outdated }
     }

@@ -191,7 +191,7 @@ impl Fragility {
     ///
     /// ```
     /// use rocking::studies::{Fit, Fragility, FragilityOptions, Observation};
-    /// use rocking::sweep::Fate;
+    /// use rocking::Fate;
     /// // Eight records; two of them overturn at 0.5 m/s and six at 2 m/s.
     /// let run = |record: usize, level: f64, lost: bool| Observation {
     ///     record: record.to_string(),
@@ -558,7 +558,7 @@ fn goodness(counts: &[Count], curve: &Probit, layout: Layout) -> Goodness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::Fate;
+    use crate::response::Fate;
 
     fn run(record: usize, level: f64, lost: bool) -> Observation {
         let fate = Some(if lost { Fate::Overturns } else { Fate::Rocks });

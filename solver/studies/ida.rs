@@ -8,10 +8,10 @@
 use super::gap::largest_gap;
 use super::observation::Observation;
 use crate::intensity::Intensity;
+use crate::response::Fate;
 use crate::response::{EventKind, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, SceneErrors, Wanted};
-use crate::sweep::Fate;
 use crate::trust::{Follow, follow_run};
 use rayon::prelude::*;
 use rocking_codegen::pattern::Pattern;

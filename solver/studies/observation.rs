@@ -1,6 +1,7 @@
 //! What a study observes of a run, and the limit states that an observation reaches or not.
 
-use crate::sweep::{Fate, is_of_records};
+use crate::response::Fate;
+use crate::sweep::is_of_records;
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,7 +1,7 @@
 //! Stripes: all runs at one level of intensity, and fractiles of their response.
 
 use super::observation::Observation;
-use crate::sweep::Fate;
+use crate::response::Fate;
 
 /// Shares that define the fractiles: of a normal variable, the mean less one standard deviation, the median, and the mean plus one.
 pub const FRACTILES: [f64; 3] = [0.16, 0.5, 0.84];

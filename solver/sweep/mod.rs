@@ -14,5 +14,5 @@ mod sampling;
 mod copula;
 
 pub use columns::Field;
-pub use points::{Ask, Axis, Combine, Fate, Needs, Outcome, PointError, Row, Sweep, is_of_records};
+pub use points::{Ask, Axis, Combine, Needs, Outcome, PointError, Row, Sweep, is_of_records};
 pub use sampling::SamplingMethod;

@@ -7,7 +7,7 @@
 //! contact and set-up remain scalar, and the data of sixteen points displace each other from the cache.
 
 use crate::column::Column;
-use crate::response::{ModeName, Response, StopReason};
+use crate::response::{Fate, ModeName, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
@@ -115,65 +115,6 @@ pub struct Sweep {
     pub ask: Ask,
 }
 
-/// What became of the column at one point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Fate {
-    /// Nothing opened.
-    NoUplift,
-    /// It rocked and stands.
-    Rocks,
-    /// It overturned.
-    Overturns,
-    /// Blocks slid, and nothing rocked; only with friction.
-    Slides,
-    /// A block slid or flew off its support; only with friction.
-    Collapses,
-    /// No motion follows from the laws of contact with friction.
-    Undetermined,
-    /// The verdict is not determined: runs whose inputs differ by less than can be known do not agree ([`crate::trust`]). Only in studies.
-    NotDetermined,
-}
-
-impl Fate {
-    /// All of them.
-    pub const ALL: [Fate; 7] = [
-        Fate::NoUplift,
-        Fate::Slides,
-        Fate::Rocks,
-        Fate::Overturns,
-        Fate::Collapses,
-        Fate::Undetermined,
-        Fate::NotDetermined,
-    ];
-
-    /// What became of the column of a run.
-    pub fn of(response: &Response) -> Fate {
-        let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
-        match (response.status, response.work.phases > 0) {
-            (status, _) if status.overturns() => Fate::Overturns,
-            (StopReason::Collapsed, _) => Fate::Collapses,
-            (StopReason::Undetermined, _) => Fate::Undetermined,
-            _ if response.motion_at_contacts().is_some() && !rocked() => Fate::Slides,
-            (_, true) => Fate::Rocks,
-            (_, false) => Fate::NoUplift,
-        }
-    }
-
-    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Fate::NoUplift => "no-uplift",
-            Fate::Rocks => "rocks",
-            Fate::Overturns => "overturns",
-            Fate::Slides => "slides",
-            Fate::Collapses => "collapses",
-            Fate::Undetermined => "undetermined",
-            Fate::NotDetermined => "not-determined",
-        }
-    }
-}
-
 /// The result of one point.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -202,6 +143,16 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The number of impacts, unless the run may have ended before some of them, because its outcome was certain.
+    pub fn counted_impacts(&self, ask: Ask) -> Option<usize> {
+        let is_counted = match self.fate {
+            Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
+            Fate::Overturns => ask != Ask::Overturns,
+            Fate::Rocks | Fate::NotDetermined => ask.is_of_peaks(),
+        };
+        is_counted.then_some(self.impacts)
+    }
+
     /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` if peaks are not asked for, if no motion follows from the laws of
     /// contact, or if the verdict is not determined.
     pub fn demand(&self) -> Option<f64> {

@@ -7,8 +7,9 @@ use crate::plot::spectrum::LEAST_RECORDS;
 use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 use crate::table::open;
 use crate::text::{printable, shown};
+use rocking::Fate;
 use rocking::studies::{FRACTILES, fractile};
-use rocking::sweep::{Axis, Combine, Fate, Sweep, is_of_records};
+use rocking::sweep::{Axis, Combine, Sweep, is_of_records};
 use std::path::{Path, PathBuf};
 
 /// The runs at one combination of the axes that are not of records.

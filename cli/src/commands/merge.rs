@@ -15,8 +15,9 @@ use crate::table::{Format, open};
 use crate::terminal::print;
 use crate::text::{printable, shown};
 use csv::StringRecord;
+use rocking::Fate;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, Fate, Sweep};
+use rocking::sweep::{Ask, Sweep};
 use std::fs::File;
 #[cfg(feature = "parquet")]
 use std::io::{BufWriter, Write};

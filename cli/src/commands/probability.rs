@@ -8,7 +8,7 @@ use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 use crate::table::open;
 use crate::text::shown;
 use rocking::studies::Proportion;
-use rocking::sweep::{Fate, Sweep};
+use rocking::{Fate, Sweep};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -16,9 +16,10 @@ use crate::table::growing::Growing;
 use crate::terminal::{json, print};
 use crate::text::{printable, shown};
 use csv::StringRecord;
+use rocking::Fate;
 use rocking::SceneFileError;
 use rocking::scene_file::{Cause, Setting};
-use rocking::sweep::{Ask, Fate, Field, Row, Sweep};
+use rocking::sweep::{Ask, Field, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -43,7 +44,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
-    let columns = columns(&sweep)?;
+    let (fields, columns) = (sweep.fields().map_err(Failure::scene)?, columns(&sweep)?);
     let threads = threads(asked.threads)?;
     let mut digest = Fnv::of(&sweep, &asked.file)?;
     if asked.shard.is_some() {
@@ -54,7 +55,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
     table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
-        sweep.lines(batch, |row| with_trust(&row, sweep.ask, columns.len()))
+        sweep.lines(batch, |row| fields.iter().map(|field| cell(&row, *field, sweep.ask)).collect::<StringRecord>())
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
@@ -161,69 +162,39 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     Ok(sweep.fields().map_err(Failure::scene)?.into_iter().map(column).collect())
 }
 
-/// Columns of every table besides its axes: index, outcome, impacts, block, time, truncated, error.
-const FIXED: usize = 7;
-
-/// Columns of `ask = "validity"` besides peaks and mode.
-const OF_VALIDITY: usize = 4;
-
-/// A row as `columns` cells. If trust is asked for, its cell comes before the last two, those of truncation and error.
-fn with_trust(row: &Row, ask: Ask, columns: usize) -> StringRecord {
-    if ask != Ask::Trust {
-        return cells(row, ask, columns);
+/// A cell of a row; blank where the run did not get so far, or the scene has fewer blocks than the largest scene of the sweep.
+fn cell(row: &Row, field: Field, ask: Ask) -> String {
+    fn number(value: Option<f64>) -> String {
+        value.map_or(String::new(), |value| format!("{value:?}"))
     }
-    let cells = cells(row, ask, columns - 1);
-    let word = row.result.as_ref().ok().and_then(|outcome| outcome.determined);
-    let word = word.map_or("", |determined| if determined { "determined" } else { NOT_DETERMINED });
-    cells.iter().take(columns - 3).chain([word]).chain(cells.iter().skip(columns - 3)).collect()
-}
-
-/// A row as `columns` cells, without that of trust.
-fn cells(row: &Row, ask: Ask, columns: usize) -> StringRecord {
-    let (mut cells, axes) = (vec![row.index.to_string()], row.settings.len());
-    cells.extend(row.settings.iter().map(|setting| printable(&setting.to_string()).into_owned()));
-    match &row.result {
-        Ok(outcome) => {
-            // Impacts stay blank for a run that ends when its outcome is certain: not all of them have happened by then.
-            let is_counted = match outcome.fate {
-                Fate::NoUplift | Fate::Slides | Fate::Collapses | Fate::Undetermined => true,
-                Fate::Overturns => ask != Ask::Overturns,
-                _ => ask.is_of_peaks(),
-            };
-            cells.push(outcome.fate.name().into());
-            cells.push(if is_counted { outcome.impacts.to_string() } else { String::new() });
-            cells.push(outcome.block.map_or(String::new(), |block| block.to_string()));
-            cells.push(outcome.overturned_at.map_or(String::new(), |t| format!("{t:?}")));
-            let before_peaks = cells.len();
-            cells.extend(outcome.peaks.iter().map(|peak| format!("{peak:?}")));
-            if let Some(mode) = &outcome.last_mode {
-                // If the scene has fewer blocks than the largest scene of the sweep, the other cells of peaks and slides are blank.
-                let blocks = match (ask, columns - FIXED - axes - 1) {
-                    (Ask::Slides, others) => others / 2,
-                    (Ask::Validity, others) => others - OF_VALIDITY,
-                    (_, others) => others,
-                };
-                cells.resize(before_peaks + blocks, String::new());
-                cells.push(mode.clone());
-                cells.extend(outcome.residual_slides.iter().map(|slide| format!("{slide:?}")));
-                if let Some(needs) = outcome.needs {
-                    cells.push(needs.valid.to_string());
-                    cells.push(format!("{:?}", needs.mu_demand));
-                    cells.push(format!("{:?}", needs.min_normal));
-                    cells.push(needs.separations.to_string());
-                }
-            }
-            cells.resize(columns - 2, String::new());
-            cells.push(outcome.truncated.to_string());
-            cells.push(String::new());
-        }
-        Err(error) => {
-            cells.push("error".into());
-            cells.resize(columns - 1, String::new());
-            cells.push(printable(&error.to_string()).into_owned());
-        }
+    fn word(value: Option<impl ToString>) -> String {
+        value.map_or(String::new(), |value| value.to_string())
     }
-    cells.into()
+    let outcome = row.result.as_ref().ok();
+    let needs = outcome.and_then(|outcome| outcome.needs.as_ref());
+    match field {
+        Field::Index => row.index.to_string(),
+        Field::Axis(place) => printable(&row.settings[place].to_string()).into_owned(),
+        Field::Outcome => outcome.map_or("error", |outcome| outcome.fate.name()).into(),
+        Field::Impacts => word(outcome.and_then(|outcome| outcome.counted_impacts(ask))),
+        Field::Block => word(outcome.and_then(|outcome| outcome.block)),
+        Field::OverturnedAt => number(outcome.and_then(|outcome| outcome.overturned_at)),
+        Field::Peak(block) => number(outcome.and_then(|outcome| outcome.peaks.get(block).copied())),
+        Field::LastMode => word(outcome.and_then(|outcome| outcome.last_mode.as_ref())),
+        Field::ResidualSlide(interface) => {
+            number(outcome.and_then(|outcome| outcome.residual_slides.get(interface).copied()))
+        }
+        Field::Valid => word(needs.map(|needs| needs.valid)),
+        Field::MuDemand => number(needs.map(|needs| needs.mu_demand)),
+        Field::MinNormal => number(needs.map(|needs| needs.min_normal)),
+        Field::Separations => word(needs.map(|needs| needs.separations)),
+        Field::Trust => {
+            let determined = outcome.and_then(|outcome| outcome.determined);
+            word(determined.map(|determined| if determined { "determined" } else { NOT_DETERMINED }))
+        }
+        Field::Truncated => word(outcome.map(|outcome| outcome.truncated)),
+        Field::Error => word(row.result.as_ref().err().map(|error| printable(&error.to_string()).into_owned())),
+    }
 }
 
 /// The file beside a shard's table that holds the digest of the sweep.

@@ -5,9 +5,9 @@ use crate::plot::modes::sketch;
 use crate::report::trust;
 use crate::text::escape;
 use rocking::Event;
+use rocking::Fate;
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::run_folder::Results;
-use rocking::sweep::Fate;
 use rocking::{EventKind, StopReason};
 use std::fmt::Write as _;
 

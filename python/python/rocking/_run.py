@@ -77,7 +77,7 @@ def simulate(
         scene = column.replace(horizontal=motion, vertical=vertical, **arguments)
     else:
         scene = column
-    return Run(scene, scene._compiled.run(rows, forces, wanted, trust))
+    return Run(scene, scene._compiled.run(rows=rows, forces=forces, wanted=wanted, trust=trust))
 
 
 def trust(

@@ -108,7 +108,7 @@ class Ida:
 
     def simulate(self, index: int) -> _rocking.Response:
         """The response of a run, with rows and without forces."""
-        return self._ida.scene(index).run(True, False, "everything", False)
+        return self._ida.scene(index).run(rows=True, forces=False, wanted="everything", trust=False)
 
     def __repr__(self) -> str:
         return f"<Ida of {len(self.records)} record(s) at {len(self.levels)} level(s) of {self.measure}>"

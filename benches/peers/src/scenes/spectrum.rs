@@ -13,7 +13,7 @@ use crate::peers::rk4::{step, to_impact};
 use crate::report::reading;
 use rayon::prelude::*;
 use rocking::scene_file::Setting;
-use rocking::sweep::Fate;
+use rocking::Fate;
 use rocking::{StopReason, Sweep, Wanted, simulate};
 use std::path::Path;
 use std::time::Instant;

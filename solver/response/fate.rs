@@ -1,0 +1,62 @@
+//! What became of a column, in one word.
+
+use super::{Response, StopReason};
+
+/// What became of the column of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fate {
+    /// Nothing opened.
+    NoUplift,
+    /// It rocked and stands.
+    Rocks,
+    /// It overturned.
+    Overturns,
+    /// Blocks slid, and nothing rocked; only with friction.
+    Slides,
+    /// A block slid or flew off its support; only with friction.
+    Collapses,
+    /// No motion follows from the laws of contact with friction.
+    Undetermined,
+    /// The verdict is not determined: runs whose inputs differ by less than can be known do not agree ([`crate::trust`]). Only in studies.
+    NotDetermined,
+}
+
+impl Fate {
+    /// All of them.
+    pub const ALL: [Fate; 7] = [
+        Fate::NoUplift,
+        Fate::Slides,
+        Fate::Rocks,
+        Fate::Overturns,
+        Fate::Collapses,
+        Fate::Undetermined,
+        Fate::NotDetermined,
+    ];
+
+    /// What became of the column of a run.
+    pub fn of(response: &Response) -> Fate {
+        let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
+        match (response.status, response.work.phases > 0) {
+            (status, _) if status.overturns() => Fate::Overturns,
+            (StopReason::Collapsed, _) => Fate::Collapses,
+            (StopReason::Undetermined, _) => Fate::Undetermined,
+            _ if response.motion_at_contacts().is_some() && !rocked() => Fate::Slides,
+            (_, true) => Fate::Rocks,
+            (_, false) => Fate::NoUplift,
+        }
+    }
+
+    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fate::NoUplift => "no-uplift",
+            Fate::Rocks => "rocks",
+            Fate::Overturns => "overturns",
+            Fate::Slides => "slides",
+            Fate::Collapses => "collapses",
+            Fate::Undetermined => "undetermined",
+            Fate::NotDetermined => "not-determined",
+        }
+    }
+}

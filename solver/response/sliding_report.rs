@@ -1,0 +1,105 @@
+//! What a run with friction reports in addition: slides, flights, energy balance.
+
+use super::StopReason;
+use serde::{Deserialize, Serialize};
+
+/// What a run with friction reports in addition. Lists have one entry per interface, base first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
+pub struct SlidingReport {
+    /// Largest magnitude of the slide, counted from the aligned column `[m]`, flights left out.
+    pub peak_slide: Vec<f64>,
+    /// Slide at the end `[m]`, counted along the lower face where the interface is free.
+    pub residual_slide: Vec<f64>,
+    /// Length of the path slid `[m]`, back and forth.
+    pub way_slid: Vec<f64>,
+    /// Time in each kind of contact.
+    pub times: Vec<ContactTimes>,
+    /// Number of flights.
+    pub flights: Vec<usize>,
+    /// Largest gap of a flight `[m]`.
+    pub highest_flight: f64,
+    /// Work of friction at sliding contacts `[J]`, zero or negative.
+    pub friction_work: f64,
+    /// Energy lost at impacts `[J]`.
+    pub impact_losses: f64,
+    /// Work of the ground's inertial forces on the column `[J]`. While everything sticks, it is the change of energy plus the losses at impacts.
+    pub ground_work: f64,
+    /// Energy at the end less that at the start, relative to the ground `[J]`.
+    pub energy_change: f64,
+    /// Times at which several motions were admissible `[s]`.
+    pub ambiguous: Vec<f64>,
+    /// Times at which no acceleration was admissible `[s]`.
+    pub jammed: Vec<f64>,
+}
+
+/// Time that an interface spends in each kind of contact `[s]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[non_exhaustive]
+pub struct ContactTimes {
+    /// `[s]`
+    pub sticking: f64,
+    /// `[s]`
+    pub sliding: f64,
+    /// `[s]`
+    pub free: f64,
+}
+
+impl SlidingReport {
+    /// Whether the report has one entry per interface in each list, and finite slides, energies and instants.
+    pub(crate) fn is_of(&self, blocks: usize) -> bool {
+        let lengths = [&self.peak_slide, &self.residual_slide, &self.way_slid];
+        let sums = [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.energy_change];
+        let moments = self.ambiguous.iter().chain(&self.jammed);
+        lengths.iter().all(|list| list.len() == blocks)
+            && (self.times.len(), self.flights.len()) == (blocks, blocks)
+            && lengths.into_iter().flatten().chain(&sums).chain(moments).all(|value| value.is_finite())
+    }
+
+    /// Whether an interface has slid or flown.
+    pub fn is_any(&self) -> bool {
+        (0..self.way_slid.len()).any(|interface| self.has_moved(interface))
+    }
+
+    /// Whether an interface (from zero) has slid or flown.
+    pub fn has_moved(&self, interface: usize) -> bool {
+        self.way_slid[interface] > 0.0 || self.flights[interface] > 0
+    }
+
+    /// Error of the energy balance, relative to the work of the ground or, without such work, to the largest of the other terms; `None` where
+    /// nothing slid or flew, or only the outcome was wanted.
+    pub fn balance(&self) -> Option<f64> {
+        let SlidingReport { ground_work, friction_work, impact_losses, energy_change, .. } = *self;
+        let open = ground_work + friction_work - impact_losses - energy_change;
+        let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs());
+        let scale = if ground_work == 0.0 { largest } else { ground_work.abs() };
+        (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
+    }
+
+    /// What a user must know before believing a run with friction.
+    pub(super) fn warnings(&self, status: StopReason, t_final: f64) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let times = |list: &[f64]| list.first().map_or(0.0, |first| *first);
+        if !self.ambiguous.is_empty() {
+            warnings.push(format!(
+                "at {} instant(s), the first at t = {:.4} s, friction admits several motions: the one with the fewest changes was taken",
+                self.ambiguous.len(),
+                times(&self.ambiguous)
+            ));
+        }
+        if !self.jammed.is_empty() {
+            warnings.push(format!(
+                "at {} instant(s), the first at t = {:.4} s, friction admits no smooth motion: the blocks jam, and strike",
+                self.jammed.len(),
+                times(&self.jammed)
+            ));
+        }
+        if status == StopReason::Undetermined {
+            warnings
+                .push(format!("the run ends at t = {t_final:.4} s: no motion follows from the laws of contact there"));
+        }
+        warnings
+    }
+}

@@ -1,0 +1,214 @@
+//! The first guard that falls to zero in a step, and where. Where the dense output is a Taylor series, guards are polynomials whose roots are isolated;
+//! guards of forces are then refined on the forces themselves. Where it is the interpolant of an explicit method, guards are sampled.
+
+use super::{Output, Step};
+use crate::friction::chain::Pose;
+use crate::friction::gaps::{self, Corner};
+use crate::friction::guards::Guard;
+use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale};
+use crate::mechanics::dynamics::Ground;
+use crate::numerics::guards::first_crossing;
+use crate::numerics::polynomial::powers::Powers;
+
+/// Share of its scale below which a guard that starts from zero has not left zero.
+const START_ROUNDING: f64 = 1e-15;
+
+/// Share of the resolution of hops, bounces and slides below which a guard that starts from zero has not left zero.
+const LOW_SHARE: f64 = 1e-3;
+
+/// Place at which a guard that starts from zero is first examined, as a share of the step up to the earliest zero of the guards before it.
+const NEAR_START: f64 = 1e-4;
+
+/// Place in a step at which a guard that is not above zero at the start must be above zero; otherwise its zero is at the start.
+const RISEN_BY: f64 = 0.03;
+
+/// Rounds in which a root of a polynomial is refined on the forces themselves: each squares the error.
+const REFINEMENTS: usize = 6;
+
+/// Newton's step, as a share of the step, after which the error is its square, and so below rounding.
+const NEAR_ROOT: f64 = 1e-9;
+
+/// Multiple of the noise of a guard beyond which the guard has certainly left zero, upwards or downwards.
+const CLEARLY: f64 = 8.0;
+
+/// Share of the step up to which the place is searched for at which a guard has left zero.
+const FAR: f64 = 0.1;
+
+impl<O: Output> Step<'_, '_, O> {
+    /// The first guard that falls to zero, and where.
+    pub fn first_of(&mut self, list: &[Guard]) -> Option<(f64, Guard)> {
+        let mut first: Option<(f64, Guard)> = None;
+        for &guard in list {
+            let limit = first.map_or(1.0, |(s, _)| s);
+            let found = match (guard, self.output.series()) {
+                (Guard::Land(corner), Some(span)) => {
+                    let ([along, above], reach) = span.gap(corner);
+                    let gap = |_: &mut Self, s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
+                    self.landing(guard, &gap, &|step| step.root(guard, &above, limit), limit)
+                }
+                (Guard::Land(corner), None) => {
+                    let gap = |step: &mut Self, s: f64| step.gap(corner, s);
+                    self.landing(guard, &gap, &|step| step.crossing(guard, &|step, s| gap(step, s)[1], limit), limit)
+                }
+                (_, Some(span)) => {
+                    let mut found = None;
+                    span.guard(guard, &mut |track| {
+                        found = self.root(guard, track, found.unwrap_or(limit)).or(found);
+                    });
+                    found
+                }
+                (_, None) => self.crossing(guard, &|step, s| step.value(guard, s), limit),
+            };
+            if let Some(s) = found {
+                first = Some((s, guard));
+            }
+        }
+        first
+    }
+
+    /// How far a corner of a free interface is beside the other block's face, and how far above it `[m]`.
+    fn gap(&mut self, corner: Corner, s: f64) -> [f64; 2] {
+        let column = self.smooth.column;
+        let now = &self.at(s, false).configuration;
+        gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner)
+    }
+
+    /// The first place up to `limit` at which a corner with this gap lands. Height and distance beside the face are smooth, the larger of both is
+    /// not: a corner that comes from above is followed by its height alone, whose first zero is `fall`.
+    fn landing(
+        &mut self,
+        guard: Guard,
+        gap: &dyn Fn(&mut Self, f64) -> [f64; 2],
+        fall: &dyn Fn(&mut Self) -> Option<f64>,
+        limit: f64,
+    ) -> Option<f64> {
+        if gap(self, 0.0)[1] >= -self.noise(guard) {
+            let s = fall(self)?;
+            if s > 0.0 && gap(self, s)[0] <= 0.0 {
+                return Some(s);
+            }
+        }
+        let value = |step: &mut Self, s: f64| {
+            let [beside, above] = gap(step, s);
+            beside.max(above)
+        };
+        self.crossing(guard, &value, limit)
+    }
+
+    /// The first place up to `limit` at which a guard that is this polynomial falls to zero. As many roots at the start are divided out as leading
+    /// coefficients are rounding. A guard within rounding half-way to its root falls to zero where it is clearly below zero.
+    fn root(&mut self, guard: Guard, track: &Powers, limit: f64) -> Option<f64> {
+        let start = track.coefficient(0);
+        let s = if guard.may_start_from_zero() {
+            let rounding = self.rounding_at_start(guard);
+            let below = CLEARLY * rounding[0];
+            if start < -below {
+                return Some(0.0);
+            }
+            let leading = rounding.iter().enumerate();
+            let roots = leading.take_while(|(k, rounding)| track.coefficient(*k).abs() <= **rounding).count();
+            let rises = track.coefficient(roots) > 0.0;
+            let found = if rises { track.root(roots) } else { Some(0.0) };
+            match found {
+                // A guard that has not left zero half-way to the root has been there all the time.
+                Some(s) if track.evaluate(0.5 * s) <= rounding[0] => track.shifted(1.0, below).root(0),
+                found => found,
+            }
+        } else if start > 0.0 {
+            track.root(0)
+        } else if track.evaluate(RISEN_BY) <= 0.0 {
+            return Some(0.0);
+        } else {
+            track.root(1)
+        };
+        let s = s.filter(|s| *s <= limit)?;
+        if guard.needs_forces() { self.refined(guard, track, s, limit) } else { Some(s) }
+    }
+
+    /// Refines a root of a polynomial on the guard itself by Newton's rule: a series leaves out more of forces than of angles. `None` if the guard
+    /// does not fall to zero there, or only beyond `limit`.
+    fn refined(&mut self, guard: Guard, track: &Powers, root: f64, limit: f64) -> Option<f64> {
+        let mut s = root;
+        for _ in 0..REFINEMENTS {
+            let [_, slope] = track.with_slope(s);
+            let value = self.value(guard, s);
+            if value <= 0.0 && s == 0.0 {
+                break;
+            }
+            let next = s - value / slope;
+            if !(slope < 0.0 && next <= 1.0) {
+                // Unless it is at or below zero here, the guard only comes close, or falls to zero in the next step.
+                return (value <= 0.0).then_some(s);
+            }
+            let next = next.max(0.0);
+            let is_found = (next - s).abs() <= NEAR_ROOT;
+            s = next;
+            if is_found {
+                break;
+            }
+        }
+        (s <= limit).then_some(s)
+    }
+
+    /// The first place up to `limit` at which a guard falls to zero. A root at the start is divided out, as often as the guard and its derivatives
+    /// vanish there.
+    fn crossing(&mut self, guard: Guard, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64) -> Option<f64> {
+        let start = value(self, 0.0);
+        let noise = self.noise(guard);
+        if !guard.may_start_from_zero() || start > noise {
+            return first_crossing(|s| value(self, s), start, limit);
+        }
+        if start < -CLEARLY * noise {
+            return Some(0.0);
+        }
+        // A place at which the guard has left its start, before it comes back.
+        let (mut near, mut end) = (NEAR_START * limit, limit);
+        while near < FAR * limit && value(self, near).abs() <= CLEARLY * noise {
+            near *= 4.0;
+        }
+        while value(self, near) < -CLEARLY * noise {
+            (near, end) = (0.1 * near, near);
+        }
+        let one = value(self, near);
+        if one <= CLEARLY * noise {
+            // The guard does not leave zero, or (`end < limit`) comes back before that can be resolved.
+            return (end < limit).then_some(0.0);
+        }
+        let two = value(self, (2.0 * near).min(end));
+        let limit = end;
+        let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as i32;
+        first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
+    }
+
+    /// Rounding of a guard that starts from zero: of its value, its slope and half its bend, with the step as the unit of time. An acceleration that
+    /// the search for states takes for rounding is a bend of a guard, but a slope of a slide's rate.
+    fn rounding_at_start(&mut self, guard: Guard) -> [f64; 3] {
+        let (column, h) = (self.smooth.column, self.h);
+        let ground = Ground::at(self.smooth.segment, self.t, self.smooth.gravity);
+        let scale = acceleration_scale(column, &self.at(0.0, false).configuration, ground);
+        let size = column.size();
+        let speed = START_ROUNDING * (size * self.smooth.gravity).sqrt();
+        let acceleration = 4.0 * ACCELERATION_SHARE * scale;
+        let noise = self.noise(guard);
+        match guard {
+            Guard::Stop(_) => [noise, h * acceleration, 0.0],
+            Guard::Close(_) => [noise, h * speed / size, 0.5 * h * h * acceleration / size],
+            _ => [noise, h * speed, 0.5 * h * h * acceleration],
+        }
+    }
+
+    /// Value up to which a guard that starts from zero has not left zero: rounding, or a share of the hops, bounces and slides that are too low to
+    /// be followed, whichever is larger.
+    fn noise(&self, guard: Guard) -> f64 {
+        let size = self.smooth.column.size();
+        let least = LOW_SHARE * self.stick_angle;
+        match guard {
+            Guard::Close(_) => START_ROUNDING.max(least),
+            Guard::Stop(_) => {
+                let speed = (size * self.smooth.gravity).sqrt();
+                speed * START_ROUNDING.max(LOW_SHARE * self.stick_angle.sqrt())
+            }
+            _ => size * START_ROUNDING.max(least),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What the recorder reads of a step: moments, crests of angles, forces and work at the nodes of a quadrature.
+
+use super::{Output, Step};
+use crate::friction::chain::Rates;
+use crate::friction::guard_series::SeriesSpan;
+use crate::friction::joint::{Configuration, Joint};
+use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::guards::first_crossing;
+use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::track::Track;
+use crate::run::sliding::recorder::{Inside, Moments, Node};
+use crate::run::sliding::smooth::Moment;
+
+/// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_24),
+    (0.5, 0.284_444_444_444_444_45),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_24),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+impl<'p, O: Output> Moments<'p> for Step<'_, 'p, O> {
+    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
+        self.at(((t - self.t) / self.h).clamp(0.0, 1.0), needs_forces)
+    }
+}
+
+impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
+    fn peaks(&mut self, until: f64, peaks: &mut [f64]) {
+        let end = ((until - self.t) / self.h).clamp(0.0, 1.0);
+        if let Some(span) = self.output.series() {
+            for (block, peak) in peaks.iter_mut().enumerate() {
+                *peak = Track::Powers(span.angle(block).up_to(end)).largest_size(*peak);
+            }
+            return;
+        }
+        let places = GAUSS.iter().map(|(node, _)| node * end).chain([end]);
+        let mut before = (0.0, self.at(0.0, false).configuration.omega.clone());
+        for s in places {
+            let omega = self.at(s, false).configuration.omega.clone();
+            self.crests([before.0, s], [&before.1, &omega], peaks);
+            before = (s, omega);
+        }
+        raise(peaks, &self.at(end, false).configuration);
+    }
+
+    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>)) {
+        let part = until - self.t;
+        let end = (part / self.h).clamp(0.0, 1.0);
+        for (node, weight) in GAUSS {
+            let s = node * end;
+            let (t, weight) = (self.t + s * self.h, weight * part);
+            match self.output.series() {
+                Some(&SeriesSpan { series, joints, h, .. }) => {
+                    let slide_rates = (0..joints.len()).map(|i| series.slide_rate_at(i, s * h)).collect();
+                    let momentum = series.momentum_at(s * h);
+                    let (contacts, flying) = self.series_contacts(s);
+                    visit(&Node { t, weight, momentum, contacts, slide_rates, flying });
+                }
+                None => {
+                    let column = self.smooth.column;
+                    let moment = self.at(s, true);
+                    let motion = moment.chain().motion(&Rates::of(&moment.configuration));
+                    let momentum =
+                        column.blocks().iter().zip(&motion.linear).fold([0.0, 0.0], |sum, (block, v)| {
+                            [sum[0] + block.mass * v[0], sum[1] + block.mass * v[1]]
+                        });
+                    let slide_rates = moment.configuration.slide_rate.clone();
+                    visit(&Node { t, weight, momentum, contacts: contacts(moment), slide_rates, flying: Some(moment) });
+                }
+            }
+        }
+    }
+
+    fn contacts(&mut self, t: f64, visit: &mut dyn FnMut(&[ContactForce], Option<&Moment<'p>>)) {
+        let s = ((t - self.t) / self.h).clamp(0.0, 1.0);
+        if self.output.series().is_some() {
+            let (contacts, flying) = self.series_contacts(s);
+            visit(&contacts, flying);
+        } else {
+            let moment = self.at(s, true);
+            visit(&contacts(moment), Some(moment));
+        }
+    }
+}
+
+/// Contact forces of a moment; empty if its states determine none.
+fn contacts(moment: &Moment) -> PerBlock<ContactForce> {
+    moment.answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect()
+}
+
+impl<'p, O: Output> Step<'_, 'p, O> {
+    /// Contact forces at a place of a step on a series, by interface; the column there, if some interface is free.
+    fn series_contacts(&mut self, s: f64) -> (PerBlock<ContactForce>, Option<&Moment<'p>>) {
+        let Some(&SeriesSpan { series, joints, h, .. }) = self.output.series() else { return (PerBlock::new(), None) };
+        let contact = |interface: usize| {
+            let [tangential, normal] = series.contact_force_at(interface, s * h);
+            ContactForce { normal, tangential, moment: 0.0 }
+        };
+        let contacts = (0..joints.len()).map(contact).collect();
+        let has_flight = self.smooth.base.joints.contains(&Joint::Free);
+        (contacts, has_flight.then(|| self.at(s, false)))
+    }
+}
+
+impl<O: Output> Step<'_, '_, O> {
+    /// Raises peaks to the crests of angles between two places, at which the blocks turn with these rates.
+    fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], peaks: &mut [f64]) {
+        for block in 0..rates[0].len() {
+            let [start, end] = rates.map(|rates| rates[block]);
+            let angle = self.at(until, false).configuration.theta[block];
+            let may_be_higher = angle.abs() + start.abs().max(end.abs()) * (until - from) * self.h > peaks[block];
+            if start * end >= 0.0 || !may_be_higher {
+                continue;
+            }
+            let mut rate =
+                |share: f64| start.signum() * self.at(from + share * (until - from), false).configuration.omega[block];
+            if let Some(share) = first_crossing(&mut rate, start.abs(), 1.0) {
+                raise(peaks, &self.at(from + share * (until - from), false).configuration);
+            }
+        }
+    }
+}
+
+/// Raises the largest magnitudes of angles by those of a configuration.
+fn raise(peaks: &mut [f64], configuration: &Configuration) {
+    for (peak, angle) in peaks.iter_mut().zip(&configuration.theta) {
+        *peak = peak.max(angle.abs());
+    }
+}
