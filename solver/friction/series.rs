@@ -18,110 +18,25 @@
 //! for all orders: one factorisation serves the whole series. Forces are series as well, and so are all guards.
 //!
 //! The derivation shares no formula with the generated programs or with [`super::rows`]; tests compare it with the rows.
-//! What a step reads of a series is in `series/output.rs`.
+//! Links, interfaces and translations are in `series/parts.rs`, what a step reads of a series in `series/output.rs`.
 
 mod output;
+mod parts;
 
-use super::joint::{Configuration, Face, Joint, Slip};
+use super::joint::{Configuration, Joint};
 use super::rows::{Coordinate, coordinates};
 use crate::column::Column;
 use crate::numerics::elimination::Factors;
-use crate::numerics::ode::taylor::{reciprocal, turned};
+use crate::numerics::ode::taylor::reciprocal;
 use crate::numerics::polynomial::bernstein::COEFFICIENTS;
+use parts::{Level, Link, NO_NUMBERS, NO_VECTORS, Translation, Vectors, across, in_axes, place_of};
 use wide::f64x2;
 
 /// Largest number of orders of second derivatives; coordinates have two orders more.
 pub const MOST_ORDERS: usize = COEFFICIENTS - 2;
 
-/// Coefficients of a number, order by order.
-type Numbers = [f64; COEFFICIENTS];
-/// Coefficients of a vector, order by order.
-type Vectors = [f64x2; COEFFICIENTS];
-
-const NO_NUMBERS: Numbers = [0.0; COEFFICIENTS];
-const NO_VECTORS: Vectors = [f64x2::ZERO; COEFFICIENTS];
-
 /// A force in the axes of a face `[N]`: along it and across it.
 pub type InAxes = [f64; 2];
-
-/// Blocks that turn together.
-#[derive(Clone, Debug)]
-struct Link {
-    /// Place of the angle among the coordinates; `None` for the ground.
-    coordinate: Option<usize>,
-    /// `θ`
-    theta: Numbers,
-    /// `θ'`, in both lanes.
-    rate: Vectors,
-    /// `z`
-    direction: Vectors,
-    /// Real part of `z`, in both lanes.
-    real: Vectors,
-    /// Imaginary part of `z`, in both lanes.
-    imaginary: Vectors,
-    /// `z''`
-    second: Vectors,
-    /// Part of the next coefficient of `z''` that lower orders give.
-    known: f64x2,
-}
-
-/// How a contact moves along a face, or its blocks apart.
-#[derive(Clone, Debug)]
-enum Translation {
-    /// The contact slides along the face of a link.
-    Slide {
-        coordinate: usize,
-        /// The link whose face carries the contact.
-        face: usize,
-        /// Whether the face is that of the upper block.
-        is_upper: bool,
-        /// `ε μ`
-        lift: f64,
-        /// `u`
-        slide: Numbers,
-    },
-    /// The blocks fly: two coordinates, beginning with `coordinate`.
-    Apart { coordinate: usize, apart: Vectors },
-}
-
-/// An interface and the block above it.
-#[derive(Clone, Debug)]
-struct Level {
-    joint: Joint,
-    /// Link of the block below.
-    below: usize,
-    /// Link of the block above.
-    link: usize,
-    /// Place of the contact on the lower face, without a slide that changes `[m]`.
-    on_lower: f64,
-    /// Place of the contact on the upper face, without a slide that changes `[m]`.
-    on_upper: f64,
-    translation: Option<Translation>,
-    mass: f64,
-    inertia: f64,
-    centroid_height: f64,
-    height: f64,
-    /// `F`
-    force: Vectors,
-    /// `F conj(z)`, in the axes of the lower block.
-    in_lower: Vectors,
-    /// `F conj(z)`, in the axes of the upper block.
-    in_upper: Vectors,
-    /// `Q`
-    moment: Numbers,
-    /// `u N` of a slide.
-    lever: Numbers,
-    /// Parts of the next coefficients that lower orders give: of `y''`, of both forces in axes, of `u N`.
-    known: Known,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Known {
-    translation: f64x2,
-    in_lower: f64x2,
-    in_upper: f64x2,
-    lever: f64,
-}
 
 /// The series of a set of states.
 #[derive(Clone, Debug)]
@@ -144,151 +59,23 @@ pub struct Series {
     orders: usize,
 }
 
-/// `i v`
-fn across(v: f64x2) -> f64x2 {
-    turned(v)
-}
-
-/// `a conj(b)`
-#[inline(always)]
-fn in_axes(a: f64x2, real: f64x2, imaginary: f64x2) -> f64x2 {
-    a * real - across(a * imaginary)
-}
-
-impl Link {
-    fn new(coordinate: Option<usize>) -> Link {
-        let mut link = Link {
-            coordinate,
-            theta: NO_NUMBERS,
-            rate: NO_VECTORS,
-            direction: NO_VECTORS,
-            real: NO_VECTORS,
-            imaginary: NO_VECTORS,
-            second: NO_VECTORS,
-            known: f64x2::ZERO,
-        };
-        link.set_direction(0, f64x2::new([1.0, 0.0]));
-        link
-    }
-
-    fn set_direction(&mut self, order: usize, direction: f64x2) {
-        let [real, imaginary] = direction.to_array();
-        self.direction[order] = direction;
-        (self.real[order], self.imaginary[order]) = (f64x2::splat(real), f64x2::splat(imaginary));
-    }
-
-    /// `-i Σ_{j < rates} θ'_j z_{last-j}`: the part of a coefficient of `z'` that the first `rates` coefficients of `θ'` give.
-    #[inline(always)]
-    fn turning(&self, rates: usize, last: usize) -> f64x2 {
-        let terms = self.rate[..rates].iter().zip(self.direction[..=last].iter().rev());
-        -across(terms.fold(f64x2::ZERO, |sum, (rate, direction)| rate * direction + sum))
-    }
-}
-
-impl Level {
-    /// Normal force: coefficient of an order, across the upper or the lower face.
-    fn across(&self, is_upper: bool, order: usize) -> f64 {
-        let [_, normal] = if is_upper { self.in_upper[order] } else { self.in_lower[order] }.to_array();
-        normal
-    }
-
-    /// Sets `known`: the parts of the coefficients of `order` that lower orders give.
-    #[inline(always)]
-    fn look_ahead(&mut self, links: &[Link], order: usize) {
-        // Coefficient of the force in the axes of a link, without the term of the force's own coefficient of this order, which is still unknown.
-        let turned = |force: &Vectors, link: &Link| {
-            let (mut along, mut turned) = (f64x2::ZERO, f64x2::ZERO);
-            let directions = link.real[1..=order].iter().rev().zip(link.imaginary[1..=order].iter().rev());
-            for (force, (real, imaginary)) in force.iter().zip(directions) {
-                along = force * real + along;
-                turned = force * imaginary + turned;
-            }
-            along - across(turned)
-        };
-        let (below, own) = (&links[self.below], &links[self.link]);
-        self.known.in_upper = turned(&self.force, own);
-        self.known.in_lower = match self.below {
-            0 => f64x2::ZERO,
-            link if link == self.link => self.known.in_upper,
-            _ => turned(&self.force, below),
-        };
-        let Some(Translation::Slide { face, is_upper, slide, .. }) = &self.translation else { return };
-        let direction = &links[*face].direction;
-        let mut sum = f64x2::ZERO;
-        for j in 1..order + 2 {
-            sum = f64x2::splat(slide[j]) * direction[order + 2 - j] + sum;
-        }
-        self.known.translation = sum * f64x2::splat(((order + 1) * (order + 2)) as f64);
-        self.known.lever = (1..=order).map(|j| slide[j] * self.across(*is_upper, order - j)).sum();
-    }
-}
-
 impl Series {
     /// Series for the states of a configuration with these coefficients of kinetic friction. Contacts that stick keep the configuration's slides.
     pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Series {
-        let Configuration { joints, slide, .. } = configuration;
+        let joints = &configuration.joints;
         let coordinates = coordinates(joints);
         let mut links = Vec::with_capacity(joints.len() + 1);
         links.push(Link::new(None));
-        let place = |wanted: &dyn Fn(&Coordinate) -> bool| {
-            coordinates.iter().position(wanted).expect("each free angle, slide and flight is a coordinate")
-        };
         let mut levels = Vec::with_capacity(joints.len());
-        for (i, (block, &joint)) in column.blocks().iter().zip(joints).enumerate() {
+        for (interface, &joint) in joints.iter().enumerate() {
             let below = links.len() - 1;
             if !matches!(joint, Joint::Closed(_)) {
-                let angle = place(&|own| matches!(own, Coordinate::Angle(blocks) if blocks.start == i));
-                links.push(Link::new(Some(angle)));
+                let is_own = |own: &Coordinate| matches!(own, Coordinate::Angle(blocks) if blocks.start == interface);
+                links.push(Link::new(Some(place_of(&coordinates, is_own))));
             }
             let link = links.len() - 1;
-            let is_upper = matches!(joint, Joint::Corner(_, Face::Upper, _));
-            let translation = match joint.slip() {
-                Some(Slip::Sticks) => None,
-                Some(Slip::Slides(_)) => Some(Translation::Slide {
-                    coordinate: place(&|own| *own == Coordinate::Slide(i)),
-                    face: if is_upper { link } else { below },
-                    is_upper,
-                    lift: joint.slip().map_or(0.0, Slip::sign) * kinetic[i],
-                    slide: NO_NUMBERS,
-                }),
-                None => Some(Translation::Apart {
-                    coordinate: place(&|own| *own == Coordinate::Apart(i, 0)),
-                    apart: NO_VECTORS,
-                }),
-            };
-            // A slide that changes is not in the places of the contact: it is a vector of its own, in `translation`.
-            let fixed = if joint.sticks() { slide[i] } else { 0.0 };
-            let (on_lower, on_upper) = match joint {
-                Joint::Closed(_) => (fixed, 0.0),
-                Joint::Free => (0.0, 0.0),
-                Joint::Corner(side, Face::Upper, _) => {
-                    let corner =
-                        i.checked_sub(1).map_or(0.0, |below| f64::from(side) * column.blocks()[below].top_half_width);
-                    (corner, fixed - corner)
-                }
-                Joint::Corner(side, ..) => {
-                    let corner = f64::from(side) * block.bottom_half_width;
-                    (fixed + corner, -corner)
-                }
-            };
-            levels.push(Level {
-                joint,
-                below,
-                link,
-                on_lower,
-                on_upper,
-                translation,
-                mass: block.mass,
-                inertia: block.inertia,
-                centroid_height: block.centroid_height,
-                height: 2.0 * block.half_height,
-                force: NO_VECTORS,
-                in_lower: NO_VECTORS,
-                in_upper: NO_VECTORS,
-                moment: NO_NUMBERS,
-                lever: NO_NUMBERS,
-                known: Known::default(),
-            });
+            let translation = Translation::of(interface, joint, [below, link], &coordinates, kinetic);
+            levels.push(Level::new(column, configuration, interface, [below, link], translation));
         }
         let dof = coordinates.len();
         Series {

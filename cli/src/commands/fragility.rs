@@ -85,82 +85,116 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
     let refused = |problem: String| Failure::Study(table.into(), problem);
     Format::of(table)?;
     let found = open(table).map_err(at(Failure::Study, table))?;
-    let names: Vec<String> = found.header.iter().map(String::from).collect();
-    // The heading of an axis is a dotted key of the scene; its last part may name a measure.
-    let last = |name: &str| name.rsplit('.').next().unwrap_or(name).to_string();
-    let measures: Vec<usize> = match measure {
-        Some(measure) => (0..names.len()).filter(|place| names[*place] == measure).collect(),
-        // The whole heading is tried as well: a measure with a period, such as `sa(0.5)`, contains a point itself.
-        None => {
-            (0..names.len()).filter(|place| is_measure(&names[*place]) || is_measure(&last(&names[*place]))).collect()
-        }
-    };
-    if names.is_empty() {
-        return Err(refused("it is empty; give the table of a finished study".into()));
-    }
-    let known = || names.join(", ");
-    let level = match (&measures[..], measure) {
-        ([level], _) => *level,
-        (_, Some(measure)) => return Err(refused(format!("there is no column `{measure}`; it has {}", known()))),
-        ([], None) => {
-            return Err(refused(format!(
-                "no column has the name of a measure; choose one of {} with --measure",
-                known()
-            )));
-        }
-        (several, None) => {
-            let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
-            return Err(refused(format!(
-                "several columns are measures; choose one of {} with --measure",
-                several.join(", ")
-            )));
-        }
-    };
-    let column = |name: &str| names.iter().position(|own| own == name);
-    let Some(outcome) = column(OUTCOME) else {
-        return Err(refused(format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`")));
-    };
-    let records = studies::record_columns(&names);
-    let (uplift, error, trust) = (column("first_uplift"), column("error"), column(TRUST));
-    let numbered = |prefix: &str| -> Vec<usize> {
-        let is_of = |name: &String| name.strip_prefix(prefix).is_some_and(|block| block.parse::<usize>().is_ok());
-        (0..names.len()).filter(|place| is_of(&names[*place])).collect()
-    };
-    let (peaks, slides) = (numbered("peak_"), numbered("residual_slide_"));
-    let mut runs = Vec::new();
-    let mut first_error = None;
+    let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
+    let (mut runs, mut first_error) = (Vec::new(), None);
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
-        let wrong = |place: usize, wanted: &str| {
-            refused(format!("row {}, column `{}`: `{}` is not {wanted}", number + 1, names[place], &row[place]))
-        };
-        let size: Option<f64> = row[level].parse().ok();
-        let size =
-            size.filter(|size| size.is_finite() && *size > 0.0).ok_or_else(|| wrong(level, "a number above zero"))?;
-        if let ("error", Some(error)) = (&row[outcome], error) {
+        if let ("error", Some(error)) = (&row[columns.outcome], columns.error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
-        let numbers = |places: &[usize]| -> Result<Vec<f64>, Failure> {
-            let filled = places.iter().filter(|place| !row[**place].is_empty());
-            filled.map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
-        };
-        let cells = Cells {
-            record: record_of(&row, &records, number),
-            level: size,
-            outcome: Some(&row[outcome]),
-            trust: trust.map(|trust| &row[trust]),
-            has_uplift: uplift.map(|uplift| !row[uplift].is_empty()),
-            peaks: numbers(&peaks)?,
-            residual_slides: numbers(&slides)?,
-        };
-        runs.push(Observation::try_from(cells).map_err(|_| wrong(outcome, "an outcome"))?);
+        let run = columns.observation(&row, number);
+        runs.push(run.map_err(|problem| refused(format!("row {}, {problem}", number + 1)))?);
     }
     if runs.is_empty() {
         return Err(refused("it has no row; give the table of a finished study".into()));
     }
-    let measure =
-        if is_measure(&names[level]) || measure.is_some() { names[level].clone() } else { last(&names[level]) };
-    Ok(Runs { measure, runs, first_error, peaks: peaks.len(), has_slides: !slides.is_empty() })
+    let name = &columns.names[columns.level];
+    let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
+    Ok(Runs { measure, runs, first_error, peaks: columns.peaks.len(), has_slides: !columns.slides.is_empty() })
+}
+
+/// The columns of a table of runs, by their places.
+struct Columns {
+    /// Names of all columns.
+    names: Vec<String>,
+    /// Columns whose cells name the record of a run.
+    records: Vec<usize>,
+    /// The level of the measure.
+    level: usize,
+    outcome: usize,
+    uplift: Option<usize>,
+    error: Option<usize>,
+    trust: Option<usize>,
+    /// One for each block.
+    peaks: Vec<usize>,
+    /// One for each interface.
+    slides: Vec<usize>,
+}
+
+impl Columns {
+    /// The columns with these names; without a measure, the level is the one column that has the name of a measure. The error says what is wrong
+    /// with the table.
+    fn of(names: Vec<String>, measure: Option<&str>) -> Result<Columns, String> {
+        if names.is_empty() {
+            return Err("it is empty; give the table of a finished study".into());
+        }
+        let level = level(&names, measure)?;
+        let column = |name: &str| names.iter().position(|own| own == name);
+        let outcome = column(OUTCOME)
+            .ok_or_else(|| format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`"))?;
+        let numbered = |prefix: &str| -> Vec<usize> {
+            let is_of = |name: &String| name.strip_prefix(prefix).is_some_and(|block| block.parse::<usize>().is_ok());
+            (0..names.len()).filter(|place| is_of(&names[*place])).collect()
+        };
+        Ok(Columns {
+            records: studies::record_columns(&names),
+            level,
+            outcome,
+            uplift: column("first_uplift"),
+            error: column("error"),
+            trust: column(TRUST),
+            peaks: numbered("peak_"),
+            slides: numbered("residual_slide_"),
+            names,
+        })
+    }
+
+    /// The run of a row, counted from zero. The error says what is wrong with a cell.
+    fn observation(&self, row: &StringRecord, number: usize) -> Result<Observation, String> {
+        let wrong =
+            |place: usize, wanted: &str| format!("column `{}`: `{}` is not {wanted}", self.names[place], &row[place]);
+        let level: Option<f64> = row[self.level].parse().ok();
+        let level = level.filter(|level| level.is_finite() && *level > 0.0);
+        let numbers = |places: &[usize]| -> Result<Vec<f64>, String> {
+            let filled = places.iter().filter(|place| !row[**place].is_empty());
+            filled.map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
+        };
+        let cells = Cells {
+            record: record_of(row, &self.records, number),
+            level: level.ok_or_else(|| wrong(self.level, "a number above zero"))?,
+            outcome: Some(&row[self.outcome]),
+            trust: self.trust.map(|trust| &row[trust]),
+            has_uplift: self.uplift.map(|uplift| !row[uplift].is_empty()),
+            peaks: numbers(&self.peaks)?,
+            residual_slides: numbers(&self.slides)?,
+        };
+        Observation::try_from(cells).map_err(|_| wrong(self.outcome, "an outcome"))
+    }
+}
+
+/// The column of the level: that of the measure or, without one, the one column that has the name of a measure.
+fn level(names: &[String], measure: Option<&str>) -> Result<usize, String> {
+    let known = || names.join(", ");
+    let is_wanted = |name: &str| match measure {
+        Some(measure) => name == measure,
+        // The whole heading is tried as well: a measure with a period, such as `sa(0.5)`, contains a point itself.
+        None => is_measure(name) || is_measure(&last_part(name)),
+    };
+    let wanted: Vec<usize> = (0..names.len()).filter(|place| is_wanted(&names[*place])).collect();
+    match (&wanted[..], measure) {
+        ([level], _) => Ok(*level),
+        (_, Some(measure)) => Err(format!("there is no column `{measure}`; it has {}", known())),
+        ([], None) => Err(format!("no column has the name of a measure; choose one of {} with --measure", known())),
+        (several, None) => {
+            let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
+            Err(format!("several columns are measures; choose one of {} with --measure", several.join(", ")))
+        }
+    }
+}
+
+/// The last part of the heading of an axis, a dotted key of the scene. It may name a measure.
+fn last_part(heading: &str) -> String {
+    heading.rsplit('.').next().unwrap_or(heading).to_string()
 }
 
 fn is_measure(name: &str) -> bool {

@@ -13,11 +13,33 @@ const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
 
 /// The program with one routine, `rows`: the matrix row by row, then the loads.
 pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
-    let Moving { symbols, translations, .. } = moving;
+    let symbols = &moving.symbols;
     let parts = Parts::new(arena, symbols, &moving.equations);
     let carried: Vec<Vec<Vector>> = moving.carried.iter().map(|vectors| condensed(arena, vectors)).collect();
     let squares: Vec<Expr> = symbols.omega.iter().map(|&rate| arena.square(rate)).collect();
-    // The force of each translation, split into the part without second derivatives of the coordinates and the coefficients of those derivatives.
+    let forces = forces(arena, moving, &squares);
+
+    let mut builder = ProgramBuilder::new(arena, symbols);
+    inputs(&mut builder, moving, &parts, &carried);
+    let mut outputs = rows_of_angles(&mut builder, moving, &parts, &carried);
+    outputs.extend(rows_of_translations(&mut builder, moving, &forces));
+    let loads = loads(&mut builder, moving, &parts, &carried, &squares, &forces);
+    outputs.extend(loads);
+    builder.finish_routine("rows", outputs);
+    builder.finish()
+}
+
+/// The force of a translation.
+struct Force {
+    /// The part without second derivatives of the coordinates.
+    steady: Vector,
+    /// Coefficients of the second derivatives: of the angles, base first, then of the translations.
+    slopes: Vec<Vector>,
+}
+
+/// The forces of the translations; `squares` are those of the angular rates.
+fn forces(arena: &mut Arena, moving: &Moving, squares: &[Expr]) -> Vec<Force> {
+    let Moving { symbols, translations, .. } = moving;
     let accelerations: Vec<Expr> =
         symbols.alpha.iter().copied().chain(translations.iter().map(|each| each.acceleration)).collect();
     let drivers: Vec<Expr> = squares.iter().copied().chain([symbols.ground_x, symbols.gravity]).collect();
@@ -39,10 +61,14 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
             whirling.push(collect(arena, steady, &drivers));
             arena.total(whirling)
         });
-        forces.push((steady, slopes));
+        forces.push(Force { steady, slopes });
     }
+    forces
+}
 
-    let mut builder = ProgramBuilder::new(arena, symbols);
+/// Names inputs, constants, and the vectors that links and translations carry, turned.
+fn inputs(builder: &mut ProgramBuilder, moving: &Moving, parts: &Parts, carried: &[Vec<Vector>]) {
+    let translations = &moving.translations;
     for (index, each) in translations.iter().enumerate() {
         let number = index + 1;
         let (cosine, sine) = (builder.source.cos(each.face), builder.source.sin(each.face));
@@ -51,7 +77,7 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
         builder.input(format!("face_omega_{number}"), each.face_rate);
         builder.input(format!("rate_{number}"), each.rate);
     }
-    parts.name_vectors(&mut builder, "link_");
+    parts.name_vectors(builder, "link_");
     for (index, vectors) in carried.iter().enumerate() {
         let number = index + 1;
         let unit = builder.source.unit(moving.mass[index]);
@@ -68,8 +94,10 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
             builder.alias(each.test[axis], symbol);
         }
     }
-    let angles = symbols.theta.len();
-    // Lower triangle of the angles' part, which is symmetric.
+}
+
+/// The rows of the matrix that belong to angles: mass matrix of the angles, which is symmetric, and coupling with the translations.
+fn rows_of_angles(builder: &mut ProgramBuilder, moving: &Moving, parts: &Parts, carried: &[Vec<Vector>]) -> Vec<Expr> {
     let mut mass: Vec<Vec<Expr>> = Vec::new();
     for (row, entries) in parts.mass.iter().enumerate() {
         let mut own = Vec::new();
@@ -82,17 +110,25 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
         }
         mass.push(own);
     }
-    let mut outputs: Vec<Expr> = Vec::new();
+    let angles = moving.symbols.theta.len();
+    let mut outputs = Vec::new();
     for row in 0..angles {
         outputs.extend((0..angles).map(|column| mass[row.max(column)][row.min(column)]));
         for (index, vectors) in carried.iter().enumerate() {
-            let entry = scalar_product(&mut builder, vectors[row], moving.along[index]);
+            let entry = scalar_product(builder, vectors[row], moving.along[index]);
             outputs.push(builder.define(format!("coupling_{}_{}", row + 1, index + 1), entry));
         }
     }
-    for (index, (_, slopes)) in forces.iter().enumerate() {
+    outputs
+}
+
+/// The rows of the matrix that belong to translations.
+fn rows_of_translations(builder: &mut ProgramBuilder, moving: &Moving, forces: &[Force]) -> Vec<Expr> {
+    let angles = moving.symbols.theta.len();
+    let mut outputs = Vec::new();
+    for (index, Force { slopes, .. }) in forces.iter().enumerate() {
         for (column, slope) in slopes.iter().enumerate() {
-            let entry = scalar_product(&mut builder, translations[index].test, *slope);
+            let entry = scalar_product(builder, moving.translations[index].test, *slope);
             let name = match column.checked_sub(angles) {
                 None => format!("tested_coupling_{}_{}", index + 1, column + 1),
                 Some(other) => format!("tested_mass_{}_{}", index + 1, other + 1),
@@ -100,10 +136,7 @@ pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
             outputs.push(builder.define(name, entry));
         }
     }
-    let loads = loads(&mut builder, moving, &parts, &carried, &squares, &forces);
-    outputs.extend(loads);
-    builder.finish_routine("rows", outputs);
-    builder.finish()
+    outputs
 }
 
 /// Splits a component of a force into the part without Coriolis terms, and the Coriolis terms, each written with the symbol of its acceleration.
@@ -141,7 +174,7 @@ fn loads(
     parts: &Parts,
     carried: &[Vec<Vector>],
     squares: &[Expr],
-    forces: &[(Vector, Vec<Vector>)],
+    forces: &[Force],
 ) -> Vec<Expr> {
     let Moving { symbols, translations, .. } = moving;
     for (link, &square) in squares.iter().enumerate() {
@@ -169,7 +202,7 @@ fn loads(
         let load = builder.arena().sum(terms);
         loads.push(builder.define(format!("load_{}", row + 1), load));
     }
-    for (index, (steady, _)) in forces.iter().enumerate() {
+    for (index, Force { steady, .. }) in forces.iter().enumerate() {
         let force = [0, 1].map(|axis| {
             let value = builder.translate(steady[axis]);
             builder.define(format!("force_{}_{}", ["x", "y"][axis], index + 1), value)

@@ -186,96 +186,132 @@ pub fn moving_latex(joints: &Joints) -> String {
     let rows = rows_of_motion(&mut arena, joints);
     let quantities = rows.quantities(&mut arena);
     let record = record(joints);
-    let notation = notation(&rows);
-    let blocks = counted(joints.0.len(), "block");
+    let sections = Sections { joints, arena: &arena, rows: &rows, notation: notation(&rows) };
     let author = format!(
-        "Column of {blocks}, states {}, {} and {}",
+        "Column of {}, states {}, {} and {}",
+        counted(joints.0.len(), "block"),
         joints.0.iter().map(|joint| format!("\\texttt{{{}}}", tex_of(*joint))).collect::<Vec<_>>().join(" "),
         counted(record.angles, "free angle"),
         counted(record.translations, "translation")
     );
     let mut out = document("Equations of motion with friction", &author, 10);
-    let states: Vec<String> = joints
-        .0
-        .iter()
-        .enumerate()
-        .map(|(index, joint)| format!("interface~{} is {}", index + 1, described_in_tex(*joint, index + 1)))
-        .collect();
-    let _ = write!(
-        out,
-        "\n\\section*{{Notation}}\nBlock $i$, counted from the base, has half-height $h_i$, mass $m_i$ and centroidal moment of inertia $I_i$; \
-         interface~$i$ lies below it, with the pivot $p_i$ from the axis and the coefficient of kinetic friction $\\mu_i$. Rotations are absolute and \
-         clockwise positive, and a body vector is turned by $R(\\theta) (u, v) = (u \\cos\\theta + v \\sin\\theta, -u \\sin\\theta + v \\cos\\theta)$. \
-         Of these states, {}. The ground accelerates by $\\ddot x_g$, and $\\hat g = g + \\ddot y_g$.\n",
-        joined(&states)
-    );
-    out.push_str("\n\\section*{Positions of the centroids}\nRelative to the moving ground, in metres:\n");
-    let positions = rows.centroids.iter().enumerate().flat_map(|(block, position)| {
-        ["x", "y"].into_iter().zip(*position).map(move |(axis, value)| (format!("{axis}_{{{}}}", block + 1), value))
-    });
-    let positions: Vec<Vec<String>> =
-        positions.map(|(name, value)| equation(&name, &Formula::of(&arena, &notation, &[value]))).collect();
-    display(&mut out, &positions);
-    out.push_str(
-        "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
-         $\\mathbf{S}_a$ [kg\\,m] the first moment of the link and all masses above, those in the next pivot, to which $\\mathbf{d}_a$ leads, lateral ($\\perp$) and axial \
-         ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment as far as link $a$ turns it is $\\mathbf{P}_{ca}$ [kg\\,m]. At the slides of the moment,\n",
-    );
-    let mut definitions = Vec::new();
-    let mut define =
-        |name: String, value: Expr| definitions.push(equation(&name, &Formula::of(&arena, &notation, &[value])));
-    for (link, inertia) in quantities.inertia.iter().enumerate() {
-        define(format!("J_{{{}}}", link + 1), *inertia);
+    sections.notation(&mut out);
+    sections.positions(&mut out);
+    sections.carried(&quantities, &mut out);
+    sections.equations_of_motion(record.angles, &mut out);
+    program(&record, &mut out);
+    out.push_str("\n\\end{document}\n");
+    out
+}
+
+/// The derivation of a combination of states, written section by section.
+struct Sections<'d> {
+    joints: &'d Joints,
+    arena: &'d Arena,
+    rows: &'d Rows,
+    notation: Notation,
+}
+
+impl Sections<'_> {
+    /// `name = value`, in lines.
+    fn equation(&self, name: &str, value: Expr) -> Vec<String> {
+        equation(name, &Formula::of(self.arena, &self.notation, &[value]))
     }
-    let carried = quantities.carried.iter().enumerate().flat_map(|(index, vectors)| {
-        vectors.iter().enumerate().map(move |(link, vector)| (format!("P_{{{},{}}}", index + 1, link + 1), vector))
-    });
-    let numbered = |letter: &'static str, vectors: &'_ [Vector]| {
-        let vectors = vectors.iter().copied().enumerate();
-        vectors.map(move |(link, vector)| (format!("{letter}_{{{}}}", link + 1), vector)).collect::<Vec<_>>()
-    };
-    let vectors = [numbered("S", &quantities.moment), numbered("d", &quantities.lever)].concat();
-    for (name, [lateral, axial]) in vectors.into_iter().chain(carried.map(|(name, vector)| (name, *vector))) {
-        define(format!("{name}^{{\\perp}}"), lateral);
-        define(format!("{name}^{{\\parallel}}"), axial);
+
+    /// Symbols, and the states in words.
+    fn notation(&self, out: &mut String) {
+        let joints = self.joints.0.iter().enumerate();
+        let states =
+            joints.map(|(index, joint)| format!("interface~{} is {}", index + 1, described_in_tex(*joint, index + 1)));
+        let _ = write!(
+            out,
+            "\n\\section*{{Notation}}\nBlock $i$, counted from the base, has half-height $h_i$, mass $m_i$ and centroidal moment of inertia $I_i$; \
+             interface~$i$ lies below it, with the pivot $p_i$ from the axis and the coefficient of kinetic friction $\\mu_i$. Rotations are absolute and \
+             clockwise positive, and a body vector is turned by $R(\\theta) (u, v) = (u \\cos\\theta + v \\sin\\theta, -u \\sin\\theta + v \\cos\\theta)$. \
+             Of these states, {}. The ground accelerates by $\\ddot x_g$, and $\\hat g = g + \\ddot y_g$.\n",
+            joined(&states.collect::<Vec<_>>())
+        );
     }
-    for (index, mass) in quantities.mass.iter().enumerate() {
-        define(format!("M_{{{}}}", index + 1), *mass);
+
+    /// Positions of the centroids.
+    fn positions(&self, out: &mut String) {
+        out.push_str("\n\\section*{Positions of the centroids}\nRelative to the moving ground, in metres:\n");
+        let positions = self.rows.centroids.iter().enumerate().flat_map(|(block, position)| {
+            ["x", "y"].into_iter().zip(*position).map(move |(axis, value)| (format!("{axis}_{{{}}}", block + 1), value))
+        });
+        let positions: Vec<_> = positions.map(|(name, value)| self.equation(&name, value)).collect();
+        display(out, &positions);
     }
-    display(&mut out, &definitions);
-    let directions = directions(joints, &rows);
-    let coordinates = rows.coordinates[record.angles..].iter().zip(&directions).enumerate();
-    let words: Vec<String> = coordinates
-        .map(|(index, (each, Direction { along, test, .. }))| {
-            let (number, name) = (index + 1, notation.tex(&arena, each.value));
+
+    /// Moments, levers and masses that links and translations carry.
+    fn carried(&self, quantities: &Quantities, out: &mut String) {
+        out.push_str(
+            "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
+             $\\mathbf{S}_a$ [kg\\,m] the first moment of the link and all masses above, those in the next pivot, to which $\\mathbf{d}_a$ leads, lateral ($\\perp$) and axial \
+             ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment as far as link $a$ turns it is $\\mathbf{P}_{ca}$ [kg\\,m]. At the slides of the moment,\n",
+        );
+        let mut definitions = Vec::new();
+        let mut define = |name: String, value: Expr| definitions.push(self.equation(&name, value));
+        for (link, inertia) in quantities.inertia.iter().enumerate() {
+            define(format!("J_{{{}}}", link + 1), *inertia);
+        }
+        let carried = quantities.carried.iter().enumerate().flat_map(|(index, vectors)| {
+            vectors.iter().enumerate().map(move |(link, vector)| (format!("P_{{{},{}}}", index + 1, link + 1), vector))
+        });
+        let numbered = |letter: &'static str, vectors: &'_ [Vector]| {
+            let vectors = vectors.iter().copied().enumerate();
+            vectors.map(move |(link, vector)| (format!("{letter}_{{{}}}", link + 1), vector)).collect::<Vec<_>>()
+        };
+        let vectors = [numbered("S", &quantities.moment), numbered("d", &quantities.lever)].concat();
+        for (name, [lateral, axial]) in vectors.into_iter().chain(carried.map(|(name, vector)| (name, *vector))) {
+            define(format!("{name}^{{\\perp}}"), lateral);
+            define(format!("{name}^{{\\parallel}}"), axial);
+        }
+        for (index, mass) in quantities.mass.iter().enumerate() {
+            define(format!("M_{{{}}}", index + 1), *mass);
+        }
+        display(out, &definitions);
+    }
+
+    /// Directions of the translations, and the equations; `angles` is the number of free angles.
+    fn equations_of_motion(&self, angles: usize, out: &mut String) {
+        let directions = directions(self.joints, self.rows);
+        let coordinates = self.rows.coordinates[angles..].iter().zip(&directions).enumerate();
+        let words = coordinates.map(|(index, (each, Direction { along, test, .. }))| {
+            let (number, name) = (index + 1, self.notation.tex(self.arena, each.value));
             let lifted =
                 if test == along { String::new() } else { format!(" and $\\mathbf{{t}}_{{{number}}} = {test}$") };
             format!("translation {number} is ${name}$ along $\\mathbf{{e}}_{{{number}}} = {along}${lifted}")
-        })
-        .collect();
-    let _ = write!(
-        out,
-        "\n\\section*{{Equations of motion}}\nFrom $\\sum_i [m_i \\mathbf{{A}}_i \\cdot \\delta\\mathbf{{G}}_i + I_i \\ddot\\theta_i \\delta\\theta_i] = 0$ with \
-         $\\mathbf{{A}}_i = \\ddot{{\\mathbf{{G}}}}_i + (\\ddot x_g, \\hat g)$. Angles and translations in flight are tested along themselves; a slide is tested along its \
-         face lifted by $\\varepsilon\\mu$ for a unit of slide, with $\\varepsilon$ the sign of its rate, which is $T + \\varepsilon \\mu N = 0$. Here {}. A vector of link $a$ with one or two \
-         primes is turned and differentiated once or twice by $\\theta_a$:\n",
-        joined(&words)
-    );
-    let equations: Vec<Vec<String>> = motion(&rows, &directions, &notation, &arena)
-        .into_iter()
-        .map(|terms| {
-            let mut formula = Formula::new(&arena, &notation);
-            terms.iter().for_each(|term| formula.add_tex(term));
-            let mut lines = formula.lines(DISPLAY - width("=0"));
-            lines.iter_mut().for_each(|line| line.insert(0, '&'));
-            if let Some(last) = lines.last_mut() {
-                last.push_str(" = 0");
-            }
-            lines
-        })
-        .collect();
-    display(&mut out, &equations);
-    let operations = record.program.operations("rows").unwrap_or_default();
+        });
+        let _ = write!(
+            out,
+            "\n\\section*{{Equations of motion}}\nFrom $\\sum_i [m_i \\mathbf{{A}}_i \\cdot \\delta\\mathbf{{G}}_i + I_i \\ddot\\theta_i \\delta\\theta_i] = 0$ with \
+             $\\mathbf{{A}}_i = \\ddot{{\\mathbf{{G}}}}_i + (\\ddot x_g, \\hat g)$. Angles and translations in flight are tested along themselves; a slide is tested along its \
+             face lifted by $\\varepsilon\\mu$ for a unit of slide, with $\\varepsilon$ the sign of its rate, which is $T + \\varepsilon \\mu N = 0$. Here {}. A vector of link $a$ with one or two \
+             primes is turned and differentiated once or twice by $\\theta_a$:\n",
+            joined(&words.collect::<Vec<_>>())
+        );
+        let motion = motion(self.rows, &directions, &self.notation, self.arena).into_iter();
+        let equations: Vec<Vec<String>> = motion
+            .map(|terms| {
+                let mut formula = Formula::new(self.arena, &self.notation);
+                terms.iter().for_each(|term| formula.add_tex(term));
+                let mut lines = formula.lines(DISPLAY - width("=0"));
+                lines.iter_mut().for_each(|line| line.insert(0, '&'));
+                if let Some(last) = lines.last_mut() {
+                    last.push_str(" = 0");
+                }
+                lines
+            })
+            .collect();
+        display(out, &equations);
+    }
+}
+
+/// The section of the emitted program: its name, its operations and its statements.
+fn program(record: &MovingRecord, out: &mut String) {
+    let (program, plain) = (&record.program, Notation::default());
+    let operations = program.operations("rows").unwrap_or_default();
     let _ = writeln!(
         out,
         "\n\\section*{{Program}}\nThe emitted program \\texttt{{{}}} serves all states with as many angles and translations. It has {} and {}; its inputs are sines \
@@ -284,18 +320,13 @@ pub fn moving_latex(joints: &Joints) -> String {
         counted(operations.additions, "addition"),
         counted(operations.multiplications, "multiplication")
     );
-    let (program, plain) = (&record.program, Notation::default());
-    let statements: Vec<Vec<String>> = program
-        .routines
-        .iter()
-        .flat_map(|routine| &routine.statements)
+    let statements = program.routines.iter().flat_map(|routine| &routine.statements);
+    let statements: Vec<Vec<String>> = statements
         .map(|each| {
             equation(&plain.tex(&program.arena, each.symbol), &Formula::of(&program.arena, &plain, &[each.value]))
         })
         .collect();
-    display(&mut out, &statements);
-    out.push_str("\n\\end{document}\n");
-    out
+    display(out, &statements);
 }
 
 /// The direction of a translation, and that of its test, as LaTeX.

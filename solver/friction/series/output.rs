@@ -1,6 +1,7 @@
 //! What a step reads of a series: coefficients and values of slides, forces, moments, momentum, and how free blocks lie to each other.
 
-use super::{InAxes, Link, NO_VECTORS, Series, Translation, Vectors, in_axes};
+use super::parts::{Link, NO_VECTORS, Translation, Vectors, in_axes};
+use super::{InAxes, Series};
 use crate::friction::joint::{Face, Joint};
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::ode::taylor::reciprocal;
