@@ -49,7 +49,7 @@ struct Moving {
     equations: MovingEquations,
     column: Column,
     joints: Vec<Joint>,
-    /// Slides `[m]`; updated at interfaces that slide.
+    /// Slide of each interface `[m]`. Entries of interfaces that slide are written before each evaluation.
     slide: Vec<f64>,
     /// Mass of each block and all blocks above `[kg]`, length N + 1; the last entry is zero.
     mass_from: Vec<f64>,

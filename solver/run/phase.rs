@@ -42,7 +42,7 @@ pub(crate) struct Phase {
     pub(super) closed: PerBlock<usize>,
     /// Margins of the closed interfaces against opening, as formulas.
     pub(super) margins: Margins,
-    /// Margins of the closed interfaces over the last swing, as waves of its angle.
+    /// Margins of the closed interfaces over the last swing in closed form, as sines and cosines of its angle.
     pub(super) over_swing: Vec<Harmonics>,
 
     pattern: Pattern,

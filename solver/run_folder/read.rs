@@ -56,17 +56,17 @@ pub struct Results {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 pub struct Options {
-    /// `[s]`
+    /// End of the simulated time `[s]`.
     pub t_end: f64,
-    /// Dimensionless.
+    /// Relative tolerance, dimensionless.
     pub rtol: f64,
-    /// `[rad]`, `[rad/s]`
+    /// Absolute tolerance of angles `[rad]` and rates `[rad/s]`.
     pub atol: f64,
-    /// `[rad]`
+    /// Height of the lowest hops that are followed `[rad]`.
     pub stick_angle: f64,
-    /// `[rad]`
+    /// Angle beyond which a block has overturned `[rad]`.
     pub overturn_angle: f64,
-    /// `generated`, `generic`, or the name of supplied equations.
+    /// Equations of motion: `generated`, `generic`, or the name of supplied equations.
     pub dynamics: String,
 }
 

@@ -47,11 +47,11 @@ impl Default for FragilityOptions {
 pub struct Count {
     /// Level of the runs, in the unit of the measure.
     pub level: f64,
-    /// Runs with an answer.
+    /// Number of runs of which it is known whether they reached the state.
     pub runs: usize,
     /// Number of these runs that reached the state.
     pub reached: usize,
-    /// Runs without an answer; they are not among `runs`.
+    /// Number of runs of which it is not known; they are not among `runs`.
     pub undecided: usize,
 }
 

@@ -68,7 +68,7 @@ pub enum IdaError {
         /// Why it cannot be scaled.
         error: RecordError,
     },
-    /// The time after a record is out of range.
+    /// The time of free swing after a record is out of range.
     #[error("free_swing = {0}: the time after a record must be a finite number of seconds, zero or above")]
     FreeSwing(f64),
 }

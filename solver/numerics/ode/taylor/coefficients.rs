@@ -37,7 +37,7 @@ pub fn turned(circle: f64x2) -> f64x2 {
     f64x2::new([-sin, cos])
 }
 
-/// `1 / n`, twice.
+/// `1 / n` in both lanes.
 #[inline(always)]
 pub fn reciprocal(n: usize) -> f64x2 {
     const PAIRS: [[f64; 2]; TERMS] = {
