@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use rocking::column::Shape;
 use rocking::ground::{Motion, Record};
-use rocking::{Block, Column, EventKind, Friction, Response, Scene, StopReason, simulate};
+use rocking::{Block, Column, EventKind, Friction, Method, Response, Scene, StopReason, simulate};
 
 const GRAVITY: f64 = 9.81;
 
@@ -466,6 +466,13 @@ fn blocks_placed_inside_each_other_are_refused() {
     assert_eq!(faults(&placed(0.1, [0.9, 2.6])), Ok(()));
     let refused = faults(&placed(0.1, [0.8, 2.3])).expect_err("the upper block is in the lower one");
     assert!(refused.contains("initial.y") && refused.contains("block 2 reaches 1.000e-1 m into block 1"), "{refused}");
+    // Blocks of one width above each other: the corners are flush with the ends of the faces.
+    let refused = faults(&placed(0.0, [0.8, 2.0])).expect_err("the upper block is in the lower one");
+    assert!(refused.contains("block 2 reaches 4.000e-1 m into block 1"), "{refused}");
+    // Rounding of a decimal number is no fault, and the block lands on what it touches.
+    let lands = run(&placed(0.0, [0.8, 2.4 - 1e-11]));
+    assert_eq!((lands.status, lands.samples.len()), (StopReason::AtRest, 0));
+    assert!(lands.sliding.is_some_and(|report| report.times[1].free < 1e-9), "the block falls through the other one");
     let refused = faults(&placed(0.0, [0.7, 2.4])).expect_err("the lower block is in the ground");
     assert!(refused.contains("block 1 reaches 1.000e-1 m into the ground"), "{refused}");
 }
@@ -490,4 +497,23 @@ fn regression_hops_without_which_no_motion_follows_go_on() {
     // It stands (the first amplitude that brings it down is 0.294 g), and still hops a little at the end.
     let stands = matches!(response.status, StopReason::AtRest | StopReason::EndOfTime);
     assert!(stands, "{:?} at {} s", response.status, response.t_final);
+}
+
+/// A block that begins to slide: the first step is shortened until the slide can be told from its error. Steps of fixed length were not, and the run had no end.
+#[test]
+fn regression_steps_of_fixed_length_resolve_a_slide_that_begins() {
+    let mut scene = scene(vec![Block::rectangle(0.3, 1.0, 2000.0)], vec![0.3]);
+    let (amplitude, period) = (0.3 * GRAVITY, 1.0);
+    scene.excitation.horizontal =
+        Some(Motion::CosinePulse { amplitude, omega: 2.0 * std::f64::consts::PI / period, start: 0.0 });
+    scene.options.t_end = 2.0;
+    let run_by = |method: Method| {
+        let mut scene = scene.clone();
+        scene.options.method = method;
+        run(&scene)
+    };
+    let [fixed, series] = [Method::RungeKutta4, Method::Taylor].map(run_by);
+    assert_eq!((fixed.status, series.status), (StopReason::AtRest, StopReason::AtRest));
+    // Steps of a hundredth of a second cross the times at which the slide begins and ends.
+    assert!((slide(&fixed, 0) - slide(&series, 0)).abs() < 1e-6, "{} {}", slide(&fixed, 0), slide(&series, 0));
 }

@@ -54,7 +54,7 @@ pub enum Command {
     ///
     /// Figures (time-history, phase-portrait, slides, energy and forces, .svg, .png and .pdf) and report.html of an earlier run are removed from the
     /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
-    /// number". Regular files are read up to a size: scenes and sweeps up to 64 MiB, records up to 256 MiB, files of a run up to 1 GiB.
+    /// number". Regular files are read up to a size: scenes, sweeps and their records up to 64 MiB, files of a run up to 1 GiB.
     Run(Run),
     /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a study its curves.
     Plot {

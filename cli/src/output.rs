@@ -13,6 +13,17 @@ pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Removes what an earlier run has left beside its table, unless it is one of the inputs.
+pub fn remove(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    if inputs.iter().any(|input| are_same(input, path)) {
+        return Ok(());
+    }
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(at(Failure::File, path)(error)),
+        _ => Ok(()),
+    }
+}
+
 /// Makes a folder that the user has named.
 pub fn folder(path: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(path).map_err(at(Failure::Output, path))
@@ -27,6 +38,12 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Refuses outputs of which one is an input: it would be overwritten, or removed.
+pub fn spare(inputs: &[PathBuf], outputs: impl IntoIterator<Item = PathBuf>) -> Result<(), Failure> {
+    let lost = outputs.into_iter().find(|output| inputs.iter().any(|input| are_same(input, output)));
+    lost.map_or(Ok(()), |output| Err(Failure::InUse(output)))
 }
 
 /// Path of a file that the user has named; links of an existing file are followed. An error if no file can be put there.

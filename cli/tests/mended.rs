@@ -2,11 +2,13 @@
 
 mod common;
 
-use common::sweeps::{BASE, SWEEP, folder};
+use common::sweeps::{BASE, SWEEP, folder, long};
 use common::{rocking, succeeds};
 use serde_json::Value;
 use std::fs::{read, read_dir, read_to_string, write};
 use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
 
 const SCENE: &str = "title = \"one block\"
 friction = 0.8
@@ -241,6 +243,67 @@ fn shards_of_another_base_scene_are_not_merged() {
     assert!(!folder.path().join("m.csv").exists());
     shard("1/2", "1.csv");
     succeeds(folder.path(), &["merge", "m.csv", "1.csv", "2.csv", "--sweep", "sweep.toml"]);
+}
+
+/// The table of a shard and the digest of its sweep change together: a job that is killed leaves both of the job before.
+#[test]
+fn a_shard_whose_last_run_was_killed_is_not_merged_with_newer_ones() {
+    let folder = folder(&long());
+    let shard = |number: &str| ["sweep", "sweep.toml", "--shard", number, "--quiet"].map(String::from);
+    let run = |number: &str| {
+        let arguments = shard(number);
+        succeeds(folder.path(), &arguments.each_ref().map(String::as_str));
+    };
+    run("1/2");
+    run("2/2");
+    write(folder.path().join("base.toml"), BASE.replace("eta = 0.9", "eta = 0.8")).expect("written");
+    run("1/2");
+    let mut killed = Command::new(env!("CARGO_BIN_EXE_rocking"));
+    let mut killed =
+        killed.args(shard("2/2")).args(["--threads", "1"]).current_dir(folder.path()).spawn().expect("started");
+    let is_under_way = || names(folder.path()).iter().any(|name| name.ends_with(".part"));
+    while !is_under_way() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    killed.kill().expect("SIGKILL");
+    assert!(!killed.wait().expect("it ends").success(), "it was killed too late");
+    let merge = ["merge", "m.csv", "sweep-1-of-2.csv", "sweep-2-of-2.csv", "--sweep", "sweep.toml"];
+    fails(folder.path(), &merge, 2, &["sweep-2-of-2.csv", "base scene"]);
+    run("2/2");
+    succeeds(folder.path(), &merge);
+    // A sweep that is no shard leaves no digest beside its table.
+    succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "sweep-2-of-2.csv", "--quiet"]);
+    assert!(!names(folder.path()).contains(&"sweep-2-of-2.csv.digest".to_string()));
+}
+
+#[test]
+fn results_are_not_written_over_what_they_are_made_of() {
+    let record = "excitation.horizontal = { kind = \"record\", file = \"response.csv\" }\n";
+    let folder = folder_with(&format!("{record}[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n"));
+    let samples = "time,acceleration (m/s2)\n0.0,0.0\n0.1,1.0\n0.2,-1.0\n0.3,0.0\n";
+    write(folder.path().join("response.csv"), samples).expect("written");
+    fails(folder.path(), &["run", "scene.toml", "--out", "."], 2, &["response.csv"]);
+    assert_eq!(read_to_string(folder.path().join("response.csv")).expect("it is still there"), samples);
+    succeeds(folder.path(), &["run", "scene.toml", "--out", "out", "--quiet"]);
+    for name in ["summary.json", "response.csv", "events.json"] {
+        let own = folder.path().join("out").join(name);
+        let before = read(&own).expect("written");
+        fails(folder.path(), &["report", "out", "--out", &format!("out/{name}")], 2, &[name]);
+        assert!(read(&own).expect("it is still there") == before, "{name}");
+    }
+}
+
+/// Columns of blocks are told by their numbers, not by their order: without `peak_2`, `peak_3` was read in its place.
+#[test]
+fn a_table_that_lacks_the_column_of_a_block_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = "record,PGV,outcome,peak_1,peak_3\na,0.1,rocks,0.1,0.3\na,0.2,rocks,0.2,0.6\n";
+    write(folder.path().join("t.csv"), table).expect("written");
+    fails(folder.path(), &["fragility", "t.csv", "--state", "peak_2 > 0.2"], 2, &["t.csv", "peak_2"]);
+    let swapped = "record,PGV,outcome,peak_2,peak_1\na,0.1,rocks,0.9,0.1\na,0.2,rocks,0.9,0.2\n";
+    write(folder.path().join("t.csv"), swapped).expect("written");
+    let told = succeeds(folder.path(), &["fragility", "t.csv", "--state", "peak_1 > 0.5"]);
+    assert!(told.contains("no run"), "{told}");
 }
 
 #[cfg(unix)]

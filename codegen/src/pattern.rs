@@ -12,6 +12,10 @@
 //!     ____________.___                          ___.____________
 //! ```
 
+mod label;
+
+pub use label::{ModeLabel, ModeNumber};
+
 use smallvec::{SmallVec, smallvec};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -203,11 +207,8 @@ impl Pattern {
         let lowest = self.lowest_open()?;
         let mirrored = self.is_mirrored();
         let above = self.0[lowest + 1..].iter();
-        let rank = above.fold(0, |rank, interface| {
-            let state = if mirrored { interface.mirror() } else { *interface };
-            3 * rank + (1 - i64::from(state.sign())) as u64
-        });
-        Some((ModeLabel { lowest: lowest + 1, number: rank + 1 }, mirrored))
+        let above = above.map(|interface| if mirrored { interface.mirror() } else { *interface });
+        Some((ModeLabel { lowest: lowest + 1, number: ModeNumber::of(above) }, mirrored))
     }
 }
 
@@ -219,54 +220,12 @@ impl fmt::Display for Pattern {
     }
 }
 
-/// The name `k.j` of a mode: `k` its lowest open interface, `j` the number of the states above it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ModeLabel {
-    /// Lowest open interface, from 1.
-    pub lowest: usize,
-    /// Number among the `3^(N-k)` states of the interfaces above, from 1.
-    pub number: u64,
-}
-
-impl ModeLabel {
-    /// Reads `k.j`.
-    ///
-    /// # Errors
-    /// `None` if the text is not two whole numbers above zero joined by a point.
-    pub fn parse(text: &str) -> Option<ModeLabel> {
-        let (lowest, number) = text.split_once('.')?;
-        let label = ModeLabel { lowest: lowest.parse().ok()?, number: number.parse().ok()? };
-        (label.lowest > 0 && label.number > 0).then_some(label)
-    }
-
-    /// The independent pattern with this label in a column of `blocks` blocks; `None` if there is no such mode.
-    pub fn pattern(self, blocks: usize) -> Option<Pattern> {
-        if self.lowest == 0 || self.lowest > blocks || self.number == 0 {
-            return None;
-        }
-        let mut states = Pattern::rest(blocks).0;
-        states[self.lowest - 1] = Interface::Right;
-        let mut rank = self.number - 1;
-        for state in states[self.lowest..].iter_mut().rev() {
-            *state = Interface::ORDER[(rank % 3) as usize];
-            rank /= 3;
-        }
-        (rank == 0).then_some(Pattern(states))
-    }
-}
-
-impl fmt::Display for ModeLabel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.lowest, self.number)
-    }
-}
-
 /// The `(3^N - 1)/2` independent modes in the order of their labels, lazily: `N = 20` costs nothing until read.
 pub fn modes(blocks: usize) -> impl Iterator<Item = (ModeLabel, Pattern)> {
     (1..=blocks).flat_map(move |lowest| {
         let count = 3u64.saturating_pow((blocks - lowest) as u32);
         (1..=count).filter_map(move |number| {
-            let label = ModeLabel { lowest, number };
+            let label = ModeLabel { lowest, number: ModeNumber::new(number)? };
             Some((label, label.pattern(blocks)?))
         })
     })

@@ -148,11 +148,13 @@ pub fn slide_of_landing(chain: &Chain, corner: Corner) -> f64 {
     view.sign * (view.position()[0] - f64::from(corner.side) * own)
 }
 
-/// Largest depth of a corner of one block inside the other block of a free interface `[m]`; zero if no corner is inside.
-pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize) -> f64 {
+/// Largest depth of a corner of one block inside the other block of a free interface `[m]`; zero if no corner is inside. A corner flush with the end of the
+/// face is inside where the faces reach over each other, as are both corners of blocks of one width; `flush` is the largest distance that counts so `[m]`.
+pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize, flush: f64) -> f64 {
+    let are_over_each_other = overlap(column, pose, interface) > flush;
     let depth = |corner: Corner| {
         let [beside, above] = gap_of_pose(column, pose, corner);
-        if beside < 0.0 { -above } else { 0.0 }
+        if beside < 0.0 || (beside <= flush && are_over_each_other) { -above } else { 0.0 }
     };
     let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
     corners.map(depth).fold(0.0, f64::max)

@@ -104,7 +104,8 @@ pub(crate) fn deepest(column: &Column, [x, y]: [&[f64]; 2], theta: &[f64]) -> Op
     let theta = if theta.is_empty() { &still } else { theta };
     let mut placed = Configuration::sticking(column, &Pattern::rest(column.len()), theta, &still);
     placed.place(column, [x, y], [&still, &still]);
-    let depth = |interface| gaps::overlap_of_blocks(column, &Pose::of_free(&placed, interface), interface);
+    let least = DEPTH_SHARE * column.size();
+    let depth = |interface| gaps::overlap_of_blocks(column, &Pose::of_free(&placed, interface), interface, least);
     let deepest = (0..column.len()).map(|i| (i, depth(i))).max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (deepest.1 > DEPTH_SHARE * column.size()).then_some(deepest)
+    (deepest.1 > least).then_some(deepest)
 }

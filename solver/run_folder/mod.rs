@@ -26,7 +26,7 @@ use std::io::Error;
 use std::path::PathBuf;
 
 /// The files of a run, in the order in which they are put in place: the summary comes last, as a sign that all files are there.
-const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
+pub const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
 
 /// File with the range of the angles of a run and its companions over time. It exists if the companions do not agree to the end.
 pub const COMPANIONS: &str = "companions.csv";

@@ -132,9 +132,16 @@ impl Columns {
         let column = |name: &str| names.iter().position(|own| own == name);
         let outcome = column(OUTCOME)
             .ok_or_else(|| format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`"))?;
-        let numbered = |prefix: &str| -> Vec<usize> {
-            let is_of = |name: &String| name.strip_prefix(prefix).is_some_and(|block| block.parse::<usize>().is_ok());
-            (0..names.len()).filter(|place| is_of(&names[*place])).collect()
+        let numbered = |prefix: &str| -> Result<Vec<usize>, String> {
+            let number = |name: &String| name.strip_prefix(prefix)?.parse::<usize>().ok();
+            let count = names.iter().filter_map(number).count();
+            let place = |wanted: usize| {
+                let place = names.iter().position(|name| number(name) == Some(wanted));
+                place.ok_or_else(|| {
+                    format!("it has {count} column(s) `{prefix}…`, and no `{prefix}{wanted}`; give all of them")
+                })
+            };
+            (1..=count).map(place).collect()
         };
         Ok(Columns {
             records: studies::record_columns(&names),
@@ -143,8 +150,8 @@ impl Columns {
             uplift: column("first_uplift"),
             error: column("error"),
             trust: column(TRUST),
-            peaks: numbered("peak_"),
-            slides: numbered("residual_slide_"),
+            peaks: numbered("peak_")?,
+            slides: numbered("residual_slide_")?,
             names,
         })
     }

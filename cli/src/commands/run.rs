@@ -11,21 +11,32 @@ use crate::progress::Progress;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
 use rocking::Fate;
-use rocking::run_folder::{COMPANIONS, Folder, Results, Run as Finished, SceneText};
+use rocking::run_folder::{COMPANIONS, FILES, Folder, Results, Run as Finished, SceneText};
+use rocking::scene_file::Template;
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Runs a scene and writes its results into a folder. Figures and report of an earlier run are removed from this folder.
 pub fn run(asked: &Run) -> Result<(), Failure> {
     let Run { scene: path, out, .. } = asked;
     let text = inputs::text(path)?;
-    let mut scene = Scene::from_toml(&text, path).map_err(Failure::scene)?;
+    let template = Template::from_toml(text.clone(), path).map_err(Failure::scene)?;
+    let mut scene = template.with(std::iter::empty()).map_err(Failure::scene)?;
     if asked.dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::create(out)?;
+    let outdated: Vec<String> = NAMES
+        .iter()
+        .flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")))
+        .chain([report::NAME.into()])
+        .collect();
+    let touched = FILES.into_iter().chain([COMPANIONS]).chain(outdated.iter().map(String::as_str));
+    let inputs: Vec<PathBuf> = template.records().into_iter().chain([path.clone()]).collect();
+    output::spare(&inputs, touched.map(|name| out.join(name)))?;
     let bar = Progress::of_run(scene.options.t_end, asked.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
@@ -41,8 +52,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
     finished.trust = followed.trust();
-    finished.outdated.extend(NAMES.iter().flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}"))));
-    finished.outdated.push(report::NAME.into());
+    finished.outdated.extend(outdated);
     folder.write(&finished)?;
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
     if out.join(COMPANIONS).is_file() {

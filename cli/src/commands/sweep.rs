@@ -41,15 +41,14 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     outputs.extend(is_sampled.then(|| probability::table(&out)));
     let is_of_records = asked.shard.is_none() && fractiles::has(&sweep);
     outputs.extend(is_of_records.then(|| fractiles::table(&out)));
-    output::check(&outputs, &inputs_of(&asked.file, &sweep))?;
+    let inputs = inputs_of(&asked.file, &sweep);
+    output::check(&outputs, &inputs)?;
     let target = output::target(&out)?;
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let (fields, columns) = (sweep.fields().map_err(Failure::scene)?, columns(&sweep)?);
     let threads = threads(asked.threads)?;
     let mut digest = Fnv::of(&sweep, &asked.file)?;
-    if asked.shard.is_some() {
-        output::file(&digest_file(&out), digest.to_string())?;
-    }
+    let of_sweep = digest.to_string();
     digest.add(format!("{range:?}").as_bytes());
     let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
     let resumed = table.next - range.start;
@@ -59,6 +58,15 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
+    // Only now: an interrupted run leaves the table of an earlier one with the digest of that one.
+    match asked.shard {
+        Some(_) => output::file(&digest_file(&out), of_sweep)?,
+        None => output::remove(&digest_file(&out), &inputs)?,
+    }
+    // Tables that belong to the table of an earlier sweep of this name.
+    for by_product in [probability::table(&out), fractiles::table(&out)] {
+        output::remove(&by_product, &inputs)?;
+    }
     let drawn =
         asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()))?;
     let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };

@@ -188,9 +188,10 @@ impl<'p> Mover<'p> {
         let mut interpolant = Interpolant::new(&x);
         let mut slope = x.clone();
         let list = guards::guards(&from.configuration.joints);
-        let mut wanted = self.first_step();
         let control = StepControl::new(M::ERROR_ORDER);
-        let mut pace = 0.0f64;
+        let has_step_control = problem.scene.options.method.has_step_control();
+        let first_step = if has_step_control { self.first_step() } else { problem.scene.options.step };
+        let (mut wanted, mut longest) = (first_step, f64::INFINITY);
         self.work.phases += 1;
         let ended = 'stretch: loop {
             if let Some(ended) = at.next_segment(problem) {
@@ -199,16 +200,23 @@ impl<'p> Mover<'p> {
             smooth.segment = &problem.ground[at.segment];
             let (t, left) = (at.t, smooth.segment.end - at.t);
             smooth.slope(t, &x, &mut slope);
-            if !problem.scene.options.method.has_step_control() {
-                wanted = problem.scene.options.step;
-            }
-            let mut h = wanted.min(left);
-            pace = pace.max(h);
+            let mut h = wanted.min(left).min(longest);
             loop {
-                let error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
+                let mut error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
+                if error <= 1.0 {
+                    method.accept(&mut smooth);
+                    // The rows may determine no motion at the end, where blocks jam.
+                    error = if method.end_slope().iter().all(|value| value.is_finite()) { error } else { f64::NAN };
+                }
                 if error <= 1.0 {
                     let factor = control.factor(error);
-                    wanted = if h < wanted && factor > 1.0 { wanted } else { h * factor };
+                    wanted = if !has_step_control {
+                        problem.scene.options.step
+                    } else if h < wanted && factor > 1.0 {
+                        wanted
+                    } else {
+                        h * factor
+                    };
                     break;
                 }
                 self.work.rejected += 1;
@@ -222,17 +230,17 @@ impl<'p> Mover<'p> {
                     return Err(SolveError::StepTooSmall { time: t, step: h, mode });
                 }
             }
-            method.accept(&mut smooth);
             method.interpolate(&mut smooth, &mut interpolant);
             self.work.steps += 1;
             let mut step = Step::new(&mut smooth, &interpolant, [t, h], &problem.scene.options);
             let first = step.first_of(&list);
             let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && guard.may_start_from_zero());
-            if is_unresolved && h > SHORTEST_SHARE * pace {
+            if is_unresolved && h > SHORTEST_SHARE * wanted {
                 // A gap that has just opened, or a slide that has just begun, is less than the error of so long a step.
-                wanted = RESOLVING * h;
+                longest = RESOLVING * h;
                 continue;
             }
+            longest = f64::INFINITY;
             let s = first.map_or(1.0, |(s, _)| s);
             let until = if s == 1.0 { t + h } else { t + s * h };
             recorder.read(at.segment, [t, until], &mut step);

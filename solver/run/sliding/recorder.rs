@@ -56,6 +56,10 @@ pub struct Node<'m, 'p> {
     pub flying: Option<&'m Moment<'p>>,
 }
 
+/// Normal force of a contact, as a share of the weight above it, up to which its friction demand is not recorded: both forces are rounding where blocks
+/// part. Larger, and contacts under little load are left out.
+const LIGHT_SHARE: f64 = 1e-9;
+
 /// The record of a run under way.
 pub struct Recorder<'p> {
     problem: &'p Problem<'p>,
@@ -75,6 +79,8 @@ pub struct Recorder<'p> {
     impulse_friction_demand: Vec<f64>,
     /// Per interface `[N]`.
     min_normal_force: Vec<f64>,
+    /// Normal force above which a contact has a friction demand, per interface `[N]`.
+    least_normal_force: PerBlock<f64>,
     time_in_mode: BTreeMap<String, f64>,
     /// Whether a part in which everything sticks ran on generic equations because this build has no generated ones.
     used_generic: bool,
@@ -102,6 +108,9 @@ impl<'p> Recorder<'p> {
             friction_demand: vec![0.0; blocks],
             impulse_friction_demand: vec![0.0; blocks],
             min_normal_force: vec![f64::INFINITY; blocks],
+            least_normal_force: (0..blocks)
+                .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
+                .collect(),
             time_in_mode: BTreeMap::new(),
             used_generic: false,
             report: SlidingReport {
@@ -288,7 +297,7 @@ impl<'p> Recorder<'p> {
     /// Records the force of a contact.
     fn contact(&mut self, interface: usize, contact: &ContactForce) {
         self.min_normal_force[interface] = self.min_normal_force[interface].min(contact.normal);
-        if contact.normal > 0.0 {
+        if contact.normal > self.least_normal_force[interface] {
             let demand = contact.tangential.abs() / contact.normal;
             self.friction_demand[interface] = self.friction_demand[interface].max(demand);
         }

@@ -82,7 +82,12 @@ impl<O: Output> Step<'_, '_, O> {
         fall: &dyn Fn(&mut Self) -> Option<f64>,
         limit: f64,
     ) -> Option<f64> {
-        if gap(self, 0.0)[1] >= -self.noise(guard) {
+        let ([beside, above], noise) = (gap(self, 0.0), self.noise(guard));
+        if beside.abs() <= noise && above < -CLEARLY * noise {
+            // Flush with the end of the face and inside: the larger of both stays at zero.
+            return Some(0.0);
+        }
+        if above >= -noise {
             let s = fall(self)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
                 return Some(s);
