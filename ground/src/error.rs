@@ -32,6 +32,9 @@ pub enum RecordError {
     /// A word among the numbers is no number.
     #[error("line {line}, column {column}: `{text}` is not a finite number; mend or remove it")]
     NotANumber { line: usize, column: usize, text: String },
+    /// Numbers are written with decimal commas.
+    #[error("line {line}, column {column}: `{text}` has a decimal comma; write decimal points throughout")]
+    DecimalComma { line: usize, column: usize, text: String },
     /// The file ends before the count in its header is reached.
     #[error(
         "line {line}: the header declares {declared} samples and the file has {found}; is it cut off? \

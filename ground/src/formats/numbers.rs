@@ -104,12 +104,40 @@ fn glued(text: &str, found: &mut Vec<f64>) -> Option<()> {
 }
 
 /// The numbers of a row, split at separators and at signs.
+///
+/// # Errors
+/// [`RecordError::NotANumber`], [`RecordError::DecimalComma`]
 pub fn split(row: &str, line: usize) -> Result<Vec<f64>, RecordError> {
+    if let Some(Word { column, text }) = decimal_comma(row) {
+        return Err(RecordError::DecimalComma { line, column, text: quote(text, LONGEST_QUOTE) });
+    }
     let mut found = Vec::new();
     for word in words(row) {
         glued(word.text, &mut found).ok_or_else(|| refused(line, word))?;
     }
     Ok(found)
+}
+
+/// The first number of a row whose numbers, several between blanks, all have one comma and no point: `9,98E-04  9,99E-04`. The commas of a list of
+/// numbers stand beside points or without blanks.
+fn decimal_comma(row: &str) -> Option<Word<'_>> {
+    if !row.contains(',') || row.contains('.') {
+        return None;
+    }
+    let is_decimal = |word: &str| {
+        let parts = word.trim_start_matches(['+', '-']).split_once(',');
+        parts.is_some_and(|(whole, rest)| {
+            !whole.is_empty()
+                && whole.bytes().all(|b| b.is_ascii_digit())
+                && rest.starts_with(|c: char| c.is_ascii_digit())
+                && !rest.contains(',')
+        })
+    };
+    let mut words = row.split_whitespace();
+    let first = words.next().filter(|word| is_decimal(word))?;
+    let others: Vec<&str> = words.collect();
+    let column = row.find(first).map_or(1, |at| row[..at].chars().count() + 1);
+    (!others.is_empty() && others.iter().all(|word| is_decimal(word))).then_some(Word { column, text: first })
 }
 
 /// The error that a word is no number.
@@ -331,6 +359,15 @@ fn ends(row: &str) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn decimal_commas_are_refused_and_lists_with_commas_read() {
+        let comma = RecordError::DecimalComma { line: 5, column: 2, text: "9,98E-04".into() };
+        assert_eq!(split(" 9,98E-04  -9,99E-04", 5), Err(comma));
+        assert_eq!(split("1,2", 1), Ok(vec![1.0, 2.0]));
+        assert_eq!(split("1, 2, 3", 1), Ok(vec![1.0, 2.0, 3.0]));
+        assert_eq!(split("1.5,2 3,4.5", 1), Ok(vec![1.5, 2.0, 3.0, 4.5]));
+    }
 
     #[test]
     fn numbers_are_read_as_fortran_prints_them() {
