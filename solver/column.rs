@@ -512,7 +512,7 @@ pub struct Stack {
     /// Lever of the weight `[m]`: horizontal distance of the centre of gravity from the nearer end of the contact below. It is `c_i` if the
     /// blocks are aligned, and negative if the stack does not stand by itself.
     pub half_width: f64,
-    /// Half-width `c_i` of the contact below `[m]`.
+    /// Half-width `c_i` of the contact under the stack `[m]`.
     pub contact_half_width: f64,
     /// Height `h_Pi` of the centre of gravity above the contact `[m]`.
     pub centroid_height: f64,

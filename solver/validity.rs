@@ -20,7 +20,7 @@ pub struct Validity {
     pub contacts: Vec<ContactNeeds>,
     /// Number of separations.
     pub separations: usize,
-    /// Time of the first separation `[s]`.
+    /// Time of the first contact problem without admissible pattern ([`crate::response::Separation`]) `[s]`; `None` if there is none.
     pub first_separation: Option<f64>,
 }
 

@@ -140,7 +140,7 @@ pub enum Command {
     /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
     /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
     ///
-    /// Each run is followed by nine companions; where its verdict is not determined it counts as undecided. `trust = false` in the file leaves them out.
+    /// Each run is repeated with a tighter tolerance and slightly changed ground motion and sizes: nine companions, five for blocks placed one by one. Where they do not agree with its verdict, it counts as undecided. `trust = false` in the file leaves them out.
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///
@@ -156,7 +156,7 @@ pub enum Command {
         /// The tables of the shards, in any order and of the same format.
         #[arg(required = true)]
         shards: Vec<PathBuf>,
-        /// The sweep (TOML); needed to notice that its last points are missing.
+        /// The sweep (TOML). With it the tables are checked for missing points, and probabilities and fractiles are written if the sweep has them.
         #[arg(long, value_name = "FILE")]
         sweep: Option<PathBuf>,
     },

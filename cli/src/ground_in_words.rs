@@ -55,7 +55,7 @@ fn acceleration(value: f64, gravity: f64) -> String {
 /// Keys of a record that [`record`] puts into words.
 const OF_A_RECORD: [&str; 7] = ["samples", "dt", "duration", "file", "title", "station", "component"];
 
-/// Whether a key is put into words elsewhere: `kind`, and those of [`OF_A_RECORD`] in a record.
+/// Whether other code describes a key: `kind` always, and for a record the keys [`OF_A_RECORD`].
 fn is_covered(kind: &str, key: &str) -> bool {
     key == "kind" || (kind == "record" && OF_A_RECORD.contains(&key))
 }

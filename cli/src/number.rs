@@ -35,7 +35,7 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// Radians in degrees.
+/// The text of an angle `[rad]` in degrees.
 pub fn degrees(angle: f64) -> String {
     format!("{}°", significant(angle.to_degrees(), 3))
 }

@@ -42,7 +42,7 @@ pub struct CompositeRecord {
 pub struct InsideRecord {
     /// Owner of the constants' formulas.
     pub arena: Arena,
-    /// Index of the program in [`Catalogue::forces`].
+    /// Index, in [`Catalogue::forces`], of the program that evaluates these contact forces.
     pub program: usize,
     /// Scene constants.
     pub constants: Vec<Constant>,

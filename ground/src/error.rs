@@ -16,7 +16,7 @@ pub enum RecordError {
     /// The file is empty or has remarks only.
     #[error("the file is empty, or has nothing but remarks; fetch or write it again")]
     Empty,
-    /// The file is binary.
+    /// The file is binary, an archive or a spreadsheet; `kind` says which.
     #[error("the file is no text: it is {kind}; unpack it, or save it as text or CSV")]
     NoText { kind: &'static str },
     /// The sampling interval is out of range.

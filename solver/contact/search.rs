@@ -9,9 +9,9 @@ use rocking_codegen::pattern::Interface;
 /// admissible pattern is answered from those that the search has visited.
 const MOST_CHOICES: usize = 9;
 
-/// Resultants may leave a contact by this share of the terms that cancel in their moment: the rounding of a sum over a dozen blocks, a
-/// thousand times over. Smaller, and contacts whose resultant passes through a corner are thrown open by rounding; larger, and contacts open
-/// visibly late.
+/// Tolerance of the conditions of contact. A resultant may lie outside a contact, and a normal force may be negative, by this share of the terms that
+/// cancel in them: a thousand times the rounding of a sum over a dozen blocks. If it were smaller, rounding would open contacts whose resultant
+/// passes through a corner. If it were larger, contacts would open visibly late.
 const CRITICAL_SHARE: f64 = 1e-12;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.

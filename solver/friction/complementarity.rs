@@ -114,7 +114,8 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
     }
 }
 
-/// Changes of slide and gap of each contact in the solution; `None` if Lemke's method finds none.
+/// Rates of slide and gap of each contact in the solution: velocities after an impact `[m/s]` or accelerations `[m/s²]`. `None` if Lemke's method finds
+/// no solution.
 fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
     // Forces are in units of the mean mass, so that entries of the matrix are of the order of one.
     let blocks = chain.column().blocks();

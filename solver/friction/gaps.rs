@@ -92,7 +92,7 @@ pub fn gap_of_pose(column: &Column, pose: &Pose, corner: Corner) -> [f64; 2] {
     [u.abs() - view.reach, view.sign * v]
 }
 
-/// Rates of the slide and of the gap of a corner `[m/s]`, for these rates of the blocks and of the free interface.
+/// Rates of the slide and of the gap of a corner `[m/s]`. `rates` are those of all blocks and of the translation at the interface, whose blocks are apart.
 pub fn gap_rate(chain: &Chain, rates: &Rates, corner: Corner) -> [f64; 2] {
     gap_velocity(chain, rates.apart[corner.interface], &rates.omega, corner)
 }

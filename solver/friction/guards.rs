@@ -47,7 +47,7 @@ impl Guard {
     }
 }
 
-/// Most guards of an interface and its block: those of a closed one that sticks, or of a free one.
+/// Largest number of guards of an interface and its block: those of a closed one that sticks, or of a free one.
 const MOST_GUARDS: usize = 6;
 
 /// The guards of these states.

@@ -54,7 +54,7 @@ pub(crate) trait Steps {
     }
 }
 
-/// An angle, or the difference of two, in a step, as far as it is known without its track.
+/// Range of an angle, or of the difference of two angles, in a step: its values at both ends and a bound between them. It needs no polynomial of the angle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Excursion {
     /// Value at the start of the step `[rad]`.
@@ -65,7 +65,7 @@ pub(crate) struct Excursion {
     pub reach: f64,
 }
 
-/// The part of an integrator that knows mechanics.
+/// The mechanics of an integrator: ground motion, contact forces, openings of closed interfaces, and the equation of a mode with one free angle.
 pub(crate) trait Forces {
     /// Goes over to another segment of ground motion.
     fn enter(&mut self, segment: &Segment);

@@ -28,7 +28,7 @@ pub struct IntegrateOptions {
     pub method: Method,
     /// Relative tolerance of a step, dimensionless.
     pub rtol: f64,
-    /// Absolute tolerance of a step `[rad]`, `[rad/s]`.
+    /// Absolute tolerance of a step: of angles `[rad]` and, the same number, of rates `[rad/s]`.
     pub atol: f64,
     /// Length of the steps of methods without step control `[s]`.
     pub step: f64,

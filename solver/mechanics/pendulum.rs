@@ -100,7 +100,7 @@ pub(crate) struct Waves {
     pub sin: Wave,
     /// `θ¨ [rad/s²]`
     pub acceleration: Wave,
-    /// `θ̇²`, below zero at angles that the swing does not reach `[rad²/s²]`.
+    /// Square of the rate, `θ̇²` `[rad²/s²]`, over the angle; negative at angles outside the swing.
     pub square_of_rate: Wave,
     /// `(cos θ)¨ [1/s²]`
     pub cos_ddot: Wave,
@@ -227,7 +227,7 @@ fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     }
 }
 
-/// Most transformations in [`jacobi`]: more than the smallest double takes, since each squares the modulus.
+/// Largest number of transformations in [`jacobi`]: more than the smallest double takes, since each squares the modulus.
 const LANDEN: usize = 16;
 
 /// `sn, cn, dn` of `u` with the complementary parameter `m₁ = 1 - m`, above zero: descending Landen's transformation (Bulirsch 1965).

@@ -52,7 +52,7 @@ fn bisect(mut f: impl FnMut(f64) -> f64) -> f64 {
     if fa > 0.0 { b } else { a }
 }
 
-/// Most rounds of [`bisect`]: more than halving takes until the bracket is a single double.
+/// Largest number of rounds of [`bisect`]: more than halving takes until the bracket is a single double.
 const MOST_ROUNDS: usize = 1100;
 
 /// Degree of the polynomial through the samples of a guard. A guard is as smooth as the accepted step: a dozen samples would show no more
@@ -149,7 +149,7 @@ pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, limit: f64)
     None
 }
 
-/// Most rounds in the search for the lowest place of a dip: each round raises the number of correct digits by half.
+/// Largest number of rounds in the search for the lowest place of a dip: each round raises the number of correct digits by half.
 const DIP_ROUNDS: usize = 8;
 
 /// Place, with its value, between `left` and `right` where the guard is not above zero; `None` if parabolas from `guess` lead to none.
@@ -260,7 +260,7 @@ fn crossing_between(guard: &mut impl FnMut(f64) -> f64, above: (f64, f64), below
             })
 }
 
-/// Most rounds of Newton's rule with a fixed slope from a series. The slope is right to some digits; each round gains as many.
+/// Largest number of rounds of Newton's rule with a fixed slope from a series. The slope is right to some digits; each round gains as many.
 const POLISHING_ROUNDS: usize = 8;
 
 /// Largest change of a root that counts as rounding, where a guard is flat and the changes no longer shrink.

@@ -1,7 +1,7 @@
 //! Linear complementarity problems, by Lemke's method: `w = M z + q` with `w >= 0`, `z >= 0` and `w · z = 0`
 //! (Cottle, Pang & Stone, The Linear Complementarity Problem, 1992, section 4.4).
 
-/// Most pivots per unknown. A method that needs more has failed.
+/// Largest number of pivots per unknown. A method that needs more has failed.
 const PIVOTS_PER_UNKNOWN: usize = 20;
 
 /// An entry is a pivot only if it exceeds this share of the largest entry of the entering column.

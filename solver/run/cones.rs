@@ -39,7 +39,7 @@ impl Limits for Unlimited {
 /// The cones of friction of a column's interfaces.
 pub(crate) struct Cones<'a> {
     friction: &'a Coefficients,
-    /// Per interface, whether a corner of the lower block may carry the upper face.
+    /// Per interface, whether the upper block reaches beyond the lower one: the contact may then be a corner of the lower block on the base of the upper one.
     may_be_below: Vec<bool>,
     /// Largest rate of all blocks up to which impulses are not checked `[rad/s]`: no block that slow hops higher than `stick_angle`.
     last_rate: f64,

@@ -24,7 +24,7 @@ pub(crate) enum Leaving {
     Beyond(Place),
 }
 
-/// The place from which on the run is beyond the limits. The record reaches up to this place.
+/// The point of a run from which on contact forces exceed the limits of the model without sliding. The record ends there.
 pub(crate) enum Place {
     /// The start.
     Start,

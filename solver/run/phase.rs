@@ -42,7 +42,7 @@ pub(crate) struct Phase {
     pub(super) closed: PerBlock<usize>,
     /// Margins of the closed interfaces against opening, as formulas.
     pub(super) margins: Margins,
-    /// Margins of the closed interfaces over the last swing in closed form, as sines and cosines of its angle.
+    /// Distances of the closed interfaces from opening in the last swing in closed form, as sums of sines and cosines of its angle.
     pub(super) over_swing: Vec<Harmonics>,
 
     pattern: Pattern,
@@ -59,7 +59,7 @@ pub(crate) struct Phase {
     pub(super) longest: f64,
     /// Whether to examine if the outcome is certain: the run may end early, and its outcome may have become certain since the last examination.
     pub(super) is_outcome_open: bool,
-    /// The last stretch.
+    /// Kind of the most recent stretch, a span of time without an event.
     pub(super) stretch: Kind,
     /// Whether the phase has had a stretch of some length.
     pub(super) has_moved: bool,
@@ -133,7 +133,7 @@ pub(super) struct Swing {
     pub x: [f64; 2],
 }
 
-/// Most steps from sample to sample in one stretch: whether the outcome is certain is examined between two stretches only.
+/// Largest number of steps from sample to sample in one stretch: whether the outcome is certain is examined between two stretches only.
 pub(super) const MOST_INTERVALS: usize = 32;
 
 /// One step from sample to sample of a stretch over several samples, kept for the rows in it.

@@ -116,7 +116,7 @@ impl Phase {
         }
     }
 
-    /// Goes over to the next segment of ground motion; returns what ends the phase there, `None` if it continues.
+    /// Moves to the next segment of the ground motion. Returns why the phase ends there: after the last segment, or at a jump; `None` if it continues.
     fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
         self.t = problem.ground[self.segment].end;
         if self.segment + 1 == problem.ground.len() {

@@ -22,7 +22,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Places per radian of the ground motion at which contact forces at rest are recorded: a crest is missed by at most one in five hundred.
+/// Number of places per radian of the ground motion at which contact forces at rest are recorded. The crest of a sine is missed by at most 1/500, unless
+/// [`PLACES`] limits their number.
 const PLACES_PER_RADIAN: f64 = 8.0;
 
 /// Least and most places per segment.
@@ -147,7 +148,7 @@ fn least_uplift(column: &Column) -> f64 {
 /// Share of [`least_uplift`] below which rounding cannot open an interface.
 const CLEAR_SHARE: f64 = 1.0 - 1e-9;
 
-/// The first instant in a segment from `t` on at which some interface opens, and its side; `limit` is [`least_uplift`].
+/// The first opening of the column at rest between `t` and the end of a segment: time `[s]`, interface (from zero) and side. `limit` is [`least_uplift`].
 fn earliest_start(problem: &Problem, segment: &Segment, t: f64, limit: f64) -> Option<(f64, usize, Interface)> {
     if !problem.skips.rests {
         return by_steps(problem, segment, t);

@@ -32,7 +32,7 @@ enum Guard {
     Contact { interface: usize },
 }
 
-/// Most Newton rounds that move the end of a step to the zero of a guard. The dense output gives the first digits; a round doubles their number.
+/// Largest number of Newton rounds that move the end of a step to the zero of a guard. The dense output gives the first digits; a round doubles their number.
 const NEWTON_ROUNDS: usize = 4;
 
 /// A gap that moves by less than its value at the start cannot close in the step: value and move together are below this multiple of the value.
@@ -46,7 +46,7 @@ pub(super) const PANELS_PER_TURN: f64 = 20.0;
 /// Panels per radian of the ground motion.
 const PANELS_PER_RADIAN: f64 = 2.0;
 
-/// Most panels of a step. Only steps of the loosest tolerances would need more; their forces are not fully resolved.
+/// Largest number of panels of a step. Only steps of the loosest tolerances would need more; their forces are not fully resolved.
 const MOST_PANELS: f64 = 64.0;
 
 impl Phase {

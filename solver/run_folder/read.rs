@@ -38,10 +38,10 @@ pub struct Results {
     pub options: Options,
     /// The column.
     pub column: Column,
-    /// Looks of the blocks, base first; empty for prisms without names.
+    /// Name and solid shape of each block, base first; empty for prisms without names.
     #[serde(default)]
     pub looks: Vec<Look>,
-    /// Coefficients of friction of the scene.
+    /// Coefficients of friction; `None` for a run of the model without sliding.
     pub friction: Option<Friction>,
     /// Law of impacts.
     pub restitution: Restitution,

@@ -76,18 +76,18 @@ pub enum Fit {
         /// Logarithm of the likelihood, without the binomial coefficients.
         log_likelihood: f64,
     },
-    /// There is no run with an answer.
+    /// There is no run of which it is known whether it reached the state.
     NoRuns,
     /// All runs are of one record, which says nothing of others. [`Fit::NoRuns`], [`Fit::Never`] and [`Fit::Always`] take precedence.
     OneRecord,
     /// No run reached the state.
     Never {
-        /// Highest level of a run with an answer.
+        /// Highest level of a run whose answer is known.
         up_to: f64,
     },
     /// All runs reached the state.
     Always {
-        /// Lowest level of a run with an answer.
+        /// Lowest level of a run whose answer is known.
         from: f64,
     },
     /// No run below `always_from` reached the state, and every run above `never_to` did. The median lies between these levels or at one of them; the
@@ -356,7 +356,7 @@ impl Fragility {
         }
     }
 
-    /// Runs without an answer.
+    /// Number of runs of which it is not known whether they reached the state.
     pub fn undecided(&self) -> usize {
         self.counts.iter().map(|count| count.undecided).sum()
     }

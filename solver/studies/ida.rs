@@ -68,7 +68,7 @@ pub enum IdaError {
         /// Why it cannot be scaled.
         error: RecordError,
     },
-    /// The time of free swing after a record is out of range.
+    /// The duration of the free swing is negative or not finite.
     #[error("free_swing = {0}: the time after a record must be a finite number of seconds, zero or above")]
     FreeSwing(f64),
 }

@@ -17,7 +17,7 @@ use std::f64::consts::{PI, SQRT_2};
 pub struct Trial {
     /// Size of the ground motion, above zero.
     pub level: f64,
-    /// Runs with an answer.
+    /// Number of runs of which it is known whether they reached the state.
     pub runs: f64,
     /// Number of these runs that reached the state.
     pub reached: f64,

@@ -9,7 +9,7 @@ use statrs::distribution::{Beta, ContinuousCDF};
 pub struct Proportion {
     /// Runs that reached the state.
     pub reached: usize,
-    /// Runs with an answer.
+    /// Number of runs of which it is known whether they reached the state.
     pub runs: usize,
     /// `reached / runs`; `None` without a run.
     pub probability: Option<f64>,

@@ -4,7 +4,7 @@
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
-/// How samples are drawn.
+/// Method by which the samples of distributed axes are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SamplingMethod {
@@ -48,7 +48,7 @@ pub(super) struct Sampling {
 /// Longest Sobol sequence, a limit of the crate `sobol_burley`.
 pub(super) const LONGEST_SOBOL: u32 = 1 << 16;
 
-/// Most distributed axes of a Sobol sequence.
+/// Largest number of dimensions of a Sobol sequence, one for each distributed axis: a limit of `sobol_burley`.
 pub(super) const MOST_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
 
 impl Sampling {

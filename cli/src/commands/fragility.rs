@@ -216,7 +216,7 @@ fn record_of(row: &StringRecord, columns: &[usize], number: usize) -> String {
     }
 }
 
-/// Tables of curves and of shares beside the table of a study.
+/// Paths of the two tables beside the table of a study: of fragility curves and of shares.
 pub fn tables(table: &Path) -> [PathBuf; 2] {
     let curves = beside(&table.with_extension("csv"), "fragility");
     let shares = beside(&table.with_extension("csv"), "shares");
@@ -346,7 +346,7 @@ impl Conclusions {
         table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
     }
 
-    /// The table of shares: a row per state and level.
+    /// The table of shares as CSV: the share of runs that reached each state at each level, with counts, fitted probability and band; a row per state and level.
     fn shares(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let measure = self.measure.as_str();

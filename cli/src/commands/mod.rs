@@ -72,7 +72,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// How figures are laid out.
+/// The layout of figures: angles in degrees or divided by the slenderness, and the printed width.
 fn paper(degrees: bool, width_mm: Option<f64>) -> Paper {
     Paper { width_mm, angles: if degrees { Angles::Degrees } else { Angles::Natural } }
 }

@@ -23,7 +23,7 @@ pub struct Row {
     mode: String,
     /// Signs of the interfaces, base first.
     pattern: String,
-    /// Free angles.
+    /// Number of free angles.
     dof: usize,
     /// Name of the step-time program, which all modes with the same number of free angles share.
     program: String,

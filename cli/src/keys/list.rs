@@ -83,7 +83,7 @@ impl<'s> Schema<'s> {
         })
     }
 
-    /// The type of a value in words.
+    /// The type of a value in words, such as `number` or the names allowed; of numbers with their bounds.
     fn kind(&self, value: &'s Value, bounds: &Value) -> String {
         let mut kinds: Vec<String> = Vec::new();
         for part in self.alternatives(value) {

@@ -58,7 +58,7 @@ struct Drawing {
     blocks: Vec<Outline>,
 }
 
-/// All independent modes: a row per lowest open interface `k`, in it the modes `k.j`. At most [`LARGEST`] blocks.
+/// The figure of all independent modes. Row `k` has the modes `k.j`, whose lowest open interface is `k`. `blocks` is at most [`LARGEST`].
 pub fn draw(blocks: usize) -> Figure {
     let column = Column::equal_blocks(blocks, COLUMN[0], COLUMN[1], 1.0, DEFAULT_GRAVITY).expect("sizes above zero");
     let tilt_deg = TILT_DEG.min(LEAN_DEG / blocks as f64);

@@ -74,7 +74,7 @@ fn unit(motion: &DrawnRun) -> f64 {
     if motion.paper.angles == Angles::Degrees { 1f64.to_radians() } else { 1.0 }
 }
 
-/// Rows and events before the fall.
+/// Rows and events up to the start of the fall; all of them if no block overturns.
 fn before_the_fall<'m>(motion: &'m DrawnRun) -> impl Iterator<Item = &'m Knot<'m>> {
     let falls_at = motion.falls_at().unwrap_or(f64::INFINITY);
     motion.knots.iter().take_while(move |knot| knot.t <= falls_at)

@@ -42,7 +42,7 @@ pub struct Sheet {
     data: Vec<Vec<Point>>,
 }
 
-/// A figure: a stand-alone SVG document, and what it is made of.
+/// A figure: its name, its caption, its SVG document, and the sheet that it was drawn from.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// File name without extension, e.g. `time-history`.
@@ -195,7 +195,7 @@ impl Sheet {
         at[1] + 6.0
     }
 
-    /// Curves of data in a panel, cut at the frame of the panel. `runs` are points on paper `[px]`.
+    /// Draws polylines in a panel, cut at the frame of the panel. `runs` are the polylines, with points on paper `[px]`.
     pub fn lines(&mut self, panel: &Panel, runs: &[Vec<Point>], stroke: &Stroke) {
         let inside: Vec<_> = runs.iter().flat_map(|run| curve::clip(run, &panel.frame)).collect();
         self.runs(&inside.iter().flat_map(|run| curve::dash(run, stroke.dashes)).collect::<Vec<_>>(), stroke);

@@ -224,7 +224,7 @@ fn part(band: &Frame, stretch: &Stretch) -> Frame {
     Frame { left: stretch.from, width: stretch.to - stretch.from, ..*band }
 }
 
-/// The stretches on paper: `from` and `to` in `[px]`, none narrower than a column.
+/// The stretches on paper, on a raster of columns of [`GRAIN`] `[px]`: each column shows the mode that lasts longest in it.
 fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
     let mut drawn: Vec<Stretch> = Vec::new();
     let columns = (panel.frame.width / GRAIN).round() as usize;

@@ -234,7 +234,8 @@ pub fn changed(event: &Event) -> Vec<usize> {
     }
 }
 
-/// Gap below which an interface has closed `[rad]`: such a gap is rounding. Hops that the solver follows exceed its stick angle, by default 1e-9 rad.
+/// Largest relative angle of a closed interface `[rad]`: smaller ones are rounding. Hops that a run follows are larger by far, unless `stick_angle`, by
+/// default 1e-9 rad, is set below this.
 const CLOSED_GAP: f64 = 1e-12;
 
 /// Number of impacts, their interfaces, and the times of the first and the last.

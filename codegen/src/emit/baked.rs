@@ -10,7 +10,7 @@ use crate::ground::GroundMotion;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// The module of a baked column, formatted.
+/// The Rust text of the equations of one column, whose sizes are literals; formatted.
 pub fn baked_module(catalogue: &BakedCatalogue) -> String {
     let (uses, blocks) = (uses(), catalogue.column.blocks.len());
     let contents = format!(

@@ -46,7 +46,7 @@ pub struct Translation {
     pub coriolis: Vector,
 }
 
-/// Everything derived for `n` angles and `k` translations.
+/// Equations of motion with `n` free angles and `k` translations of interfaces that slide or fly, with their symbols.
 #[derive(Debug)]
 pub struct Moving {
     /// The symbols of the links.

@@ -19,7 +19,7 @@ pub enum Place {
     Back,
 }
 
-/// How symbols are set.
+/// The LaTeX of each symbol, and its place in a product.
 #[derive(Clone, Debug, Default)]
 pub struct Notation {
     glyphs: HashMap<Expr, (Place, String)>,

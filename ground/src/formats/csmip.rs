@@ -69,7 +69,7 @@ fn announces(line: &str) -> Option<Quantity> {
 
 /// A channel of the file. Lines are counted from 0.
 struct Channel<'t> {
-    /// Lines of its header.
+    /// Lines of the header of the channel.
     text: &'t [&'t str],
     /// The line before its samples.
     announced: usize,

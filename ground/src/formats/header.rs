@@ -65,7 +65,7 @@ impl Entry<'_> {
     }
 }
 
-/// Most samples that a header declares: four months at 100 Hz. More is a misread header.
+/// Largest number of samples that a header declares: four months at 100 Hz. More is a misread header.
 const MOST_SAMPLES: f64 = 1e9;
 
 /// A line as an error quotes it.

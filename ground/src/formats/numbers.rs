@@ -150,7 +150,7 @@ pub fn quote(text: &str, most: usize) -> String {
     text.chars().take(most).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
-/// Most characters of the file that an error quotes: a binary file has words of any length.
+/// Largest number of characters of the file that an error quotes: a binary file has words of any length.
 const LONGEST_QUOTE: usize = 40;
 
 /// Whether a row is text: a heading, a remark, the line that ends a block. It has letters other than those of exponents, and no word of it is

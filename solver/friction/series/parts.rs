@@ -20,17 +20,17 @@ pub(super) const NO_VECTORS: Vectors = [f64x2::ZERO; COEFFICIENTS];
 pub(super) struct Link {
     /// Place of the angle among the coordinates; `None` for the ground.
     pub(super) coordinate: Option<usize>,
-    /// `θ`
+    /// Coefficients of the angle `θ`.
     pub(super) theta: Numbers,
-    /// `θ'`, in both lanes.
+    /// Coefficients of the rate `θ'`, in both lanes.
     pub(super) rate: Vectors,
-    /// `z`
+    /// Coefficients of `z = exp(-iθ)`, the unit vector along the link's faces.
     pub(super) direction: Vectors,
     /// Real part of `z`, in both lanes.
     pub(super) real: Vectors,
     /// Imaginary part of `z`, in both lanes.
     pub(super) imaginary: Vectors,
-    /// `z''`
+    /// Coefficients of the second derivative `z''`.
     pub(super) second: Vectors,
     /// Part of the next coefficient of `z''` that lower orders give.
     pub(super) known: f64x2,

@@ -45,7 +45,7 @@ const LONG_ENOUGH: f64 = 0.1;
 /// step far beyond the length for which they were examined, least of all where the motion lingers at an unstable balance.
 pub const LARGEST_GROWTH: f64 = 8.0;
 
-/// Most rounds in the search for a step as long as the terms allow.
+/// Largest number of trial lengths of a step. The search seeks the longest step whose last terms are within the tolerance.
 const GUESSES: usize = 3;
 
 /// Steps on the series at a state.

@@ -12,7 +12,7 @@ pub struct Powers {
     degree: usize,
 }
 
-/// Most rounds of Halley's rule, each of which triples the digits; five suffice, the rest is for poor guesses.
+/// Largest number of rounds of Halley's rule, each of which triples the digits; five suffice, the rest is for poor guesses.
 const ROUNDS: usize = 40;
 
 /// Length of Newton's step to a root, as a share of `s`, below which Halley's step is the last: it leaves less than rounding, or, where the
@@ -258,7 +258,7 @@ impl Powers {
         Some(known.max(self.evaluate(s).abs()))
     }
 
-    /// Whether the slope is zero just once, by the signs of its Bernstein form.
+    /// Whether the slope has exactly one zero in the step: its Bernstein coefficients change sign once. `false` proves nothing.
     fn slope_has_one_root(&self) -> bool {
         let mut slope = [0.0; COEFFICIENTS - 1];
         for ((slope, c), k) in slope.iter_mut().zip(&self.terms()[1..]).zip(1..) {

@@ -116,7 +116,7 @@ fn expected_end(series: &Series, joints: &[Joint]) -> f64 {
     first
 }
 
-/// Most orders of steps of this tolerance: one more costs more than the longer step saves.
+/// Largest number of orders of steps of this tolerance: one more costs more than the longer step saves.
 fn most_orders(rtol: f64) -> usize {
     ((2.0 - 0.5 * libm::log(rtol)).ceil() as usize).clamp(LEAST_ORDERS, MOST_ORDERS)
 }

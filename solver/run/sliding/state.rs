@@ -21,7 +21,7 @@ pub struct State {
 /// Why a stretch of a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ended {
-    /// A guard fell to zero.
+    /// A guard, a condition of a contact or a block, fell to zero.
     Guard(Guard),
     /// The ground's acceleration jumped.
     Jump,

@@ -70,7 +70,7 @@ pub struct Step<'s, 'p, O> {
 }
 
 impl<'s, 'p, O: Output> Step<'s, 'p, O> {
-    /// A step from a time on, of a length `[s]`.
+    /// A step that starts at a time `t` and has a length `h` `[s]`.
     pub fn new(smooth: &'s mut Smooth<'p>, output: &'s O, [t, h]: [f64; 2], options: &SolveOptions) -> Step<'s, 'p, O> {
         let &SolveOptions { overturn_angle, stick_angle, .. } = options;
         let state = vec![0.0; 2 * smooth.dof()];

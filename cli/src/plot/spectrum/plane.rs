@@ -9,7 +9,7 @@ use crate::plot::paper::Paper;
 use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
 use crate::plot::style::{self, Stroke};
 
-/// Most panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
+/// Largest number of panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
 const MOST_COLUMNS: usize = 4;
 /// Heights of panels by how many stand beside one another `[px]`.
 const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 320.0, 300.0, 300.0];

@@ -50,7 +50,7 @@ impl Scale {
         scale
     }
 
-    /// The axis of a strip: one cell from end to end.
+    /// The upward axis of a strip, a panel with one row of cells.
     pub fn strip() -> Scale {
         Scale { key: String::new(), values: vec![0.5], edges: vec![0.0, 1.0], is_log: false, ends: [0.0, 1.0] }
     }
