@@ -113,7 +113,7 @@ impl<D: Dynamics> Driven<D> {
         Ground::at(&self.segment, t, self.gravity)
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]) {
         self.calls += 1;
         let ground = self.ground(t);
@@ -185,7 +185,7 @@ impl<D: Dynamics, M: Tableau> ExplicitSteps<D, M> {
 impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
     fn begin(&mut self, t: f64, x: &[f64]) {
         self.start.as_mut_slice().copy_from_slice(x);
-        self.system.slope(t, &self.start, &mut self.slope);
+        self.system.slope_once(t, &self.start, &mut self.slope);
     }
 
     fn start(&self) -> &[f64] {

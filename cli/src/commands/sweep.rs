@@ -182,7 +182,10 @@ fn cell(row: &Row, field: Field, ask: Ask) -> String {
     let needs = outcome.and_then(|outcome| outcome.needs.as_ref());
     match field {
         Field::Index => row.index.to_string(),
-        Field::Axis(place) => printable(&row.settings[place].to_string()).into_owned(),
+        Field::Axis(place) => match &row.settings[place] {
+            Setting::Text(text) => printable(text).into_owned(),
+            setting => setting.to_string(),
+        },
         Field::Outcome => outcome.map_or("error", |outcome| outcome.fate.name()).into(),
         Field::Impacts => word(outcome.and_then(|outcome| outcome.counted_impacts(ask))),
         Field::Block => word(outcome.and_then(|outcome| outcome.block)),

@@ -15,6 +15,12 @@ pub trait System {
 
     /// Writes `f(t, x)` into `slope`.
     fn slope(&mut self, t: f64, x: &Self::State, slope: &mut Self::State);
+
+    /// [`System::slope`], compiled once for all callers: for what is evaluated once a step or less. The stages of a step have it inlined, each.
+    #[inline(never)]
+    fn slope_once(&mut self, t: f64, x: &Self::State, slope: &mut Self::State) {
+        self.slope(t, x, slope);
+    }
 }
 
 /// Index of a stage and its weight.
@@ -143,7 +149,7 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
     }
 
     fn evaluate_end_slope<S: System<State = V>>(&mut self, system: &mut S) {
-        system.slope(self.t + self.h, &self.end, &mut self.k[M::END_SLOPE]);
+        system.slope_once(self.t + self.h, &self.end, &mut self.k[M::END_SLOPE]);
     }
 
     /// State at the end of the last attempt.
