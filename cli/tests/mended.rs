@@ -337,6 +337,37 @@ fn only_regular_files_up_to_a_size_are_read() {
     }
 }
 
+/// Files that read well and are not those of the run: cut at the end of a line, or from another run of the same length.
+#[test]
+fn files_of_another_run_are_refused() {
+    let folder = folder_with(SCENE);
+    succeeds(folder.path(), &["run", "scene.toml"]);
+    for (file, from, to) in [
+        ("response.csv", "\n2.0,", "\n"),
+        ("response.csv", "\n0.01,0.0", "\n0.01,0.00"),
+        ("events.json", "\"kind\":\"impact\"", "\"kind\":\"opening\""),
+    ] {
+        let path = folder.path().join("out").join(file);
+        let whole = read_to_string(&path).expect("written");
+        let other = match file {
+            "response.csv" if to == "\n" => whole[..whole.find(from).expect("a last row") + 1].to_string(),
+            _ => whole.replacen(from, to, 1),
+        };
+        assert_ne!(whole, other, "`{from}` is in {file}");
+        write(&path, other).expect("written");
+        for command in ["plot", "report"] {
+            fails(
+                folder.path(),
+                &[command, "out"],
+                2,
+                &[file, "cut, changed, or of another run", "run the scene again"],
+            );
+        }
+        write(&path, whole).expect("written");
+    }
+    succeeds(folder.path(), &["report", "out"]);
+}
+
 /// Damages that made figures panic, or take all memory.
 #[cfg(unix)]
 #[test]

@@ -22,12 +22,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Number of places per radian of the ground motion at which contact forces at rest are recorded. The crest of a sine is missed by at most 1/500, unless
-/// [`PLACES`] limits their number.
+/// Number of places per radian of the ground motion at which contact forces at rest are recorded. The crest of a sine is missed by at most 1/500; by
+/// more, where [`PLACES`] limits their number: in a rest of 1,300 cycles or more.
 const PLACES_PER_RADIAN: f64 = 8.0;
 
 /// Least and most places per segment.
-const PLACES: (f64, f64) = (16.0, 4096.0);
+const PLACES: (f64, f64) = (16.0, 65_536.0);
 
 /// The column at rest, waiting for the ground to start it.
 #[derive(Default)]

@@ -15,9 +15,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod digest;
 mod read;
 mod write;
 
+pub use digest::Digest;
 pub use read::{Options, Results};
 pub use write::{Folder, Run};
 

@@ -1,6 +1,6 @@
 //! Reads the folder of a run, and refuses what no run has written.
 
-use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
+use super::{COMPANIONS, Digest, FILES, FolderError, STATE_COLUMNS, SceneText};
 use crate::column::{Block, Column, Shape};
 use crate::friction::Friction;
 use crate::mechanics::dynamics::ContactForce;
@@ -9,6 +9,7 @@ use crate::scene::{Look, Restitution};
 use crate::trust::{Band, Trust};
 use rocking_codegen::pattern::Pattern;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::ops::RangeInclusive;
@@ -50,6 +51,9 @@ pub struct Results {
     /// Horizontal and vertical peak until `t_end` `[m/s²]`; for a run of an earlier version the peaks of the rows.
     #[serde(default)]
     pub peak_ground_acceleration: [f64; 2],
+    /// Digests of the other files, by name; none for a run of an earlier version.
+    #[serde(default)]
+    digests: BTreeMap<String, Digest>,
 }
 
 /// The solver's options that are read back.
@@ -105,13 +109,16 @@ impl Results {
     /// [`FolderError`] with the file, and the line where there is one, if a file is missing or could not have been written by a run.
     pub fn read(folder: &Path) -> Result<Results, FolderError> {
         let [response, events, summary] = FILES.map(|name| folder.join(name));
-        let mut read: Results = json(&summary)?;
+        let mut read: Results = json(&summary, &text(&summary)?)?;
         let length = read.column.len();
         if let Some(problem) = read.damage() {
             return Err(FolderError::Damaged { path: summary, problem });
         }
-        read.response.samples = samples(&response, length)?;
-        let list: Vec<Event> = json(&events)?;
+        let rows = text(&response)?;
+        read.response.samples = samples(&response, &rows, length)?;
+        read.check(&response, &rows)?;
+        let listed = text(&events)?;
+        let list: Vec<Event> = json(&events, &listed)?;
         let is_event = |event: &Event| {
             let states = [&event.before, &event.after];
             let numbers = [&event.theta, &event.omega_before, &event.omega_after];
@@ -134,14 +141,17 @@ impl Results {
             let problem = "the events are not in the order of time".into();
             return Err(FolderError::Damaged { path: events, problem });
         }
+        read.check(&events, &listed)?;
         read.response.events = list;
         let companions = folder.join(COMPANIONS);
         if let Some(trust) = read.trust.as_mut().filter(|trust| !trust.reaches_the_end() && companions.is_file()) {
-            trust.band = Band::from_csv(&text(&companions)?, length).map_err(|line| FolderError::Row {
-                path: companions,
+            let ranges = text(&companions)?;
+            trust.band = Band::from_csv(&ranges, length).map_err(|line| FolderError::Row {
+                path: companions.clone(),
                 line,
                 problem: "it is not a time and the ranges of the angles".into(),
             })?;
+            read.check(&companions, &ranges)?;
         }
         if read.peak_ground_acceleration == [0.0; 2] {
             let rows = &read.response.samples;
@@ -149,6 +159,18 @@ impl Results {
                 [0, 1].map(|axis: usize| rows.iter().map(|row| row.ground[axis].abs()).fold(0.0, f64::max));
         }
         Ok(read)
+    }
+
+    /// Refuses a file that is not the one that the run has written.
+    fn check(&self, path: &Path, text: &str) -> Result<(), FolderError> {
+        let name = path.file_name().map(|name| name.to_string_lossy());
+        match name.and_then(|name| self.digests.get(&*name)) {
+            Some(written) if *written != Digest::of(text.as_bytes()) => {
+                let problem = "it is not the file that this run wrote, but cut, changed, or of another run".into();
+                Err(FolderError::Damaged { path: path.into(), problem })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// What is wrong with a summary; `None` if nothing is.
@@ -214,13 +236,12 @@ pub fn text(path: &Path) -> Result<String, FolderError> {
     read().map_err(|source| FolderError::Read { path: path.into(), source })
 }
 
-fn json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
-    serde_json::from_str(&text(path)?).map_err(|source| FolderError::Json { path: path.into(), source })
+fn json<T: serde::de::DeserializeOwned>(path: &Path, text: &str) -> Result<T, FolderError> {
+    serde_json::from_str(text).map_err(|source| FolderError::Json { path: path.into(), source })
 }
 
-/// The rows of `response.csv`, as `write.rs` writes them.
-fn samples(path: &Path, blocks: usize) -> Result<Vec<Sample>, FolderError> {
-    let text = text(path)?;
+/// The rows of `response.csv`, as `write.rs` writes them, from its text.
+fn samples(path: &Path, text: &str, blocks: usize) -> Result<Vec<Sample>, FolderError> {
     let mut samples: Vec<Sample> = Vec::new();
     // Slides and gaps, then states of blocks, stand between rates and ground.
     let has = |column: &str| text.lines().next().is_some_and(|head| head.contains(column));

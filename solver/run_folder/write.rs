@@ -1,5 +1,6 @@
 //! Writes the folder of a run: files under temporary names first, renamed once all are complete.
 
+use super::digest::{Digest, Digesting};
 use super::read::text;
 use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
 use crate::column::{Column, Stack};
@@ -47,7 +48,8 @@ impl<'a> Run<'a> {
         Run { scene, response, scene_text, wall_seconds, warnings, trust: None, outdated }
     }
 
-    fn summary(&self) -> Summary<'_> {
+    /// The summary, with the digests of the other files of its folder.
+    fn summary(&self, digests: BTreeMap<&'static str, Digest>) -> Summary<'_> {
         let Run { scene, response, .. } = *self;
         let components = [("horizontal", &scene.excitation.horizontal), ("vertical", &scene.excitation.vertical)];
         let peak = |motion: &Option<Motion>| {
@@ -79,15 +81,16 @@ impl<'a> Run<'a> {
             excitation: components.map(|(name, motion)| (name, motion.as_ref().map(Motion::description))).into(),
             peak_ground_acceleration: components.map(|(_, motion)| peak(motion)),
             initial: &scene.initial,
+            digests,
         }
     }
 
-    /// The text of `summary.json`.
+    /// The text of `summary.json`, without the digests of files.
     ///
     /// # Errors
     /// That of the serializer, which a scene and its response do not cause.
     pub fn summary_json(&self) -> serde_json::Result<String> {
-        serde_json::to_string_pretty(&Explicit(&self.summary()))
+        serde_json::to_string_pretty(&Explicit(&self.summary(BTreeMap::new())))
     }
 }
 
@@ -133,6 +136,8 @@ struct Summary<'a> {
     /// Horizontal and vertical, until `t_end` `[m/s²]`; the peak of the rows may be lower.
     peak_ground_acceleration: [f64; 2],
     initial: &'a Initial,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    digests: BTreeMap<&'static str, Digest>,
 }
 
 /// The folder of a run's results, proved to be writable.
@@ -160,24 +165,25 @@ impl Folder {
     /// [`FolderError::Write`]
     pub fn write(&self, run: &Run) -> Result<(), FolderError> {
         let Run { scene, response, .. } = *run;
-        let summary = run.summary();
-        let drafts = [
-            self.draft(|file| history(file, scene, &response.samples))?,
-            self.draft(|file| events(file, &response.events))?,
-            self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&summary)).map_err(Into::into))?,
-        ];
         let band = run.trust.filter(|trust| !trust.reaches_the_end()).map(|trust| &trust.band);
-        let band = band
-            .filter(|band| !band.is_empty())
-            .map(|band| self.draft(|file| file.write_all(band.to_csv().as_bytes())));
-        let band = band.transpose()?.map(|draft| (COMPANIONS, draft));
+        let band = band.filter(|band| !band.is_empty()).map(|band| {
+            let draft = self.draft(|file| file.write_all(band.to_csv().as_bytes()))?;
+            Ok((COMPANIONS, draft))
+        });
+        let [rows, listed, summary] = FILES;
+        let mut drafts = Vec::from_iter(band.transpose()?);
+        drafts.push((rows, self.draft(|file| history(file, scene, &response.samples))?));
+        drafts.push((listed, self.draft(|file| events(file, &response.events))?));
+        let of_run = run.summary(drafts.iter().map(|(name, draft)| (*name, draft.digest)).collect());
+        let written = self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&of_run)).map_err(Into::into))?;
+        drafts.push((summary, written));
         let failed = |path: &Path, source: Error| FolderError::Write { path: path.into(), source };
         for path in run.outdated.iter().map(|name| self.0.join(name)).filter(|path| path.is_file()) {
             std::fs::remove_file(&path).map_err(|error| failed(&path, error))?;
         }
-        for (name, draft) in band.into_iter().chain(FILES.into_iter().zip(drafts)) {
+        for (name, draft) in drafts {
             let path = self.0.join(name);
-            std::fs::rename(&draft.0, &path).map_err(|error| failed(&path, error))?;
+            std::fs::rename(&draft.path, &path).map_err(|error| failed(&path, error))?;
         }
         Ok(())
     }
@@ -191,12 +197,16 @@ impl Folder {
     }
 
     /// A complete file in the folder under a temporary name, with what `write` writes.
-    fn draft(&self, write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>) -> Result<Draft, FolderError> {
+    fn draft(
+        &self,
+        write: impl FnOnce(&mut BufWriter<Digesting<File>>) -> std::io::Result<()>,
+    ) -> Result<Draft, FolderError> {
         let filled = || {
-            let (draft, file) = Draft::create(&self.0)?;
-            let mut writer = BufWriter::new(file);
+            let (mut draft, file) = Draft::create(&self.0)?;
+            let mut writer = BufWriter::new(Digesting { inner: file, digest: draft.digest });
             write(&mut writer)?;
             writer.flush()?;
+            draft.digest = writer.get_ref().digest;
             Ok(draft)
         };
         filled().map_err(|source| FolderError::Write { path: self.0.clone(), source })
@@ -204,7 +214,11 @@ impl Folder {
 }
 
 /// A file that is removed unless it was renamed.
-struct Draft(PathBuf);
+struct Draft {
+    path: PathBuf,
+    /// Of what has been written.
+    digest: Digest,
+}
 
 impl Draft {
     fn create(folder: &Path) -> std::io::Result<(Draft, File)> {
@@ -213,7 +227,7 @@ impl Draft {
             let name = format!(".rocking-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
             let path = folder.join(name);
             match File::create_new(&path) {
-                Ok(file) => return Ok((Draft(path), file)),
+                Ok(file) => return Ok((Draft { path, digest: Digest::default() }, file)),
                 // A process that was killed may have had the same number.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
@@ -225,7 +239,7 @@ impl Draft {
 impl Drop for Draft {
     fn drop(&mut self) {
         // An error leaves a file behind, which harms nothing; after a renaming there is none to remove.
-        let _ = std::fs::remove_file(&self.0);
+        let _ = std::fs::remove_file(&self.path);
     }
 }
 

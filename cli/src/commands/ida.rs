@@ -7,7 +7,7 @@ use crate::commands::fragility::{self, Conclusions};
 use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{Fnv, OUTCOME, TIME, threads};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, threads};
 use crate::error::{Failure, at};
 use crate::plot::{self, Paper};
 use crate::progress::Progress;
@@ -115,8 +115,8 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
 }
 
 /// The digest of all that decides the rows.
-fn digest(inputs: &[PathBuf]) -> Result<Fnv, Failure> {
-    let mut digest = Fnv::new();
+fn digest(inputs: &[PathBuf]) -> Result<TableDigest, Failure> {
+    let mut digest = TableDigest::new();
     for input in inputs {
         digest.add(&files::read(input, files::LARGEST_RECORD).map_err(at(Failure::Input, input))?);
     }

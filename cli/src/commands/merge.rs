@@ -3,7 +3,7 @@
 //! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
 //! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
-use crate::commands::sweep::{self, Fnv, OUTCOME, TIME, columns, digest_file, inputs_of};
+use crate::commands::sweep::{self, OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, read, share};
@@ -108,7 +108,7 @@ fn check_digest(path: &Path, first: &Path, wanted: Option<&Wanted>) -> Result<()
     let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let Some(own) = of_table(path) else { return Ok(()) };
     let (expected, other) = match wanted {
-        Some(wanted) => (Some(Fnv::of(&wanted.sweep, wanted.file)?.to_string()), wanted.file),
+        Some(wanted) => (Some(TableDigest::of(&wanted.sweep, wanted.file)?.to_string()), wanted.file),
         None => (of_table(first), first),
     };
     match expected {

@@ -18,6 +18,7 @@ use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::SceneFileError;
+use rocking::run_folder::Digest;
 use rocking::scene_file::{Cause, Setting};
 use rocking::sweep::{Ask, Field, Row, Sweep};
 use serde::Serialize;
@@ -47,7 +48,7 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
     let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let (fields, columns) = (sweep.fields().map_err(Failure::scene)?, columns(&sweep)?);
     let threads = threads(asked.threads)?;
-    let mut digest = Fnv::of(&sweep, &asked.file)?;
+    let mut digest = TableDigest::of(&sweep, &asked.file)?;
     let of_sweep = digest.to_string();
     digest.add(format!("{range:?}").as_bytes());
     let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
@@ -214,26 +215,26 @@ pub fn digest_file(table: &Path) -> PathBuf {
     table.with_file_name(format!("{name}.digest"))
 }
 
-/// A digest by the 64-bit hash FNV-1a of Fowler, Noll & Vo. This hash is the same on every machine and in every version of Rust.
+/// The digest of a table: of this version of the program, and of all that decides the rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fnv(u64);
+pub struct TableDigest(Digest);
 
-impl Fnv {
+impl TableDigest {
     /// The digest of this version of the program.
-    pub fn new() -> Fnv {
-        let mut digest = Fnv(0xcbf2_9ce4_8422_2325);
+    pub fn new() -> TableDigest {
+        let mut digest = TableDigest(Digest::default());
         digest.add(env!("CARGO_PKG_VERSION").as_bytes());
         digest
     }
 
     /// The digest as a number.
     pub fn number(self) -> u64 {
-        self.0
+        self.0.number()
     }
 
     /// The digest of all that decides the rows of a sweep: version, sweep file, base scene, axes, records.
-    pub fn of(sweep: &Sweep, file: &Path) -> Result<Fnv, Failure> {
-        let mut digest = Fnv::new();
+    pub fn of(sweep: &Sweep, file: &Path) -> Result<TableDigest, Failure> {
+        let mut digest = TableDigest::new();
         digest.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
         digest.add(sweep.template.text().as_bytes());
         for axis in &sweep.axes {
@@ -249,15 +250,14 @@ impl Fnv {
 
     /// Adds bytes, and a zero byte that ends them.
     pub fn add(&mut self, bytes: &[u8]) {
-        for byte in bytes.iter().chain(b"\0") {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
+        self.0.add(bytes);
+        self.0.add(b"\0");
     }
 }
 
-impl std::fmt::Display for Fnv {
+impl std::fmt::Display for TableDigest {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:016x}", self.0)
+        self.0.fmt(f)
     }
 }
 
