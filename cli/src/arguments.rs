@@ -61,8 +61,8 @@ pub enum Command {
         /// Folder of a finished run, or the table of a sweep or a study (CSV or Parquet), whose figures have its name.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
-        /// How the figures are written.
-        #[arg(long, value_enum, default_value_t = Picture::Svg)]
+        /// How the figures are written: svg, to be scaled at will; png, in pixels; pdf, to be printed, in builds with `--features pdf`.
+        #[arg(long, value_name = "FORMAT", value_parser = picture, default_value = "svg")]
         format: Picture,
         /// Folder for the figures; made if it is not there [default: DIR, or the folder of the table].
         #[arg(long, value_name = "FOLDER")]
@@ -301,12 +301,16 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn figure(text: &str) -> Result<PathBuf, String> {
     let file = PathBuf::from(text);
-    if Picture::of(&file).is_some() { Ok(file) } else { Err(format!("give a name that ends in {ENDINGS}")) }
+    if Picture::of(&file).is_some() { Ok(file) } else { Err(format!("give a name whose ending is {FORMATS}")) }
 }
 
-/// Accepted endings of the names of figures, in words.
-const ENDINGS: &str =
-    if cfg!(feature = "pdf") { ".svg, .png or .pdf" } else { ".svg or .png; PDF needs a build with `--features pdf`" };
+fn picture(text: &str) -> Result<Picture, String> {
+    Picture::from_str(text, true).map_err(|_| format!("choose {FORMATS}"))
+}
+
+/// Formats of figures, in words.
+const FORMATS: &str =
+    if cfg!(feature = "pdf") { "svg, png or pdf" } else { "svg or png; pdf needs a build with `--features pdf`" };
 
 fn paper_width(text: &str) -> Result<f64, String> {
     let [least, most] = WIDTHS_MM;

@@ -43,11 +43,27 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
     check(path, LARGEST_TABLE)?;
     match Format::of(path).map_err(std::io::Error::other)? {
         Format::Csv => {
-            let mut reader = csv::Reader::from_path(path)?;
-            let header = reader.headers()?.clone();
-            Ok(Rows { header, rows: Box::new(reader.into_records().map(|row| row.map_err(Into::into))) })
+            // Tables that were edited may have blanks beside their commas.
+            let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path)?;
+            let header = reader.headers().map_err(damage)?.clone();
+            Ok(Rows { header, rows: Box::new(reader.into_records().map(|row| row.map_err(damage))) })
         }
         #[cfg(feature = "parquet")]
         Format::Parquet => parquet::Reader::open(path).map(parquet::Reader::rows),
     }
+}
+
+/// What is wrong with a table, by its line.
+fn damage(error: csv::Error) -> std::io::Error {
+    let line = error.position().map_or(0, csv::Position::line);
+    let problem = match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!(
+                "line {line} has {len} cell(s) and the lines above have {expected_len}: it is cut, or not of this table"
+            )
+        }
+        csv::ErrorKind::Utf8 { .. } => format!("line {line} is not UTF-8 text"),
+        _ => return error.into(),
+    };
+    std::io::Error::new(std::io::ErrorKind::InvalidData, problem)
 }

@@ -36,6 +36,12 @@ pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
 
+/// A word for the command line of a shell, in quotes if it needs them.
+pub fn shell_word(word: &str) -> String {
+    let plain = |sign: char| sign.is_alphanumeric() || "-_./+:=@%,".contains(sign);
+    if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
 /// The text as HTML or XML: fit for an element and for a quoted attribute.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -61,5 +67,11 @@ mod tests {
         assert_eq!(escape("<a b='1' c=\"2\">&\u{1b}"), "&lt;a b=&#39;1&#39; c=&quot;2&quot;&gt;&amp;\\u{1b}");
         assert_eq!(printable("a\r\nb\t\u{9b}\u{202e}θ"), "a  b\t\\u{9b}\\u{202e}θ");
         assert_eq!(printable_lines("a\u{7}\r\nb\n"), "a\\u{7}\nb\n");
+    }
+
+    #[test]
+    fn file_names_stay_one_word() {
+        let words = ["a/b-1.toml", "my scene.toml", "it's"].map(shell_word);
+        assert_eq!(words, ["a/b-1.toml", "'my scene.toml'", "'it'\\''s'"]);
     }
 }

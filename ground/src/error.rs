@@ -56,6 +56,9 @@ pub enum RecordError {
     /// Several columns may be the acceleration, or the requested one does not exist.
     #[error("{}; choose one of {known} with `column`", no_column(column))]
     NoColumn { column: String, known: String },
+    /// Several columns have the requested name.
+    #[error("several columns are called `{column}`; choose one by its number with `column`: {numbers}")]
+    Namesakes { column: String, numbers: String },
     /// The file begins with neither a known header nor numbers.
     #[error(
         "line {line}, column {column}: `{text}` is no number, and the file begins like none of the known formats; skip the \
@@ -68,8 +71,13 @@ pub enum RecordError {
     )]
     Columns { line: usize, found: usize, expected: usize },
     /// The times of a table are not equally spaced.
-    #[error("line {line}: time {time} s is not on the grid of {dt} s; resample the record to a constant interval")]
-    Uneven { line: usize, time: f64, dt: f64 },
+    #[error(
+        "line {line}: time {time} s comes {} s after the one above, most come {} s after theirs; resample the record to a constant interval, \
+         or fill in what is missing",
+        microseconds(step),
+        microseconds(usual)
+    )]
+    Uneven { line: usize, time: f64, step: f64, usual: f64 },
     /// The file lacks a quantity that the user must give.
     #[error("the file does not say its {quantity}; give it with `{key}`{}", example(key))]
     Missing { quantity: &'static str, key: &'static str },
@@ -85,6 +93,11 @@ pub enum RecordError {
     /// A record cannot be scaled to a target: the value of the measure, the target or the factor is not above zero, or the factor not finite.
     #[error("the record's {measure} is {value}: it cannot be scaled to {target}; choose another record or measure")]
     Unscalable { measure: String, value: f64, target: f64 },
+}
+
+/// Seconds without the rounding beyond the microsecond.
+fn microseconds(seconds: &f64) -> f64 {
+    (seconds * 1e6).round() / 1e6
 }
 
 fn no_column(column: &str) -> String {

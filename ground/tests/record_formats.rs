@@ -524,11 +524,15 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     assert!(several.contains("t, h1, up") && several.contains("`column`"), "{several}");
     let absent = TextOptions { column: Some("h3".into()), ..options() };
     assert!(error(&text("table/three-columns.csv"), &absent).contains("no column `h3`"));
+    let twice = error("t, a, a\n0, 1, 2\n0.1, 2, 3\n", &TextOptions { column: Some("a".into()), ..g.clone() });
+    assert!(twice.contains("several columns are called `a`") && twice.contains("`column`: 2 or 3"), "{twice}");
     let title = error(&text("table/skip-rows.txt"), &g);
     assert!(title.contains("skip_rows") && title.contains("line 1, column 1: `Invented`"), "{title}");
     for (text, part) in [
-        ("0 1\n0.1 1\n0.25 1\n0.3 1\n", "line 3: time 0.25 s is not on the grid"),
-        ("0 1\n0.1 1\n0.1 1\n", "line 2"),
+        ("0 1\n0.1 1\n0.25 1\n0.3 1\n", "line 3: time 0.25 s comes 0.15 s after the one above, most come 0.1 s"),
+        ("0 1\n0.1 1\n0.1 1\n", "line 3"),
+        ("0 1\n0.1 1\n0.2 1\n0.4 1\n0.5 1\n", "line 4: time 0.4 s comes 0.2 s after the one above"),
+        ("0 1\n0.1 1\n0.2 1\n0.2 1\n0.3 1\n", "line 4: time 0.2 s comes 0 s after the one above"),
         ("0.3 1\n0.2 1\n0.1 1\n", "line 2: time 0.2 s"),
         ("0 1\n0.1\n", "line 2: 1 column(s) where the first row has 2"),
         ("0, 1\n0.1, , 2\n", "line 2, column 5"),

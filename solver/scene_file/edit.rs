@@ -92,6 +92,21 @@ impl Table {
     }
 }
 
+impl Table {
+    /// The key that stands in the file for a dotted key that does not: `excitation.horizontal.amplitude_g` for its `amplitude`. `None` where the key
+    /// itself is given, or nothing in its place.
+    pub fn stand_in(&self, key: &str) -> Option<String> {
+        if let Some((first, rest)) = key.split_once('.') {
+            let entry = self.entry(first).or_else(|| self.entry(without_index(first)))?;
+            let Value::Table(table) = &entry.value else { return None };
+            return table.stand_in(rest).map(|rest| format!("{first}.{rest}"));
+        }
+        let others = ALTERNATIVES.iter().filter(|group| group.contains(&key)).flat_map(|group| *group);
+        let given = others.copied().find(|other| self.has(other));
+        given.filter(|_| !self.has(key)).map(str::to_string)
+    }
+}
+
 /// Groups of keys of which a table takes one. Setting a new one removes the others.
 const ALTERNATIVES: [&[&str]; 10] = [
     &["half_width", "width", "diameter"],

@@ -111,12 +111,17 @@ impl Reader<'_> {
 
     /// Error for a fault that [`Scene::check`] found, at the key that the fault names.
     pub fn refused(&self, root: &Table, fault: &SceneError) -> SceneFileError {
-        let SceneError { mut key, problem, remedy, .. } = fault.clone();
+        let SceneError { mut key, mut problem, remedy, .. } = fault.clone();
         // The sizes of the blocks of a `[column]` come from the keys of `[column]`.
         if let (Some((_, name)), true) =
             (key.strip_prefix("block").and_then(|key| key.split_once('.')), root.has("column"))
         {
             key = format!("column.{name}");
+        }
+        if let Some(given) = root.stand_in(&key) {
+            // The fault is that of the number which follows from the given one.
+            problem = format!("{} = {problem}", key.rsplit('.').next().unwrap_or_default());
+            key = given;
         }
         self.error(Wrong { place: root.find(&key), key, problem, remedy, cause: Cause::Value })
     }

@@ -4,7 +4,7 @@ use crate::error::{Failure, at};
 use crate::files::{LARGEST_RECORD, folder_of, read};
 use crate::output;
 use crate::terminal::print;
-use crate::text::shown;
+use crate::text::{shell_word, shown};
 use rocking::ground::{RecordFile, TextOptions};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -16,11 +16,11 @@ pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> R
     }
     let record = record.map(|record| NamedRecord::new(file, record)).transpose()?;
     output::file(file, scene(blocks, record.as_ref()))?;
-    let file = shown(file);
+    let (file, word) = (shown(file), shell_word(&shown(file)));
     print(&format!(
         "wrote {file}: open it in an editor and put in your column and ground motion, then\n\
-         \x20 rocking check {file}            tells what it says and what follows from it\n\
-         \x20 rocking run {file} --report     runs it and writes out/report.html\n"
+         \x20 rocking check {word}            tells what it says and what follows from it\n\
+         \x20 rocking run {word} --report     runs it and writes out/report.html\n"
     ))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::number::{degrees, significant};
 use crate::report::html::definitions;
-use crate::text::escape;
+use crate::text::{escape, shell_word};
 use rocking::Sample;
 use rocking::run_folder::Results;
 
@@ -36,7 +36,7 @@ pub fn provenance(results: &Results) -> String {
         ("Equations", format!("{dynamics}; {modes} mode(s) entered")),
         ("Output", interval),
     ];
-    let file = quoted(&results.scene.file.display().to_string());
+    let file = shell_word(&results.scene.file.display().to_string());
     let flag = if generic { " --dynamics generic" } else { "" };
     format!(
         "{}<p>To repeat the run and this page:</p>\n<pre tabindex=\"0\">rocking run {}{flag} --out out --report</pre>\n",
@@ -56,21 +56,4 @@ fn intervals(rows: &[Sample]) -> String {
     }
     let last = &rows[rows.len() - 1];
     format!("at {} times from {} s to {} s", rows.len(), significant(first.t, 6), significant(last.t, 6))
-}
-
-/// A word for the command line of a shell, in quotes if it needs them.
-fn quoted(word: &str) -> String {
-    let plain = |sign: char| sign.is_alphanumeric() || "-_./+:=@%,".contains(sign);
-    if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn file_names_stay_one_word() {
-        let words = ["a/b-1.toml", "my scene.toml", "it's"].map(quoted);
-        assert_eq!(words, ["a/b-1.toml", "'my scene.toml'", "'it'\\''s'"]);
-    }
 }

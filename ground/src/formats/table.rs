@@ -267,7 +267,13 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     if let Some(name) = &options.column {
         // By the name of the column, else by its whole heading, else by its number.
         let whole = Heading::parse(name);
-        let named = headings.iter().position(|heading| heading.name.eq_ignore_ascii_case(name.trim()));
+        let has_name = |place: &usize| headings[*place].name.eq_ignore_ascii_case(name.trim());
+        let namesakes: Vec<usize> = (0..headings.len()).filter(has_name).collect();
+        if namesakes.len() > 1 {
+            let numbers: Vec<String> = namesakes.iter().map(|place| (place + 1).to_string()).collect();
+            return Err(RecordError::Namesakes { column: name.trim().into(), numbers: numbers.join(" or ") });
+        }
+        let named = namesakes.first().copied();
         let named = named.or_else(|| headings.iter().position(|heading| *heading == whole));
         let numbered = || name.trim().parse::<usize>().ok()?.checked_sub(1).filter(|place| *place < columns);
         return named.or_else(numbered).ok_or_else(|| unclear(name));
@@ -320,10 +326,22 @@ fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Res
         return Ok(own);
     }
     if dt.is_nan() || dt <= 0.0 {
-        return Err(RecordError::Uneven { line: rows.lines[1], time: at(1), dt });
+        return Err(uneven(rows, 1, at));
     }
     match off_grid(dt, GRID_TOLERANCE * dt) {
-        Some(row) => Err(RecordError::Uneven { line: rows.lines[row], time: at(row), dt }),
+        Some(row) => Err(uneven(rows, row, at)),
         None => Ok(dt),
     }
+}
+
+/// The refusal of uneven times `at` the rows `[s]`: names the first row whose distance from the row before is not the usual one, such as the row after a missing
+/// one; where all distances are usual, and add up to a drift, `row`.
+fn uneven(rows: &Rows, row: usize, at: impl Fn(usize) -> f64) -> RecordError {
+    let step = |row: usize| at(row) - at(row - 1);
+    let mut steps: Vec<f64> = (1..rows.lines.len()).map(step).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual = steps[steps.len() / 2];
+    let is_odd = |row: &usize| (step(*row) - usual).abs() > GRID_TOLERANCE * usual.abs();
+    let row = (1..rows.lines.len()).find(is_odd).unwrap_or(row);
+    RecordError::Uneven { line: rows.lines[row], time: at(row), step: step(row), usual }
 }
