@@ -112,7 +112,7 @@ impl<'v> Gaps<'v> {
 }
 
 /// Relative acceleration `[rad/s²]` up to which an interface whose resultant has reached a corner counts as critical: its acceleration is zero.
-pub(crate) fn verge_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
+pub(crate) fn critical_acceleration(column: &Column, accelerations: &[f64], ground: Ground) -> f64 {
     RELEASE_TOLERANCE * typical_acceleration(column, accelerations, ground)
 }
 

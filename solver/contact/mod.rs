@@ -24,7 +24,7 @@ pub use decision::Decision;
 pub(crate) use impact::stick;
 pub use impact::{ImpactLaw, impact};
 pub use instant::SingularMass;
-pub(crate) use instant::{Gaps, rounding_acceleration, verge_acceleration};
+pub(crate) use instant::{Gaps, critical_acceleration, rounding_acceleration};
 pub use opening::open;
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
 
 use super::decision::Decision;
-use super::instant::{Instant, Mechanism, SingularMass, accelerate, may_open, relative, verge_acceleration};
+use super::instant::{Instant, Mechanism, SingularMass, accelerate, critical_acceleration, may_open, relative};
 use super::search::ContactProblem;
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
@@ -44,7 +44,7 @@ fn open_at<S: Size>(
     let given = |_: usize| [ground.x.abs() + ground.gravity.abs(), 0.0];
     let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces, given };
     let mut separation = problem.solve(&mut mechanism, &mut answer)?;
-    let tolerance = verge_acceleration(instant.column, &answer.motion, ground);
+    let tolerance = critical_acceleration(instant.column, &answer.motion, ground);
     let is_driven_back =
         |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
     let driven_back: PerBlock<usize> =

@@ -9,7 +9,7 @@ use super::problem::Problem;
 use super::recorder::{Mark, Recorder};
 use super::state::State;
 use super::stretch::{Ended, Over, Stretch};
-use super::transition::{self, break_circle, transition};
+use super::transition::{self, break_cycle, transition};
 use crate::numerics::per_block::PerBlock;
 use std::ops::ControlFlow;
 
@@ -21,11 +21,11 @@ pub(crate) enum Leaving {
     /// The run is over, in this state.
     Over(State, Over),
     /// What follows is beyond the limits.
-    Beyond(Place),
+    Beyond(Exceeded),
 }
 
 /// The point of a run from which on contact forces exceed the limits of the model without sliding. The record ends there.
-pub(crate) enum Place {
+pub(crate) enum Exceeded {
     /// The start.
     Start,
     /// An event: `x⁻`, why the stretch before it ended, and the interfaces (from zero) that close.
@@ -81,7 +81,7 @@ pub(crate) fn event_loop<L: Limits>(
     let (mut spare, mut after) = (&mut initial, &mut storage);
     if is_beginning {
         match begin(problem, spare, after, recorder) {
-            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(Place::Start)),
+            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(Exceeded::Start)),
             done => done?,
         }
     }
@@ -114,19 +114,19 @@ pub(crate) fn event_loop<L: Limits>(
             Ok(next) if limits.admit(before, next, recorder) => next,
             Err(error) if !L::ARE_THERE => return Err(error.clone()),
             Ok(_) | Err(_) => {
-                let place = Place::Event(before.clone(), ended, PerBlock::from_slice(closing));
-                return Ok(Leaving::Beyond(place));
+                let exceeded = Exceeded::Event(before.clone(), ended, PerBlock::from_slice(closing));
+                return Ok(Leaving::Beyond(exceeded));
             }
         };
         phase = PresentPhase::new::<L>(recorder, Some((ended, closing)));
         after = next.after(before, spare);
         recorder.transition(problem, before, next, after);
         spare = before;
-        if next.may_circle(after) {
+        if next.may_cycle(after) {
             if L::ARE_THERE {
                 return Ok(Leaving::Beyond(phase.before(recorder, spare)));
             }
-            if let Some(forced) = break_circle(problem, after)? {
+            if let Some(forced) = break_cycle(problem, after)? {
                 let closed = forced.after(after, spare);
                 recorder.transition(problem, after, &forced, closed);
                 (spare, after) = (after, closed);
@@ -190,7 +190,7 @@ impl PresentPhase {
         mode: usize,
         recorder: &mut Recorder,
         [spare, after]: [&State; 2],
-    ) -> Place {
+    ) -> Exceeded {
         let Some((t, mark)) = self.reached else {
             return PresentPhase { reached: None, ..self }.before(recorder, spare);
         };
@@ -200,16 +200,16 @@ impl PresentPhase {
         let segment = (after.segment..problem.ground.len()).find(begun).unwrap_or(after.segment);
         let now = State { t, segment, theta, omega, ..after.clone() };
         recorder.leave(problem, mode, &now);
-        Place::Phase(now)
+        Exceeded::Phase(now)
     }
 
     /// The place before the event that began the phase, or the start. What is recorded from that event on is undone.
-    fn before(self, recorder: &mut Recorder, before: &State) -> Place {
+    fn before(self, recorder: &mut Recorder, before: &State) -> Exceeded {
         match self.event {
-            None => Place::Start,
+            None => Exceeded::Start,
             Some(Event { ended, closing, mark }) => {
                 recorder.undo(mark);
-                Place::Event(before.clone(), ended, closing)
+                Exceeded::Event(before.clone(), ended, closing)
             }
         }
     }

@@ -37,7 +37,7 @@ struct Walk<'p> {
     /// Whether a ground at rest is left to closed forms.
     has_closed_forms: bool,
 
-    place: Place,
+    state: WalkState,
     intervals: usize,
     /// Whether some interval had errors too large for a lower order.
     needs_order: bool,
@@ -47,9 +47,9 @@ struct Walk<'p> {
     steps: Option<&'p mut Vec<SampleStep>>,
 }
 
-/// The place of a walk in time, and the block's state there.
+/// The state that a walk has reached.
 #[derive(Clone, Copy)]
-struct Place {
+struct WalkState {
     /// `[s]`
     t: f64,
     segment: usize,
@@ -86,7 +86,7 @@ impl Phase {
             gap: self.gaps[0],
             resolution: self.resolution(start),
             has_closed_forms: self.pendulum.is_some(),
-            place: Place {
+            state: WalkState {
                 t: self.t,
                 segment: self.segment,
                 omega,
@@ -123,7 +123,7 @@ impl Phase {
         self.work.multi_sample_steps += 1;
         self.work.steps += walk.intervals;
         self.work.rhs_calls += order * walk.intervals;
-        let Place { t, segment, omega, angle } = walk.place;
+        let WalkState { t, segment, omega, angle } = walk.state;
         let x = [angle.theta, omega];
         self.stretch = Kind::Samples(Samples { until: t, last_segment: segment, x, peak: walk.peak });
         if end != End::Landed {
@@ -187,11 +187,11 @@ impl Phase {
 }
 
 impl Walk<'_> {
-    /// Steps from sample to sample with series of an order. The place is held in local variables, which stay in registers.
+    /// Steps from sample to sample with series of an order. The state is held in local variables, which stay in registers.
     fn pass<const ORDER: usize>(&mut self) -> End {
         let &mut Walk { ground, rocker, tolerance, overturned, .. } = self;
         let sign = self.gap.across.sign;
-        let Place { mut t, mut segment, mut omega, mut angle } = self.place;
+        let WalkState { mut t, mut segment, mut omega, mut angle } = self.state;
         let (mut peak, mut needs_order) = (self.peak, self.needs_order);
         // The angular rate at the start of a step is `rate · unit` `[rad/s]`, with `unit = 1 / h` of the step before `[1/s]`. The first step has
         // no step before it: its unit is 1/s.
@@ -252,7 +252,7 @@ impl Walk<'_> {
                 break End::Over;
             }
         };
-        self.place = Place { t, segment, omega, angle };
+        self.state = WalkState { t, segment, omega, angle };
         (self.peak, self.needs_order) = (peak, needs_order);
         end
     }

@@ -10,7 +10,7 @@ use super::problem::Problem;
 use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
 use crate::column::Column;
-use crate::contact::{rounding_acceleration, verge_acceleration};
+use crate::contact::{critical_acceleration, rounding_acceleration};
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
@@ -26,7 +26,7 @@ impl Phase {
             let accelerations = &self.slope[self.dof..];
             let ground = self.integrator.ground(self.t);
             let verge = match released.iter().any(|(other, _)| *other == interface) {
-                true => verge_acceleration(column, accelerations, ground),
+                true => critical_acceleration(column, accelerations, ground),
                 false => rounding_acceleration(column, accelerations, ground),
             };
             across.of(accelerations).abs() <= verge
@@ -57,7 +57,7 @@ impl Phase {
             Kind::Samples(samples) => {
                 self.integrator.begin(samples.until, &samples.x);
                 self.integrator.enter(&problem.ground[samples.last_segment]);
-                self.is_outcome_open = problem.prospects.is_some();
+                self.is_outcome_open = problem.outcome_bounds.is_some();
                 (samples.until, samples.last_segment)
             }
         };
@@ -128,7 +128,7 @@ impl Phase {
             return Some(Ended::Jump);
         }
         self.integrator.enter(segment);
-        self.is_outcome_open = problem.prospects.is_some();
+        self.is_outcome_open = problem.outcome_bounds.is_some();
         None
     }
 
@@ -163,7 +163,7 @@ impl Flow for Phase {
             None => self.integrator.first_step(problem.tolerance),
         };
         self.longest = f64::INFINITY;
-        self.is_outcome_open = problem.prospects.is_some();
+        self.is_outcome_open = problem.outcome_bounds.is_some();
         self.stretch = Kind::Instant;
         self.has_moved = false;
         self.closing.clear();

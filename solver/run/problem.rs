@@ -1,6 +1,6 @@
 //! The constant input of a run: scene, ground motion, and what follows from them.
 
-use super::certainty::stands::Prospects;
+use super::certainty::stands::OutcomeBounds;
 use crate::mechanics::dynamics::{Ground, Interfaces};
 use crate::numerics::ode::control::Tolerance;
 use crate::numerics::ode::methods::Method;
@@ -14,14 +14,14 @@ pub(crate) struct Problem<'a> {
     pub scene: &'a Scene,
     pub ground: &'a Timeline,
     /// Bounds for proofs of the outcome; `None` if the run may not end with one.
-    pub prospects: Option<&'a Prospects>,
+    pub outcome_bounds: Option<&'a OutcomeBounds>,
     pub skips: Skips,
     /// Times of the rows that are recorded.
     pub rows: RowTimes<'a>,
     /// Restitution factor `κ_i` of the relative rate after a plastic impact, per interface, dimensionless.
     pub kappa: PerBlock<f64>,
     pub tolerance: Tolerance,
-    /// Whether the run may end once it certainly stands: it has `prospects`, and the last segment of the ground motion is at rest.
+    /// Whether the run may end once it certainly stands: it has `outcome_bounds`, and the last segment of the ground motion is at rest.
     pub may_stand: bool,
     /// Whether the largest gaps are recorded.
     pub records_gaps: bool,
@@ -66,18 +66,23 @@ impl Default for Skips {
 }
 
 impl<'a> Problem<'a> {
-    pub fn new(scene: &'a Scene, ground: &'a Timeline, prospects: Option<&'a Prospects>, skips: Skips) -> Problem<'a> {
+    pub fn new(
+        scene: &'a Scene,
+        ground: &'a Timeline,
+        outcome_bounds: Option<&'a OutcomeBounds>,
+        skips: Skips,
+    ) -> Problem<'a> {
         let options = &scene.options;
         let rows = if options.wanted == Wanted::Everything { scene.row_times() } else { RowTimes::NONE };
         Problem {
             scene,
             ground,
-            prospects,
+            outcome_bounds,
             skips,
             rows,
             kappa: scene.restitution.per_interface(&scene.column),
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
-            may_stand: prospects.is_some() && ground.last().is_some_and(Segment::is_quiet),
+            may_stand: outcome_bounds.is_some() && ground.last().is_some_and(Segment::is_quiet),
             records_gaps: false,
         }
     }
@@ -109,7 +114,7 @@ impl<'a> Problem<'a> {
 
     /// Least rate `q` at which a single block runs away from its balance `[1/s]`; `None` if the run may not end with a certain fall.
     pub fn growth(&self) -> Option<f64> {
-        self.prospects.and_then(|prospects| prospects.growth)
+        self.outcome_bounds.and_then(|outcome_bounds| outcome_bounds.growth)
     }
 
     /// Whether phases of one free angle on a ground that does not move are taken in closed form.

@@ -230,7 +230,7 @@ fn first_zero<G, I: Iterator<Item = ([f64; 2], Interface, G)>>(
 ) -> Option<(f64, G)> {
     let mut t = from;
     while t < until {
-        let motion = Shaking::at(segment, gravity, t);
+        let motion = GroundWithBounds::at(segment, gravity, t);
         let mut step = f64::INFINITY;
         for (arm, side, guard) in guards() {
             match motion.step_to_zero(arm, side) {
@@ -267,7 +267,7 @@ impl Scene {
 
 /// The first instant in a segment at which an interface of a column at rest opens, if no other does.
 fn opening_in(column: &Column, segment: &Segment, interface: usize) -> Option<f64> {
-    let at_start = Shaking::at(segment, column.gravity(), segment.start);
+    let at_start = GroundWithBounds::at(segment, column.gravity(), segment.start);
     // Where the ground jumps, a guard may be below zero without having fallen there.
     if corners(column, interface).any(|(arm, side, _)| at_start.guard(arm, side) < 0.0) {
         return Some(segment.start);
@@ -340,18 +340,18 @@ fn arm(column: &Column, interface: usize, side: Interface) -> [f64; 2] {
 }
 
 /// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
-struct Shaking {
+struct GroundWithBounds {
     t: f64,
     ground: Ground,
     rates: [f64; 2],
     bends: [f64; 2],
 }
 
-impl Shaking {
-    fn at(segment: &Segment, gravity: f64, t: f64) -> Shaking {
+impl GroundWithBounds {
+    fn at(segment: &Segment, gravity: f64, t: f64) -> GroundWithBounds {
         let Segment { horizontal, vertical, .. } = segment;
         let [(x, rate), (y, rate_upwards)] = [horizontal, vertical].map(|piece| piece.with_rate(t));
-        Shaking {
+        GroundWithBounds {
             t,
             ground: Ground { x, gravity: gravity + y },
             rates: [rate, rate_upwards],
@@ -366,7 +366,7 @@ impl Shaking {
 
     /// A time within which the guard of a side does not fall below zero `[s]`. Zero if it falls below zero at this instant, `None` if it never does.
     fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
-        let Shaking { t, ground, rates, bends } = self;
+        let GroundWithBounds { t, ground, rates, bends } = self;
         let sign = f64::from(side.sign());
         let value = self.guard([half_width, height], side);
         let slope = half_width * rates[1] + sign * height * rates[0];

@@ -1,6 +1,6 @@
 //! Runs of scenes, and what one run leaves for the next.
 
-use super::certainty::stands::Prospects;
+use super::certainty::stands::OutcomeBounds;
 use super::cones::Unlimited;
 use super::error::SolveError;
 use super::event_loop::{Departure, Leaving, event_loop};
@@ -61,7 +61,7 @@ pub fn simulate_observed(scene: &Scene, progress: impl FnMut(f64) -> ControlFlow
 #[derive(Default)]
 pub struct Simulator {
     modes: Modes,
-    prospects: Option<Prospects>,
+    outcome_bounds: Option<OutcomeBounds>,
     ground: TimelineCache,
     skips: Skips,
     records_gaps: bool,
@@ -125,12 +125,13 @@ impl Simulator {
             return self.run_with_friction(scene, friction, progress);
         }
         if self.modes.prepare(scene, self.skips) {
-            self.prospects = if self.skips.certainty { Prospects::new(scene) } else { None };
+            self.outcome_bounds = if self.skips.certainty { OutcomeBounds::new(scene) } else { None };
         }
-        let lookahead = self.prospects.as_ref().map(Prospects::lookahead).unwrap_or_default();
+        let lookahead = self.outcome_bounds.as_ref().map(OutcomeBounds::lookahead).unwrap_or_default();
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, lookahead);
         let records_gaps = self.records_gaps;
-        let problem = Problem { records_gaps, ..Problem::new(scene, &ground, self.prospects.as_ref(), self.skips) };
+        let problem =
+            Problem { records_gaps, ..Problem::new(scene, &ground, self.outcome_bounds.as_ref(), self.skips) };
         let initial = transition::initial(&problem);
         let mut recorder = Recorder::new(&problem, &initial, 0);
         let departure = Departure::Beginning(initial);
@@ -149,7 +150,7 @@ impl Simulator {
     ) -> Result<Response, SolveError> {
         let sticking = sliding::sticking::without_sliding(scene);
         if self.modes.prepare(&sticking, self.skips) {
-            self.prospects = None;
+            self.outcome_bounds = None;
         }
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, Default::default());
         let problem = Problem::new(scene, &ground, None, self.skips);

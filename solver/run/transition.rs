@@ -11,7 +11,7 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Events in one instant, per block and one more, beyond which the laws of contact go in circles. What has not moved is then closed, as a
+/// Events in one instant, per block and one more, beyond which the laws of contact go in cycles. What has not moved is then closed, as a
 /// separation. A smaller number would cut short instants at which several interfaces are critical.
 const EVENTS_AT_ONCE: usize = 8;
 
@@ -54,8 +54,8 @@ impl Transition {
         after
     }
 
-    /// Whether the events of one instant may go in a circle: with this one, which led to `after`, they have reached the number allowed.
-    pub fn may_circle(&self, after: &State) -> bool {
+    /// Whether the events of one instant may go in a cycle: with this one, which led to `after`, they have reached the number allowed.
+    pub fn may_cycle(&self, after: &State) -> bool {
         self.is_counted && after.contact.events_at_once >= most_at_once(after)
     }
 
@@ -198,7 +198,7 @@ fn jump(problem: &Problem, before: &State, kind: EventKind) -> Result<Transition
     Ok(Transition { decision, kind, is_event, interfaces, released, is_counted: false })
 }
 
-/// Events in one instant beyond which they may go in a circle.
+/// Events in one instant beyond which they may go in a cycle.
 fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
@@ -206,7 +206,7 @@ fn most_at_once(state: &State) -> usize {
 /// The forced transition that breaks a circle of events in one instant: it closes what has not moved, momentum conserved, as a separation. `None`
 /// unless the number of events is one of two at which this is due.
 #[cold]
-pub(crate) fn break_circle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
+pub(crate) fn break_cycle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
     let (events, most) = (state.contact.events_at_once, most_at_once(state));
     if events > 2 * most {
         return Err(SolveError::Stalled { time: state.t, events, pattern: state.pattern.to_string() });
@@ -215,7 +215,7 @@ pub(crate) fn break_circle(problem: &Problem, state: &State) -> Result<Option<Tr
     let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
     let is_still: &dyn Fn(usize) -> bool = match events {
         events if events == most => &|interface| gaps.is_rounding(interface) && rates.is_rounding(interface),
-        // Interfaces with rates slightly above rounding may go in circles as well: an interface without a gap is closed whatever its rate.
+        // Interfaces with rates slightly above rounding may go in cycles as well: an interface without a gap is closed whatever its rate.
         events if events == most + most / 2 => &|interface| gaps.is_rounding(interface),
         _ => return Ok(None),
     };

@@ -16,11 +16,14 @@ pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> R
     }
     let record = record.map(|record| NamedRecord::new(file, record)).transpose()?;
     output::file(file, scene(blocks, record.as_ref()))?;
+    let lacking =
+        record.and_then(|record| record.lacking).map_or(String::new(), |lacking| format!("first: {lacking}\n"));
     let (file, word) = (shown(file), shell_word(&shown(file)));
     print(&format!(
         "wrote {file}: open it in an editor and put in your column and ground motion, then\n\
          \x20 rocking check {word}            tells what it says and what follows from it\n\
-         \x20 rocking run {word} --report     runs it and writes out/report.html\n"
+         \x20 rocking run {word} --report     runs it and writes out/report.html\n\
+         {lacking}"
     ))
 }
 
@@ -30,6 +33,8 @@ struct NamedRecord {
     name: String,
     /// Duration of the record `[s]`; `None` if the file cannot be read without further options.
     duration: Option<f64>,
+    /// What the scene must say of a file that cannot be read without further options.
+    lacking: Option<String>,
 }
 
 impl NamedRecord {
@@ -39,9 +44,10 @@ impl NamedRecord {
         let folder = folder_of(file);
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
         let name = found.strip_prefix(&folder).unwrap_or(&found).display().to_string();
-        // A failure is left to `rocking check`, which asks for the unit and the interval that a file does not state.
+        // A scene may still give the unit and the interval that a file does not state.
         let read = RecordFile::read(&bytes, &TextOptions::default()).and_then(RecordFile::into_record);
-        Ok(NamedRecord { name, duration: read.ok().map(|record| record.duration()) })
+        let lacking = read.as_ref().err().map(|error| format!("{}: {error}", shown(record)));
+        Ok(NamedRecord { name, duration: read.ok().map(|record| record.duration()), lacking })
     }
 }
 

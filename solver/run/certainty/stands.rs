@@ -74,7 +74,7 @@ pub struct Barrier {
 
 /// Bounds by which the outcome of a run is certain or not.
 #[derive(Clone, Debug)]
-pub(crate) struct Prospects {
+pub(crate) struct OutcomeBounds {
     pub barrier: Barrier,
     /// `g M_i c_i`, `g B_i` and `g D_i` of each block, the coefficients of `V` `[J]`.
     weights: PerBlock<[f64; 3]>,
@@ -84,9 +84,9 @@ pub(crate) struct Prospects {
     pub growth: Option<f64>,
 }
 
-impl Prospects {
+impl OutcomeBounds {
     /// The bounds for runs of this scene; `None` if more than the outcome is wanted.
-    pub fn new(scene: &Scene) -> Option<Prospects> {
+    pub fn new(scene: &Scene) -> Option<OutcomeBounds> {
         let is_outcome_all = scene.options.wanted != Wanted::Everything;
         let barrier = is_outcome_all.then(|| scene.column.barrier(scene.options.overturn_angle))?;
         let (column, impulse) = (&scene.column, (2.0 * barrier.energy / barrier.mass).sqrt());
@@ -99,7 +99,7 @@ impl Prospects {
             let moments = [whole * column.contact_half_width(i), lowered, whole * column.centroid_offset(i)];
             moments.map(|moment| column.gravity() * moment)
         });
-        Some(Prospects { weights: weights.collect(), barrier, impulse, growth: growth_rate(scene) })
+        Some(OutcomeBounds { weights: weights.collect(), barrier, impulse, growth: growth_rate(scene) })
     }
 
     /// Bounds of the ground motion to come that the proofs read.
@@ -190,8 +190,8 @@ mod tests {
             let mut scene = Scene::new(Column::new(blocks.collect(), 9.81).expect("positive sizes"));
             scene.options.wanted = crate::Wanted::Outcome;
             let turns: Vec<Turn> = theta.iter().map(|angle| Turn::new(*angle)).collect();
-            let prospects = Prospects::new(&scene).expect("nothing but the outcome is wanted");
-            (prospects.potential(&turns), potential(&scene.column, theta))
+            let outcome_bounds = OutcomeBounds::new(&scene).expect("nothing but the outcome is wanted");
+            (outcome_bounds.potential(&turns), potential(&scene.column, theta))
         };
         for theta in [[0.1, 0.2, -0.3], [-0.2, 0.1, 0.4], [0.3, 0.25, 0.1], [-0.1, -0.7, -0.2]] {
             let (own, posture) = of([3.0, 2.0, 1.0], &theta);

@@ -34,10 +34,10 @@ pub(crate) fn stands(
     pattern: &Pattern,
     state: impl FnOnce() -> (PerBlock<f64>, PerBlock<f64>),
 ) -> bool {
-    let Some(prospects) = problem.prospects.filter(|_| problem.may_stand) else { return false };
-    let Some(impulse) = problem.ground.impulse_from(segment, t, prospects.impulse) else { return false };
+    let Some(outcome_bounds) = problem.outcome_bounds.filter(|_| problem.may_stand) else { return false };
+    let Some(impulse) = problem.ground.impulse_from(segment, t, outcome_bounds.impulse) else { return false };
     let (theta, omega) = state();
-    if theta.iter().zip(&prospects.barrier.angles).any(|(theta, most)| theta.abs() > *most) {
+    if theta.iter().zip(&outcome_bounds.barrier.angles).any(|(theta, most)| theta.abs() > *most) {
         return false;
     }
     let column = &problem.scene.column;
@@ -45,9 +45,9 @@ pub(crate) fn stands(
         let turns = Turn::all(size, &theta);
         let posture = Posture::of(size, column, &pattern.0, &turns);
         let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(&omega)), &omega);
-        kinetic + prospects.potential(&turns)
+        kinetic + outcome_bounds.potential(&turns)
     });
-    prospects.stays(energy, impulse, slack(problem))
+    outcome_bounds.stays(energy, impulse, slack(problem))
 }
 
 /// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, is certain to overturn before the run ends.

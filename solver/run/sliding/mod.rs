@@ -72,10 +72,11 @@ pub(super) fn run(
             transition(problem, friction, &at, ended)
         }
     };
-    let mut crowd = Crowd::default();
+    let mut simultaneous = SimultaneousEvents::default();
     loop {
         recorder.transition(at.t, &next);
-        let stop = next.stop.or_else(|| crowd.is_stuck(&at, least_hop(problem, &at)).then_some(Stop::Undetermined));
+        let stop =
+            next.stop.or_else(|| simultaneous.is_stuck(&at, least_hop(problem, &at)).then_some(Stop::Undetermined));
         at.configuration = next.after;
         if let Some(stop) = stop {
             return Ok(recorder.finish(at, stop, mover.work));
@@ -116,18 +117,22 @@ fn least_hop(problem: &Problem, at: &State) -> f64 {
 
 /// The events of one instant.
 #[derive(Default)]
-struct Crowd {
+struct SimultaneousEvents {
     /// Time of the first `[s]`.
     first: f64,
     count: usize,
 }
 
-impl Crowd {
-    /// Counts an event; returns whether the events of one instant are so many that they go in a circle.
+impl SimultaneousEvents {
+    /// Counts an event; returns whether the events of one instant are so many that they go in a cycle.
     fn is_stuck(&mut self, at: &State, hop: f64) -> bool {
         let instant = (HOPS_AT_ONCE * hop).max(AT_ONCE * at.t.max(1.0));
         let is_at_once = self.count > 0 && at.t - self.first <= instant;
-        *self = if is_at_once { Crowd { count: self.count + 1, ..*self } } else { Crowd { first: at.t, count: 1 } };
+        *self = if is_at_once {
+            SimultaneousEvents { count: self.count + 1, ..*self }
+        } else {
+            SimultaneousEvents { first: at.t, count: 1 }
+        };
         self.count > EVENTS_AT_ONCE * (at.configuration.joints.len() + 1)
     }
 }

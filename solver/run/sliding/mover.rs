@@ -60,14 +60,14 @@ impl<'p> Moments<'p> for Resting<'p> {
 }
 
 /// Where steps are in time.
-pub(super) struct Place {
+pub(super) struct SegmentTime {
     /// `[s]`
     pub t: f64,
     /// Segment of the ground motion.
     pub segment: usize,
 }
 
-impl Place {
+impl SegmentTime {
     /// Goes on to the segment that is not over. Returns why the steps end: there is no such segment, or the ground jumps; otherwise `None`.
     pub fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
         loop {
@@ -169,8 +169,8 @@ impl<'p> Mover<'p> {
     }
 
     /// Where steps from a state begin.
-    pub(super) fn enter(&self, from: &State) -> Place {
-        Place { t: from.t, segment: from.segment }
+    pub(super) fn enter(&self, from: &State) -> SegmentTime {
+        SegmentTime { t: from.t, segment: from.segment }
     }
 
     /// Length of the first step from a state `[s]`.

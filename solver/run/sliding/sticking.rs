@@ -10,7 +10,7 @@ use crate::friction::joint::{Configuration, Joint, Slip};
 use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
-use crate::run::event_loop::{Departure, Leaving, Place, event_loop};
+use crate::run::event_loop::{Departure, Exceeded, Leaving, event_loop};
 use crate::run::modes::Modes;
 use crate::run::problem::Problem;
 use crate::run::stretch::{self, Over};
@@ -146,9 +146,9 @@ impl<'p> Sticking<'p> {
                 };
                 (last, ended, status)
             }
-            Leaving::Beyond(Place::Start) => return Ok(Stuck::Nowhere),
-            Leaving::Beyond(Place::Phase(last)) => (last, Ended::Jump, StopReason::EndOfTime),
-            Leaving::Beyond(Place::Event(last, why, closing)) => {
+            Leaving::Beyond(Exceeded::Start) => return Ok(Stuck::Nowhere),
+            Leaving::Beyond(Exceeded::Phase(last)) => (last, Ended::Jump, StopReason::EndOfTime),
+            Leaving::Beyond(Exceeded::Event(last, why, closing)) => {
                 let ended = match why {
                     stretch::Ended::Closing => {
                         closing.first().map_or(Ended::Jump, |interface| Ended::Guard(Guard::Close(*interface)))
