@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use rocking::column::Shape;
 use rocking::ground::{Motion, Record};
-use rocking::{Block, Column, EventKind, Friction, Method, Response, Scene, StopReason, simulate};
+use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason, simulate};
 
 const GRAVITY: f64 = 9.81;
 
@@ -447,6 +447,34 @@ fn the_energy_balance_closes() {
         closed += 1;
     }
     assert!(closed > 80, "{closed}");
+}
+
+/// Hops, flights and landings under vertical motion beyond gravity, with restitution: impulses press and stay in their cones, also where blocks meet in
+/// flight, which the ground cannot change; and the balance closes although chatter ends.
+#[test]
+fn landings_with_restitution_press_and_the_balance_closes() {
+    let (mut landings, mut in_flight) = (0, 0);
+    for mut scene in random_scenes(100) {
+        let (count, mu) = (scene.column.len(), scene.friction.as_ref().expect("given").least());
+        scene.restitution = Restitution::Factors(vec![1.1; count]);
+        scene.excitation.vertical = Some(Motion::Harmonic { amplitude: 13.0, omega: 10.0, start: 0.0, phase: 0.0 });
+        (scene.options.rtol, scene.options.atol) = (1e-12, 1e-15);
+        let response = run(&scene);
+        for event in response.events.iter().filter(|event| event.kind == EventKind::Landing) {
+            let largest = event.impulses.iter().fold(0.0f64, |most, impulse| most.max(impulse.normal.abs()));
+            for impulse in event.impulses.iter() {
+                assert!(impulse.normal >= -1e-9 * largest, "{event:?}");
+                assert!(impulse.tangential.abs() <= mu * impulse.normal + 1e-9 * largest, "{event:?}");
+            }
+            landings += 1;
+            in_flight += usize::from(event.impulses[0].normal.abs() < 1e-9 * largest);
+        }
+        let sliding = response.sliding.expect("a run with friction");
+        let sum = sliding.ground_work + sliding.friction_work - sliding.impact_losses - sliding.energy_change;
+        let size = sliding.ground_work.abs().max(sliding.impact_losses).max(sliding.energy_change.abs());
+        assert!(sum.abs() <= 1e-9 * size, "{sum:e} of {size:e}: {sliding:?}");
+    }
+    assert!(landings > 300 && in_flight > 30, "{landings}, {in_flight}");
 }
 
 #[test]

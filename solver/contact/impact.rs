@@ -209,7 +209,7 @@ fn restitute<S: Size>(
 }
 
 /// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (docs/book/model.md, section 5).
-const ENERGY_ROUNDING: f64 = 1e-12;
+pub(crate) const ENERGY_ROUNDING: f64 = 1e-12;
 
 /// A hop of less than this is below the resolution of angles: 64 roundings of a radian `[rad]`. Larger, and short hops that
 /// the model has are lost; smaller, and two interfaces that strike in turn go on until rounding decides their pattern.

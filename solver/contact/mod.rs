@@ -21,7 +21,7 @@ mod opening;
 mod search;
 
 pub use decision::Decision;
-pub(crate) use impact::stick;
+pub(crate) use impact::{ENERGY_ROUNDING, stick};
 pub use impact::{ImpactLaw, impact};
 pub use instant::SingularMass;
 pub(crate) use instant::{Gaps, critical_acceleration, rounding_acceleration};

@@ -64,6 +64,19 @@ impl Rates {
         Rates { omega: omega.clone(), slide: slide_rate.clone(), apart: apart_rate.clone() }
     }
 
+    /// These rates plus `factor` times others.
+    pub fn plus(&self, factor: f64, others: &Rates) -> Rates {
+        let add = |own: &PerBlock<f64>, other: &PerBlock<f64>| -> PerBlock<f64> {
+            own.iter().zip(other.iter()).map(|(a, b)| a + factor * b).collect()
+        };
+        let apart = self.apart.iter().zip(others.apart.iter());
+        Rates {
+            omega: add(&self.omega, &others.omega),
+            slide: add(&self.slide, &others.slide),
+            apart: apart.map(|(a, b)| [a[0] + factor * b[0], a[1] + factor * b[1]]).collect(),
+        }
+    }
+
     /// Sets these rates in a configuration; `apart_rate` at free interfaces only.
     pub fn give(&self, configuration: &mut Configuration) {
         configuration.omega.clone_from(&self.omega);

@@ -150,6 +150,17 @@ impl Configuration {
         difference(&self.theta, interface)
     }
 
+    /// Whether another configuration certainly has the same places and velocities: the same numbers, and free interfaces where this one has them.
+    pub fn moves_like(&self, other: &Configuration) -> bool {
+        let is_turned_alike = self.theta == other.theta && self.omega == other.omega;
+        let slides_alike = self.slide == other.slide && self.slide_rate == other.slide_rate;
+        let flies_alike = |i: usize| match [self, other].map(|one| one.joints[i] == Joint::Free) {
+            [true, true] => self.apart[i] == other.apart[i] && self.apart_rate[i] == other.apart_rate[i],
+            [one, two] => one == two,
+        };
+        is_turned_alike && slides_alike && (0..self.joints.len()).all(flies_alike)
+    }
+
     /// Relative rate of an interface (from zero) `[rad/s]`.
     pub fn gap_rate(&self, interface: usize) -> f64 {
         difference(&self.omega, interface)

@@ -196,6 +196,16 @@ impl<'c, 'a> Rows<'c, 'a> {
         Some(self.given(rates, before))
     }
 
+    /// Rates of the coordinates that a moment impulse of 1 N m s on the block above an interface, and its opposite on the block below, cause from rest.
+    pub fn turned_by_moment(&self, interface: usize) -> Option<Rates> {
+        let blocks = self.chain.column().blocks();
+        self.solve(|block| match block {
+            _ if block == interface => [0.0, 0.0, 1.0 / blocks[block].inertia],
+            _ if block + 1 == interface => [0.0, 0.0, -1.0 / blocks[block].inertia],
+            _ => [0.0; 3],
+        })
+    }
+
     /// Result of an impact after which the coordinates have these rates.
     pub fn given(&self, rates: Rates, before: &Motion) -> Answer {
         let change = self.chain.motion(&rates).less(before);

@@ -18,6 +18,7 @@ use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
+use crate::contact::ENERGY_ROUNDING;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;
 use std::cell::OnceCell;
@@ -293,6 +294,17 @@ impl<'a> Search<'a> {
 
     /// Accelerations and forces, or velocities and impulses, in these states; `None` where the rows do not determine them.
     fn answer(&self, joints: &[Joint]) -> Option<Answer> {
+        let configuration = self.configuration(joints);
+        let chain = Chain::new(self.column, &configuration);
+        let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
+        match &self.question {
+            Question::Accelerations(ground) => rows.accelerations(&Rates::of(&configuration), *ground),
+            Question::Impact(before) => rows.impact(before),
+        }
+    }
+
+    /// The configuration with these states; blocks at free interfaces are where, and move as, they are held now.
+    fn configuration(&self, joints: &[Joint]) -> Configuration {
         let mut configuration = self.now.clone();
         configuration.joints = PerBlock::from_slice(joints);
         for (interface, joint) in joints.iter().enumerate() {
@@ -302,12 +314,40 @@ impl<'a> Search<'a> {
                 configuration.apart_rate[interface] = held.apart_rate(interface, &self.now_rates);
             }
         }
+        configuration
+    }
+
+    /// The answer to an impact after restitution at an interface: its relative rate is multiplied by `factor`, through an equal and opposite moment
+    /// impulse there, in the states of the plastic solution (docs/book/model.md, sections 5 and 17). `None` where that would raise the energy, or break
+    /// a condition of contact.
+    pub fn rebound(&self, plastic: &Solution, interface: usize, factor: f64) -> Option<Answer> {
+        let Question::Impact(before) = &self.question else { return None };
+        let joints = &plastic.joints;
+        let configuration = self.configuration(joints);
         let chain = Chain::new(self.column, &configuration);
         let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
-        match &self.question {
-            Question::Accelerations(ground) => rows.accelerations(&Rates::of(&configuration), *ground),
-            Question::Impact(before) => rows.impact(before),
+        let plastic = &plastic.answer.rates;
+        let spread = rows.turned_by_moment(interface)?;
+        let (rate, compliance) = (difference(&plastic.omega, interface), difference(&spread.omega, interface));
+        if compliance.is_nan() || compliance <= 0.0 {
+            return None;
         }
+        let mut rates = plastic.plus((factor - 1.0) * rate / compliance, &spread);
+        // Exactly: with a factor of zero, the rounding of the sum would be a hop.
+        let below = interface.checked_sub(1).map_or(0.0, |below| rates.omega[below]);
+        let joined = joints[interface + 1..].iter().take_while(|joint| matches!(joint, Joint::Closed(_))).count();
+        rates.omega[interface..=interface + joined].fill(below + factor * rate);
+        let answer = rows.given(rates, before);
+        let gains =
+            chain.motion(&answer.rates).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
+        let holds = |i: usize| match joints[i] {
+            // Where the resultant acts in a closed contact is no condition of restitution.
+            Joint::Closed(_) => {
+                answer.contacts[i].normal >= -self.slack.force && self.wrong_slip(i, joints[i], &answer).is_none()
+            }
+            _ => self.required(joints, &answer, i).is_none(),
+        };
+        (!gains && (0..joints.len()).all(holds)).then_some(answer)
     }
 
     /// Changes states as violated conditions name them, until none is violated. `None` where this goes in circles, takes too many rounds, or comes to

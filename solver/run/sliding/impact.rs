@@ -4,11 +4,11 @@ use super::contacts::carried;
 use super::state::Stop;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
-use crate::friction::chain::{Chain, Motion, Rates};
-use crate::friction::contact_problem::{Question, Touch, centre};
+use crate::friction::chain::{Chain, Rates};
+use crate::friction::contact_problem::{Question, Touch};
 use crate::friction::gaps::{self, Corner};
-use crate::friction::joint::{Configuration, Face, Joint, Slip, difference, face};
-use crate::friction::rows::{Answer, Rows};
+use crate::friction::joint::{Face, Joint, Slip, face};
+use crate::friction::rows::Answer;
 use crate::friction::search::{Search, Solution};
 use crate::response::{EventKind, Impulse};
 
@@ -88,7 +88,7 @@ impl Instant<'_> {
         };
         let solution = found.ok_or(Stop::Undetermined)?;
         self.ambiguous += usize::from(solution.is_ambiguous);
-        let answer = self.rebounding(&before, touch, &motion, &solution, closing);
+        let answer = self.rebounding(&search, touch, &solution, closing);
         for (interface, joint) in solution.joints.iter().enumerate() {
             if *joint == Joint::Free && before.joints[interface] != Joint::Free {
                 self.now.apart[interface] = chain.apart(interface);
@@ -101,7 +101,6 @@ impl Instant<'_> {
         let energy = motion.energy(self.column());
         let after = Chain::new(self.column(), &self.now).motion(&Rates::of(&self.now));
         let lost = energy - after.energy(self.column());
-        self.energy_lost += lost;
         let impulses = answer.contacts.iter().map(Impulse::from).collect();
         let share = if energy > 0.0 { lost / energy } else { 0.0 };
         self.change(kind, closing.to_vec(), &before, Some((impulses, share)));
@@ -132,41 +131,14 @@ impl Instant<'_> {
         }
     }
 
-    /// The answer with the scene's restitution; the plastic one if something slides, nothing rebounds, or a cone or the energy forbids it.
-    fn rebounding(
-        &self,
-        before: &Configuration,
-        touch: &[Touch],
-        motion: &Motion,
-        plastic: &Solution,
-        closing: &[usize],
-    ) -> Answer {
+    /// The answer with the scene's restitution; the plastic one if something slides, nothing rebounds, or restitution is left out.
+    fn rebounding(&self, search: &Search, touch: &[Touch], plastic: &Solution, closing: &[usize]) -> Answer {
         let kappa = &self.problem.kappa;
         let all_stick =
             plastic.joints.iter().zip(touch).all(|(joint, touch)| joint.sticks() || *touch == Touch::Nothing);
-        let rebounds = |&i: &usize| kappa[i] != 1.0 && matches!(plastic.joints[i], Joint::Corner(..));
-        if !all_stick || !closing.iter().any(rebounds) {
-            return plastic.answer.clone();
-        }
-        let mut rates = plastic.answer.rates.clone();
-        let mut below = 0.0;
-        for interface in 0..rates.omega.len() {
-            let own = difference(&plastic.answer.rates.omega, interface);
-            let factor = if closing.contains(&interface) && rebounds(&interface) { kappa[interface] } else { 1.0 };
-            below += factor * own;
-            rates.omega[interface] = below;
-        }
-        let mut configuration = before.clone();
-        configuration.joints.clone_from(&plastic.joints);
-        let chain = Chain::new(self.column(), &configuration);
-        let centres: Vec<f64> = (0..rates.omega.len()).map(|i| centre(self.column(), i, before.slide[i])).collect();
-        let rows = Rows::new(&chain, &configuration.joints, &self.friction.kinetic, &centres);
-        let answer = rows.given(rates, motion);
-        let gains = chain.motion(&answer.rates).energy(self.column()) > motion.energy(self.column());
-        let holds = answer.contacts.iter().enumerate().all(|(i, contact)| {
-            touch[i] == Touch::Nothing
-                || contact.normal >= 0.0 && contact.tangential.abs() <= self.friction.kinetic[i] * contact.normal
-        });
-        if gains || !holds { plastic.answer.clone() } else { answer }
+        let rebounds = |&&i: &&usize| kappa[i] != 1.0 && matches!(plastic.joints[i], Joint::Corner(..));
+        let rebound = closing.iter().find(rebounds).filter(|_| all_stick);
+        let answer = rebound.and_then(|&interface| search.rebound(plastic, interface, kappa[interface]));
+        answer.unwrap_or_else(|| plastic.answer.clone())
     }
 }

@@ -74,7 +74,7 @@ pub(super) fn run(
     };
     let mut simultaneous = SimultaneousEvents::default();
     loop {
-        recorder.transition(at.t, &next);
+        recorder.transition(&at, &next);
         let stop =
             next.stop.or_else(|| simultaneous.is_stuck(&at, least_hop(problem, &at)).then_some(Stop::Undetermined));
         at.configuration = next.after;

@@ -19,8 +19,6 @@ pub struct Transition {
     pub after: Configuration,
     /// What happened on the way there, in order.
     pub changes: Vec<Change>,
-    /// Energy lost at impacts, and where hops and slides that are too low to be followed end `[J]`.
-    pub energy_lost: f64,
     /// How often several motions were admissible.
     pub ambiguous: usize,
     /// Whether no acceleration was admissible, or forces grew without bound.
@@ -95,7 +93,6 @@ pub(super) struct Instant<'p> {
     t: f64,
     pub now: Configuration,
     changes: Vec<Change>,
-    pub energy_lost: f64,
     pub ambiguous: usize,
     is_jammed: bool,
     pub stop: Option<Stop>,
@@ -124,7 +121,6 @@ impl<'p> Instant<'p> {
             t: at.t,
             now: at.configuration.clone(),
             changes: Vec::with_capacity(1),
-            energy_lost: 0.0,
             ambiguous: 0,
             is_jammed: false,
             stop: None,
@@ -141,8 +137,8 @@ impl<'p> Instant<'p> {
     }
 
     fn transition(self) -> Transition {
-        let Instant { now, changes, energy_lost, ambiguous, is_jammed, stop, .. } = self;
-        Transition { after: now, changes, energy_lost, ambiguous, is_jammed, stop }
+        let Instant { now, changes, ambiguous, is_jammed, stop, .. } = self;
+        Transition { after: now, changes, ambiguous, is_jammed, stop }
     }
 
     /// The end of the run: the blocks at an interface have lost contact, as its length or their overlap has fallen to zero.
@@ -204,12 +200,12 @@ impl<'p> Instant<'p> {
         // Hops, bounces and slides lower than the resolution end at once.
         let mut stilled = Stilled::none(self.column().len());
         while let Some(held) = self.too_low(&solution, &mut stilled) {
-            let moving = (self.now.clone(), self.energy_lost);
+            let moving = self.now.clone();
             self.hold(&held);
             let touch = self.joined();
             let Some(without) = self.accelerations(&touch, None) else {
                 // Without these hops and slides no motion follows: they go on.
-                (self.now, self.energy_lost) = moving;
+                self.now = moving;
                 break;
             };
             solution = without;
@@ -385,7 +381,7 @@ impl<'p> Instant<'p> {
         }
         held.joints = PerBlock::from_slice(joints);
         let none = vec![0.0; joints.len()];
-        let chain = loop {
+        loop {
             let chain = Chain::new(self.column(), &held);
             let Some(answer) = Rows::new(&chain, &held.joints, &none, &none).impact(&before) else { return };
             let closes = |interface: usize| match held.joints[interface] {
@@ -399,12 +395,10 @@ impl<'p> Instant<'p> {
             };
             let Some((interface, slip)) = (0..joints.len()).find_map(|i| closes(i).map(|slip| (i, slip))) else {
                 answer.rates.give(&mut held);
-                break chain;
+                break;
             };
             held.joints[interface] = Joint::Closed(slip);
-        };
-        let after = chain.motion(&Rates::of(&held));
-        self.energy_lost += before.energy(self.column()) - after.energy(self.column());
+        }
         let joints = held.joints.clone();
         self.now = held;
         self.adopt(&joints);
