@@ -37,13 +37,13 @@ impl Block {
         Block::of_shape(Shape::Prism, [half_width; 2], half_height, mass)
     }
 
-    /// A homogeneous body with these half-widths `[m]` of base and top, half-height `[m]` and mass `[kg]`.
+    /// Homogeneous body of half-widths `[m]` of base and top, half-height `[m]` and mass `[kg]`.
     ///
-    /// With `a`, `b` the half-widths, `H` the height and `e` the height of the centroid (docs/book/model.md, section 1),
+    /// With half-widths `a`, `b`, full height `H`, centroid `e` above the base and inertia `I` about it (docs/book/model.md, section 1),
     ///
     /// ```text
     /// prism:   e = H (a + 2b) / 3(a + b),       I = m ((a² + b²)/6 + H² (a² + 4ab + b²) / 18(a + b)²)
-    /// frustum: e = H (a² + 2ab + 3b²) / 4 s₂,   I = m (3 s₄ / 20 s₂ + 3 H² (a⁴ + 4a³b + 10a²b² + 4ab³ + b⁴) / 80 s₂²)
+    /// drum:    e = H (a² + 2ab + 3b²) / 4 s₂,   I = m (3 s₄ / 20 s₂ + 3 H² (a⁴ + 4a³b + 10a²b² + 4ab³ + b⁴) / 80 s₂²)
     ///          s₂ = a² + ab + b²,               s₄ = a⁴ + a³b + a²b² + ab³ + b⁴
     /// ```
     ///

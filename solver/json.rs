@@ -6,7 +6,7 @@ use serde::de::Error as _;
 use serde::ser::{self, Serialize, Serializer};
 use serde::{Deserialize, Deserializer};
 
-/// Wrapper of a value, or of a serializer: numbers that are not finite become words.
+/// Wrapper of a value or a serializer. Numbers that are not finite become strings.
 #[derive(Debug)]
 pub struct Explicit<T>(pub T);
 

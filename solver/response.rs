@@ -149,7 +149,7 @@ pub struct Impulse {
     /// Tangential part `[N s]`, positive to the right.
     #[serde(deserialize_with = "number")]
     pub tangential: f64,
-    /// Clockwise moment about the contact's centre `[N m s]`.
+    /// Moment part `[N m s]` about the contact's centre, clockwise.
     #[serde(deserialize_with = "number")]
     pub moment: f64,
 }

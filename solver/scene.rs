@@ -229,7 +229,7 @@ pub struct Scene {
     /// Looks of the blocks, base first, length N; empty for prisms without names. Looks do not affect the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub looks: Vec<Look>,
-    /// Friction between the blocks, which then slide and fly. `None` for the model without sliding, in which contacts hold whatever the force.
+    /// Friction at the contacts, so that blocks slide and fly. `None` for contacts that never slide, whatever the force.
     #[serde(default)]
     pub friction: Option<Friction>,
     /// Restitution, beyond the plastic law of impacts.

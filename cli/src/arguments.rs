@@ -140,7 +140,8 @@ pub enum Command {
     /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
     /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
     ///
-    /// Each run is repeated with a tighter tolerance and slightly changed ground motion and sizes: nine companions, five for blocks placed one by one. Where they do not agree with its verdict, it counts as undecided. `trust = false` in the file leaves them out.
+    /// Each run has nine companions with a tighter tolerance or slightly changed ground motion or sizes (five if blocks are placed by `x`).
+    /// A run counts as undecided if they do not confirm its verdict. `trust = false` in the study file turns them off.
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///

@@ -52,7 +52,7 @@ fn acceleration(value: f64, gravity: f64) -> String {
     format!("{} m/s² = {} g", significant(value, 5), significant(value / gravity, 4))
 }
 
-/// Keys of a record that [`record`] puts into words.
+/// Keys of a record that [`record`] covers.
 const OF_A_RECORD: [&str; 7] = ["samples", "dt", "duration", "file", "title", "station", "component"];
 
 /// Whether other code describes a key: `kind` always, and for a record the keys [`OF_A_RECORD`].

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 pub struct LinkageRecord {
     /// The linkage.
     pub linkage: Linkage,
-    /// Owner of the constants' formulas.
+    /// Arena of the constants' formulas.
     pub arena: Arena,
     /// Scene constants of the accelerations, per ground motion as in [`crate::GroundMotion::ALL`].
     pub accelerations: [Vec<Constant>; 2],
@@ -40,7 +40,7 @@ pub struct CompositeRecord {
 /// Contact forces at a closed interface inside a link.
 #[derive(Debug)]
 pub struct InsideRecord {
-    /// Owner of the constants' formulas.
+    /// Arena of the constants' formulas.
     pub arena: Arena,
     /// Index, in [`Catalogue::forces`], of the program that evaluates these contact forces.
     pub program: usize,

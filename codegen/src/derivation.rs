@@ -53,7 +53,7 @@ impl Plan {
 pub struct Derivation {
     /// The linkage.
     pub linkage: Linkage,
-    /// Owner of the expressions.
+    /// Arena of the expressions.
     pub arena: Arena,
     /// The symbols of the derivation.
     pub symbols: Symbols,

@@ -70,7 +70,7 @@ pub enum Motion {
 /// Half-length of a symmetric Ricker wavelet in `u`.
 const RICKER_REACH: f64 = 6.0;
 
-/// Half-length of an antisymmetric Ricker wavelet in `u`.
+/// Largest `|u|` of an antisymmetric Ricker wavelet.
 const ANTISYMMETRIC_REACH: f64 = 6.5;
 
 /// Half-length of a Gabor wavelet in `ω(t - t_0)/γ`.

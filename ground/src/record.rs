@@ -291,7 +291,7 @@ impl Record {
     }
 }
 
-/// Refuses accelerations `[m/s²]` out of range.
+/// Refuses NaN and more than `LARGEST_ACCELERATION`.
 pub(crate) fn check_range(accel: &[f64]) -> Result<(), RecordError> {
     let is_sound = |a: &f64| a.abs() <= LARGEST_ACCELERATION;
     match accel.iter().position(|a| !is_sound(a)) {

@@ -18,7 +18,7 @@ pub struct TimelineCache {
 /// Bounds that a [`Timeline`] is to hold of the ground motion to come.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lookahead {
-    /// Whether [`Timeline::impulse_from`] is needed.
+    /// Whether to prepare [`Timeline::impulse_from`].
     pub impulses: bool,
     /// Discount rate of [`Timeline::push_from`] `[1/s]`; `None` if that bound is not needed.
     pub decay: Option<f64>,

@@ -11,7 +11,7 @@ use crate::mechanics::kinematics::Factorised;
 use crate::numerics::per_block::{Any, PerBlock, Size, for_size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Restitution and rest, as a scene sets them.
+/// Settings of impacts, taken from a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct ImpactLaw<'a> {
     /// Factor `κ_i` of the plastic relative rate at each interface, length N; all one is plastic.

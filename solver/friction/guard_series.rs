@@ -148,7 +148,7 @@ impl SeriesSpan<'_> {
         }
     }
 
-    /// How far a corner is from the end of the face it stands on.
+    /// Distance of a corner from the end of its face `[m]`.
     fn edge(&self, i: usize, visit: &mut dyn FnMut(&Powers)) {
         let Joint::Corner(side, face, _) = self.joints[i] else { return };
         let (Some(slide), Some(below)) = (self.series.slide(i), i.checked_sub(1)) else { return };

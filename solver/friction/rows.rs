@@ -161,7 +161,7 @@ impl<'c, 'a> Rows<'c, 'a> {
         sum
     }
 
-    /// Rates of the coordinates for which the rows balance the loads of these motions; `None` where the rows do not determine them.
+    /// Rates of the coordinates for which each row has the same work as for the blocks' motions `load`; `None` if the rows are singular.
     fn solve(&self, load: impl Fn(usize) -> Planar) -> Option<Rates> {
         let (size, blocks) = (self.coordinates.len(), self.chain.len());
         let (columns, tests) = self.motions.split_at(size * blocks);

@@ -30,7 +30,7 @@ pub struct Solution {
     pub joints: PerBlock<Joint>,
     /// Accelerations and forces, or velocities and impulses.
     pub answer: Answer,
-    /// Whether other admissible states with another motion were found; `false` where not all combinations were tried.
+    /// Whether states with another motion are admissible too; `false` if not all combinations were tried.
     pub is_ambiguous: bool,
 }
 

@@ -220,10 +220,10 @@ impl<'a, S: Size> Posture<'a, S> {
         }
     }
 
-    /// Factorises the mass matrix of many links by its structure, in time proportional to their number (apart from the sums over levers).
+    /// Cholesky factor `L` of the mass matrix `M` of many links, in time proportional to their number (apart from the sums `s_r`).
     ///
-    /// The lever `q_c` of a link below is the same for all blocks above it: `M_rc = s_r · q_c` for `r > c`, where `s_r = Σ m r_r` over the
-    /// blocks from link `r` on. Then `L_rc = s_r · w_c` with
+    /// Link `c` has the same lever `q_c` for all blocks above it. So `M_rc = s_r · q_c` for `r > c`, where `s_r` sums mass times lever of
+    /// link `r` over the blocks from it on. Then `L_rc = s_r · w_c` with
     ///
     /// ```text
     ///     P_r = Σ_{k<r} w_k w_kᵀ      L_rr² = M_rr - s_r · P_r s_r      w_r = (q_r - P_r s_r) / L_rr

@@ -55,7 +55,7 @@ struct WalkState {
     segment: usize,
     /// Rate `[rad/s]`.
     omega: f64,
-    /// The angle with its sine and cosine. Its `rate`, per interval, is set at the start of each step.
+    /// The angle with its sine and cosine. Its `rate` is per step, set at the start of each step.
     angle: Turning,
 }
 
@@ -71,7 +71,7 @@ enum End {
 }
 
 impl Phase {
-    /// Steps from sample to sample of a record, up to a landing at most; finds nothing if no interval can be passed.
+    /// Steps from sample to sample, to a landing at most; finds nothing if it cannot step over the first interval.
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn step_over_samples(&mut self, problem: &Problem, rocker: Rocker) -> Found {
         let start = self.integrator.start();

@@ -83,7 +83,7 @@ pub(super) struct Gap {
     pub interface: usize,
     /// Index after that of the highest block of the link.
     end: usize,
-    /// The gap `s (θ_i - θ_{i-1})` as a difference of angles of links.
+    /// The gap `s (θ_i - θ_{i-1})`: sign and indices of both angles.
     pub across: Difference,
     /// Known roots of the gap at the start of the step: one if the gap is zero, two if its rate is zero as well, three if its acceleration is, too.
     pub start_roots: usize,
@@ -97,7 +97,7 @@ impl Gap {
     }
 }
 
-/// A step as far as it is taken.
+/// A step up to its event, if any.
 #[derive(Clone, Copy)]
 pub(super) struct StepEnd {
     /// Length of the step as attempted `[s]`.

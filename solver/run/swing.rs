@@ -230,7 +230,7 @@ impl Swing {
         self.course.swing.turns() && self.end[1] * self.course.swing.start_rate() < 0.0
     }
 
-    /// Largest magnitude of the angle in the swing `[rad]`; only right if it exceeds `known`.
+    /// Largest magnitude of the angle in the swing `[rad]`; may be too small if below `known`.
     pub fn peak(&self, known: f64) -> f64 {
         let at_end = self.course.state(self.end)[0].abs();
         if !(self.has_turned() && self.course.height() > known) {

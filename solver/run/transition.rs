@@ -11,8 +11,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Events in one instant, per block and one more, beyond which the laws of contact go in cycles. What has not moved is then closed, as a
-/// separation. A smaller number would cut short instants at which several interfaces are critical.
+/// Limit of the events in one instant, divided by the number of blocks plus one. At the limit, [`break_cycle`] closes open interfaces that
+/// have no gap. A lower limit would cut short instants at which several interfaces are critical.
 const EVENTS_AT_ONCE: usize = 8;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
@@ -28,7 +28,7 @@ pub(crate) struct Transition {
     pub interfaces: PerBlock<usize>,
     /// Pattern, rates and impulses after it.
     pub decision: Decision,
-    /// Interfaces released in this instant, with their sides.
+    /// [`ContactMemory::released`] after the transition.
     released: PerBlock<(usize, Interface)>,
     /// Whether it is one of the events whose number in one instant is limited.
     is_counted: bool,
@@ -198,12 +198,12 @@ fn jump(problem: &Problem, before: &State, kind: EventKind) -> Result<Transition
     Ok(Transition { decision, kind, is_event, interfaces, released, is_counted: false })
 }
 
-/// Events in one instant beyond which they may go in a cycle.
+/// Number of events in one instant that suggests a cycle.
 fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
-/// The forced transition that breaks a circle of events in one instant: it closes what has not moved, momentum conserved, as a separation. `None`
+/// The forced transition that breaks a cycle of events in one instant: it closes open interfaces without a gap, momentum conserved, and counts as a separation. `None`
 /// unless the number of events is one of two at which this is due.
 #[cold]
 pub(crate) fn break_cycle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {

@@ -534,7 +534,9 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
 /// `friction = 0.7`, or `[friction]` with `static` and `kinetic`, each a number or a list.
 fn friction(root: &mut Table) -> Result<Option<Friction>, Wrong> {
     if !root.has_table("friction") {
-        return Ok(root.number("friction")?.map(|(value, _)| Friction::uniform(value)));
+        let remedy = "give one number for all interfaces, or a table [friction] with static = [0.7, 0.5], base first";
+        let number = root.number("friction").map_err(|wrong| Wrong { remedy: remedy.into(), ..wrong })?;
+        return Ok(number.map(|(value, _)| Friction::uniform(value)));
     }
     let Some(mut table) = root.table("friction")? else { return Ok(None) };
     let fixed = table.number_or_numbers("static")?;

@@ -264,10 +264,10 @@ impl Ida {
         self.point(index).2
     }
 
-    /// The scene of a run.
+    /// Scene of a run: records scaled, end and rows set.
     ///
     /// # Errors
-    /// [`RunError::Record`] for accelerations out of range.
+    /// [`RunError::Record`] if scaled accelerations are out of range.
     pub fn scene_of(&self, index: usize) -> Result<Scene, RunError> {
         let (record, _, factor) = self.point(index);
         let StudyRecord { horizontal, vertical, .. } = &self.records[record];

@@ -40,7 +40,7 @@ pub enum Maximum {
         /// The lowest level of a run that reached the state; at least `never_to`.
         always_from: f64,
     },
-    /// A falling step fits at least as well as any curve: runs reached the state at low levels only.
+    /// A falling step fits best: no run reached the state above a level where another run did not.
     Reversed,
 }
 

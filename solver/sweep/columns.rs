@@ -22,7 +22,7 @@ pub enum Field {
     OverturnedAt,
     /// Largest angle of a block over the slenderness of its stack, dimensionless.
     Peak(usize),
-    /// Mode at the end.
+    /// Mode in which the run ends.
     LastMode,
     /// Slide of an interface at the end `[m]`.
     ResidualSlide(usize),

@@ -91,7 +91,7 @@ fn check_study(path: &Path, as_json: bool) -> Result<(), Failure> {
     print(&text)
 }
 
-/// Description of a sweep.
+/// Findings on a sweep.
 #[derive(Debug, Serialize)]
 struct SweepFindings {
     scene: PathBuf,

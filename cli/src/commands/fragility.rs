@@ -105,7 +105,7 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
 
 /// The columns of a table of runs, by their places.
 struct Columns {
-    /// Names of all columns.
+    /// Header of the table.
     names: Vec<String>,
     /// Columns whose cells name the record of a run.
     records: Vec<usize>,

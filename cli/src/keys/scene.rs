@@ -230,7 +230,7 @@ pub struct Initial {
     /// slides of the interfaces: displaced blocks
     #[schemars(extend("x-unit" = "m", "x-default" = "0"))]
     pub slide: Option<Vec<f64>>,
-    /// with friction: places of the centroids in the frame of the ground, to the right
+    /// places of the centroids to the right, in the ground's frame; with friction
     #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand"))]
     pub x: Option<Vec<f64>>,
     /// heights of the centroids; with `x`

@@ -33,7 +33,7 @@ pub fn values(motion: &DrawnRun) -> Vec<f64> {
     rows.flat_map(|(_, pair)| both(pair)).collect()
 }
 
-/// Draws the band of each block.
+/// Shades the range of each block's angle.
 pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let Some(trust) = open(motion) else { return };
     let frame = &panel.frame;

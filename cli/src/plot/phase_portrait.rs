@@ -69,7 +69,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     Figure::new("phase-portrait", caption, sheet)
 }
 
-/// Unit of angles `[rad]`. Rates are in this unit per second.
+/// Unit of angles, and of rates per second: 1° or 1 rad `[rad]`.
 fn unit(motion: &DrawnRun) -> f64 {
     if motion.paper.angles == Angles::Degrees { 1f64.to_radians() } else { 1.0 }
 }

@@ -111,7 +111,7 @@ pub enum Key {
     Line(Stroke),
     /// An area with a frame.
     Fill(&'static str),
-    /// Nothing: words only.
+    /// No mark: words only.
     None,
 }
 

@@ -84,7 +84,7 @@ pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpe
     Drawing::of(&axes, points, with_peaks).map(|_| ())
 }
 
-/// The figures of the table of a sweep: its curves, its strips, or its spectrum and the curves of the least value that overturns.
+/// Figures of a sweep's table: largest angles as curves, outcomes as strips, or a spectrum with the least values that overturn.
 pub fn figures(table: &Path, paper: &Paper) -> Result<Vec<Figure>, NoSpectrum> {
     let mut points = Points::read(table)?;
     if paper.angles == Angles::Degrees {

@@ -21,7 +21,7 @@ pub const NUMBER: u32 = 13;
 /// Legends and notes `[px]`.
 pub const NOTE: u32 = 13;
 
-/// A line.
+/// Look of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
     /// Colour in the notation of SVG.

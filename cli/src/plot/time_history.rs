@@ -188,7 +188,7 @@ fn seen(mut ticks: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     ticks
 }
 
-/// Width of the columns of the band `[px]`. Each column shows the pattern that lasts longest in it.
+/// Width of the columns of the band `[px]`. Each column shows the longest stretch in it.
 const GRAIN: f64 = 0.25;
 
 fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) {

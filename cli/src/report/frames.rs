@@ -281,7 +281,7 @@ fn interfaces(event: &Event) -> Vec<usize> {
     }
 }
 
-/// Notes below the player: drift of the ground that is taken out, rows that are left out.
+/// HTML notes below the player: how ground motion, slides and a long run are shown.
 pub fn notes(results: &Results) -> String {
     let mut notes = Vec::new();
     if results.peak_ground_acceleration != [0.0; 2] {

@@ -11,7 +11,7 @@ use rocking::run_folder::Results;
 use rocking::{EventKind, StopReason};
 use std::fmt::Write as _;
 
-/// The outcome with its sign.
+/// HTML of the outcome.
 pub fn sentence(results: &Results) -> String {
     let response = &results.response;
     let t = significant(response.t_final, 4);

@@ -247,7 +247,7 @@ impl Reader {
         Ok(Reader { file, columns, group: Vec::new(), left: 0, next_group: 0 })
     }
 
-    /// Adds up to `most` rows to a piece with the same columns. Returns the number of rows added: 0 at the end of the file.
+    /// Appends up to `most` rows to `piece`, which has the table's columns. Returns their number: 0 at the end of the file.
     fn read(&mut self, piece: &mut Piece, most: usize) -> Result<usize> {
         while self.left == 0 {
             if self.next_group == self.file.num_row_groups() {

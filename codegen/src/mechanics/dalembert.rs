@@ -30,7 +30,7 @@ pub enum Kind {
     Angle(usize),
     /// Slide of an interface (from 1).
     Slide(usize),
-    /// Distance between the faces of an interface (from 1) in flight, along one axis: 0 is horizontal, 1 vertical.
+    /// Offset from the lower to the upper face's middle in flight: interface (from 1), axis (0 horizontal, 1 vertical).
     Apart(usize, usize),
 }
 

@@ -29,7 +29,7 @@ pub struct Symbols {
     pub psi: Expr,
     /// Pivot offsets `p_i = s_i c_i [m]`, length N. Those of closed interfaces cancel.
     pub pivot: Vec<Expr>,
-    /// Pivot offsets on the upper faces `[m]`, length N: less than `pivot` by the slide where an interface slides, equal to `pivot` elsewhere.
+    /// Pivot offsets on the faces of the upper blocks `[m]`, length N: `pivot` less the slide where an interface slides, `pivot` elsewhere.
     pub pivot_above: Vec<Expr>,
     /// Vector from the lower to the upper pivot of an interface in flight, in the axes of the ground `[m]`, length N; `None` in contact.
     pub apart: Vec<Option<Vector>>,

@@ -122,7 +122,7 @@ fn rows_of_angles(builder: &mut ProgramBuilder, moving: &Moving, parts: &Parts, 
     outputs
 }
 
-/// The rows of the matrix that belong to translations.
+/// Matrix rows of the translations, row by row.
 fn rows_of_translations(builder: &mut ProgramBuilder, moving: &Moving, forces: &[Force]) -> Vec<Expr> {
     let angles = moving.symbols.theta.len();
     let mut outputs = Vec::new();

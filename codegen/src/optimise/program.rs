@@ -74,7 +74,7 @@ impl Routine {
 pub struct Program {
     /// Free angles.
     pub dof: usize,
-    /// Owner of the statements' expressions.
+    /// Arena of the statements' expressions.
     pub arena: Arena,
     /// Scene constants, in the order in which the emitted code receives them.
     pub constants: Vec<Constant>,

@@ -361,7 +361,7 @@ fn directions(joints: &Joints, rows: &Rows) -> Vec<Direction> {
     rows.coordinates.iter().filter_map(direction).collect()
 }
 
-/// The terms of each row, as LaTeX.
+/// Terms of each equation, as LaTeX.
 fn motion(rows: &Rows, directions: &[Direction], notation: &Notation, arena: &Arena) -> Vec<Vec<String>> {
     let (angles, ground) = (rows.symbols.theta.len(), "(\\ddot x_g, \\hat g)");
     let tex = |expr: Expr| notation.tex(arena, expr);

@@ -34,7 +34,7 @@ impl Entry<'_> {
         sound.map(|count| count as usize).ok_or_else(|| self.quoted("no whole number of samples in"))
     }
 
-    /// Sampling interval `[s]`.
+    /// Sampling interval of the file `[s]`, or an error if the user gives another one.
     pub fn interval(&self, dt: Option<f64>, options: &TextOptions) -> Result<f64, RecordError> {
         let sound = dt.filter(|dt| (SHORTEST_INTERVAL..=LONGEST_INTERVAL).contains(dt));
         let dt = sound.ok_or_else(|| self.quoted("no sampling interval above zero, of at most 1e6 s, in"))?;

@@ -74,9 +74,9 @@ pub(super) struct Level {
     pub(super) height: f64,
     /// `F`
     pub(super) force: Vectors,
-    /// `F conj(z)`, in the axes of the lower block.
+    /// Force `T + i N` in the axes of the lower block.
     pub(super) in_lower: Vectors,
-    /// `F conj(z)`, in the axes of the upper block.
+    /// Force `T + i N` in the axes of the upper block.
     pub(super) in_upper: Vectors,
     /// `Q`
     pub(super) moment: Numbers,
@@ -217,7 +217,7 @@ impl Level {
     }
 }
 
-/// Place of a coordinate.
+/// Index of the wanted coordinate.
 pub(super) fn place_of(coordinates: &[Coordinate], wanted: impl Fn(&Coordinate) -> bool) -> usize {
     coordinates.iter().position(wanted).expect("each free angle, slide and flight is a coordinate")
 }

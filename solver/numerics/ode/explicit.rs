@@ -128,7 +128,7 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
         }
     }
 
-    /// Evaluates the stages from `first` up to the one before `until`. Literal stage numbers make each stage straight-line code.
+    /// Evaluates the stages from `first` up to the one before `until`. Their numbers are literals, so that each compiles without loops.
     #[inline(always)]
     fn stages<S: System<State = V>>(&mut self, system: &mut S, first: usize, until: usize) {
         macro_rules! each {

@@ -67,7 +67,7 @@ methods! {
 
 /// Work that is compiled for the tableau of a method.
 pub(crate) trait ForTableau {
-    /// The result.
+    /// What `with` returns.
     type Built;
     /// Does the work for one tableau.
     fn with<M: super::explicit::Tableau>(self) -> Self::Built;

@@ -13,14 +13,14 @@ pub struct Bernstein {
 }
 
 impl Bernstein {
-    /// Degree of the longest dense output.
+    /// Highest degree of a dense output.
     pub const LARGEST_DEGREE: usize = 20;
 }
 
 /// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
 const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// Number of Bernstein coefficients of the longest dense output.
+/// Number of coefficients of a polynomial of the highest degree.
 pub const COEFFICIENTS: usize = Bernstein::LARGEST_DEGREE + 1;
 
 /// Binomial coefficients up to the degree of the longest dense output.

@@ -291,7 +291,7 @@ impl<'p> Instant<'p> {
         search.solve_from(first)
     }
 
-    /// Takes over states found for the present configuration.
+    /// Sets these states, and the coordinates that they determine.
     pub fn adopt(&mut self, joints: &[Joint]) {
         for (interface, &new) in joints.iter().enumerate() {
             if new == Joint::Free && self.now.joints[interface] != Joint::Free {

@@ -16,7 +16,7 @@ pub struct Points {
     pub axes: Vec<Axis>,
     /// Index of the value of each axis, row by row: as many entries per row as there are axes.
     numbers: Vec<usize>,
-    /// Classes of the rows.
+    /// Class of each row.
     pub classes: Vec<Class>,
     /// Largest `|θ|/α` of each block, row by row, with [`Points::blocks`] entries per row. `NaN` where a row has no answer, infinite where the
     /// column is lost.

@@ -26,7 +26,7 @@ pub enum NoSpectrum {
     /// So many curves could not be read.
     #[error("the other axes make {0} curves, and {MOST_CURVES} can be read; give those axes fewer values")]
     ManyCurves(usize),
-    /// The table is part of a sweep, or has a point twice.
+    /// The table lacks points of a sweep, or repeats one.
     #[error(
         "there are {rows} points and the values of the axes make {points}; draw a whole sweep whose axes have each value once, of shards \
          the table that `rocking merge` makes"

@@ -54,7 +54,7 @@ impl Parts {
         result
     }
 
-    /// Names the turned levers and first moments, and the diagonal of the mass matrix; names of constants begin with `prefix`.
+    /// Names the turned first moments and levers, and the mass diagonal as a constant. Names of constants begin with `prefix`.
     pub fn name_vectors(&self, builder: &mut ProgramBuilder, prefix: &str) {
         let dof = self.mass.len();
         for link in 0..dof {
