@@ -210,6 +210,12 @@ pub enum ColumnError {
         /// What is wrong with it.
         problem: &'static str,
     },
+    /// More blocks than a column may have.
+    #[error("{blocks} blocks are more than the {MOST_BLOCKS} that a column may have")]
+    TooMany {
+        /// What was given.
+        blocks: usize,
+    },
     /// The number of slides is not that of the interfaces.
     #[error("{slides} slide(s) for {interfaces} interface(s)")]
     SlideCount {
@@ -244,22 +250,29 @@ pub enum ColumnError {
     },
 }
 
+/// Largest number of blocks of a column: a larger one is taken for a mistake.
+pub const MOST_BLOCKS: usize = 100;
+
 impl Column {
     /// A column of these blocks, base first, under `gravity [m/s²]`.
     ///
     /// # Errors
-    /// [`ColumnError`] if there is no block, a number is not finite and above zero, or a centroid is outside its block. The top block may end in
+    /// [`ColumnError`] if there is no block, or more than [`MOST_BLOCKS`], a number is not finite and above zero, or a centroid is outside its block. The top block may end in
     /// an edge.
     pub fn new(blocks: Vec<Block>, gravity: f64) -> Result<Column, ColumnError> {
         if blocks.is_empty() {
             return Err(ColumnError::Empty);
         }
+        if blocks.len() > MOST_BLOCKS {
+            return Err(ColumnError::TooMany { blocks: blocks.len() });
+        }
         for (index, block) in blocks.iter().enumerate() {
+            // Masses and inertias may follow from the sizes: these are named first.
             let quantities = [
+                ("half_width", block.half_width()),
                 ("half_height", block.half_height),
                 ("mass", block.mass),
                 ("inertia", block.inertia),
-                ("half_width", block.half_width()),
             ];
             if let Some(&(quantity, value)) = quantities.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
                 return Err(ColumnError::NotPositive { block: index + 1, quantity, value });

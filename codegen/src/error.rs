@@ -42,7 +42,7 @@ impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             GenerateError::Size { max_blocks } => {
-                write!(f, "ROCKING_MAX_BLOCKS = {max_blocks}: choose a whole number from 1 to {LARGEST}")
+                write!(f, "{max_blocks} blocks (ROCKING_MAX_BLOCKS): choose a whole number from 1 to {LARGEST}")
             }
             GenerateError::BakedSize { blocks } => {
                 write!(f, "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; use `generate`")

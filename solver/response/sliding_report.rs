@@ -3,7 +3,8 @@
 use super::StopReason;
 use serde::{Deserialize, Serialize};
 
-/// What a run with friction reports in addition. Lists have one entry per interface, base first.
+/// What a run with friction reports in addition. Lists have one entry per interface, base first. Where only the outcome is wanted, works, losses and
+/// the highest flight are zero, and times end where the outcome is certain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 #[non_exhaustive]
@@ -22,7 +23,7 @@ pub struct SlidingReport {
     pub highest_flight: f64,
     /// Work of friction at sliding contacts `[J]`, zero or negative.
     pub friction_work: f64,
-    /// Energy lost at impacts `[J]`.
+    /// Energy lost at impacts, and where hops, bounces and slides that are too low to be followed end `[J]`.
     pub impact_losses: f64,
     /// Work of the ground's inertial forces on the column `[J]`. While everything sticks, it is the change of energy plus the losses at impacts.
     pub ground_work: f64,
@@ -74,7 +75,8 @@ impl SlidingReport {
         let SlidingReport { ground_work, friction_work, impact_losses, energy_change, .. } = *self;
         let open = ground_work + friction_work - impact_losses - energy_change;
         let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs());
-        let scale = if ground_work == 0.0 { largest } else { ground_work.abs() };
+        // Work that is the rounding of other terms is none.
+        let scale = if ground_work.abs() > 1e-9 * largest { ground_work.abs() } else { largest };
         (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
     }
 

@@ -12,7 +12,7 @@ mod template;
 
 pub use error::{SceneFileError, text};
 pub use key_value::Setting;
-pub use reader::{Derived, MOST_BLOCKS, SceneFile};
+pub use reader::{Derived, SceneFile};
 pub use table::Cause;
 #[doc(hidden)]
 pub use table::keys_asked_by;

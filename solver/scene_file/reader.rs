@@ -6,7 +6,7 @@
 use super::error::{SceneFileError, text};
 use super::record_cache::Records;
 use super::table::{Cause, Place, Table, Wrong};
-use crate::column::{Block, Column, ColumnError, Shape};
+use crate::column::{Block, Column, ColumnError, MOST_BLOCKS, Shape};
 use crate::friction::Friction;
 use crate::scene::{Initial, LARGEST, Look, Method, OutputColumn, Restitution, Scene, SceneError};
 use serde::Serialize;
@@ -298,9 +298,6 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
     }
 }
 
-/// Largest number of blocks of `[column]`; a larger one is taken for a mistake.
-pub const MOST_BLOCKS: usize = 100;
-
 /// Sizes of a block, or of a whole column.
 struct Sizes {
     shape: Shape,
@@ -534,8 +531,11 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
 /// `friction = 0.7`, or `[friction]` with `static` and `kinetic`, each a number or a list.
 fn friction(root: &mut Table) -> Result<Option<Friction>, Wrong> {
     if !root.has_table("friction") {
-        let remedy = "give one number for all interfaces, or a table [friction] with static = [0.7, 0.5], base first";
-        let number = root.number("friction").map_err(|wrong| Wrong { remedy: remedy.into(), ..wrong })?;
+        let remedy = "give a number for all interfaces, or a table [friction] with static = [0.7, 0.5], base first";
+        let number = root.number("friction").map_err(|wrong| match wrong.cause {
+            Cause::Key => Wrong { remedy: remedy.into(), ..wrong },
+            _ => wrong,
+        })?;
         return Ok(number.map(|(value, _)| Friction::uniform(value)));
     }
     let Some(mut table) = root.table("friction")? else { return Ok(None) };

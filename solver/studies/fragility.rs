@@ -207,7 +207,12 @@ impl Fragility {
     /// assert!((median - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
+    ///
+    /// # Panics
+    /// If `options.confidence` is not between 0 and 1.
     pub fn of(runs: &[Observation], state: LimitState, options: &FragilityOptions) -> Fragility {
+        let is_share = options.confidence > 0.0 && options.confidence < 1.0;
+        assert!(is_share, "a confidence of {} is not between 0 and 1", options.confidence);
         let table = Table::of(runs, state);
         let counts = table.counts();
         let levels_with_runs = counts.iter().filter(|count| count.runs + count.undecided > 0).count();

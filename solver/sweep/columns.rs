@@ -3,7 +3,8 @@
 //! Order, contents and headings are defined here; each writer formats its cells itself.
 
 use super::points::{Ask, Sweep};
-use crate::scene_file::{MOST_BLOCKS, SceneFileError};
+use crate::column::MOST_BLOCKS;
+use crate::scene_file::SceneFileError;
 
 /// What a column of the table of a sweep holds. Blocks and interfaces are counted from 0, base first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -323,6 +323,9 @@ impl Sweep {
     }
 
     /// Values of the axes at a point, in their order.
+    ///
+    /// # Panics
+    /// If there is no such point.
     pub fn settings(&self, index: usize) -> Vec<&Setting> {
         let mut settings = Vec::new();
         self.put_settings(index, &mut settings);
@@ -331,6 +334,7 @@ impl Sweep {
 
     /// Replaces the contents of `settings` by the values of the axes at a point, in their order.
     fn put_settings<'s>(&'s self, index: usize, settings: &mut Vec<&'s Setting>) {
+        assert!(index < self.len(), "point {index} of a sweep that has {}", self.len());
         settings.clear();
         if self.combine == Combine::Paired {
             settings.extend(self.axes.iter().map(|axis| &axis.values[index]));
@@ -351,6 +355,9 @@ impl Sweep {
     ///
     /// # Errors
     /// [`SceneFileError`]
+    ///
+    /// # Panics
+    /// If there is no such point.
     pub fn scene(&self, index: usize) -> Result<Scene, SceneFileError> {
         let keys = self.axes.iter().map(|axis| axis.key.as_str());
         let mut scene = self.template.with(keys.zip(self.settings(index)))?;
@@ -365,11 +372,17 @@ impl Sweep {
     }
 
     /// Runs a point.
+    ///
+    /// # Panics
+    /// If there is no such point.
     pub fn row(&self, index: usize) -> Row {
         Worker::new(self).row(index)
     }
 
     /// Runs a range of points on all threads of the present rayon pool; rows in the order of their points.
+    ///
+    /// # Panics
+    /// If there is no such point.
     pub fn rows(&self, range: Range<usize>) -> Vec<Row> {
         self.lines(range, |row| row)
     }

@@ -412,7 +412,12 @@ impl<'p> Recorder<'p> {
         }
         let (now, chain) = (&moment.configuration, moment.chain());
         self.report.residual_slide = (0..now.theta.len()).map(|interface| slide(chain, now, interface)).collect();
-        self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
+        if self.problem.is_recorded() {
+            self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
+        } else {
+            // Works need forces all the way: there is no balance.
+            (self.report.ground_work, self.report.impact_losses) = (0.0, 0.0);
+        }
         let recorded = |list: Vec<f64>| if self.problem.is_recorded() { list } else { Vec::new() };
         Response {
             status,
