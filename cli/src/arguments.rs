@@ -302,7 +302,11 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn figure(text: &str) -> Result<PathBuf, String> {
     let file = PathBuf::from(text);
-    if Picture::of(&file).is_some() { Ok(file) } else { Err(format!("give a name whose ending is {FORMATS}")) }
+    if Picture::of(&file).is_some() {
+        Ok(file)
+    } else {
+        Err(format!("give a name like figure.svg: its ending is {FORMATS}"))
+    }
 }
 
 fn picture(text: &str) -> Result<Picture, String> {
