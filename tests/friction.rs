@@ -477,6 +477,27 @@ fn landings_with_restitution_press_and_the_balance_closes() {
     assert!(landings > 300 && in_flight > 30, "{landings}, {in_flight}");
 }
 
+/// Two blocks fly together, flat on each other, while the upper one slides on: no force acts sideways, and the landing leaves it where it is.
+#[test]
+fn blocks_that_slide_on_each_other_in_flight_land_where_they_are() {
+    let blocks = vec![Block::rectangle(0.5, 0.2, 1.0), Block::rectangle(0.4, 0.2, 1.0)];
+    let mut scene = scene(blocks, vec![0.6, 0.2]);
+    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.4 * GRAVITY, start: 0.0, duration: 0.2 });
+    let omega = std::f64::consts::PI / 0.2;
+    scene.excitation.vertical = Some(Motion::HalfSine { amplitude: -1.5 * GRAVITY, omega, start: 0.2 });
+    scene.options.t_end = 1.0;
+    let response = run(&scene);
+    let at = |kind: EventKind| response.events.iter().find(|event| event.kind == kind).expect("one of them");
+    let (flight, landing) = (at(EventKind::Flight), at(EventKind::Landing));
+    let (from, to) = (&flight.blocks[1], &landing.blocks[1]);
+    let expected = from.place[0] + from.velocity_after[0] * (landing.t - flight.t);
+    // Measured: 3e-16 m.
+    assert!((to.place[0] - expected).abs() < 1e-12, "{} and {expected}", to.place[0]);
+    assert!(expected < from.place[0] - 0.05, "it has slid on: {expected}");
+    // A time-stepping program by someone else, steps of 1e-5 s: -0.151735 m.
+    assert!((slide(&response, 1) + 0.151_734).abs() < 2e-6, "{}", slide(&response, 1));
+}
+
 #[test]
 fn blocks_placed_inside_each_other_are_refused() {
     let column = Column::equal_blocks(2, 0.4, 1.6, 2700.0, 9.81).expect("valid");

@@ -1,6 +1,6 @@
 //! Impacts with friction: gaps that close, corners that land, and velocities that jump because no acceleration is admissible.
 
-use super::contacts::carried;
+use super::contacts::{self, carried};
 use super::state::Stop;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
@@ -70,6 +70,14 @@ impl Instant<'_> {
     /// # Errors
     /// Why the run ends, if no motion follows.
     pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), Stop> {
+        // Blocks that fly in touch may have slid on each other: their contact is where they are, not where they parted.
+        for interface in 0..touch.len() {
+            let flies_in_touch = self.now.joints[interface] == Joint::Free && touch[interface] != Touch::Nothing;
+            if flies_in_touch && !closing.contains(&interface) {
+                let (_, slide) = contacts::met(self.column(), self.resolution, &self.now, interface, touch[interface]);
+                self.now.slide[interface] = slide;
+            }
+        }
         let before = self.now.clone();
         let chain = Chain::new(self.column(), &before);
         let motion = chain.motion(&Rates::of(&before));
