@@ -477,6 +477,20 @@ fn landings_with_restitution_press_and_the_balance_closes() {
     assert!(landings > 300 && in_flight > 30, "{landings}, {in_flight}");
 }
 
+/// A block placed at a slide of 0.7 m slides in against friction by `v²/2μg`: the largest slide is the first.
+#[test]
+fn the_largest_slide_may_be_the_first() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.2, 1.0)], vec![0.3]);
+    scene.initial.theta = vec![0.0];
+    (scene.initial.x, scene.initial.y) = (vec![0.7], vec![0.2]);
+    (scene.initial.vx, scene.initial.vy) = (vec![-2.0], vec![0.0]);
+    scene.options.t_end = 1.0;
+    let response = run(&scene);
+    let peak = response.sliding.as_ref().expect("a run with friction").peak_slide[0];
+    assert!((peak - 0.7).abs() < 1e-12, "{peak}");
+    assert!((slide(&response, 0) - (0.7 - 4.0 / (2.0 * 0.3 * GRAVITY))).abs() < 1e-10, "{}", slide(&response, 0));
+}
+
 /// Two blocks fly together, flat on each other, while the upper one slides on: no force acts sideways, and the landing leaves it where it is.
 #[test]
 fn blocks_that_slide_on_each_other_in_flight_land_where_they_are() {

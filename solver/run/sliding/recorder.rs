@@ -280,7 +280,9 @@ impl<'p> Recorder<'p> {
                     flights[interface] = flights[interface].max(1);
                 }
             }
-            peak_slide[interface] = peak_slide[interface].max(end.slide[interface].abs());
+            // A stretch begins where a block has landed, or been placed; a slide turns between stretches only.
+            let at_start = if now.joints[interface] == Joint::Free { 0.0 } else { now.slide[interface].abs() };
+            peak_slide[interface] = peak_slide[interface].max(at_start).max(end.slide[interface].abs());
         }
     }
 
