@@ -315,7 +315,7 @@ fn picture(text: &str) -> Result<Picture, String> {
 
 /// Formats of figures, in words.
 const FORMATS: &str =
-    if cfg!(feature = "pdf") { "svg, png or pdf" } else { "svg or png; pdf needs a build with `--features pdf`" };
+    if cfg!(feature = "pdf") { "svg, png or pdf" } else { "svg or png; PDF needs a build with `--features pdf`" };
 
 fn paper_width(text: &str) -> Result<f64, String> {
     let [least, most] = WIDTHS_MM;
