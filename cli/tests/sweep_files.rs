@@ -314,7 +314,7 @@ fn rows_that_are_cut_or_of_another_sweep_are_not_merged() {
     std::fs::rename(folder.path().join("sweep.toml"), folder.path().join("old.toml")).expect("renamed");
     std::fs::write(folder.path().join("sweep.toml"), SWEEP.replace("to = 8", "to = 9")).expect("written");
     for (text, arguments, named) in [
-        (&cut_within, &[][..], &["2.csv", "record 30", "fields"][..]),
+        (&cut_within, &[][..], &["2.csv", "line 31", "9 cell(s)"][..]),
         (&cut_at_end, &[], &["2.csv", "last line is cut"]),
         (&no_number, &["--sweep", "old.toml"], &["2.csv", "is not one of old.toml"]),
         (&second, &["--sweep", "overturns.toml"], &["1.csv", "is not one of overturns.toml"]),
