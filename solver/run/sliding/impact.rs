@@ -71,10 +71,10 @@ impl Instant<'_> {
     /// Why the run ends, if no motion follows.
     pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), Stop> {
         // Blocks that fly in touch may have slid on each other: their contact is where they are, not where they parted.
-        for interface in 0..touch.len() {
-            let flies_in_touch = self.now.joints[interface] == Joint::Free && touch[interface] != Touch::Nothing;
+        for (interface, &touches) in touch.iter().enumerate() {
+            let flies_in_touch = self.now.joints[interface] == Joint::Free && touches != Touch::Nothing;
             if flies_in_touch && !closing.contains(&interface) {
-                let (_, slide) = contacts::met(self.column(), self.resolution, &self.now, interface, touch[interface]);
+                let (_, slide) = contacts::met(self.column(), self.resolution, &self.now, interface, touches);
                 self.now.slide[interface] = slide;
             }
         }
