@@ -132,7 +132,7 @@ impl<'p> Recorder<'p> {
     /// Records a transition from `x⁻`. What it takes from the energy is lost: at impacts, and where hops and slides that are too low to be followed end.
     pub fn transition(&mut self, at: &State, transition: &Transition) {
         let (t, before, after) = (at.t, &at.configuration, &transition.after);
-        if !before.moves_like(after) {
+        if self.problem.is_recorded() && !before.moves_like(after) {
             self.report.impact_losses += energy(self.column(), before) - energy(self.column(), after);
         }
         self.report.ambiguous.extend(std::iter::repeat_n(t, transition.ambiguous));
