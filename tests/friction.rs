@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use rocking::column::Shape;
 use rocking::ground::{Motion, Record};
-use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason, simulate};
+use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason, Wanted, simulate};
 
 const GRAVITY: f64 = 9.81;
 
@@ -475,6 +475,20 @@ fn landings_with_restitution_press_and_the_balance_closes() {
         assert!(sum.abs() <= 1e-9 * size, "{sum:e} of {size:e}: {sliding:?}");
     }
     assert!(landings > 300 && in_flight > 30, "{landings}, {in_flight}");
+}
+
+/// Without ground motion the ground's work is rounding, and no scale of the balance; a run of which only the outcome is wanted has no balance.
+#[test]
+fn the_balance_is_relative_to_work_that_was_done() {
+    let mut scene = scene(vec![Block::rectangle(0.4, 0.4, 1.0); 2], vec![0.6, 0.6]);
+    (scene.initial.x, scene.initial.y) = (vec![0.0, 0.1], vec![0.4, 1.5]);
+    (scene.initial.vx, scene.initial.vy) = (vec![0.0, 0.2], vec![0.0, 1.0]);
+    (scene.initial.theta, scene.initial.omega) = (vec![0.0; 2], vec![0.0, 0.3]);
+    scene.options.t_end = 3.0;
+    let balance = |scene: &Scene| run(scene).sliding.expect("a run with friction").balance();
+    assert!(balance(&scene).is_some_and(|open| open < 1e-9), "{:?}", balance(&scene));
+    scene.options.wanted = Wanted::Outcome;
+    assert_eq!(balance(&scene), None);
 }
 
 /// A block placed at a slide of 0.7 m slides in against friction by `v²/2μg`: the largest slide is the first.

@@ -203,7 +203,8 @@ fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
-/// The forced transition that breaks a cycle of events in one instant: it closes open interfaces without a gap, momentum conserved, and counts as a separation. `None`
+/// The forced transition that breaks a cycle of events in one instant: it closes open interfaces without a gap, momentum conserved, and counts as a
+/// separation. `None`
 /// unless the number of events is one of two at which this is due.
 #[cold]
 pub(crate) fn break_cycle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
