@@ -28,6 +28,8 @@ def test_a_run_has_the_bits_of_the_command_line(file: Path, command, tmp_path: P
     shown = {1: "+", 0: "0", -1: "-"}
     assert ["(" + ",".join(shown[sign] for sign in row) + ")" for row in run.pattern.tolist()] == rows.pattern.tolist()
     summary = json.loads((tmp_path / "summary.json").read_text())
+    # Hashes of the other files of the folder, which a run in memory has not.
+    assert set(summary.pop("digests")) == {"response.csv", "events.json"}
     for one in (summary, run.summary):
         one.pop("wall_seconds")
     assert run.summary == summary
