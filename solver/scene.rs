@@ -161,6 +161,9 @@ pub const TIGHTEST_RTOL: f64 = 1e-14;
 /// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
 pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
 
+/// The same with friction, where gaps of angles at landings are rounding: hops, slides and landings would go on without end.
+pub const SMALLEST_STICK_ANGLE_WITH_FRICTION: f64 = 1e-14;
+
 /// Loosest tolerances: beyond, a step may err by more than a block turns.
 const LOOSEST: f64 = 1e-2;
 
@@ -473,9 +476,13 @@ impl Scene {
             let problem = format!("{:e} is below what double precision can keep", options.rtol);
             faults.note("solver.rtol", problem, "give at least 1e-14");
         }
-        if options.stick_angle < SMALLEST_STICK_ANGLE {
+        let (least, remedy) = match self.friction {
+            None => (SMALLEST_STICK_ANGLE, "give at least 1e-20"),
+            Some(_) => (SMALLEST_STICK_ANGLE_WITH_FRICTION, "with friction, give at least 1e-14"),
+        };
+        if options.stick_angle < least {
             let problem = format!("{:e} rad is below what rounding can hold", options.stick_angle);
-            faults.note("solver.stick_angle", problem, "give at least 1e-20");
+            faults.note("solver.stick_angle", problem, remedy);
         }
         self.check_rows(faults);
     }

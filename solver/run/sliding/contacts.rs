@@ -13,6 +13,9 @@ const GAP_SHARE: f64 = 1e-12;
 /// Share of the speed of a fall from a block's height below which a speed is rounding.
 const SPEED_SHARE: f64 = 1e-9;
 
+/// Share of that speed below which a slide has no direction.
+const ROUNDING_SHARE: f64 = 1e-15;
+
 /// Share of the column's size by which a corner of the upper block may be off the lower face and still count as on it.
 const FACE_SHARE: f64 = 1e-9;
 
@@ -27,6 +30,8 @@ pub struct Resolution {
     pub angle: f64,
     /// Relative speed of contacts that stay `[m/s]`.
     pub speed: f64,
+    /// Speed of a slide that has no direction `[m/s]`.
+    pub rounding: f64,
     /// Relative rate of faces that stay on each other `[rad/s]`.
     pub rate: f64,
 }
@@ -34,8 +39,10 @@ pub struct Resolution {
 impl Resolution {
     pub fn new(column: &Column) -> Resolution {
         let size = column.size();
-        let speed = SPEED_SHARE * (size * column.gravity()).sqrt();
-        Resolution { size, gap: GAP_SHARE * size, angle: GAP_SHARE, speed, rate: speed / size }
+        let fall = (size * column.gravity()).sqrt();
+        let speed = SPEED_SHARE * fall;
+        let (gap, angle, rounding) = (GAP_SHARE * size, GAP_SHARE, ROUNDING_SHARE * fall);
+        Resolution { size, gap, angle, speed, rounding, rate: speed / size }
     }
 }
 

@@ -45,6 +45,13 @@ const HOPS_AT_ONCE: f64 = 3.0;
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
 const EVENTS_AT_ONCE: usize = 16;
 
+/// Events in one instant, per block and one more, after which contact laws are applied with the ground's acceleration of a little later. Where all
+/// forces vanish, as where vertical motion lifts a column off, rounding decides between states, and none of them lasts.
+const EVENTS_BEFORE_LOOKAHEAD: usize = 1;
+
+/// Longest time by which the ground's acceleration is ahead, as a share of the time, or of a second if that is longer.
+const LONGEST_LOOKAHEAD: f64 = 1e-9;
+
 /// Runs a scene with friction. `sticking` is the scene without friction, `modes` are the motions of its column.
 ///
 /// # Errors
@@ -69,7 +76,7 @@ pub(super) fn run(
             let Part { response, column, until, ended } = *part;
             recorder.append(&column, [&at, &until], response);
             at = until;
-            transition(problem, friction, &at, ended)
+            transition(problem, friction, &at, ended, 0.0)
         }
     };
     let mut simultaneous = SimultaneousEvents::default();
@@ -103,7 +110,8 @@ pub(super) fn run(
         if let Some(stop) = ended.stop() {
             return Ok(recorder.finish(until, stop, mover.work));
         }
-        next = transition(problem, friction, &until, ended);
+        let lookahead = simultaneous.lookahead(&until, least_hop(problem, &until));
+        next = transition(problem, friction, &until, ended, lookahead);
         at = until;
     }
 }
@@ -124,15 +132,29 @@ struct SimultaneousEvents {
 }
 
 impl SimultaneousEvents {
+    /// Whether an event is within the instant of the events before it.
+    fn includes(&self, at: &State, hop: f64) -> bool {
+        let instant = (HOPS_AT_ONCE * hop).max(AT_ONCE * at.t.max(1.0));
+        self.count > 0 && at.t - self.first <= instant
+    }
+
     /// Counts an event; returns whether the events of one instant are so many that they go in a cycle.
     fn is_stuck(&mut self, at: &State, hop: f64) -> bool {
-        let instant = (HOPS_AT_ONCE * hop).max(AT_ONCE * at.t.max(1.0));
-        let is_at_once = self.count > 0 && at.t - self.first <= instant;
-        *self = if is_at_once {
+        *self = if self.includes(at, hop) {
             SimultaneousEvents { count: self.count + 1, ..*self }
         } else {
             SimultaneousEvents { first: at.t, count: 1 }
         };
         self.count > EVENTS_AT_ONCE * (at.configuration.joints.len() + 1)
+    }
+
+    /// Time by which the ground's acceleration is ahead for the next event `[s]`: it doubles with each event of the instant.
+    fn lookahead(&self, at: &State, hop: f64) -> f64 {
+        let usual = EVENTS_BEFORE_LOOKAHEAD * (at.configuration.joints.len() + 1);
+        if !self.includes(at, hop) || self.count <= usual {
+            return 0.0;
+        }
+        let doublings = (self.count - usual).min(f64::MANTISSA_DIGITS as usize) as i32;
+        at.t.max(1.0) * (AT_ONCE * 2f64.powi(doublings)).min(LONGEST_LOOKAHEAD)
     }
 }

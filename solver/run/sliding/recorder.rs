@@ -327,7 +327,7 @@ impl<'p> Recorder<'p> {
         for interface in 0..self.peak_theta.len() {
             if inside.moment(from, false).configuration.joints[interface] == Joint::Free {
                 let gap = |t: f64| lowest_gap(inside.moment(t, false).chain(), interface);
-                self.report.highest_flight = self.report.highest_flight.max(highest(gap, [from, until]));
+                self.report.highest_flight = highest(gap, [from, until], self.report.highest_flight);
             }
         }
     }
@@ -375,6 +375,8 @@ impl<'p> Recorder<'p> {
             _ => 0.0,
         };
         let blocks = now.theta.len();
+        let gaps: PerBlock<f64> = (0..blocks).map(gap).collect();
+        self.report.highest_flight = gaps.iter().fold(self.report.highest_flight, |most, gap| most.max(*gap));
         let motion = chain.motion(&Rates::of(now));
         let state = |block: usize| BlockState {
             place: chain.centroid(block),
@@ -388,7 +390,7 @@ impl<'p> Recorder<'p> {
             ground: [horizontal.value(t), vertical.value(t)],
             pattern: now.pattern(),
             slide: (0..blocks).map(|interface| slide(chain, now, interface)).collect(),
-            gap: (0..blocks).map(gap).collect(),
+            gap: gaps.to_vec(),
             blocks: (0..blocks).map(state).collect(),
         });
     }
@@ -450,24 +452,41 @@ fn is_free(flying: Option<&Moment>, interface: usize) -> bool {
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
 const CRITICAL_WAY: f64 = 1e-13;
 
-/// Places at which a gap is sampled over a step of a flight. A gap is nearly a parabola of time, so that the crest of one through three of them is right.
+/// Places at which a gap is sampled over a step of a flight.
 const PLACES_OF_GAP: usize = 5;
 
-/// The largest value of a function over a span of time `[s]`: at one of several places, or at the crest of the parabola around the highest of them.
-fn highest(mut value: impl FnMut(f64) -> f64, [from, until]: [f64; 2]) -> f64 {
-    let spacing = (until - from) / (PLACES_OF_GAP - 1) as f64;
-    let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|place| value(from + place as f64 * spacing));
-    let (place, most) = values
-        .into_iter()
-        .enumerate()
-        .fold((0, f64::NEG_INFINITY), |most, own| if own.1 > most.1 { own } else { most });
-    if place == 0 || place + 1 == PLACES_OF_GAP {
-        return most;
+/// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
+const ROUNDS_TO_CREST: usize = 40;
+
+/// The largest value of a gap over a span of time `[s]`, or `so_far` if that is larger. Gaps of flying corners are concave in time but for their
+/// rotation, and so is the lowest of them, which has kinks: the crest is beside the highest of several places, and found by the golden section.
+fn highest(mut value: impl FnMut(f64) -> f64, [from, until]: [f64; 2], so_far: f64) -> f64 {
+    let place = |index: usize| from + (until - from) * index as f64 / (PLACES_OF_GAP - 1) as f64;
+    let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|index| value(place(index)));
+    let most = (1..PLACES_OF_GAP).fold(0, |most, own| if values[own] > values[most] { own } else { most });
+    let so_far = so_far.max(values[most]);
+    // The crest is beside this place, and no higher than the chords from one side continued to the other.
+    let middle = most.clamp(1, PLACES_OF_GAP - 2);
+    let bound = 2.0 * values[middle] - values[middle - 1].min(values[middle + 1]);
+    if bound <= so_far {
+        return so_far;
     }
-    let (slope, bend) =
-        (0.5 * (values[place + 1] - values[place - 1]), values[place - 1] - 2.0 * most + values[place + 1]);
-    let crest = if bend < 0.0 { place as f64 - slope / bend } else { place as f64 };
-    most.max(value(from + crest * spacing))
+    let [mut low, mut high] = [middle - 1, middle + 1].map(place);
+    let share = 0.5 * (5f64.sqrt() - 1.0);
+    let mut inner = [high - share * (high - low), low + share * (high - low)];
+    let mut heights = inner.map(&mut value);
+    for _ in 0..ROUNDS_TO_CREST {
+        if heights[0] > heights[1] {
+            (high, inner[1], heights[1]) = (inner[1], inner[0], heights[0]);
+            inner[0] = high - share * (high - low);
+            heights[0] = value(inner[0]);
+        } else {
+            (low, inner[0], heights[0]) = (inner[0], inner[1], heights[1]);
+            inner[1] = low + share * (high - low);
+            heights[1] = value(inner[1]);
+        }
+    }
+    so_far.max(heights[0]).max(heights[1])
 }
 
 /// Kinetic and potential energy relative to the moving ground `[J]`.

@@ -40,12 +40,18 @@ pub struct Change {
 
 /// The transition at time zero.
 pub fn start(problem: &Problem, friction: &Coefficients, at: &State) -> Transition {
-    Instant::new(problem, friction, at).decided(EventKind::Start, None)
+    Instant::new(problem, friction, at, 0.0).decided(EventKind::Start, None)
 }
 
-/// The transition at the end of a stretch.
-pub fn transition(problem: &Problem, friction: &Coefficients, before: &State, ended: Ended) -> Transition {
-    let mut instant = Instant::new(problem, friction, before);
+/// The transition at the end of a stretch. Accelerations follow from the ground's acceleration later by `lookahead` `[s]`.
+pub fn transition(
+    problem: &Problem,
+    friction: &Coefficients,
+    before: &State,
+    ended: Ended,
+    lookahead: f64,
+) -> Transition {
+    let mut instant = Instant::new(problem, friction, before, lookahead);
     let guard = match ended {
         Ended::Guard(guard) => guard,
         Ended::Jam => {
@@ -91,6 +97,8 @@ pub(super) struct Instant<'p> {
     pub resolution: Resolution,
     segment: usize,
     t: f64,
+    /// Time by which the ground's acceleration is ahead `[s]`; not zero if the events of this instant go in a cycle.
+    lookahead: f64,
     pub now: Configuration,
     changes: Vec<Change>,
     pub ambiguous: usize,
@@ -112,13 +120,14 @@ impl Stilled {
 }
 
 impl<'p> Instant<'p> {
-    fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, at: &State) -> Instant<'p> {
+    fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, at: &State, lookahead: f64) -> Instant<'p> {
         Instant {
             problem,
             friction,
             resolution: Resolution::new(&problem.scene.column),
             segment: at.segment,
             t: at.t,
+            lookahead,
             now: at.configuration.clone(),
             changes: Vec::with_capacity(1),
             ambiguous: 0,
@@ -189,13 +198,7 @@ impl<'p> Instant<'p> {
         };
         let mut solution = match found {
             Some(solution) => solution,
-            None => {
-                self.jam();
-                if let Some(stop) = self.stop {
-                    return Err(stop);
-                }
-                self.accelerations(&self.touching(), None).ok_or(Stop::Undetermined)?
-            }
+            None => self.jammed()?,
         };
         // Hops, bounces and slides lower than the resolution end at once.
         let mut stilled = Stilled::none(self.column().len());
@@ -204,14 +207,27 @@ impl<'p> Instant<'p> {
             self.hold(&held);
             let touch = self.joined();
             let Some(without) = self.accelerations(&touch, None) else {
-                // Without these hops and slides no motion follows: they go on.
-                self.now = moving;
-                break;
+                // Without these hops and slides no motion follows: they go on, unless they have done so in vain.
+                if self.lookahead == 0.0 {
+                    self.now = moving;
+                    break;
+                }
+                solution = self.jammed()?;
+                continue;
             };
             solution = without;
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
         Ok(self.search(&self.touching()).carried(&solution))
+    }
+
+    /// The accelerations after a jam.
+    fn jammed(&mut self) -> Result<Solution, Stop> {
+        self.jam();
+        match self.stop {
+            Some(stop) => Err(stop),
+            None => self.accelerations(&self.touching(), None).ok_or(Stop::Undetermined),
+        }
     }
 
     /// No acceleration is admissible, or forces grow without bound (Painlevé): velocities jump as in an impact.
@@ -224,7 +240,8 @@ impl<'p> Instant<'p> {
         touching(self.problem, self.resolution, &self.now)
     }
 
-    /// What touches. Free interfaces that have met are joined; faces that stay on each other get one angle and one rate, to the last bit.
+    /// What touches. Free interfaces that have met are joined; faces that stay on each other get one angle and one rate, to the last bit. Slide rates
+    /// that are rounding are zero: a direction would be taken from them.
     fn joined(&mut self) -> Vec<Touch> {
         let touch = self.touching();
         let has_met = |&i: &usize| touch[i] != Touch::Nothing && self.now.joints[i] == Joint::Free;
@@ -242,6 +259,8 @@ impl<'p> Instant<'p> {
                 self.lay(interface);
             }
         }
+        let rounding = self.resolution.rounding;
+        self.now.slide_rate.iter_mut().filter(|rate| rate.abs() <= rounding).for_each(|rate| *rate = 0.0);
         touch
     }
 
@@ -278,7 +297,7 @@ impl<'p> Instant<'p> {
 
     /// The search for the accelerations of the present configuration.
     fn search<'s>(&'s self, touch: &'s [Touch]) -> Search<'s> {
-        let ground = self.problem.ground_at(self.segment, self.t);
+        let ground = self.problem.ground_at(self.segment, self.t + self.lookahead);
         Search::new(self.column(), &self.now, touch, self.friction, Question::Accelerations(ground))
     }
 
