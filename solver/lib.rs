@@ -49,6 +49,10 @@ extern crate self as rocking;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+#[cfg(doctest)]
+#[doc = include_str!("../docs/book/library.md")]
+struct BookOfTheLibrary;
+
 pub mod column;
 pub mod contact;
 mod friction;

@@ -388,6 +388,10 @@ impl Scene {
 
     fn check_column(&self, faults: &mut Faults) {
         let (blocks, gravity) = (self.column.blocks(), self.column.gravity());
+        if !self.looks.is_empty() && self.looks.len() != blocks.len() {
+            let problem = format!("{} looks for {} block(s)", self.looks.len(), blocks.len());
+            faults.note("looks", problem, "give one for each block, or none");
+        }
         if !GRAVITIES.contains(&gravity) {
             faults.note("gravity", format!("{gravity:e} m/s² is out of range"), "give 1e-6 to 1e6 m/s²");
         }

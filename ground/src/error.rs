@@ -13,6 +13,11 @@ pub enum RecordError {
     /// A record needs two samples to have a duration.
     #[error("{count} sample(s): a record needs at least two")]
     TooShort { count: usize },
+    /// Fewer than two samples are between two times.
+    #[error(
+        "from {from} s to {to} s the record has {count} sample(s): it lasts {duration} s, and needs at least two; give other times"
+    )]
+    Trimmed { from: f64, to: f64, count: usize, duration: f64 },
     /// The file is empty or has remarks only.
     #[error("the file is empty, or has nothing but remarks; fetch or write it again")]
     Empty,

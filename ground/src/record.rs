@@ -222,7 +222,7 @@ impl Record {
     /// becomes the time of the first sample that is kept.
     ///
     /// # Errors
-    /// [`RecordError::TooShort`] if fewer than two samples are left.
+    /// [`RecordError::Trimmed`] if fewer than two samples are left.
     ///
     /// ```
     /// let record = rocking_ground::Record::new(vec![0.0, 1.0, 2.0, 3.0, 4.0], 0.1, 0.0)?;
@@ -237,7 +237,7 @@ impl Record {
         let accel: Vec<f64> =
             (0..self.accel.len()).filter(|sample| inside(*sample)).map(|sample| self.accel[sample]).collect();
         if accel.len() < 2 {
-            return Err(RecordError::TooShort { count: accel.len() });
+            return Err(RecordError::Trimmed { from, to, count: accel.len(), duration: self.duration() });
         }
         Ok(Record { accel: accel.into(), ..self })
     }
@@ -322,7 +322,8 @@ mod tests {
         let record = Record::new(vec![0.0, 2.0, -1.0], 0.5, 0.0).expect("valid").named("x.AT2");
         let record = record.scaled(3.0).and_then(|record| record.trimmed(0.5, 1.0)).expect("two samples");
         assert_eq!((record.source().file.as_str(), record.scale(), record.accel()), ("x.AT2", 3.0, &[6.0, -3.0][..]));
-        assert_eq!(record.trimmed(0.7, 9.0), Err(RecordError::TooShort { count: 0 }));
+        let refused = Err(RecordError::Trimmed { from: 0.7, to: 9.0, count: 0, duration: 0.5 });
+        assert_eq!(record.trimmed(0.7, 9.0), refused);
     }
 
     #[test]

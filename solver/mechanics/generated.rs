@@ -274,13 +274,17 @@ fn fixed<C: for<'a> TryFrom<&'a [f64]>>(constants: Vec<f64>) -> C {
 }
 
 impl Mode {
-    /// The mode of a pattern on generated equations, for any ground motion; `None` at rest and for columns larger than this
-    /// build has.
+    /// The mode of a pattern on generated equations, for any ground motion; `None` at rest, for columns larger than this build has, and for a
+    /// pattern of another number of interfaces.
     pub fn generated(column: &Column, pattern: &Pattern) -> Option<Mode> {
+        if pattern.0.len() != column.len() {
+            return None;
+        }
         equations::mode(column, pattern, GroundMotion::WithVertical)
     }
 
-    /// The mode on generated equations if this build has them, on generic ones otherwise; `None` at rest.
+    /// The mode on generated equations if this build has them, on generic ones otherwise; `None` at rest, and for a pattern of another number of
+    /// interfaces.
     ///
     /// ```
     /// use rocking::{Column, Mode, dynamics::Ground, pattern::Pattern};
@@ -369,7 +373,11 @@ fn pivot(column: &Column, pattern: &Pattern, interface: usize) -> f64 {
 }
 
 /// The aligned rectangles of a column as the generated equations read them.
+///
+/// # Panics
+/// If a block is tapered, displaced, or has its centroid off mid-height: equations of such columns have more constants.
 pub fn geometry(column: &Column, pattern: &Pattern) -> Geometry<f64> {
+    assert!(column.is_plain(), "the column is none of aligned rectangles");
     let blocks = column.blocks();
     Geometry {
         gravity: column.gravity(),

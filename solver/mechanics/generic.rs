@@ -46,9 +46,10 @@ impl GenericMode {
 }
 
 impl Mode {
-    /// The mode of a pattern on hand-written equations, for any number of blocks; `None` at rest.
+    /// The mode of a pattern on hand-written equations, for any number of blocks; `None` at rest, and for a pattern of another number of interfaces.
     pub fn generic(column: &Column, pattern: &Pattern) -> Option<Mode> {
-        (pattern.dof() > 0).then(|| Mode::from_dynamics(pattern.clone(), GenericMode::new(column, pattern)))
+        (pattern.dof() > 0 && pattern.0.len() == column.len())
+            .then(|| Mode::from_dynamics(pattern.clone(), GenericMode::new(column, pattern)))
     }
 }
 

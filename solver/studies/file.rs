@@ -76,6 +76,7 @@ impl IdaFile {
                 IdaError::Level { .. } | IdaError::NoLevels => ("levels", "correct the levels"),
                 IdaError::FreeSwing(_) => ("free_swing", "leave it out for 10 s"),
                 IdaError::Record { .. } => ("records", "leave the record out, or choose another measure"),
+                IdaError::SameName(_) => ("records", "rename one of them"),
                 IdaError::NoRecords => ("records", "give `files`, a `folder`, or [records.synthetic]"),
             };
             own(root.wrong(key, error.to_string(), remedy))

@@ -76,7 +76,7 @@ pub enum Fit {
         /// Logarithm of the likelihood, without the binomial coefficients.
         log_likelihood: f64,
     },
-    /// There is no run of which it is known whether it reached the state.
+    /// There is no run of which it is known whether it reached the state, or none has the quantity of the state, as without friction no slide.
     NoRuns,
     /// All runs are of one record, which says nothing of others. [`Fit::NoRuns`], [`Fit::Never`] and [`Fit::Always`] take precedence.
     OneRecord,
@@ -405,10 +405,12 @@ impl Table {
         let mut records: Vec<String> = runs.iter().map(|run| run.record.clone()).collect();
         records.sort();
         records.dedup();
+        // Of a quantity that no run has, lost columns alone would have an answer, and all the same one.
+        let is_observed = runs.iter().any(|run| state.is_observed(run));
         let place = |run: &Observation| {
             let record = records.binary_search(&run.record).expect("the names come from these runs");
             let level = levels.partition_point(|level| *level < run.level);
-            (record, level, state.is_reached(run))
+            (record, level, state.is_reached(run).filter(|_| is_observed))
         };
         let runs = runs.iter().map(place).collect();
         Table { records, levels, runs }
@@ -594,6 +596,12 @@ mod tests {
         assert_eq!(overturning(&all(|_, level| level > 0.5, 3)).fit, Fit::Step { never_to: 0.4, always_from: 0.8 });
         assert_eq!(overturning(&all(|_, level| level > 0.5, 1)).fit, Fit::OneRecord);
         assert_eq!(overturning(&all(|_, _| false, 1)).fit, Fit::Never { up_to: 1.6 });
+        // Runs without friction have no slides, and those of one block no second one: that some overturn says nothing of either.
+        for state in ["slide > 0.05", "peak_2 > 0.3"] {
+            let runs = all(|_, level| level > 0.5, 3);
+            let unobserved = Fragility::of(&runs, state.parse().expect("a state"), &FragilityOptions::default());
+            assert_eq!(unobserved.fit, Fit::NoRuns, "{state}");
+        }
         // One of six records overturns at 0.8 and two at 1.6: the curve reaches one half beyond these levels.
         let rare = overturning(&all(|record, level| level > 0.8 && record < 2 || level > 0.5 && record == 0, 6));
         let told = rare.statements();

@@ -49,6 +49,9 @@ pub enum IdaError {
     /// There is no record.
     #[error("the study has no record; name at least one")]
     NoRecords,
+    /// Two records have one name: their runs would count as those of one record.
+    #[error("two records are named {0}; give each a name of its own")]
+    SameName(String),
     /// There is no level.
     #[error("the study has no level; give at least one")]
     NoLevels,
@@ -174,6 +177,10 @@ impl Ida {
         if records.is_empty() {
             return Err(IdaError::NoRecords);
         }
+        let named_before = |place: usize| records[..place].iter().any(|record| record.name == records[place].name);
+        if let Some(place) = (0..records.len()).find(|place| named_before(*place)) {
+            return Err(IdaError::SameName(records[place].name.clone()));
+        }
         if levels.is_empty() {
             return Err(IdaError::NoLevels);
         }
@@ -260,6 +267,9 @@ impl Ida {
     }
 
     /// Factor of the record of a run, dimensionless.
+    ///
+    /// # Panics
+    /// If there are no more than `index` runs.
     pub fn scale(&self, index: usize) -> f64 {
         self.point(index).2
     }
@@ -268,6 +278,9 @@ impl Ida {
     ///
     /// # Errors
     /// [`RunError::Record`] if scaled accelerations are out of range.
+    ///
+    /// # Panics
+    /// If there are no more than `index` runs.
     pub fn scene_of(&self, index: usize) -> Result<Scene, RunError> {
         let (record, _, factor) = self.point(index);
         let StudyRecord { horizontal, vertical, .. } = &self.records[record];
@@ -289,6 +302,9 @@ impl Ida {
     }
 
     /// Runs a range on all threads of the present rayon pool. The result is in the order of the indices.
+    ///
+    /// # Panics
+    /// If the range ends beyond [`Ida::len`].
     pub fn runs(&self, range: Range<usize>) -> Vec<IdaRun> {
         self.lines(range, |run| run)
     }

@@ -123,25 +123,27 @@ pub enum LimitState {
 }
 
 impl LimitState {
+    /// Whether an observation has the quantity of the state. A lost column has reached the state without it.
+    pub(super) fn is_observed(&self, run: &Observation) -> bool {
+        match *self {
+            LimitState::Uplift | LimitState::Overturned => true,
+            LimitState::Peak { block, .. } => run.peaks.len() >= block.unwrap_or(1),
+            LimitState::Slide { .. } => !run.residual_slides.is_empty(),
+        }
+    }
+
     /// Whether a run reached the state. `None` for a failed run, and for an undecided run that had not reached the state. `None` as well if the
     /// column is not lost and the observation has no such block or no slides.
     pub fn is_reached(&self, run: &Observation) -> Option<bool> {
         let largest = |values: &[f64]| values.iter().map(|value| value.abs()).fold(0.0, f64::max);
         let reached = match *self {
-            LimitState::Uplift => run.has_uplift || run.is_lost(),
-            LimitState::Overturned => run.is_lost(),
-            LimitState::Peak { block: None, .. } if run.peaks.is_empty() && !run.is_lost() => return None,
-            LimitState::Peak { block: None, above } => run.is_lost() || largest(&run.peaks) > above,
-            LimitState::Peak { block: Some(block), above } => {
-                run.is_lost() || *run.peaks.get(block.checked_sub(1)?)? > above
-            }
-            LimitState::Slide { above } => {
-                let is_known = run.is_lost() || !run.residual_slides.is_empty();
-                if !is_known {
-                    return None;
-                }
-                run.is_lost() || run.is_decided() && largest(&run.residual_slides) > above
-            }
+            _ if run.is_lost() => true,
+            LimitState::Uplift => run.has_uplift,
+            LimitState::Overturned => false,
+            _ if !self.is_observed(run) => return None,
+            LimitState::Peak { block: None, above } => largest(&run.peaks) > above,
+            LimitState::Peak { block: Some(block), above } => run.peaks[block.checked_sub(1)?] > above,
+            LimitState::Slide { above } => run.is_decided() && largest(&run.residual_slides) > above,
         };
         // A state that an undecided run had reached counts as reached.
         (reached || run.is_decided()).then_some(reached).filter(|_| run.fate.is_some())
