@@ -542,6 +542,7 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         (" \n# nothing\n", "the file is empty"),
         ("# nothing\n0 1\n", "1 sample(s)"),
         ("t [s], v [m/s]\n0, 1\n0.1, 2\n", "`m/s` of column `v`"),
+        ("time (frames), a [g]\n0, 1\n1, 2\n", "line 1: `frames` of column `time` is no unit of time"),
         ("t, a, b\n0, 1\n0.1, 2\n", "line 1: 3 name(s) above 2 column(s)"),
         ("2011-03-11 0.1\n2011-03-12 0.2\n", "line 1, column 1: `2011-03-11`"),
         ("PK\u{3}\u{4}\u{0}", "a ZIP archive or a spreadsheet; unpack it, or save it as text or CSV"),
@@ -575,6 +576,8 @@ fn tables_are_read_as_spreadsheets_and_scripts_write_them() {
         let file = RecordFile::read(text.as_bytes(), &options).unwrap_or_else(|error| panic!("{text}: {error}"));
         assert_eq!((file.accel, file.dt), (vec![1.0, -2.5, 0.0], 0.01), "{text}");
     }
+    let minutes = RecordFile::read(b"time (min), a [m/s2]\n0, 1\n0.5, 2\n", &options()).expect("minutes");
+    assert_eq!(minutes.dt, 30.0);
     // Numbers of rows are no times where a column of times follows them, and another component is none either.
     let units = |name: &str| TextOptions { units: Some(AccelerationUnit::MetrePerSecondSquared), ..column(name) };
     for text in ["1 0.00 1\n2 0.01 -2.5\n3 0.02 0\n", "0.00 5 1\n0.01 -1 -2.5\n0.02 3 0\n"] {

@@ -50,7 +50,8 @@ impl Heading {
     fn second(&self) -> Option<f64> {
         match self.unit.to_lowercase().as_str() {
             "s" | "sec" | "secs" | "seconds" => Some(1.0),
-            "ms" | "msec" => Some(1e-3),
+            "ms" | "msec" | "milliseconds" => Some(1e-3),
+            "min" | "minutes" => Some(60.0),
             _ => None,
         }
     }
@@ -125,7 +126,17 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     };
     let dt = match time_column(&rows, chosen) {
         None => options.dt.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?,
-        Some(time) => interval(&rows, time, headings.get(time).and_then(Heading::second).unwrap_or(1.0), options)?,
+        Some(time) => {
+            let second = match headings.get(time).filter(|heading| !heading.unit.is_empty()) {
+                Some(heading) => heading.second().ok_or_else(|| {
+                    let (unit, name) = (brief(&heading.unit), brief(&heading.name));
+                    entry("write [s], [ms] or [min]")
+                        .wrong(format!("`{unit}` of column `{name}` is no unit of time that is known"))
+                })?,
+                None => 1.0,
+            };
+            interval(&rows, time, second, options)?
+        }
     };
     let values = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
     let samples = Samples { values, cut: false, warnings: Vec::new() };
