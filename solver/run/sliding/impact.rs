@@ -2,7 +2,6 @@
 
 use super::contacts::{self, carried};
 use super::state::Stop;
-use super::step::unnoticed_depth;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Rates};
@@ -40,7 +39,8 @@ impl Instant<'_> {
         let Corner { interface, side, .. } = corner;
         let chain = Chain::new(self.column(), &self.now);
         let [_, above] = gaps::gap(&chain, corner);
-        let depth = DEPTH_SHARE.max(unnoticed_depth(self.problem.scene.options.stick_angle));
+        // Depths of lower hops than are followed are none.
+        let depth = DEPTH_SHARE.max(self.problem.scene.options.stick_angle);
         if above < -depth * self.resolution.size {
             // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
             let before = self.now.clone();

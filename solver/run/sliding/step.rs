@@ -12,7 +12,6 @@ use crate::friction::search::force_slack;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::scene::SolveOptions;
-pub use first_zero::unnoticed_depth;
 
 /// The dense output of a step, `s` from 0 to 1.
 pub trait Output {

@@ -34,11 +34,6 @@ const CLEARLY: f64 = 8.0;
 /// Share of the step up to which the place is searched for at which a guard has left zero.
 const FAR: f64 = 0.1;
 
-/// Depth of a landing up to which the guard may go on, as a share of the column's size: twice that at which it is clearly below zero.
-pub fn unnoticed_depth(stick_angle: f64) -> f64 {
-    2.0 * CLEARLY * START_ROUNDING.max(LOW_SHARE * stick_angle)
-}
-
 impl<O: Output> Step<'_, '_, O> {
     /// The first guard that falls to zero, and where.
     pub fn first_of(&mut self, list: &[Guard]) -> Option<(f64, Guard)> {
