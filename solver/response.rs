@@ -403,8 +403,8 @@ impl Response {
         };
         if self.used_generic {
             warnings.push(format!(
-                "this build has generated equations up to {} blocks; larger modes, and those that supplied equations do not have, \
-                 ran on the generic ones, which are slower (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
+                "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
+                 (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
                 crate::mechanics::generated::MAX_BLOCKS
             ));
         }
