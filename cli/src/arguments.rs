@@ -290,9 +290,13 @@ fn damping(text: &str) -> Result<f64, String> {
 
 fn target(text: &str) -> Result<(Intensity, f64), String> {
     let (name, size) = text.split_once('=').ok_or("write MEASURE=SIZE, e.g. pgv=0.5")?;
-    let intensity = name.trim().parse();
-    let intensity =
-        intensity.map_err(|()| format!("there is no measure `{}`; choose one of {}", name.trim(), NAMES.join(", ")))?;
+    let name = name.trim();
+    let intensity = name.parse().map_err(|()| match name.split('(').next() {
+        Some(spectral @ ("sa" | "sa_g")) => {
+            format!("write {spectral}(PERIOD)=SIZE, e.g. {spectral}(0.5)={}", size.trim())
+        }
+        _ => format!("there is no measure `{name}`; choose one of {}", NAMES.join(", ")),
+    })?;
     Ok((intensity, positive(size.trim())?))
 }
 

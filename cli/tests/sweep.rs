@@ -103,6 +103,19 @@ fn records_and_seeds_are_axes() {
     let rows_of_records = rows(&table(folder.path(), &[]));
     assert_eq!(rows_of_records.len(), 5);
     assert_eq!(rows_of_records[1][3..], rows_of_records[3][3..], "the same record gives the same row");
+    // Velocities that a database gives beside are left out; a vertical component does not shake the base sideways.
+    let beside = |name: &str| std::fs::copy(&synthetic, folder.path().join("records").join(name)).expect("copied");
+    beside("a.VT2");
+    assert_eq!(rows(&table(folder.path(), &[])), rows_of_records);
+    beside("RSN1_A-UP.AT2");
+    let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        !output.status.success() && error.contains("RSN1_A-UP.AT2") && error.contains("excitation.station"),
+        "{error}"
+    );
+    let output = common::rocking(folder.path(), &["run", "sweep.toml", "--out", "out"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("`rocking sweep`"), "{output:?}");
     let synthetic =
         BASE.replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"synthetic\"\npga_g = 0.5");
     std::fs::write(folder.path().join("base.toml"), synthetic).expect("written");

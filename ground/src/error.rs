@@ -78,7 +78,7 @@ pub enum RecordError {
     /// The times of a table are not equally spaced.
     #[error(
         "line {line}: time {time} s comes {} s after the one above, most come {} s after theirs; resample the record to a constant interval, \
-         or fill in what is missing",
+         fill in what is missing, or give `dt` if times are rounded",
         microseconds(step),
         microseconds(usual)
     )]

@@ -559,6 +559,13 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let times = |rate: f64| (0..200).map(|k| format!("{:.3} 1\n", f64::from(k) / rate)).collect::<String>();
     assert!(matches!(refused(times(256.0).as_bytes(), &g), RecordError::Uneven { .. }));
     assert_eq!(RecordFile::read(times(100.0).as_bytes(), &g).expect("even").accel.len(), 200);
+    // With the interval, rounded times are read; not with another interval, nor with a row missing.
+    let with = |dt: f64| TextOptions { dt: Some(dt), ..g.clone() };
+    assert_eq!(RecordFile::read(times(256.0).as_bytes(), &with(1.0 / 256.0)).expect("rounded").dt, 1.0 / 256.0);
+    assert!(matches!(refused(times(256.0).as_bytes(), &with(1.0 / 250.0)), RecordError::Contradiction { .. }));
+    let gap: String =
+        times(256.0).lines().enumerate().filter(|(row, _)| *row != 100).map(|(_, line)| format!("{line}\n")).collect();
+    assert!(matches!(refused(gap.as_bytes(), &with(1.0 / 256.0)), RecordError::Contradiction { .. }));
 }
 
 #[test]
@@ -578,6 +585,15 @@ fn tables_are_read_as_spreadsheets_and_scripts_write_them() {
     }
     let minutes = RecordFile::read(b"time (min), a [m/s2]\n0, 1\n0.5, 2\n", &options()).expect("minutes");
     assert_eq!(minutes.dt, 30.0);
+    // Other columns than times are none, whatever they count.
+    for head in [",a [m/s2]", "n,a [m/s2]", "freq (Hz),a [m/s2]", "velocity (cm/s),a [m/s2]"] {
+        let text = format!("{head}\n0,1\n1,2\n2,3\n");
+        assert!(matches!(refused(text.as_bytes(), &options()), RecordError::Missing { key: "dt", .. }), "{head}");
+        let with = TextOptions { dt: Some(0.02), ..options() };
+        assert_eq!(RecordFile::read(text.as_bytes(), &with).expect("with an interval").dt, 0.02, "{head}");
+    }
+    let late = RecordFile::read(b"t [s], a [m/s2]\n5, 1\n5.01, 2\n", &options()).expect("late");
+    assert!(late.warnings.iter().any(|warning| warning.contains("times begin at 5 s")), "{:?}", late.warnings);
     // Numbers of rows are no times where a column of times follows them, and another component is none either.
     let units = |name: &str| TextOptions { units: Some(AccelerationUnit::MetrePerSecondSquared), ..column(name) };
     for text in ["1 0.00 1\n2 0.01 -2.5\n3 0.02 0\n", "0.00 5 1\n0.01 -1 -2.5\n0.02 3 0\n"] {

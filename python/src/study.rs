@@ -64,7 +64,7 @@ const FIRST_PART: usize = 16;
 #[pymethods]
 impl Ida {
     #[new]
-    #[pyo3(signature = (scene, records, measure, levels, free_swing, sa_period, sa_damping))]
+    #[pyo3(signature = (scene, records, measure, levels, free_swing, sa_period, sa_damping, trust))]
     #[expect(clippy::too_many_arguments, reason = "the keys of a study, one argument each")]
     fn new(
         py: Python<'_>,
@@ -75,6 +75,7 @@ impl Ida {
         free_swing: Option<f64>,
         sa_period: Option<f64>,
         sa_damping: Option<f64>,
+        trust: bool,
     ) -> PyResult<Ida> {
         let intensity = intensity(measure, sa_period, sa_damping)
             .map_err(|refused| error::of_study(py, &refused.value(py).to_string()))?;
@@ -84,7 +85,7 @@ impl Ida {
             Some(seconds) => ida.and_then(|ida| ida.with_free_swing(seconds)),
             None => ida,
         };
-        let ida = ida.map_err(|refused| error::study(py, &refused))?;
+        let ida = ida.map_err(|refused| error::study(py, &refused))?.followed(trust);
         Ok(Ida { ida, states: Vec::new(), options: FragilityOptions::default() })
     }
 

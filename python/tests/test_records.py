@@ -69,6 +69,10 @@ def test_bad_records_are_refused(tmp_path: Path, record: rk.Record) -> None:
         rk.Record([[1.0, 2.0]], dt=0.1)
     with pytest.raises(rk.RecordError, match="dt"):
         rk.Record([1.0, 2.0], dt=0.0)
+    with pytest.raises(ValueError, match="masked"):
+        rk.Record(np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0]), dt=0.1)
+    with pytest.raises(ValueError, match="complex"):
+        rk.Record(np.array([1.0j, 2.0]), dt=0.1)
     (tmp_path / "bad.txt").write_text("0.1\nnonsense\n")
     with pytest.raises(rk.RecordError) as caught:
         rk.Record.read(tmp_path / "bad.txt", dt=0.01, units="g")

@@ -230,6 +230,8 @@ def test_bad_studies_are_refused() -> None:
     ):
         with pytest.raises(rk.StudyError, match=text):
             rk.ida(COLUMN, *arguments)
+    with pytest.raises(TypeError, match="'peer' is a path"):
+        rk.ida(COLUMN, "peer", "pgv", [1.0])
     study = rk.ida(COLUMN, records, "sa_g", [0.1, 1.0], sa_period=0.5)
     assert rk.Ida(COLUMN, records, "pgv", [0.1, 1.0]).simulate(1).t_final > 0.0
     assert study.measure == "sa_g(0.5)" and study.label.startswith("Sa(0.5 s")
@@ -243,6 +245,13 @@ def test_bad_studies_are_refused() -> None:
         rk.Study(study.table.drop(columns="sa_g(0.5)"))
     with pytest.raises(rk.StudyError, match="ask = \"peaks\""):
         rk.Study(rk.sweep(rk.Scene(COLUMN, rk.Record.synthetic(1)), {"pgv": [0.1, 0.2]})).fragility("peak > 0.1")
+
+
+def test_a_study_without_companions_has_the_same_runs() -> None:
+    records = rk.synthetic(range(2), duration=6.0)
+    with_trust, without = (rk.ida(COLUMN, records, "pgv", [0.1, 0.2], trust=trust).table for trust in (True, False))
+    assert (with_trust.outcome != "not-determined").all()
+    pd.testing.assert_frame_equal(with_trust.drop(columns="horizon", errors="ignore"), without.drop(columns="horizon", errors="ignore"))
 
 
 def test_a_study_is_pickled_and_runs_in_ranges() -> None:

@@ -294,6 +294,8 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
             }
             cut(&mut column, count as usize, derived)
         }
+        _ if root.has("axes") => Err(root.missing("block", "this is a sweep file: give it to `rocking sweep`")),
+        _ if root.has("levels") => Err(root.missing("block", "this is the file of a study: give it to `rocking ida`")),
         _ => Err(root.missing("block", "add a [[block]] with half_width and half_height for each block, base first")),
     }
 }

@@ -33,9 +33,8 @@ impl Component {
 /// Extensions of files with velocity or displacement, which PEER gives beside the acceleration.
 const NO_ACCELERATION: [&str; 2] = ["vt2", "dt2"];
 
-/// Records of a folder in the order of the numbers in their names, each with the sorted names of its files. Hidden files and files with velocity or
-/// displacement are left out.
-pub(crate) fn records_of(folder: &Path) -> std::io::Result<Vec<(String, Vec<String>)>> {
+/// Names of the files of a folder, sorted. Hidden files and files with velocity or displacement are left out.
+pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
@@ -47,8 +46,13 @@ pub(crate) fn records_of(folder: &Path) -> std::io::Result<Vec<(String, Vec<Stri
         }
     }
     files.sort();
+    Ok(files)
+}
+
+/// Records of a folder in the order of the numbers in their names, each with the names of its files ([`files_in`]).
+pub(crate) fn records_of(folder: &Path) -> std::io::Result<Vec<(String, Vec<String>)>> {
     let mut records: BTreeMap<_, (String, Vec<String>)> = BTreeMap::new();
-    for file in files {
+    for file in files_in(folder)? {
         let record = record_and_component(&file).0.into_owned();
         records.entry(by_number(&record)).or_insert_with(|| (record, Vec::new())).1.push(file);
     }

@@ -236,11 +236,28 @@ fn of_folder(
         return Err(refuse("folder", format!("{} has no file", path.display()), "give a folder of record files"));
     }
     let component = |file: String| reader.component(table, "folder", Path::new(folder), &file, options);
-    let groups = records.into_iter().map(|(group, files)| {
-        let components = files.into_iter().map(component).collect::<Result<Vec<Component>, _>>()?;
-        Ok((group, components))
-    });
-    let groups = groups.collect::<Result<Vec<_>, SceneFileError>>()?;
+    let mut refused = Vec::new();
+    let mut groups = Vec::with_capacity(records.len());
+    for (group, files) in records {
+        let mut components: Vec<Component> = Vec::with_capacity(files.len());
+        for file in files {
+            match component(file) {
+                Ok(read) => components.push(read),
+                Err(SceneFileError::Record { record, problem, .. }) => {
+                    refused.push(format!("{}: {problem}", record.display()));
+                }
+                Err(other) => return Err(other),
+            }
+        }
+        groups.push((group, components));
+    }
+    if !refused.is_empty() {
+        let more = refused.len().saturating_sub(MOST_NAMED);
+        let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+        let list = refused[..refused.len().min(MOST_NAMED)].join("; ");
+        let problem = format!("{} of its files cannot be read as records: {list}{more}", refused.len());
+        return Err(refuse("folder", problem, "take them out of the folder, or name the records with `files`"));
+    }
     let lacking = |what: &str, is_there: &dyn Fn(&[Component]) -> bool| -> Vec<String> {
         let without = groups.iter().filter(|(_, components)| !is_there(components));
         without
@@ -273,6 +290,9 @@ fn of_folder(
     }
     Ok(found)
 }
+
+/// Number of files that cannot be read which a refusal of their folder names.
+const MOST_NAMED: usize = 8;
 
 /// `[fragility]`.
 fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, FragilityOptions), Wrong> {

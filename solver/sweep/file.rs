@@ -4,9 +4,10 @@ use super::distributed::{KINDS, Placed, distribution, sample, sampling};
 use super::points::{Ask, Axis, Combine, Sweep};
 use crate::scene_file::edit::exclude_each_other;
 use crate::scene_file::reader::Reader;
-use crate::scene_file::stations::records_of;
+use crate::scene_file::stations::{files_in, records_of};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{SceneFileError, Setting, Template, text};
+use rocking_ground::{Direction, record_and_component};
 use std::path::Path;
 
 /// Largest number of points of a sweep; a larger one is taken for a mistake.
@@ -212,10 +213,11 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             let own = axis(table, &key, &path, vec![found.quantile(0.5)], template)?;
             axes.push((own, table.find(&key), Some(found)));
         } else if ["from", "to", "steps", "folder"].iter().any(|key| inner.has(key)) {
-            let is_of_stations = template.full_name(&path).is_some_and(|key| key.ends_with(".record"));
+            let name = template.full_name(&path).unwrap_or_default();
+            let is_of_stations = name.ends_with(".record");
             let values = match (inner.has("folder"), is_of_stations) {
                 (false, _) => range(&mut inner)?,
-                (true, false) => folder(&mut inner, template)?,
+                (true, false) => files(&mut inner, &name, template)?,
                 (true, true) => stations(&mut inner, template)?,
             };
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
@@ -325,19 +327,20 @@ fn no_folder(table: &Table, path: &Path, error: &std::io::Error) -> Wrong {
     table.wrong("folder", format!("{}: {error}", path.display()), "give the folder relative to the base scene")
 }
 
-/// The files of a folder beside the base scene, in the order of their names.
-fn folder(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
+/// The files of a folder beside the base scene ([`files_in`]), as values of a key.
+fn files(table: &mut Table, key: &str, template: &Template) -> Result<Vec<Setting>, Wrong> {
     let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);
-    let failed = |error: std::io::Error| no_folder(table, &path, &error);
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(&path).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        let file = entry.file_name().to_string_lossy().into_owned();
-        if entry.path().is_file() && !file.starts_with('.') {
-            files.push(Path::new(&name).join(file).to_string_lossy().into_owned());
-        }
+    let files = files_in(&path).map_err(|error| no_folder(table, &path, &error))?;
+    let is_vertical = |file: &&String| Direction::of(record_and_component(file).1, "") == Direction::Vertical;
+    if let Some(file) = files.iter().find(is_vertical).filter(|_| key.contains("horizontal")) {
+        let problem = format!("{name}/{file} is a vertical component by its name");
+        let remedy =
+            "take it out of the folder, or let `record` of [excitation.station] be the axis, which knows components";
+        return Err(table.wrong("folder", problem, remedy));
     }
-    files.sort();
-    Ok(files.into_iter().map(Setting::Text).collect())
+    Ok(files
+        .into_iter()
+        .map(|file| Setting::Text(Path::new(&name).join(file).to_string_lossy().into_owned()))
+        .collect())
 }

@@ -21,6 +21,9 @@ use crate::unit::AccelerationUnit;
 /// Share of `dt` by which a row may be off the grid: a time column may be rounded to its last printed digit.
 const GRID_TOLERANCE: f64 = 0.05;
 
+/// The same where the interval is given as well: times may be rounded to fewer digits.
+const ROUNDED_TOLERANCE: f64 = 0.5;
+
 /// Relative accuracy of times that were computed as multiples of the first interval.
 const EXACT_TOLERANCE: f64 = 1e-12;
 
@@ -124,6 +127,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         }
         None => options.units.ok_or(RecordError::Missing { quantity: "unit", key: "units" })?,
     };
+    let mut begins = 0.0;
     let dt = match time_column(&rows, chosen) {
         None => options.dt.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?,
         Some(time) => {
@@ -135,14 +139,24 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
                 })?,
                 None => 1.0,
             };
+            begins = rows.at(0, time) * second;
             interval(&rows, time, second, options)?
         }
     };
     let values = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
-    let samples = Samples { values, cut: false, warnings: Vec::new() };
+    let samples = Samples { values, cut: false, warnings: late_start(begins, dt).into_iter().collect() };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
     let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
     Ok(RecordFile { title: title(lines), component, ..file })
+}
+
+/// Number of intervals before the first time up to which a record counts as beginning at zero: some files begin with the time of one interval.
+const INTERVALS_BEFORE_FIRST: f64 = 1.5;
+
+/// Warning that the times of a file do not begin at zero.
+fn late_start(begins: f64, dt: f64) -> Option<String> {
+    (begins.abs() > INTERVALS_BEFORE_FIRST * dt)
+        .then(|| format!("times begin at {begins} s; the record begins at 0 s, or at the `start` that is given"))
 }
 
 /// The title: the first line, if it is a remark with letters.
@@ -305,9 +319,8 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     }
 }
 
-/// The column of the times: the one with such a name, else the nearest column before the accelerations that has equal steps, since numbers
-/// of rows or other components may stand there too, else the first column. It is `None` if that is the chosen column, or if no column has
-/// such a name and the first one has accelerations.
+/// The column of the times: the one with such a name. In a table without names, the nearest column before the accelerations that has equal steps,
+/// since numbers of rows or other components may stand there too, else the first column. `None` if that is the chosen column.
 fn time_column(rows: &Rows, chosen: usize) -> Option<usize> {
     let headings = &rows.headings.1;
     let named = headings.iter().position(Heading::is_time);
@@ -316,8 +329,7 @@ fn time_column(rows: &Rows, chosen: usize) -> Option<usize> {
         step > 0.0 && rows.off_grid(*column, 1.0, step, GRID_TOLERANCE * step).is_none()
     };
     let nearest = || (1..chosen).rev().find(runs_evenly).unwrap_or(0);
-    let has_times = chosen != 0 && !headings.first().is_some_and(Heading::is_acceleration);
-    named.or_else(|| has_times.then(nearest)).filter(|time| *time != chosen)
+    named.or_else(|| (headings.is_empty() && chosen != 0).then(nearest)).filter(|time| *time != chosen)
 }
 
 /// The sampling interval `[s]` of a column of times; `second` is the size of the column's unit `[s]`.
@@ -330,7 +342,7 @@ fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Res
     let is_exact = off_grid(first, EXACT_TOLERANCE * at(last).abs()).is_none();
     let dt = if is_exact { first } else { rows.mean_step(time, second) };
     if let Some(own) = options.dt {
-        if off_grid(own, GRID_TOLERANCE * own).is_some() && (own - dt).abs() > 1e-6 * dt.abs() {
+        if off_grid(own, ROUNDED_TOLERANCE * own).is_some() && (own - dt).abs() > 1e-6 * dt.abs() {
             let (given, file) = (format!("{own} s"), format!("{dt} s"));
             return Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file });
         }

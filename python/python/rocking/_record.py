@@ -41,6 +41,10 @@ class Record:
     """
 
     def __init__(self, accel: npt.ArrayLike, dt: float, *, start: float = 0.0, name: str = "") -> None:
+        if np.ma.is_masked(accel):
+            raise ValueError("accel has masked samples; fill them, or cut the record there")
+        if np.iscomplexobj(accel):
+            raise ValueError("accel is complex; give real accelerations [m/s²]")
         samples = np.ascontiguousarray(accel, dtype=np.float64)
         if samples.ndim != 1:
             raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
@@ -251,6 +255,8 @@ class Records(Sequence[StudyRecord]):
     """Records of a study, each under a name of its own."""
 
     def __init__(self, records: "Iterable[StudyRecord | Record]") -> None:
+        if isinstance(records, str | os.PathLike):
+            raise TypeError(f"{os.fspath(records)!r} is a path; give records(folder), or a list of Record")
         self._records: list[StudyRecord] = []
         for number, record in enumerate(records, start=1):
             if isinstance(record, Record):

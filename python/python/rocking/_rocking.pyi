@@ -193,6 +193,7 @@ class Ida:
         free_swing: float | None,
         sa_period: float | None,
         sa_damping: float | None,
+        trust: bool,
     ) -> Ida: ...
     @staticmethod
     def from_toml(text: str, file: str) -> Ida: ...

@@ -42,6 +42,8 @@ class Ida:
         [s], 10 unless given.
     sa_period, sa_damping : float
         Period [s] and damping ratio of ``sa`` and ``sa_g``.
+    trust : bool
+        Whether companions tell of each run if its verdict is determined; the default. They take ten times as long as the runs.
     **arguments
         As of :class:`Scene`.
     """
@@ -56,6 +58,7 @@ class Ida:
         free_swing: float | None = None,
         sa_period: float | None = None,
         sa_damping: float | None = None,
+        trust: bool = True,
         **arguments: "Unpack[SceneKeys]",
     ) -> None:
         scene = column if isinstance(column, Scene) else Scene(column, **arguments)
@@ -63,13 +66,13 @@ class Ida:
             scene = scene.replace(**arguments)
         found = records if isinstance(records, Records) else Records(records)
         sizes = np.asarray(levels, dtype=np.float64).ravel().tolist()
-        self._source = (scene, found, measure, sizes, free_swing, sa_period, sa_damping)
+        self._source = (scene, found, measure, sizes, free_swing, sa_period, sa_damping, trust)
         self._become()
 
     def _become(self) -> None:
-        scene, records, measure, levels, free_swing, sa_period, sa_damping = self._source
+        scene, records, measure, levels, free_swing, sa_period, sa_damping, trust = self._source
         natives = [record._native() for record in records]
-        self._ida = _rocking.Ida(scene._compiled, natives, measure, levels, free_swing, sa_period, sa_damping)
+        self._ida = _rocking.Ida(scene._compiled, natives, measure, levels, free_swing, sa_period, sa_damping, trust)
 
     @property
     def scene(self) -> Scene:
@@ -130,6 +133,7 @@ def ida(
     free_swing: float | None = None,
     sa_period: float | None = None,
     sa_damping: float | None = None,
+    trust: bool = True,
     threads: int = 0,
     **arguments: "Unpack[SceneKeys]",
 ) -> "Study":
@@ -141,7 +145,7 @@ def ida(
     (9, [3, 3, 3])
     """
     periods = {"free_swing": free_swing, "sa_period": sa_period, "sa_damping": sa_damping}
-    return Ida(column, records, measure, levels, **periods, **arguments).run(threads=threads)
+    return Ida(column, records, measure, levels, **periods, trust=trust, **arguments).run(threads=threads)
 
 
 @dataclass(frozen=True)
