@@ -64,7 +64,7 @@ pub struct Cells<'t> {
 
 /// The text is no outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no outcome of a run")]
+#[error("no outcome of a run; outcomes are {}, and error", Fate::ALL.map(Fate::name).join(", "))]
 pub struct NoOutcome;
 
 impl TryFrom<Cells<'_>> for Observation {

@@ -175,7 +175,8 @@ impl Columns {
             peaks: numbers(&self.peaks)?,
             residual_slides: numbers(&self.slides)?,
         };
-        Observation::try_from(cells).map_err(|_| wrong(self.outcome, "an outcome"))
+        Observation::try_from(cells)
+            .map_err(|refused| format!("column `{}`: `{}` is {refused}", self.names[self.outcome], &row[self.outcome]))
     }
 }
 
