@@ -338,7 +338,7 @@ fn unit(text: &str) -> Result<AccelerationUnit, String> {
 pub struct Sweep {
     /// Sweep file (TOML).
     pub file: PathBuf,
-    /// Table of the results: CSV, or Parquet if its name ends in .parquet [default: sweep.csv, or sweep-K-of-M.csv of a shard].
+    /// Table of the results: CSV, or Parquet if its name ends in .parquet [default: sweep.csv; NAME-K-of-M.csv of a shard of NAME.toml].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Draw the table (SVG, PNG or PDF by the name).
@@ -367,7 +367,8 @@ pub struct Sweep {
 impl Sweep {
     /// The table of the results.
     pub fn table(&self) -> PathBuf {
-        let own = || self.shard.map_or_else(|| "sweep.csv".into(), |shard| format!("sweep-{shard}.csv"));
+        let name = || self.file.file_stem().map_or_else(|| "sweep".into(), |stem| stem.to_string_lossy());
+        let own = || self.shard.map_or_else(|| "sweep.csv".into(), |shard| format!("{}-{shard}.csv", name()));
         self.out.clone().unwrap_or_else(|| own().into())
     }
 }

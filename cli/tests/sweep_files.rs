@@ -133,6 +133,9 @@ fn shards_have_names() {
         &["merge", "m.csv", "sweep-1-of-2.csv", "sweep-2-of-2.csv", "--sweep", "sweep.toml"],
     );
     assert_eq!(std::fs::read_to_string(folder.path().join("m.csv")).expect("written"), whole);
+    std::fs::write(folder.path().join("other.toml"), SWEEP).expect("written");
+    common::succeeds(folder.path(), &["sweep", "other.toml", "--shard", "1/2", "--quiet"]);
+    assert!(folder.path().join("other-1-of-2.csv").exists(), "shards of another sweep have other names");
 }
 
 /// Of what is left of a sweep rows are kept up to the first that is not the one due.
