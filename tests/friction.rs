@@ -669,3 +669,41 @@ fn a_loose_stick_angle_lets_columns_stand_that_stand() {
     }
     assert!(standing > 10, "{standing}");
 }
+
+/// A block flies past the end of the one below: its gap is a distance, which moves smoothly, and is zero in contact only.
+#[test]
+fn gaps_are_distances_beside_a_face_as_well() {
+    let mut scene = scene(vec![Block::rectangle(0.4, 0.4, 1.0), Block::rectangle(0.15, 0.4, 1.0)], vec![0.3, 0.3]);
+    let initial = &mut scene.initial;
+    (initial.theta, initial.omega) = (vec![0.0, 0.9], vec![0.0, 3.0]);
+    (initial.x, initial.y) = (vec![0.0, 0.75], vec![0.4, 1.24]);
+    (initial.vx, initial.vy) = (vec![0.0, 1.0], vec![0.0, 0.0]);
+    (scene.options.t_end, scene.output_dt) = (1.0, Some(0.01));
+    let response = run(&scene);
+    let gaps: Vec<f64> = response.samples.iter().map(|row| row.gap[1]).collect();
+    assert!(gaps.len() > 15 && gaps.iter().all(|gap| *gap > 0.14 && *gap < 0.18), "{gaps:?}");
+    // No point of a block is faster than 1 m/s, 0.2 s of fall and 3 rad/s at 0.43 m.
+    assert!(gaps.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.01 * (1.0 + 0.2 * GRAVITY + 3.0 * 0.43)));
+    let highest = response.sliding.expect("with friction").highest_flight;
+    assert!(highest >= gaps.iter().copied().fold(0.0, f64::max) && highest < 0.18, "{highest}");
+}
+
+/// The impulse that restitution needs stays in its cone from `μ = (h/b)(1 - η)/(1 + η)` on; below, impacts are plastic, and the run says so.
+#[test]
+fn restitution_that_friction_does_not_allow_is_counted() {
+    let limit = 4.0 * (1.0 - 0.8) / (1.0 + 0.8);
+    for (friction, left_out) in [(1.01 * limit, false), (0.99 * limit, true)] {
+        let mut scene = scene(vec![Block::rectangle(0.4, 1.6, 1.0)], vec![friction]);
+        scene.restitution = Restitution::Eta(0.8);
+        scene.initial.theta = vec![0.1];
+        scene.options.t_end = 3.0;
+        let response = run(&scene);
+        let first = response.events.iter().find(|event| event.kind == EventKind::Impact).expect("an impact");
+        let plastic = 1.0 - 1.5 / (1.0 + 16.0);
+        let ratio = first.omega_after[0] / first.omega_before[0];
+        assert_relative_eq!(ratio, if left_out { plastic } else { 0.8 }, max_relative = 1e-9);
+        let report = response.sliding.as_ref().expect("with friction");
+        assert_eq!(report.without_restitution > 0, left_out);
+        assert_eq!(response.warnings().iter().any(|warning| warning.contains("restitution")), left_out);
+    }
+}

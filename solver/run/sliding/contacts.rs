@@ -128,15 +128,14 @@ pub fn carried(side: Sign, direction: Sign) -> Joint {
     Joint::Corner(side, face, Slip::Slides(direction))
 }
 
-/// Least height of a corner of a free interface above the other block's face `[m]`; zero if no corner is over a face.
-pub fn lowest_gap(chain: &Chain, interface: usize) -> f64 {
-    let gap = |corner: Corner| {
+/// Gap of a free interface `[m]`: the least distance of a corner from the other block's face.
+pub fn gap(chain: &Chain, interface: usize) -> f64 {
+    let distance = |corner: Corner| {
         let [beside, above] = gaps::gap(chain, corner);
-        if beside <= 0.0 { above } else { f64::INFINITY }
+        if beside <= 0.0 { above.max(0.0) } else { libm::hypot(beside, above) }
     };
     let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
-    let least = corners.map(gap).fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least.max(0.0) } else { 0.0 }
+    corners.map(distance).fold(f64::INFINITY, f64::min)
 }
 
 /// The slide of an interface `[m]`; if it is free, along the lower face.

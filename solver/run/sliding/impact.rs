@@ -141,14 +141,15 @@ impl Instant<'_> {
         }
     }
 
-    /// The answer with the scene's restitution; the plastic one if something slides, nothing rebounds, or restitution is left out.
-    fn rebounding(&self, search: &Search, touch: &[Touch], plastic: &Solution, closing: &[usize]) -> Answer {
+    /// The answer with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted.
+    fn rebounding(&mut self, search: &Search, touch: &[Touch], plastic: &Solution, closing: &[usize]) -> Answer {
         let kappa = &self.problem.kappa;
         let all_stick =
             plastic.joints.iter().zip(touch).all(|(joint, touch)| joint.sticks() || *touch == Touch::Nothing);
         let rebounds = |&&i: &&usize| kappa[i] != 1.0 && matches!(plastic.joints[i], Joint::Corner(..));
-        let rebound = closing.iter().find(rebounds).filter(|_| all_stick);
-        let answer = rebound.and_then(|&interface| search.rebound(plastic, interface, kappa[interface]));
-        answer.unwrap_or_else(|| plastic.answer.clone())
+        let Some(&interface) = closing.iter().find(rebounds) else { return plastic.answer.clone() };
+        let rebound = if all_stick { search.rebound(plastic, interface, kappa[interface]) } else { None };
+        self.without_restitution += usize::from(rebound.is_none());
+        rebound.unwrap_or_else(|| plastic.answer.clone())
     }
 }

@@ -1,6 +1,6 @@
 //! The recorder of a run with friction: the only writer of rows, events, peaks, forces, work and times.
 
-use super::contacts::{lowest_gap, slide};
+use super::contacts::{self, slide};
 use super::smooth::{Moment, Smooth};
 use super::state::{State, Stop};
 use super::transition::{Change, Transition};
@@ -137,6 +137,7 @@ impl<'p> Recorder<'p> {
         }
         self.report.ambiguous.extend(std::iter::repeat_n(t, transition.ambiguous));
         self.report.jammed.extend(transition.is_jammed.then_some(t));
+        self.report.without_restitution += transition.without_restitution;
         for change in &transition.changes {
             self.change(t, change);
         }
@@ -326,7 +327,7 @@ impl<'p> Recorder<'p> {
         self.read_until = until;
         for interface in 0..self.peak_theta.len() {
             if inside.moment(from, false).configuration.joints[interface] == Joint::Free {
-                let gap = |t: f64| lowest_gap(inside.moment(t, false).chain(), interface);
+                let gap = |t: f64| contacts::gap(inside.moment(t, false).chain(), interface);
                 self.report.highest_flight = highest(gap, [from, until], self.report.highest_flight);
             }
         }
@@ -371,7 +372,7 @@ impl<'p> Recorder<'p> {
         let segment = self.segment_of_row(t);
         let Segment { horizontal, vertical, .. } = segment;
         let gap = |interface: usize| match now.joints[interface] {
-            Joint::Free => lowest_gap(chain, interface),
+            Joint::Free => contacts::gap(chain, interface),
             _ => 0.0,
         };
         let blocks = now.theta.len();

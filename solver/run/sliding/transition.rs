@@ -23,6 +23,8 @@ pub struct Transition {
     pub ambiguous: usize,
     /// Whether no acceleration was admissible, or forces grew without bound.
     pub is_jammed: bool,
+    /// Number of impacts at which restitution was left out.
+    pub without_restitution: usize,
     /// Why the run ends; `None` if it continues.
     pub stop: Option<Stop>,
 }
@@ -103,6 +105,7 @@ pub(super) struct Instant<'p> {
     changes: Vec<Change>,
     pub ambiguous: usize,
     is_jammed: bool,
+    pub without_restitution: usize,
     pub stop: Option<Stop>,
 }
 
@@ -132,6 +135,7 @@ impl<'p> Instant<'p> {
             changes: Vec::with_capacity(1),
             ambiguous: 0,
             is_jammed: false,
+            without_restitution: 0,
             stop: None,
         }
     }
@@ -146,8 +150,8 @@ impl<'p> Instant<'p> {
     }
 
     fn transition(self) -> Transition {
-        let Instant { now, changes, ambiguous, is_jammed, stop, .. } = self;
-        Transition { after: now, changes, ambiguous, is_jammed, stop }
+        let Instant { now, changes, ambiguous, is_jammed, without_restitution, stop, .. } = self;
+        Transition { after: now, changes, ambiguous, is_jammed, without_restitution, stop }
     }
 
     /// The end of the run: the blocks at an interface have lost contact, as its length or their overlap has fallen to zero.
