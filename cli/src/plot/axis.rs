@@ -23,9 +23,11 @@ const STILL: f64 = 0.1;
 const SHORTEST: f64 = 1e-290;
 
 impl Axis {
-    /// Axis from `range[0]` to `range[1]` with at least `ticks` ticks. An empty range is widened, because no step divides it.
+    /// Axis from `range[0]` to `range[1]` with at least `ticks` ticks. A range that is empty or not finite is one of `STILL`: no step divides it.
     pub fn over(label: &str, range: [f64; 2], ticks: usize) -> Axis {
-        let range = if range[1] - range[0] > SHORTEST { range } else { [range[0], range[0] + STILL] };
+        let length = range[1] - range[0];
+        let low = if range[0].is_finite() { range[0] } else { 0.0 };
+        let range = if length > SHORTEST && length.is_finite() { range } else { [low, low + STILL] };
         Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
     }
 
@@ -121,6 +123,8 @@ mod tests {
         let axis = Axis::over("", [0.0, 0.0], 4);
         assert_eq!((axis.range, axis.step), ([0.0, STILL], 0.02));
         assert_eq!(Axis::over("", [0.0, 5e-324], 4), axis);
+        assert_eq!(Axis::over("", [0.0, f64::INFINITY], 4), axis);
+        assert_eq!(Axis::over("", [f64::NEG_INFINITY, f64::NAN], 4), axis);
     }
 
     #[test]
