@@ -119,6 +119,7 @@ fn blocks_fly_where_vertical_motion_takes_their_weight() {
         let speed = amplitude / omega * ((omega * end).cos() - cos);
         swung + speed * (t - until) - 0.5 * GRAVITY * (t - start) * (t - start)
     };
+    // Places 2e-6 s apart miss the crest by 1e-11 m at most; steps err by the default rtol of 1e-9.
     let highest = (0..1_000_000).map(|k| height(start + f64::from(k) * 2e-6)).fold(0.0, f64::max);
     for count in 1..=4 {
         for &method in Method::ALL {
@@ -173,7 +174,7 @@ fn the_highest_flight_is_that_between_the_steps_as_well() {
         };
         // The places are 1e-6 s apart: beside the crest, a parabola is lower by up to 1e-12 m. Default tolerances.
         let highest = (0..=400_000).map(|k| corner(t * f64::from(k) / 200_000.0)).fold(0.0, f64::max);
-        assert_relative_eq!(report.highest_flight, highest, max_relative = if spin == 0.0 { 1e-11 } else { 1e-8 });
+        assert_relative_eq!(report.highest_flight, highest, max_relative = if spin == 0.0 { 1e-12 } else { 1e-8 });
         // The flight began with the run.
         assert!(report.flights[0] >= 1);
     }
@@ -663,7 +664,8 @@ fn a_loose_stick_angle_lets_columns_stand_that_stand() {
             assert_eq!(loose.status, StopReason::AtRest, "ω = {omega}, amplitude {amplitude}");
             for interface in 0..3 {
                 let apart = (slide(&loose, interface) - slide(&tight, interface)).abs();
-                assert!(apart < 1e3 * stick_angle, "ω = {omega}, amplitude {amplitude}: {apart} m");
+                // Each of the ten or so hops and slides cut short moves what follows by the order of stick_angle; all together, 27 times at most here.
+                assert!(apart < 100.0 * stick_angle, "ω = {omega}, amplitude {amplitude}: {apart} m");
             }
         }
     }
@@ -700,8 +702,9 @@ fn restitution_that_friction_does_not_allow_is_counted() {
         let response = run(&scene);
         let first = response.events.iter().find(|event| event.kind == EventKind::Impact).expect("an impact");
         let plastic = 1.0 - 1.5 / (1.0 + 16.0);
+        // The impact is algebra: the ratio has no error of steps.
         let ratio = first.omega_after[0] / first.omega_before[0];
-        assert_relative_eq!(ratio, if left_out { plastic } else { 0.8 }, max_relative = 1e-9);
+        assert_relative_eq!(ratio, if left_out { plastic } else { 0.8 }, max_relative = 1e-12);
         let report = response.sliding.as_ref().expect("with friction");
         assert_eq!(report.without_restitution > 0, left_out);
         assert_eq!(response.warnings().iter().any(|warning| warning.contains("restitution")), left_out);

@@ -1,6 +1,6 @@
 //! Study files: a scene, records, levels of a measure, and limit states.
 
-use super::fragility::{FragilityOptions, Layout};
+use super::fragility::{FragilityOptions, Layout, some_of};
 use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
 use super::observation::{LimitState, NoLimitState};
 use crate::column::Column;
@@ -243,19 +243,15 @@ fn of_folder(
         for file in files {
             match component(file) {
                 Ok(read) => components.push(read),
-                Err(SceneFileError::Record { record, problem, .. }) => {
-                    refused.push(format!("{}: {problem}", record.display()));
-                }
+                Err(SceneFileError::Record { record, problem, .. }) => refused.push((record, problem)),
                 Err(other) => return Err(other),
             }
         }
         groups.push((group, components));
     }
-    if !refused.is_empty() {
-        let more = refused.len().saturating_sub(MOST_NAMED);
-        let more = if more > 0 { format!("; and {more} more") } else { String::new() };
-        let list = refused[..refused.len().min(MOST_NAMED)].join("; ");
-        let problem = format!("{} of its files cannot be read as records: {list}{more}", refused.len());
+    if let Some((_, first)) = refused.first() {
+        let names = some_of(refused.iter().map(|(record, _)| record.display().to_string()).collect());
+        let problem = format!("{names}: no record that can be read (the first: {first})");
         return Err(refuse("folder", problem, "take them out of the folder, or name the records with `files`"));
     }
     let lacking = |what: &str, is_there: &dyn Fn(&[Component]) -> bool| -> Vec<String> {
@@ -290,9 +286,6 @@ fn of_folder(
     }
     Ok(found)
 }
-
-/// Number of files that cannot be read which a refusal of their folder names.
-const MOST_NAMED: usize = 8;
 
 /// `[fragility]`.
 fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, FragilityOptions), Wrong> {

@@ -371,7 +371,7 @@ impl Fragility {
 const MOST_NAMES: usize = 5;
 
 /// The first names of a list, joined by commas, and the number of those left out.
-fn some_of(mut names: Vec<String>) -> String {
+pub(super) fn some_of(mut names: Vec<String>) -> String {
     let more = names.len().saturating_sub(MOST_NAMES);
     names.truncate(MOST_NAMES);
     names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }

@@ -459,8 +459,9 @@ const PLACES_OF_GAP: usize = 5;
 /// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
 const ROUNDS_TO_CREST: usize = 40;
 
-/// The largest value of a gap over a span of time `[s]`, or `so_far` if that is larger. Gaps of flying corners are concave in time but for their
-/// rotation, and so is the lowest of them, which has kinks: the crest is beside the highest of several places, and found by the golden section.
+/// The largest value of a gap over a span of time `[s]`, or `so_far` if that is larger. Over a face, gaps of flying corners are concave in time but
+/// for their rotation, and so is the lowest of them, which has kinks: the crest is beside the highest of several places, and found by the golden section.
+/// Beside a face the gap grows with the distance, and is largest at an end.
 fn highest(mut value: impl FnMut(f64) -> f64, [from, until]: [f64; 2], so_far: f64) -> f64 {
     let place = |index: usize| from + (until - from) * index as f64 / (PLACES_OF_GAP - 1) as f64;
     let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|index| value(place(index)));
