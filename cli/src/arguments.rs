@@ -3,11 +3,12 @@
 use crate::keys::Kind;
 pub use crate::plot::Picture;
 use crate::plot::WIDTHS_MM;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
 use rocking::intensity::{Intensity, NAMES};
-use rocking::studies::LimitState;
+use rocking::studies::{Layout, LimitState};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -223,7 +224,7 @@ pub struct Record {
     /// Record file, or a folder of them.
     #[arg(value_name = "FILE", required_unless_present = "trim")]
     pub file: Option<PathBuf>,
-    /// Unit of the accelerations where the file is silent: g, m/s2, cm/s2, gal, mg, in/s2, ...
+    /// Unit of the accelerations where the file is silent: g, mg, m/s2, cm/s2, mm/s2, gal, in/s2, ft/s2.
     #[arg(long, value_parser = unit)]
     pub units: Option<AccelerationUnit>,
     /// Sampling interval in s where the file is silent.
@@ -330,7 +331,7 @@ fn paper_width(text: &str) -> Result<f64, String> {
 }
 
 fn unit(text: &str) -> Result<AccelerationUnit, String> {
-    AccelerationUnit::parse(text).ok_or_else(|| "choose g, m/s2, cm/s2, gal, mg or in/s2".into())
+    AccelerationUnit::parse(text).ok_or_else(|| format!("choose {}", AccelerationUnit::NAMES.join(", ")))
 }
 
 /// `rocking sweep`.
@@ -408,7 +409,7 @@ pub struct Fragility {
     #[arg(long, value_name = "COLUMN")]
     pub measure: Option<String>,
     /// Whether several runs share each level (stripes) or none (cloud); as the table has it unless given.
-    #[arg(long, value_enum)]
+    #[arg(long, value_name = "LAYOUT", value_parser = PossibleValuesParser::new(Layout::NAMES).try_map(|name| name.parse::<Layout>()))]
     pub layout: Option<Layout>,
     /// Sets of resampled records for the bands; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
@@ -428,15 +429,6 @@ pub struct Fragility {
     /// Print JSON instead of text.
     #[arg(long)]
     pub json: bool,
-}
-
-/// How levels are shared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Layout {
-    /// Several runs at each level.
-    Stripes,
-    /// Each run at a level of its own.
-    Cloud,
 }
 
 fn state(text: &str) -> Result<LimitState, String> {

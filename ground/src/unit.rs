@@ -37,6 +37,9 @@ pub enum AccelerationUnit {
 }
 
 impl AccelerationUnit {
+    /// One name of each unit that files are usually in.
+    pub const NAMES: [&str; 8] = ["g", "mg", "m/s2", "cm/s2", "mm/s2", "gal", "in/s2", "ft/s2"];
+
     /// The unit of this name: `g`, `m/s2`, `CM/SEC**2`, `cm/s/s`, `gal`, `in/sec^2`, ...
     ///
     /// ```
@@ -116,6 +119,7 @@ mod tests {
             }
             assert_eq!(AccelerationUnit::parse(&unit.to_string()), Some(unit));
         }
+        assert!(AccelerationUnit::NAMES.iter().all(|name| AccelerationUnit::parse(name).is_some()));
         for name in ["", "cm/s", "m", "counts", "g/10", "cm/s3", "/s2", "s2"] {
             assert_eq!(AccelerationUnit::parse(name), None, "{name}");
         }

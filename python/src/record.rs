@@ -56,7 +56,8 @@ impl Record {
         let units = match units {
             None => None,
             Some(name) => Some(AccelerationUnit::parse(name).ok_or_else(|| {
-                PyValueError::new_err(format!("there is no unit `{name}`; give g, m/s2, cm/s2, gal, mg or in/s2"))
+                let known = AccelerationUnit::NAMES.join(", ");
+                PyValueError::new_err(format!("there is no unit `{name}`; give one of {known}"))
             })?),
         };
         let options = TextOptions { gravity, dt, units, lenient, channel, skip_rows, column };

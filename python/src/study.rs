@@ -3,7 +3,7 @@
 use crate::error;
 use crate::record::{Record, intensity};
 use crate::scene::{Origin, Scene};
-use crate::sweep::{ERROR, in_parts, layout, per_block, range};
+use crate::sweep::{ERROR, in_parts, per_block, range};
 use crate::table::{Column, Names, Values, into_python, whole};
 use numpy::PyReadonlyArray2;
 use numpy::ndarray::ArrayView1;
@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyList};
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, Observation, RunError,
+    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, NoLayout, Observation, RunError,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -270,7 +270,11 @@ pub fn fragility(
     }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
-    options.layout = layout(layout_name)?;
+    let layout = |name: &str| {
+        name.parse()
+            .map_err(|refused: NoLayout| PyValueError::new_err(format!("there is no layout `{name}`; {refused}")))
+    };
+    options.layout = layout_name.map(layout).transpose()?;
     // One part with one item, which computes its bands on the threads of the pool.
     let made = in_parts(py, 0..1, 0, 1, |_| vec![Fragility::of(&runs, state, &options)])?;
     let found = made.first().ok_or_else(|| error::of_study(py, "no curve was made"))?;

@@ -4,7 +4,7 @@ use crate::error;
 use crate::interrupt::INTERVAL;
 use crate::scene::{Origin, Scene};
 use crate::table::{Column, Names, Values, into_python, truth, whole};
-use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rocking::Fate;
@@ -194,14 +194,4 @@ pub fn per_block<T, E>(
         Column::new(format!("{name}_{}", block + 1), Values::Number(values))
     };
     (0..blocks).map(of_block).collect()
-}
-
-/// The layout of the levels of a study, by its name.
-pub fn layout(name: Option<&str>) -> PyResult<Option<rocking::studies::Layout>> {
-    match name {
-        None => Ok(None),
-        Some("stripes") => Ok(Some(rocking::studies::Layout::Stripes)),
-        Some("cloud") => Ok(Some(rocking::studies::Layout::Cloud)),
-        Some(name) => Err(PyValueError::new_err(format!("there is no layout `{name}`; give stripes or cloud"))),
-    }
 }

@@ -2,12 +2,12 @@
 
 use super::decision::Decision;
 use super::instant::{
-    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, may_open, project, relative, sizes,
+    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, may_open, project, sizes,
 };
 use super::search::ContactProblem;
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
-use crate::mechanics::kinematics::Factorised;
+use crate::mechanics::kinematics::{Factorised, relative};
 use crate::numerics::per_block::{Any, PerBlock, Size, for_size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 

@@ -2,7 +2,7 @@
 
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
-use crate::mechanics::kinematics::{Factorised, Posture, Turn, Vec2};
+use crate::mechanics::kinematics::{Factorised, Posture, Turn, Vec2, relative};
 use crate::mechanics::links::{imposed_acceleration, link_acceleration};
 use crate::numerics::per_block::{Size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -82,11 +82,6 @@ impl<'a, S: Size> Instant<'a, S> {
 #[inline(always)]
 pub(super) fn chosen(list: &[bool]) -> impl Iterator<Item = usize> {
     list.iter().enumerate().filter(|(_, is_chosen)| **is_chosen).map(|(interface, _)| interface)
-}
-
-/// `φ̇_i` or `φ̈_i` of the blocks' rates or accelerations.
-pub(super) fn relative(motion: &[f64], interface: usize) -> f64 {
-    motion[interface] - if interface == 0 { 0.0 } else { motion[interface - 1] }
 }
 
 /// Gaps between the angles, or the rates, of neighbouring blocks.

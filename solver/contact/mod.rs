@@ -32,8 +32,8 @@ mod tests {
     use super::*;
     use crate::column::{Block, Column};
     use crate::mechanics::dynamics::Ground;
+    use crate::mechanics::kinematics::relative;
     use crate::numerics::per_block::PerBlock;
-    use instant::relative;
     use rocking_codegen::pattern::Pattern;
 
     const GROUND: Ground = Ground { x: 0.0, gravity: 9.81 };

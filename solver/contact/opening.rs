@@ -1,10 +1,11 @@
 //! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
 
 use super::decision::Decision;
-use super::instant::{Instant, Mechanism, SingularMass, accelerate, critical_acceleration, may_open, relative};
+use super::instant::{Instant, Mechanism, SingularMass, accelerate, critical_acceleration, may_open};
 use super::search::ContactProblem;
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
+use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use rocking_codegen::pattern::{Interface, Pattern};
 

@@ -1,7 +1,8 @@
 //! Search for the admissible pattern of a contact problem: from a guess by changing the states whose conditions are violated, and for the nearest
 //! of all patterns if that fails (docs/book/model.md, section 5, item 3, and section 9).
 
-use super::instant::{Answer, Instant, Mechanism, SingularMass, chosen, relative};
+use super::instant::{Answer, Instant, Mechanism, SingularMass, chosen};
+use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::{PerBlock, Size};
 use rocking_codegen::pattern::Interface;
 

@@ -13,7 +13,7 @@
 
 use super::joint::{Configuration, Face, Joint};
 use crate::column::Column;
-use crate::mechanics::kinematics::Vec2;
+use crate::mechanics::kinematics::{Vec2, lower};
 use crate::numerics::per_block::PerBlock;
 use std::ops::Range;
 
@@ -239,7 +239,7 @@ impl<'a> Chain<'a> {
         if link.is_free {
             return rates.apart[interface];
         }
-        let lower = interface.checked_sub(1).map_or(0.0, |below| rates.omega[below]);
+        let lower = lower(&rates.omega, interface);
         let turning = plus(swept(lower, link.on_lower), swept(rates.omega[interface], link.on_upper));
         plus(turning, scaled(link.along, rates.slide[interface]))
     }
@@ -300,7 +300,7 @@ impl<'a> Chain<'a> {
         let mut below = [0.0, 0.0];
         for (i, acceleration) in accelerations.iter_mut().enumerate() {
             let Placed { link, to_centroid, to_top, .. } = &self.blocks[i];
-            let (lower, upper) = (i.checked_sub(1).map_or(0.0, |below| rates.omega[below]), rates.omega[i]);
+            let (lower, upper) = (lower(&rates.omega, i), rates.omega[i]);
             let mut foot = below;
             if !link.is_free {
                 foot = plus(foot, scaled(link.on_lower, -lower * lower));

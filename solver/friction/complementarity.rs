@@ -77,7 +77,7 @@ pub fn states(
         let slip = match (first.slip, slide.abs() <= UNCHANGED * most) {
             (Some(given), _) => Slip::Slides(given),
             (None, true) => Slip::Sticks,
-            (None, false) => Slip::Slides(if *slide > 0.0 { 1 } else { -1 }),
+            (None, false) => Slip::along(*slide),
         };
         match touch {
             Touch::Faces if held.len() == 2 => Joint::Closed(slip),

@@ -16,32 +16,43 @@ use std::cell::OnceCell;
 /// A step on a series.
 pub struct SeriesSpan<'s> {
     pub series: &'s Series,
-    pub column: &'s Column,
     pub joints: &'s [Joint],
-    /// Static coefficients of friction.
-    pub fixed: &'s [f64],
     /// Length `[s]`.
     pub h: f64,
-    /// Powers of the length ([`powers`]).
-    pub powers: [f64; COEFFICIENTS],
+    column: &'s Column,
+    limits: Limits<'s>,
+    /// Powers of the length, from the zeroth on.
+    powers: [f64; COEFFICIENTS],
+    /// Poses that have been asked for, by interface.
+    poses: Vec<OnceCell<[Vec<Vec2>; 3]>>,
+}
+
+/// What guards compare with.
+pub struct Limits<'s> {
+    /// Static coefficients of friction.
+    pub fixed: &'s [f64],
     /// Violation of a condition on forces that counts as rounding `[N]`.
     pub slack: f64,
     /// `[rad]`
     pub overturn_angle: f64,
-    /// Poses that have been asked for, by interface.
-    pub poses: Vec<OnceCell<[Vec<Vec2>; 3]>>,
 }
 
-/// Powers of a length, from the zeroth on.
-pub fn powers(h: f64) -> [f64; COEFFICIENTS] {
-    let mut powers = [1.0; COEFFICIENTS];
-    for k in 1..powers.len() {
-        powers[k] = powers[k - 1] * h;
+impl<'s> SeriesSpan<'s> {
+    /// A step of a length `h` `[s]`.
+    pub fn new(
+        series: &'s Series,
+        column: &'s Column,
+        joints: &'s [Joint],
+        h: f64,
+        limits: Limits<'s>,
+    ) -> SeriesSpan<'s> {
+        let mut powers = [1.0; COEFFICIENTS];
+        for k in 1..powers.len() {
+            powers[k] = powers[k - 1] * h;
+        }
+        SeriesSpan { series, joints, h, column, limits, powers, poses: vec![OnceCell::new(); joints.len()] }
     }
-    powers
-}
 
-impl SeriesSpan<'_> {
     /// Values of coordinates over the step, with a constant added.
     #[inline(always)]
     fn of_values(&self, constant: f64, coefficient: impl Fn(usize) -> f64) -> Powers {
@@ -65,7 +76,7 @@ impl SeriesSpan<'_> {
         let series = self.series;
         match guard {
             Guard::Cone(i, side) => self.cone(i, side, visit),
-            Guard::Press(i) => visit(&self.of_forces(self.slack, |k| series.contact_force(i, k)[1])),
+            Guard::Press(i) => visit(&self.of_forces(self.limits.slack, |k| series.contact_force(i, k)[1])),
             Guard::Tip(i, side) => self.tip(i, side, visit),
             Guard::Stop(i) => {
                 let Some(slide) = series.slide(i) else { return };
@@ -96,7 +107,7 @@ impl SeriesSpan<'_> {
             }
             Guard::Overturn(block) => {
                 let angle = series.angle(block);
-                self.within(self.overturn_angle, |k| angle[k], visit);
+                self.within(self.limits.overturn_angle, |k| angle[k], visit);
             }
             Guard::Land(_) => {}
         }
@@ -122,14 +133,14 @@ impl SeriesSpan<'_> {
 
     /// How far the force at a sticking contact is inside its cone ([`super::contact_problem::cone_margins`]).
     fn cone(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
-        let coefficient = self.fixed[i];
+        let coefficient = self.limits.fixed[i];
         let margin = |[along, across]: [f64; 2]| coefficient * across + f64::from(side) * along;
         match self.joints[i] {
             // On coinciding corners, each cone belongs to one of the two faces.
             Joint::Corner(corner, Face::Both, _) => {
-                visit(&self.of_forces(self.slack, |k| margin(self.series.force(i, corner != side, k))));
+                visit(&self.of_forces(self.limits.slack, |k| margin(self.series.force(i, corner != side, k))));
             }
-            _ => visit(&self.of_forces(self.slack, |k| margin(self.series.contact_force(i, k)))),
+            _ => visit(&self.of_forces(self.limits.slack, |k| margin(self.series.contact_force(i, k)))),
         }
     }
 
@@ -140,11 +151,11 @@ impl SeriesSpan<'_> {
         let (side, series) = (f64::from(side), self.series);
         let own = blocks[i].bottom_half_width;
         let normal = |k: usize| series.contact_force(i, k)[1];
-        visit(&self.of_forces(own * self.slack, |k| own * normal(k) + side * series.moment(i, k)));
+        visit(&self.of_forces(own * self.limits.slack, |k| own * normal(k) + side * series.moment(i, k)));
         if let Some(below) = i.checked_sub(1) {
             let reach = blocks[below].top_half_width;
             let margin = |k: usize| reach * normal(k) + side * (series.moment(i, k) - series.lever(i, k));
-            visit(&self.of_forces(reach * self.slack, margin));
+            visit(&self.of_forces(reach * self.limits.slack, margin));
         }
     }
 

@@ -8,7 +8,7 @@
 use super::chain::Pose;
 use super::contact_problem::{cone_margins, half_length};
 use super::gaps::{self, Corner};
-use super::joint::{Configuration, Face, Joint, Sign, Slip};
+use super::joint::{Configuration, Face, Joint, Sign, Slip, overhang};
 use super::rows::Answer;
 use crate::column::Column;
 
@@ -94,7 +94,7 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
         }
         Guard::Edge(i) => match now.joints[i] {
             Joint::Corner(side, face, _) => {
-                -beyond(column, i, side, now.slide[i]) * if face == Face::Upper { -1.0 } else { 1.0 }
+                -overhang(column, i, side, now.slide[i]) * if face == Face::Upper { -1.0 } else { 1.0 }
             }
             _ => f64::INFINITY,
         },
@@ -130,10 +130,4 @@ pub fn value_of_forces(
         }
         _ => f64::INFINITY,
     }
-}
-
-/// How far the upper corner of a side is outside the lower face `[m]`.
-fn beyond(column: &Column, interface: usize, side: Sign, slide: f64) -> f64 {
-    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| column.blocks()[below].top_half_width);
-    f64::from(side) * slide + column.blocks()[interface].bottom_half_width - lower
 }

@@ -11,9 +11,10 @@
 //! between their middles.
 
 use crate::column::Column;
-use crate::mechanics::kinematics::Vec2;
+use crate::mechanics::kinematics::{Vec2, relative};
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::{Interface, Pattern};
+use std::ops::RangeInclusive;
 
 /// Right (+1) or left (-1): the side of a corner, or the direction of a slide.
 pub type Sign = i8;
@@ -34,6 +35,11 @@ impl Slip {
             Slip::Sticks => 0.0,
             Slip::Slides(sign) => f64::from(sign),
         }
+    }
+
+    /// The slide with a rate that is not zero.
+    pub fn along(rate: f64) -> Slip {
+        Slip::Slides(if rate > 0.0 { 1 } else { -1 })
     }
 }
 
@@ -63,6 +69,12 @@ impl Joint {
     /// Whether the contact exists and does not slide.
     pub fn sticks(self) -> bool {
         matches!(self, Joint::Closed(Slip::Sticks) | Joint::Corner(_, _, Slip::Sticks))
+    }
+
+    /// The state of coinciding corners that slide an instant later: they are on the face that carries them by then.
+    pub fn after_coinciding(side: Sign, direction: Sign) -> Joint {
+        let face = if direction == side { Face::Upper } else { Face::Lower };
+        Joint::Corner(side, face, Slip::Slides(direction))
     }
 
     /// How the contact resists sliding; `None` for a free interface.
@@ -145,9 +157,19 @@ impl Configuration {
         Pattern((0..self.joints.len()).map(state).collect())
     }
 
+    /// Whether all faces lie on each other and stick.
+    pub fn lies_still(&self) -> bool {
+        self.joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks))
+    }
+
+    /// Whether all faces lie on each other and stick, and no block turns.
+    pub fn is_at_rest(&self) -> bool {
+        self.lies_still() && self.omega.iter().all(|rate| *rate == 0.0)
+    }
+
     /// Relative angle of an interface (from zero) `[rad]`.
     pub fn gap_angle(&self, interface: usize) -> f64 {
-        difference(&self.theta, interface)
+        relative(&self.theta, interface)
     }
 
     /// Whether another configuration certainly has the same places and velocities: the same numbers, and free interfaces where this one has them.
@@ -163,13 +185,8 @@ impl Configuration {
 
     /// Relative rate of an interface (from zero) `[rad/s]`.
     pub fn gap_rate(&self, interface: usize) -> f64 {
-        difference(&self.omega, interface)
+        relative(&self.omega, interface)
     }
-}
-
-/// Value of the block above an interface minus the value of the block below; the ground has the value zero.
-pub fn difference(values: &[f64], interface: usize) -> f64 {
-    values[interface] - interface.checked_sub(1).map_or(0.0, |below| values[below])
 }
 
 /// Two corners coincide if their distance is at most this share of the sum of the half-widths: the rounding of equal widths. Larger, and drums that
@@ -180,8 +197,7 @@ const COINCIDENCE: f64 = 1e-13;
 pub fn face(column: &Column, interface: usize, side: Sign, slide: f64) -> Face {
     let Some(below) = interface.checked_sub(1) else { return Face::Lower };
     let (own, lower) = (column.blocks()[interface].bottom_half_width, column.blocks()[below].top_half_width);
-    // How far the upper corner is outside the lower face.
-    let beyond = f64::from(side) * slide + own - lower;
+    let beyond = overhang(column, interface, side, slide);
     if beyond.abs() <= COINCIDENCE * (own + lower) {
         Face::Both
     } else if beyond < 0.0 {
@@ -189,4 +205,16 @@ pub fn face(column: &Column, interface: usize, side: Sign, slide: f64) -> Face {
     } else {
         Face::Upper
     }
+}
+
+/// How far the upper corner of a side is outside the lower face `[m]`; minus infinity on the ground.
+pub fn overhang(column: &Column, interface: usize, side: Sign, slide: f64) -> f64 {
+    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| column.blocks()[below].top_half_width);
+    f64::from(side) * slide + column.blocks()[interface].bottom_half_width - lower
+}
+
+/// The blocks that turn with the one above an interface: those that lie on it, up to the next open interface.
+pub fn joined_above(joints: &[Joint], interface: usize) -> RangeInclusive<usize> {
+    let joined = joints[interface + 1..].iter().take_while(|joint| matches!(joint, Joint::Closed(_))).count();
+    interface..=interface + joined
 }

@@ -15,11 +15,12 @@ use super::chain::{Chain, Rates};
 use super::complementarity;
 use super::contact_problem::{Coefficients, Question, Touch, centre, cone_margins, half_length};
 use super::gaps::{self, Corner};
-use super::joint::{Configuration, Face, Joint, Sign, Slip, difference, face};
+use super::joint::{Configuration, Face, Joint, Sign, Slip, face, joined_above};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::contact::ENERGY_ROUNDING;
 use crate::mechanics::dynamics::Ground;
+use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
 use std::cell::OnceCell;
 
@@ -175,14 +176,12 @@ impl<'a> Search<'a> {
         // No combination was found, or there are too many: search from all that sticks, then from each slide at rest while the other slides go on.
         let sliding = |interface: usize| {
             let rate = self.now.slide_rate[interface];
-            (rate != 0.0 && first[interface].slip().is_some()).then_some(if rate > 0.0 { 1 } else { -1 })
+            (rate != 0.0 && first[interface].slip().is_some()).then_some(Slip::along(rate))
         };
         let with_one_at_rest = |resting: usize| -> PerBlock<Joint> {
             let joint = |(interface, joint): (usize, &Joint)| match (sliding(interface), *joint) {
-                (Some(direction), Joint::Closed(_)) if interface != resting => Joint::Closed(Slip::Slides(direction)),
-                (Some(direction), Joint::Corner(side, ..)) if interface != resting => {
-                    self.corner(interface, side, Slip::Slides(direction))
-                }
+                (Some(slip), Joint::Closed(_)) if interface != resting => Joint::Closed(slip),
+                (Some(slip), Joint::Corner(side, ..)) if interface != resting => self.corner(interface, side, slip),
                 (_, joint) => joint,
             };
             first.iter().enumerate().map(joint).collect()
@@ -235,8 +234,7 @@ impl<'a> Search<'a> {
         if face(self.column, interface, side, self.now.slide[interface]) != Face::Both {
             return None;
         }
-        let on = if direction == side { Face::Upper } else { Face::Lower };
-        Some((Joint::Corner(side, on, Slip::Slides(direction)), direction))
+        Some((Joint::after_coinciding(side, direction), direction))
     }
 
     /// The states with which the search begins: what touches sticks, what slides goes on.
@@ -260,7 +258,7 @@ impl<'a> Search<'a> {
     fn given_slip(&self, interface: usize) -> Option<Slip> {
         let rate = self.now.slide_rate[interface];
         let is_given = matches!(self.question, Question::Accelerations(_)) && rate != 0.0;
-        is_given.then_some(Slip::Slides(if rate > 0.0 { 1 } else { -1 }))
+        is_given.then_some(Slip::along(rate))
     }
 
     /// State of a corner on the face that carries it. Coinciding corners are two contacts, each corner against the prolonged face of the other block:
@@ -328,15 +326,14 @@ impl<'a> Search<'a> {
         let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
         let plastic = &plastic.answer.rates;
         let spread = rows.turned_by_moment(interface)?;
-        let (rate, compliance) = (difference(&plastic.omega, interface), difference(&spread.omega, interface));
+        let (rate, compliance) = (relative(&plastic.omega, interface), relative(&spread.omega, interface));
         if compliance.is_nan() || compliance <= 0.0 {
             return None;
         }
         let mut rates = plastic.plus((factor - 1.0) * rate / compliance, &spread);
         // Exactly: with a factor of zero, the rounding of the sum would be a hop.
-        let below = interface.checked_sub(1).map_or(0.0, |below| rates.omega[below]);
-        let joined = joints[interface + 1..].iter().take_while(|joint| matches!(joint, Joint::Closed(_))).count();
-        rates.omega[interface..=interface + joined].fill(below + factor * rate);
+        let rebound = lower(&rates.omega, interface) + factor * rate;
+        rates.omega[joined_above(joints, interface)].fill(rebound);
         let answer = rows.given(rates, before);
         let gains =
             chain.motion(&answer.rates).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
@@ -438,7 +435,7 @@ impl<'a> Search<'a> {
                 if contact.normal < -slack {
                     return Some(Joint::Free);
                 }
-                let opening = f64::from(side) * difference(&answer.rates.omega, interface);
+                let opening = f64::from(side) * relative(&answer.rates.omega, interface);
                 if self.touch[interface] == Touch::Faces && opening < -self.slack.angular {
                     return Some(Joint::Closed(slip));
                 }

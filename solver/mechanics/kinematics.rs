@@ -15,6 +15,16 @@ use rocking_codegen::pattern::{Interface, Pattern};
 /// A vector of the plane, `[x, y]`.
 pub type Vec2 = [f64; 2];
 
+/// Angle, rate or acceleration of the block below an interface; zero below the first one.
+pub(crate) fn lower(values: &[f64], interface: usize) -> f64 {
+    interface.checked_sub(1).map_or(0.0, |below| values[below])
+}
+
+/// Angle, rate or acceleration of the block above an interface relative to the one below.
+pub(crate) fn relative(values: &[f64], interface: usize) -> f64 {
+    values[interface] - lower(values, interface)
+}
+
 /// A column's geometry in one pattern and position.
 #[derive(Clone, Debug)]
 pub struct Posture<'a, S: Size = Any> {

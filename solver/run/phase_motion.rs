@@ -11,6 +11,7 @@ use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
 use crate::column::Column;
 use crate::contact::{critical_acceleration, rounding_acceleration};
+use crate::mechanics::kinematics::lower;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
@@ -263,7 +264,7 @@ impl Inside for Phase {
         self.write_per_block(x, &mut state.theta, &mut state.omega);
         // The blocks at an interface that closes get the same angle to the last bit.
         for &interface in &self.closing {
-            let below = interface.checked_sub(1).map_or(0.0, |below| state.theta[below]);
+            let below = lower(&state.theta, interface);
             state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
         }
         (state.t, state.segment) = (t, segment);

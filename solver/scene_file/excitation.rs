@@ -210,7 +210,7 @@ pub(crate) fn text_options(table: &mut Table, gravity: f64) -> Result<TextOption
         None => None,
         Some((name, _)) => Some(
             AccelerationUnit::parse(&name)
-                .ok_or_else(|| table.no_such("units", "unit", &name, &["g", "m/s2", "cm/s2", "gal", "mg", "in/s2"]))?,
+                .ok_or_else(|| table.no_such("units", "unit", &name, &AccelerationUnit::NAMES))?,
         ),
     };
     Ok(TextOptions {

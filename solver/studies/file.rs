@@ -1,8 +1,8 @@
 //! Study files: a scene, records, levels of a measure, and limit states.
 
-use super::fragility::{FragilityOptions, Layout, some_of};
+use super::fragility::{FragilityOptions, Layout, NoLayout, some_of};
 use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
-use super::observation::{LimitState, NoLimitState};
+use super::observation::{DEFAULT_STATES, LimitState, NoLimitState};
 use crate::column::Column;
 use crate::intensity::{Intensity, NAMES};
 use crate::scene::Scene;
@@ -29,14 +29,6 @@ pub struct IdaFile {
     /// Input files: the study file, the scene file if the study names one, then the files of records.
     pub inputs: Vec<PathBuf>,
 }
-
-/// Limit states of a study that names none.
-const DEFAULT_STATES: [LimitState; 4] = [
-    LimitState::Uplift,
-    LimitState::Peak { block: None, above: 0.15 },
-    LimitState::Peak { block: None, above: 0.35 },
-    LimitState::Overturned,
-];
 
 /// Largest number of replicates; a larger one is taken for a mistake.
 const MOST_REPLICATES: u64 = 1_000_000;
@@ -309,12 +301,10 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
         options.confidence = confidence;
     }
     options.seed = table.whole("seed", 0)?.unwrap_or(options.seed);
-    options.layout = match table.text("layout")?.map(|(name, _)| name).as_deref() {
-        None => None,
-        Some("stripes") => Some(Layout::Stripes),
-        Some("cloud") => Some(Layout::Cloud),
-        Some(other) => return Err(table.no_such("layout", "layout", other, &["stripes", "cloud"])),
-    };
+    if let Some((name, _)) = table.text("layout")? {
+        let layout = name.parse().map_err(|_: NoLayout| table.no_such("layout", "layout", &name, &Layout::NAMES))?;
+        options.layout = Some(layout);
+    }
     table.close()?;
     Ok((states, options))
 }

@@ -10,6 +10,7 @@ use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::str::FromStr;
 
 /// How levels are shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -20,6 +21,28 @@ pub enum Layout {
     Stripes,
     /// Each run at a level of its own.
     Cloud,
+}
+
+impl Layout {
+    /// The names of all layouts.
+    pub const NAMES: [&str; 2] = ["stripes", "cloud"];
+}
+
+/// The text was none of the layouts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("give {} or {}", Layout::NAMES[0], Layout::NAMES[1])]
+pub struct NoLayout;
+
+impl FromStr for Layout {
+    type Err = NoLayout;
+
+    fn from_str(name: &str) -> Result<Layout, NoLayout> {
+        match name {
+            "stripes" => Ok(Layout::Stripes),
+            "cloud" => Ok(Layout::Cloud),
+            _ => Err(NoLayout),
+        }
+    }
 }
 
 /// Options of a fragility.

@@ -4,6 +4,7 @@
 //! the angles and rates at both ends, whose extremes are found exactly. At an event the rates before and after it differ.
 
 use crate::column::Column;
+use crate::mechanics::kinematics::relative;
 use crate::response::Response;
 
 /// Angles and rates at an end of a piece of motion.
@@ -30,8 +31,6 @@ pub(super) fn largest_gap(column: &Column, response: &Response) -> f64 {
     });
     let mut knots: Vec<Knot> = samples.chain(events).filter(|knot| knot.t <= response.t_final).collect();
     knots.sort_by(|a, b| a.t.total_cmp(&b.t));
-    let relative =
-        |values: &[f64], interface: usize| values[interface] - if interface > 0 { values[interface - 1] } else { 0.0 };
     let mut largest = response.sliding.as_ref().map_or(0.0, |sliding| sliding.highest_flight);
     for interface in 0..column.len() {
         for pair in knots.windows(2) {

@@ -162,6 +162,14 @@ impl fmt::Display for LimitState {
     }
 }
 
+/// Limit states of a study that names none.
+pub const DEFAULT_STATES: [LimitState; 4] = [
+    LimitState::Uplift,
+    LimitState::Peak { block: None, above: 0.15 },
+    LimitState::Peak { block: None, above: 0.35 },
+    LimitState::Overturned,
+];
+
 /// The text was none of the limit states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(

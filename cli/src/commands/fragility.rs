@@ -1,6 +1,6 @@
 //! `rocking fragility`: curves of limit states from the table of a study.
 
-use crate::arguments::{self, Layout};
+use crate::arguments;
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
 use crate::commands::sweep::{OUTCOME, TRUST};
@@ -11,7 +11,7 @@ use crate::text::shown;
 use crate::{output, plot};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
-use rocking::studies::{self, Cells, Fit, Fragility, FragilityOptions, LimitState, Observation};
+use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
     let Runs { measure, runs, peaks, has_slides, .. } = read(&asked.table, asked.measure.as_deref())?;
     let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
     let states = match &asked.state[..] {
-        [] => usual_states(),
+        [] => DEFAULT_STATES.to_vec(),
         given => given.to_vec(),
     };
     for state in &states {
@@ -43,10 +43,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
     }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (asked.replicates as usize, asked.confidence, asked.seed);
-    options.layout = asked.layout.map(|layout| match layout {
-        Layout::Stripes => studies::Layout::Stripes,
-        Layout::Cloud => studies::Layout::Cloud,
-    });
+    options.layout = asked.layout;
     let out = asked.out.clone().unwrap_or_else(|| tables(&asked.table)[0].clone());
     let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(asked.plot.clone());
     output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&asked.table))?;
@@ -60,12 +57,6 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
         let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
     }
     if asked.json { json(&conclusions) } else { print(&told) }
-}
-
-/// Limit states that apply if none is named.
-pub fn usual_states() -> Vec<LimitState> {
-    let peak = |above: f64| LimitState::Peak { block: None, above };
-    vec![LimitState::Uplift, peak(0.15), peak(0.35), LimitState::Overturned]
 }
 
 /// Runs of a table.

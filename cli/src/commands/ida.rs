@@ -20,7 +20,7 @@ use crate::{files, output};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::intensity::Intensity;
-use rocking::studies::{FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
+use rocking::studies::{DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -101,8 +101,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     }
     let read = fragility::read(table, None)?;
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
-    let conclusions =
-        Conclusions::of(&read.runs, &read.measure, &fragility::usual_states(), &FragilityOptions::default());
+    let conclusions = Conclusions::of(&read.runs, &read.measure, &DEFAULT_STATES, &FragilityOptions::default());
     let mut told = String::new();
     for (figure, path) in [
         (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture.to_path_buf()),

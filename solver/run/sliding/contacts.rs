@@ -112,20 +112,13 @@ pub fn met(
     let corner = if is_lower { lower } else { Corner { face: Face::Upper, ..lower } };
     let slide = gaps::slide_of_landing(&chain, corner);
     let [rate, _] = gaps::gap_rate(&chain, &Rates::of(now), corner);
-    let slip =
-        if rate.abs() <= resolution.speed { Slip::Sticks } else { Slip::Slides(if rate > 0.0 { 1 } else { -1 }) };
+    let slip = if rate.abs() <= resolution.speed { Slip::Sticks } else { Slip::along(rate) };
     let joint = match (touch, slip, face(column, interface, side, slide)) {
         (Touch::Faces | Touch::Nothing, ..) => Joint::Closed(slip),
-        (_, Slip::Slides(direction), Face::Both) => carried(side, direction),
+        (_, Slip::Slides(direction), Face::Both) => Joint::after_coinciding(side, direction),
         (_, _, face) => Joint::Corner(side, face, slip),
     };
     (joint, slide)
-}
-
-/// The state of coinciding corners that slide: they are on the face that carries them an instant later.
-pub fn carried(side: Sign, direction: Sign) -> Joint {
-    let face = if direction == side { Face::Upper } else { Face::Lower };
-    Joint::Corner(side, face, Slip::Slides(direction))
 }
 
 /// Gap of a free interface `[m]`: the least distance of a corner from the other block's face.

@@ -1,15 +1,16 @@
 //! Impacts with friction: gaps that close, corners that land, and velocities that jump because no acceleration is admissible.
 
-use super::contacts::{self, carried};
+use super::contacts;
 use super::state::Stop;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Question, Touch};
 use crate::friction::gaps::{self, Corner};
-use crate::friction::joint::{Face, Joint, Slip, face};
+use crate::friction::joint::{Face, Joint, Slip, face, joined_above};
 use crate::friction::rows::Answer;
 use crate::friction::search::{Search, Solution};
+use crate::mechanics::kinematics::lower;
 use crate::response::{EventKind, Impulse};
 
 impl Instant<'_> {
@@ -17,11 +18,8 @@ impl Instant<'_> {
     pub fn close(&mut self, interface: usize) {
         let Joint::Corner(side, _, slip) = self.now.joints[interface] else { return };
         let rate = self.now.gap_rate(interface);
-        let angle = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
-        // Blocks above that are joined to this one get the same angle.
-        let is_joined = |joint: &Joint| matches!(joint, Joint::Closed(_));
-        let joined = self.now.joints[interface + 1..].iter().take_while(|joint| is_joined(joint)).count();
-        self.now.theta[interface..=interface + joined].fill(angle);
+        let angle = lower(&self.now.theta, interface);
+        self.now.theta[joined_above(&self.now.joints, interface)].fill(angle);
         if f64::from(side) * rate >= 0.0 {
             // The rate is not closing the gap: the hop cannot be resolved and is over.
             let mut joints = self.now.joints.clone();
@@ -62,7 +60,7 @@ impl Instant<'_> {
     fn lay_angles(&mut self, touch: &[Touch]) {
         for (interface, touch) in touch.iter().enumerate() {
             if *touch == Touch::Faces {
-                self.now.theta[interface] = interface.checked_sub(1).map_or(0.0, |below| self.now.theta[below]);
+                self.now.theta[interface] = lower(&self.now.theta, interface);
             }
         }
     }
@@ -136,7 +134,7 @@ impl Instant<'_> {
             if self.now.gap_angle(interface).abs() > self.resolution.angle {
                 self.set_free(interface);
             } else {
-                self.now.joints[interface] = carried(side, direction);
+                self.now.joints[interface] = Joint::after_coinciding(side, direction);
             }
         }
     }

@@ -8,7 +8,6 @@ use super::step::Step;
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards;
-use crate::friction::joint::{Joint, Slip};
 use crate::numerics::ode::control::StepControl;
 use crate::numerics::ode::explicit::{Explicit, System, Tableau};
 use crate::numerics::ode::interpolant::Interpolant;
@@ -113,9 +112,7 @@ impl<'p> Mover<'p> {
 
     /// Moves the column until something happens.
     pub fn pass(&mut self, from: &State, recorder: &mut Recorder<'p>) -> Result<(State, Ended), SolveError> {
-        let is_still = from.configuration.joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks))
-            && from.configuration.omega.iter().all(|rate| *rate == 0.0);
-        if is_still {
+        if from.configuration.is_at_rest() {
             return Ok(self.wait(from, recorder));
         }
         let options = &self.problem.scene.options;
@@ -223,11 +220,7 @@ impl<'p> Mover<'p> {
                 h *= if error.is_finite() { control.factor(error) } else { 0.1 };
                 wanted = h;
                 if t + h <= t {
-                    if smooth.is_jamming(t, &x) {
-                        break 'stretch Ended::Jam;
-                    }
-                    let mode = format!("{} with friction", from.configuration.pattern());
-                    return Err(SolveError::StepTooSmall { time: t, step: h, mode });
+                    break 'stretch smooth.without_step(t, &x, h)?;
                 }
             }
             method.interpolate(&mut smooth, &mut interpolant);
@@ -241,17 +234,13 @@ impl<'p> Mover<'p> {
                 continue;
             }
             longest = f64::INFINITY;
-            let s = first.map_or(1.0, |(s, _)| s);
-            let until = if s == 1.0 { t + h } else { t + s * h };
-            recorder.read(at.segment, [t, until], &mut step);
-            let last = step.configuration(s);
-            if let Some((_, guard)) = first {
-                x = smooth.state(&last);
-                at.t = until;
+            let end = step.record(first, at.segment, recorder);
+            at.t = end.t;
+            if let Some(guard) = end.guard {
+                x = smooth.state(&end.configuration);
                 break Ended::Guard(guard);
             }
             x.clone_from(method.end());
-            at.t = until;
         };
         self.pace = Some(wanted);
         self.work.rhs_calls += smooth.calls;

@@ -34,14 +34,14 @@ pub trait Inside<'p>: Moments<'p> {
     fn peaks(&mut self, until: f64, peaks: &mut [f64]);
 
     /// Visits the nodes of a quadrature up to a time `[s]`.
-    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>));
+    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node));
 
-    /// Visits a time of the step `[s]`: contact forces as in [`Node::contacts`], and the column as in [`Node::flying`].
-    fn contacts(&mut self, t: f64, visit: &mut dyn FnMut(&[ContactForce], Option<&Moment<'p>>));
+    /// Contact forces at a time `[s]`, as in [`Node::contacts`].
+    fn contacts(&mut self, t: f64) -> PerBlock<ContactForce>;
 }
 
 /// A node of the quadrature over a step.
-pub struct Node<'m, 'p> {
+pub struct Node {
     /// `[s]`
     pub t: f64,
     /// Weight in the quadrature `[s]`.
@@ -52,8 +52,6 @@ pub struct Node<'m, 'p> {
     pub contacts: PerBlock<ContactForce>,
     /// `[m/s]`, by interface.
     pub slide_rates: PerBlock<f64>,
-    /// The column at the node; present at least where some interface is free.
-    pub flying: Option<&'m Moment<'p>>,
 }
 
 /// Normal force of a contact, as a share of the weight above it, up to which its friction demand is not recorded: both forces are rounding where blocks
@@ -309,8 +307,8 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Records rows, peaks, forces and work of a step, or of its part up to the zero of a guard.
-    pub fn read(&mut self, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
+    /// Records rows, peaks, forces and work of a step with these states of the interfaces, or of its part up to the zero of a guard.
+    pub fn read(&mut self, segment: usize, joints: &[Joint], [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
         if !self.problem.is_recorded() {
             return;
         }
@@ -318,39 +316,41 @@ impl<'p> Recorder<'p> {
             self.row(t, inside.moment(t.max(from), true));
         }
         inside.peaks(until, &mut self.peak_theta);
-        inside.nodes(until, &mut |node| self.node(segment, node));
+        inside.nodes(until, &mut |node| self.node(segment, joints, node));
         // A step that follows another one begins with the forces at its end.
         let begins = from != self.read_until;
         for t in begins.then_some(from).into_iter().chain([until]) {
-            inside.contacts(t, &mut |contacts, flying| self.contacts(contacts, flying));
+            self.contacts(joints, &inside.contacts(t));
         }
         self.read_until = until;
-        for interface in 0..self.peak_theta.len() {
-            if inside.moment(from, false).configuration.joints[interface] == Joint::Free {
+        for (interface, joint) in joints.iter().enumerate() {
+            if *joint == Joint::Free {
                 let gap = |t: f64| contacts::gap(inside.moment(t, false).chain(), interface);
                 self.report.highest_flight = highest(gap, [from, until], self.report.highest_flight);
             }
         }
     }
 
-    /// Records the forces of contacts at a place of a step; `flying` is the column there, if some interface is free.
-    fn contacts(&mut self, contacts: &[ContactForce], flying: Option<&Moment>) {
-        for (interface, contact) in contacts.iter().enumerate().filter(|(interface, _)| !is_free(flying, *interface)) {
+    /// Records the forces of contacts at a place of a step.
+    fn contacts(&mut self, joints: &[Joint], contacts: &[ContactForce]) {
+        for (interface, contact) in
+            contacts.iter().enumerate().filter(|(interface, _)| joints[*interface] != Joint::Free)
+        {
             self.contact(interface, contact);
         }
     }
 
     /// Records forces and work at a node of the quadrature over a step.
-    fn node(&mut self, segment: usize, node: &Node) {
-        let Node { t, weight, momentum: [px, py], contacts, slide_rates, flying } = node;
+    fn node(&mut self, segment: usize, joints: &[Joint], node: &Node) {
+        let Node { t, weight, momentum: [px, py], contacts, slide_rates } = node;
         let [ax, ay] = self.problem.ground[segment].accelerations(*t);
         self.report.ground_work -= weight * (ax * px + ay * py);
-        for (interface, (contact, rate)) in contacts.iter().zip(slide_rates).enumerate() {
-            if !is_free(*flying, interface) {
+        for ((joint, contact), rate) in joints.iter().zip(contacts).zip(slide_rates) {
+            if *joint != Joint::Free {
                 self.report.friction_work += weight * contact.tangential * rate;
             }
         }
-        self.contacts(contacts, *flying);
+        self.contacts(joints, contacts);
     }
 
     /// The next output time `[s]`, if there is one up to the end.
@@ -443,11 +443,6 @@ impl<'p> Recorder<'p> {
             sliding: Some(self.report),
         }
     }
-}
-
-/// Whether an interface is free; `flying` is the column, if some interface is.
-fn is_free(flying: Option<&Moment>, interface: usize) -> bool {
-    flying.is_some_and(|moment| moment.configuration.joints[interface] == Joint::Free)
 }
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.

@@ -4,7 +4,7 @@ use super::mover::{Mover, RESOLVING, SHORTEST_SHARE};
 use super::recorder::Recorder;
 use super::state::{Ended, State};
 use super::step::Step;
-use crate::friction::guard_series::{SeriesSpan, powers};
+use crate::friction::guard_series::{Limits, SeriesSpan};
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::Joint;
 use crate::friction::search::force_slack;
@@ -14,7 +14,6 @@ use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
 use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, MARGIN, SAFETY};
 use crate::run::error::SolveError;
 use crate::run::expected_event;
-use std::cell::OnceCell;
 
 /// Orders of second derivatives after which the terms are first compared with the tolerance.
 const LEAST_ORDERS: usize = 4;
@@ -56,26 +55,14 @@ impl<'p> Mover<'p> {
             let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
             self.work.rhs_calls += series.orders();
             let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
-                if begun.is_none() || smooth.is_jamming(t, &x) {
-                    break Ended::Jam;
-                }
-                let mode = format!("{} with friction", from.configuration.pattern());
-                return Err(SolveError::StepTooSmall { time: t, step: length.unwrap_or(0.0), mode });
+                break if begun.is_none() { Ended::Jam } else { smooth.without_step(t, &x, length.unwrap_or(0.0))? };
             };
             wanted = if h < most { h } else { wanted.max(h) };
             self.work.steps += 1;
             let now = smooth.configuration(&x);
-            let span = SeriesSpan {
-                series: &series,
-                column: smooth.column,
-                joints,
-                fixed: &self.friction.fixed,
-                h,
-                powers: powers(h),
-                slack: force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity)),
-                overturn_angle: options.overturn_angle,
-                poses: vec![OnceCell::new(); joints.len()],
-            };
+            let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
+            let limits = Limits { fixed: &self.friction.fixed, slack, overturn_angle: options.overturn_angle };
+            let span = SeriesSpan::new(&series, smooth.column, joints, h, limits);
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
             let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
@@ -85,12 +72,9 @@ impl<'p> Mover<'p> {
                 continue;
             }
             longest = f64::INFINITY;
-            let s = first.map_or(1.0, |(s, _)| s);
-            at.t = if s == 1.0 { t + h } else { t + s * h };
-            recorder.read(at.segment, [t, at.t], &mut step);
-            let last = step.configuration(s);
-            x = smooth.state(&last);
-            if let Some((_, guard)) = first {
+            let end = step.record(first, at.segment, recorder);
+            (at.t, x) = (end.t, smooth.state(&end.configuration));
+            if let Some(guard) = end.guard {
                 break Ended::Guard(guard);
             }
         };

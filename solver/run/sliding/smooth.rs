@@ -1,6 +1,6 @@
 //! Smooth motion: the right-hand side of the equations of one set of states.
 
-use super::state::State;
+use super::state::{Ended, State};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, centre};
@@ -11,6 +11,7 @@ use crate::friction::search::acceleration_scale;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::explicit::System;
 use crate::numerics::per_block::PerBlock;
+use crate::run::error::SolveError;
 use crate::run::problem::Problem;
 use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
@@ -115,12 +116,20 @@ impl<'p> Smooth<'p> {
         moment.answer.get_or_insert_with(|| Answer::none(blocks))
     }
 
-    /// Whether some normal force at a time and a state exceeds `JAMMING` times the forces at work: the rows hardly determine it any more (Painlevé).
-    pub fn is_jamming(&mut self, t: f64, x: &[f64]) -> bool {
+    /// Why no step can be taken from a state at a time `[s]`; `step` is the last one that was tried `[s]`.
+    ///
+    /// # Errors
+    /// [`SolveError::StepTooSmall`], unless the motion jams: some normal force exceeds `JAMMING` times the forces at work, and the rows hardly
+    /// determine it any more (Painlevé).
+    pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<Ended, SolveError> {
         let ground = Ground::at(self.segment, t, self.gravity);
         let mut moment = self.moment(self.configuration(x));
         let largest = self.answer(t, &mut moment).contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
-        largest > JAMMING * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground)
+        if largest > JAMMING * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground) {
+            return Ok(Ended::Jam);
+        }
+        let mode = format!("{} with friction", self.base.pattern());
+        Err(SolveError::StepTooSmall { time: t, step, mode })
     }
 
     fn solved(&mut self, t: f64, now: &Configuration, chain: &Chain) -> Option<Answer> {

@@ -4,6 +4,7 @@
 mod first_zero;
 mod inside;
 
+use super::recorder::Recorder;
 use super::smooth::{Moment, Smooth};
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::guards::{self, Guard};
@@ -69,6 +70,15 @@ pub struct Step<'s, 'p, O> {
     stick_angle: f64,
 }
 
+/// Where a step ends.
+pub struct StepEnd {
+    /// `[s]`
+    pub t: f64,
+    pub configuration: Configuration,
+    /// The guard that falls to zero there; `None` at the end of the whole step.
+    pub guard: Option<Guard>,
+}
+
 impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     /// A step that starts at a time `t` and has a length `h` `[s]`.
     pub fn new(smooth: &'s mut Smooth<'p>, output: &'s O, [t, h]: [f64; 2], options: &SolveOptions) -> Step<'s, 'p, O> {
@@ -78,9 +88,13 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         Step { smooth, output, t, h, places, moments, state, overturn_angle, stick_angle }
     }
 
-    /// The configuration at a place of the step, 0 to 1.
-    pub fn configuration(&mut self, s: f64) -> Configuration {
-        self.at(s, false).configuration.clone()
+    /// Records the step up to its end: the first guard that falls to zero and where, or the end of the whole step.
+    pub fn record(&mut self, first: Option<(f64, Guard)>, segment: usize, recorder: &mut Recorder<'p>) -> StepEnd {
+        let (s, guard) = first.map_or((1.0, None), |(s, guard)| (s, Some(guard)));
+        let (from, t) = (self.t, if s == 1.0 { self.t + self.h } else { self.t + s * self.h });
+        let joints = self.smooth.base.joints.clone();
+        recorder.read(segment, &joints, [from, t], self);
+        StepEnd { t, configuration: self.at(s, false).configuration.clone(), guard }
     }
 
     /// The moment at a place of the step, 0 to 1, with accelerations and forces where they are needed.

@@ -6,7 +6,7 @@ use super::state::{Ended, State};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards::Guard;
-use crate::friction::joint::{Configuration, Joint, Slip};
+use crate::friction::joint::Configuration;
 use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
@@ -87,7 +87,7 @@ impl<'p> Sticking<'p> {
     ) -> Result<Option<Box<Part>>, SolveError> {
         let Configuration { joints, theta, omega, slide, .. } = &from.configuration;
         // A column that stands still is left to `Mover`, which waits for the start of a slide as well.
-        if joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks)) && omega.iter().all(|rate| *rate == 0.0) {
+        if from.configuration.is_at_rest() {
             return Ok(None);
         }
         if self.scene.column.slides() != &slide[..] {

@@ -6,9 +6,10 @@ use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, Question, Touch, half_length};
 use crate::friction::guards::Guard;
-use crate::friction::joint::{Configuration, Joint, Sign, Slip, difference, face};
+use crate::friction::joint::{Configuration, Joint, Sign, Slip, face};
 use crate::friction::rows::Rows;
 use crate::friction::search::{Search, Solution};
+use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
 use crate::response::{EventKind, Impulse};
 use crate::run::problem::Problem;
@@ -270,9 +271,8 @@ impl<'p> Instant<'p> {
 
     /// Gives a block the angle and the rate of the one below.
     pub fn lay(&mut self, interface: usize) {
-        let below = interface.checked_sub(1);
-        self.now.theta[interface] = below.map_or(0.0, |below| self.now.theta[below]);
-        self.now.omega[interface] = below.map_or(0.0, |below| self.now.omega[below]);
+        self.now.theta[interface] = lower(&self.now.theta, interface);
+        self.now.omega[interface] = lower(&self.now.omega, interface);
     }
 
     /// Notes the event that leads to the present states. Its kind follows from its cause and the first interface that changes.
@@ -287,7 +287,7 @@ impl<'p> Instant<'p> {
             return;
         }
         let Some(&first) = changed.first() else { return };
-        let was_still = before.joints.iter().all(|joint| *joint == Joint::Closed(Slip::Sticks));
+        let was_still = before.lies_still();
         let kind = match (kind, before.joints[first], after[first]) {
             (EventKind::Opening, ..) if was_still => EventKind::Start,
             (EventKind::Jump | EventKind::Slip | EventKind::Stick, _, Joint::Free) => EventKind::Flight,
@@ -360,7 +360,7 @@ impl<'p> Instant<'p> {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
         };
         let hops = |interface: usize| {
-            let turn = difference(&solution.answer.rates.omega, interface);
+            let turn = relative(&solution.answer.rates.omega, interface);
             self.now.gap_angle(interface).abs() <= self.resolution.angle
                 && returns(self.now.gap_rate(interface), turn, least)
         };
@@ -410,7 +410,7 @@ impl<'p> Instant<'p> {
             let closes = |interface: usize| match held.joints[interface] {
                 Joint::Corner(side, _, slip) => {
                     let has_no_gap = held.gap_angle(interface).abs() <= self.resolution.angle;
-                    let rate = f64::from(side) * difference(&answer.rates.omega, interface);
+                    let rate = f64::from(side) * relative(&answer.rates.omega, interface);
                     let was_closing = f64::from(side) * self.now.gap_rate(interface) < -self.resolution.rate;
                     (has_no_gap && rate < 0.0 && !was_closing).then_some(slip)
                 }

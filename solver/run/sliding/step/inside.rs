@@ -3,7 +3,7 @@
 use super::{Output, Step};
 use crate::friction::chain::Rates;
 use crate::friction::guard_series::SeriesSpan;
-use crate::friction::joint::{Configuration, Joint};
+use crate::friction::joint::Configuration;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
@@ -22,13 +22,13 @@ const GAUSS: [(f64, f64); 5] = [
 
 impl<'p, O: Output> Moments<'p> for Step<'_, 'p, O> {
     fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
-        self.at(((t - self.t) / self.h).clamp(0.0, 1.0), needs_forces)
+        self.at(self.place(t), needs_forces)
     }
 }
 
 impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
     fn peaks(&mut self, until: f64, peaks: &mut [f64]) {
-        let end = ((until - self.t) / self.h).clamp(0.0, 1.0);
+        let end = self.place(until);
         if let Some(span) = self.output.series() {
             for (block, peak) in peaks.iter_mut().enumerate() {
                 *peak = Track::Powers(span.angle(block).up_to(end)).largest_size(*peak);
@@ -45,66 +45,54 @@ impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
         raise(peaks, &self.at(end, false).configuration);
     }
 
-    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node<'_, 'p>)) {
-        let part = until - self.t;
-        let end = (part / self.h).clamp(0.0, 1.0);
+    fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node)) {
+        let (part, end) = (until - self.t, self.place(until));
         for (node, weight) in GAUSS {
             let s = node * end;
-            let (t, weight) = (self.t + s * self.h, weight * part);
-            match self.output.series() {
+            let (t, weight, contacts) = (self.t + s * self.h, weight * part, self.contacts_at(s));
+            let (momentum, slide_rates) = match self.output.series() {
                 Some(&SeriesSpan { series, joints, h, .. }) => {
                     let slide_rates = (0..joints.len()).map(|i| series.slide_rate_at(i, s * h)).collect();
-                    let momentum = series.momentum_at(s * h);
-                    let (contacts, flying) = self.series_contacts(s);
-                    visit(&Node { t, weight, momentum, contacts, slide_rates, flying });
+                    (series.momentum_at(s * h), slide_rates)
                 }
                 None => {
                     let column = self.smooth.column;
-                    let moment = self.at(s, true);
+                    let moment = self.at(s, false);
                     let motion = moment.chain().motion(&Rates::of(&moment.configuration));
                     let momentum =
                         column.blocks().iter().zip(&motion.linear).fold([0.0, 0.0], |sum, (block, v)| {
                             [sum[0] + block.mass * v[0], sum[1] + block.mass * v[1]]
                         });
-                    let slide_rates = moment.configuration.slide_rate.clone();
-                    visit(&Node { t, weight, momentum, contacts: contacts(moment), slide_rates, flying: Some(moment) });
+                    (momentum, moment.configuration.slide_rate.clone())
                 }
-            }
+            };
+            visit(&Node { t, weight, momentum, contacts, slide_rates });
         }
     }
 
-    fn contacts(&mut self, t: f64, visit: &mut dyn FnMut(&[ContactForce], Option<&Moment<'p>>)) {
-        let s = ((t - self.t) / self.h).clamp(0.0, 1.0);
-        if self.output.series().is_some() {
-            let (contacts, flying) = self.series_contacts(s);
-            visit(&contacts, flying);
-        } else {
-            let moment = self.at(s, true);
-            visit(&contacts(moment), Some(moment));
-        }
-    }
-}
-
-/// Contact forces of a moment; empty if its states determine none.
-fn contacts(moment: &Moment) -> PerBlock<ContactForce> {
-    moment.answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect()
-}
-
-impl<'p, O: Output> Step<'_, 'p, O> {
-    /// Contact forces at a place of a step on a series, by interface; the column there, if some interface is free.
-    fn series_contacts(&mut self, s: f64) -> (PerBlock<ContactForce>, Option<&Moment<'p>>) {
-        let Some(&SeriesSpan { series, joints, h, .. }) = self.output.series() else { return (PerBlock::new(), None) };
-        let contact = |interface: usize| {
-            let [tangential, normal] = series.contact_force_at(interface, s * h);
-            ContactForce { normal, tangential, moment: 0.0 }
-        };
-        let contacts = (0..joints.len()).map(contact).collect();
-        let has_flight = self.smooth.base.joints.contains(&Joint::Free);
-        (contacts, has_flight.then(|| self.at(s, false)))
+    fn contacts(&mut self, t: f64) -> PerBlock<ContactForce> {
+        self.contacts_at(self.place(t))
     }
 }
 
 impl<O: Output> Step<'_, '_, O> {
+    /// The place in the step of a time `[s]`, 0 to 1.
+    fn place(&self, t: f64) -> f64 {
+        ((t - self.t) / self.h).clamp(0.0, 1.0)
+    }
+
+    /// Contact forces at a place of the step, by interface; empty if the states determine none.
+    fn contacts_at(&mut self, s: f64) -> PerBlock<ContactForce> {
+        let Some(&SeriesSpan { series, joints, h, .. }) = self.output.series() else {
+            return self.at(s, true).answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect();
+        };
+        let contact = |interface: usize| {
+            let [tangential, normal] = series.contact_force_at(interface, s * h);
+            ContactForce { normal, tangential, moment: 0.0 }
+        };
+        (0..joints.len()).map(contact).collect()
+    }
+
     /// Raises peaks to the crests of angles between two places, at which the blocks turn with these rates.
     fn crests(&mut self, [from, until]: [f64; 2], rates: [&[f64]; 2], peaks: &mut [f64]) {
         for block in 0..rates[0].len() {
