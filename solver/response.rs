@@ -139,7 +139,8 @@ pub struct BlockAtEvent {
     pub velocity_after: [f64; 2],
 }
 
-/// What a contact transmitted in an impact, in the axes of the lower block, on the stack above.
+/// What a contact transmitted in an impact, on the stack above: in the axes of the lower block, with the moment about the contact's centre. In a run in
+/// which blocks slid or flew, in the axes of the face that carries the contact, and with the moment about the point of a corner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Impulse {
@@ -149,7 +150,7 @@ pub struct Impulse {
     /// Tangential part `[N s]`, positive to the right.
     #[serde(deserialize_with = "number")]
     pub tangential: f64,
-    /// Moment part `[N m s]` about the contact's centre, clockwise.
+    /// Moment part `[N m s]`, clockwise.
     #[serde(deserialize_with = "number")]
     pub moment: f64,
 }

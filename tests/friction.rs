@@ -710,3 +710,39 @@ fn restitution_that_friction_does_not_allow_is_counted() {
         assert_eq!(response.warnings().iter().any(|warning| warning.contains("restitution")), left_out);
     }
 }
+
+/// A column at rest needs `max |ẍ_g| / (g + ÿ_g)`, crests between samples included: a block under a Ricker pulse, which needs 0.10194, slid at a coefficient
+/// of 0.1016 only where a sample saw it.
+#[test]
+fn friction_demand_at_rest_is_that_of_the_crest() {
+    let at_rest = |motion: Motion, mu: f64| {
+        let mut scene = scene(vec![Block::rectangle(0.5, 0.7, 1.0)], vec![mu]);
+        scene.excitation.horizontal = Some(motion);
+        scene.options.t_end = 12.0;
+        run(&scene)
+    };
+    let (amplitude, start) = (1.0, 0.3);
+    for (motion, crest) in [
+        (Motion::Ricker { amplitude, omega: 6.0, start }, amplitude),
+        (Motion::SinePulse { amplitude, omega: 9.0, start }, amplitude),
+        (Motion::HalfSine { amplitude, omega: 0.4, start }, amplitude),
+    ] {
+        let held = at_rest(motion.clone(), 0.2);
+        assert_eq!(held.status, StopReason::AtRest);
+        assert_relative_eq!(held.friction_demand[0], crest / GRAVITY, max_relative = 1e-12);
+        let slid = at_rest(motion, crest / GRAVITY * (1.0 - 1e-4)).sliding.expect("friction");
+        assert!(slid.way_slid[0] > 0.0, "it slides");
+    }
+}
+
+/// Where a slide begins, sticking is exactly critical: with a smaller kinetic coefficient both are admissible up to rounding, which is no ambiguity.
+#[test]
+fn the_onset_of_a_slide_is_not_ambiguous() {
+    let mut scene = scene(vec![Block::rectangle(1.0, 0.5, 1.0)], vec![0.9]);
+    scene.friction = Some(Friction::new(vec![0.9], vec![0.7]));
+    scene.excitation.horizontal =
+        Some(Motion::SinePulse { amplitude: GRAVITY, omega: 2.0 * std::f64::consts::PI, start: 0.0 });
+    scene.options.t_end = 3.0;
+    let sliding = run(&scene).sliding.expect("friction");
+    assert!(sliding.way_slid[0] > 1e-3 && sliding.ambiguous.is_empty(), "{:?}", sliding.ambiguous);
+}

@@ -147,6 +147,9 @@ fn throw(random: &mut Random, scene: &mut Scene) {
         top += 2.0 * block.half_height;
         below = block.top_half_width;
     }
+    // Slides follow from the places.
+    let none = vec![0.0; scene.column.len()];
+    scene.column = scene.column.clone().displaced(none).expect("aligned blocks stand");
 }
 
 /// The scene of a seed; `ROCKING_METHOD` names another method than the default.

@@ -71,6 +71,11 @@ impl Joint {
         matches!(self, Joint::Closed(Slip::Sticks) | Joint::Corner(_, _, Slip::Sticks))
     }
 
+    /// Whether a corner stands on a face.
+    pub fn is_corner(self) -> bool {
+        matches!(self, Joint::Corner(..))
+    }
+
     /// The state of coinciding corners that slide an instant later: they are on the face that carries them by then.
     pub fn after_coinciding(side: Sign, direction: Sign) -> Joint {
         let face = if direction == side { Face::Upper } else { Face::Lower };

@@ -84,6 +84,13 @@ struct Slack {
     angular: f64,
 }
 
+impl Slack {
+    /// By so much conditions hold that hold beyond rounding.
+    fn margin(self) -> Slack {
+        Slack { force: -self.force, linear: -self.linear, angular: -self.angular }
+    }
+}
+
 /// Least scale of accelerations, as a share of gravity: a column in free fall has none otherwise, and its rounding would count.
 const LEAST_SHARE: f64 = 1e-3;
 
@@ -133,24 +140,28 @@ impl<'a> Search<'a> {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
             _ if may_be_ambiguous => self.tried(&first, |_, _| true),
             _ => {
-                let complementary = self.complementary().and_then(|joints| self.guided(joints));
-                complementary.or_else(|| self.tried(&first, |_, _| true))
+                let starts = [&self.friction.fixed, &self.friction.kinetic].into_iter();
+                let mut complementary = starts.filter_map(|cones| self.complementary(cones));
+                let found = complementary.find_map(|joints| self.guided(joints));
+                found.or_else(|| self.tried(&first, |_, _| true))
             }
         }
     }
 
-    /// The states that solve the problem as one of complementarity.
-    fn complementary(&self) -> Option<PerBlock<Joint>> {
-        let coefficients = match self.question {
-            Question::Accelerations(_) => &self.friction.fixed,
-            Question::Impact(_) => &self.friction.kinetic,
-        };
+    /// The states that solve the problem as one of complementarity. It knows one coefficient for each contact: the kinetic one of contacts that slide
+    /// and of impacts, of other contacts that of `cones`.
+    fn complementary(&self, cones: &[f64]) -> Option<PerBlock<Joint>> {
         let slip = |interface: usize| match self.given_slip(interface) {
             Some(Slip::Slides(direction)) => Some(direction),
             _ => None,
         };
         let slips: Vec<Option<Sign>> = (0..self.touch.len()).map(slip).collect();
-        let joints = complementarity::states(self.column, self.now, self.touch, coefficients, &slips, &self.question)?;
+        let coefficient = |interface: usize| match (&self.question, slips[interface]) {
+            (Question::Accelerations(_), None) => cones[interface],
+            _ => self.friction.kinetic[interface],
+        };
+        let coefficients: Vec<f64> = (0..self.touch.len()).map(coefficient).collect();
+        let joints = complementarity::states(self.column, self.now, self.touch, &coefficients, &slips, &self.question)?;
         // Coinciding corners slide along the face that carries them.
         let carried = |(interface, joint): (usize, &Joint)| match *joint {
             Joint::Corner(side, _, slip) => self.corner(interface, side, slip),
@@ -219,7 +230,7 @@ impl<'a> Search<'a> {
             let Some(answer) = self.answer(&joints) else { break };
             let others = (0..joints.len()).filter(|i| !is_carried[*i]);
             let Some((interface, joint)) =
-                others.filter_map(|i| self.required(&joints, &answer, i).map(|joint| (i, joint))).next()
+                others.filter_map(|i| self.required(&joints, &answer, i, self.slack).map(|joint| (i, joint))).next()
             else {
                 break;
             };
@@ -340,9 +351,10 @@ impl<'a> Search<'a> {
         let holds = |i: usize| match joints[i] {
             // Where the resultant acts in a closed contact is no condition of restitution.
             Joint::Closed(_) => {
-                answer.contacts[i].normal >= -self.slack.force && self.wrong_slip(i, joints[i], &answer).is_none()
+                answer.contacts[i].normal >= -self.slack.force
+                    && self.wrong_slip(i, joints[i], &answer, self.slack).is_none()
             }
-            _ => self.required(joints, &answer, i).is_none(),
+            _ => self.required(joints, &answer, i, self.slack).is_none(),
         };
         (!gains && (0..joints.len()).all(holds)).then_some(answer)
     }
@@ -354,8 +366,8 @@ impl<'a> Search<'a> {
         let mut joints = first;
         for _ in 0..8 * joints.len() + 8 {
             let answer = self.answer(&joints)?;
-            let required: Vec<(usize, Joint)> =
-                (0..joints.len()).filter_map(|i| self.required(&joints, &answer, i).map(|next| (i, next))).collect();
+            let required = |i: usize| self.required(&joints, &answer, i, self.slack).map(|next| (i, next));
+            let required: Vec<(usize, Joint)> = (0..joints.len()).filter_map(required).collect();
             if required.is_empty() {
                 return Some(Solution { joints, answer, is_ambiguous: false });
             }
@@ -397,7 +409,7 @@ impl<'a> Search<'a> {
         for code in 0..count {
             let joints = combination(code);
             let Some(answer) = self.answer(&joints) else { continue };
-            if is_wanted(&joints, &answer) && (0..joints.len()).all(|i| self.required(&joints, &answer, i).is_none()) {
+            if is_wanted(&joints, &answer) && self.is_admissible(&joints, &answer, self.slack) {
                 let changes = if matches!(self.question, Question::Impact(_)) { 0 } else { changes(&joints) };
                 let energy = answer.change.energy(self.column);
                 admissible.push((changes, energy, joints, answer));
@@ -409,16 +421,23 @@ impl<'a> Search<'a> {
             let pairs = other.change.linear.iter().zip(&answer.change.linear);
             pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)
         };
-        let is_ambiguous = admissible.iter().any(|(_, _, _, other)| is_other(other));
+        // What is exactly critical and only just admissible, such as sticking where a slide begins, is no second answer.
+        let is_clear = |joints: &[Joint], other: &Answer| self.is_admissible(joints, other, self.slack.margin());
+        let is_ambiguous = admissible.iter().any(|(_, _, joints, other)| is_other(other) && is_clear(joints, other));
         Some(Solution { joints, answer, is_ambiguous })
     }
 
-    /// The state that a violated condition of an interface names; `None` if all conditions hold.
-    fn required(&self, joints: &[Joint], answer: &Answer, interface: usize) -> Option<Joint> {
+    /// Whether states are admissible: all conditions hold, up to `slack`.
+    fn is_admissible(&self, joints: &[Joint], answer: &Answer, slack: Slack) -> bool {
+        (0..joints.len()).all(|interface| self.required(joints, answer, interface, slack).is_none())
+    }
+
+    /// The state that a violated condition of an interface names; `None` if all conditions hold, up to `violation`.
+    fn required(&self, joints: &[Joint], answer: &Answer, interface: usize, violation: Slack) -> Option<Joint> {
         let (joint, contact) = (joints[interface], answer.contacts[interface]);
-        let slack = self.slack.force;
+        let slack = violation.force;
         match joint {
-            Joint::Free => self.sinks(answer, interface),
+            Joint::Free => self.sinks(answer, interface, violation),
             Joint::Closed(slip) => {
                 let reach = half_length(self.column, interface, self.now.slide[interface]);
                 if contact.normal < -slack {
@@ -429,24 +448,24 @@ impl<'a> Search<'a> {
                     let side = if contact.moment > 0.0 { -1 } else { 1 };
                     return Some(self.corner(interface, side, slip));
                 }
-                self.wrong_slip(interface, joint, answer).map(Joint::Closed)
+                self.wrong_slip(interface, joint, answer, violation).map(Joint::Closed)
             }
             Joint::Corner(side, _, slip) => {
                 if contact.normal < -slack {
                     return Some(Joint::Free);
                 }
                 let opening = f64::from(side) * relative(&answer.rates.omega, interface);
-                if self.touch[interface] == Touch::Faces && opening < -self.slack.angular {
+                if self.touch[interface] == Touch::Faces && opening < -violation.angular {
                     return Some(Joint::Closed(slip));
                 }
-                self.wrong_slip(interface, joint, answer).map(|slip| self.corner(interface, side, slip))
+                self.wrong_slip(interface, joint, answer, violation).map(|slip| self.corner(interface, side, slip))
             }
         }
     }
 
     /// The slip that a violated condition names.
-    fn wrong_slip(&self, interface: usize, joint: Joint, answer: &Answer) -> Option<Slip> {
-        let slack = self.slack.force;
+    fn wrong_slip(&self, interface: usize, joint: Joint, answer: &Answer, violation: Slack) -> Option<Slip> {
+        let slack = violation.force;
         match joint.slip()? {
             Slip::Sticks => {
                 if let Some(slip) = self.given_slip(interface) {
@@ -469,15 +488,15 @@ impl<'a> Search<'a> {
                 match self.given_slip(interface) {
                     // A slide that goes on against its rate would lose that rate at once.
                     Some(given) => (Some(given) != joint.slip()).then_some(given),
-                    None => (along < -self.slack.linear).then_some(Slip::Sticks),
+                    None => (along < -violation.linear).then_some(Slip::Sticks),
                 }
             }
         }
     }
 
     /// Contact that a free interface must take because a corner would sink in; `None` if no corner does.
-    fn sinks(&self, answer: &Answer, interface: usize) -> Option<Joint> {
-        let slack = -self.slack.linear;
+    fn sinks(&self, answer: &Answer, interface: usize, violation: Slack) -> Option<Joint> {
+        let slack = -violation.linear;
         match self.touch[interface] {
             Touch::Nothing => None,
             Touch::Corner(side) => {

@@ -10,16 +10,38 @@ const PIVOT_SHARE: f64 = 1e-11;
 /// The artificial variable counts as zero up to this share of the largest entry of `q`.
 const LEVEL_SHARE: f64 = 1e-13;
 
-/// Solves `w = M z + q` for `z`, with `M` given row by row. `None` after too many pivots, or if the method ends on a ray: for the matrices of
-/// contact problems without given slips, a ray means that there is no solution.
+/// Sizes of the changes of `q` that decide ties between rows, as shares of its largest entry: none at first. Contacts above each other are often exactly
+/// critical, and rounding would decide ties.
+const PERTURBATIONS: [f64; 3] = [0.0, 1e-11, 1e-9];
+
+/// Largest violation of the three conditions by a solution, as a share of the largest entry of `q`.
+const SOLVED: f64 = 1e-8;
+
+/// Solves `w = M z + q` for `z`, with `M` given row by row. `None` if the method fails: after too many pivots, on a ray, or with numbers that solve
+/// nothing. For the matrices of contact problems without given slips, a ray means that there is no solution.
 pub fn lemke(m: &[f64], q: &[f64]) -> Option<Vec<f64>> {
-    let size = q.len();
     if q.iter().all(|value| *value >= 0.0) {
-        return Some(vec![0.0; size]);
+        return Some(vec![0.0; q.len()]);
     }
-    let mut tableau = Tableau::new(m, q);
+    let most = largest(q);
+    let solution = |share: f64| pivoted(m, q, share * most).filter(|z| violation(m, q, z) <= SOLVED * most);
+    PERTURBATIONS.into_iter().find_map(solution)
+}
+
+/// Largest violation of `w >= 0`, `z >= 0` and `w · z = 0`.
+fn violation(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
+    let rows = m.chunks_exact(q.len()).zip(q);
+    let w = rows.map(|(row, q)| q + row.iter().zip(z).map(|(m, z)| m * z).sum::<f64>());
+    w.zip(z).fold(0.0, |most, (w, z)| most.max(w.min(*z).abs()))
+}
+
+/// The solution by pivots; what decides ties is `perturbation` times the number of a row, on top of `q`.
+fn pivoted(m: &[f64], q: &[f64], perturbation: f64) -> Option<Vec<f64>> {
+    let size = q.len();
+    let mut tableau = Tableau::new(m, q, perturbation);
     // The artificial variable enters where q is lowest; its column is -1 throughout.
-    let mut leaving = (0..size).min_by(|a, b| q[*a].total_cmp(&q[*b]))?;
+    let level = |row: &usize| tableau.at(*row, tableau.deciding());
+    let mut leaving = (0..size).min_by(|a, b| level(a).total_cmp(&level(b)))?;
     let mut entering = tableau.artificial();
     for _ in 0..PIVOTS_PER_UNKNOWN * size {
         let left = tableau.exchange(leaving, entering);
@@ -41,7 +63,7 @@ fn largest(q: &[f64]) -> f64 {
     q.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
-/// Rows of `[w | z | z_0 | q]`, with the basic variable of each row.
+/// Rows of `[w | z | z_0 | q with ties decided | q]`, with the basic variable of each row.
 struct Tableau {
     size: usize,
     width: usize,
@@ -51,9 +73,9 @@ struct Tableau {
 
 impl Tableau {
     /// `w - M z - z_0 = q`
-    fn new(m: &[f64], q: &[f64]) -> Tableau {
+    fn new(m: &[f64], q: &[f64], perturbation: f64) -> Tableau {
         let size = q.len();
-        let width = 2 * size + 2;
+        let width = 2 * size + 3;
         let mut rows = vec![0.0; size * width];
         for row in 0..size {
             let own = &mut rows[row * width..(row + 1) * width];
@@ -62,7 +84,7 @@ impl Tableau {
                 own[size + column] = -m[row * size + column];
             }
             own[2 * size] = -1.0;
-            own[2 * size + 1] = q[row];
+            (own[2 * size + 1], own[2 * size + 2]) = (q[row] + perturbation * (row + 1) as f64, q[row]);
         }
         Tableau { size, width, rows, basis: (0..size).collect() }
     }
@@ -71,10 +93,20 @@ impl Tableau {
         2 * self.size
     }
 
+    /// Column of the right-hand sides that decide which variable leaves.
+    fn deciding(&self) -> usize {
+        2 * self.size + 1
+    }
+
+    /// Column of the right-hand sides themselves.
+    fn values(&self) -> usize {
+        2 * self.size + 2
+    }
+
     /// Value of the artificial variable.
     fn artificial_level(&self) -> f64 {
         let row = self.basis.iter().position(|variable| *variable == self.artificial());
-        row.map_or(0.0, |row| self.at(row, 2 * self.size + 1))
+        row.map_or(0.0, |row| self.at(row, self.values()))
     }
 
     fn at(&self, row: usize, column: usize) -> f64 {
@@ -102,7 +134,7 @@ impl Tableau {
         let is_pivot = |row: &usize| self.at(*row, entering) > PIVOT_SHARE * largest;
         let ratio = |row: usize, column: usize| self.at(row, column) / self.at(row, entering);
         let compare = |a: &usize, b: &usize| {
-            let right = ratio(*a, 2 * self.size + 1).total_cmp(&ratio(*b, 2 * self.size + 1));
+            let right = ratio(*a, self.deciding()).total_cmp(&ratio(*b, self.deciding()));
             let is_artificial = |row: usize| self.basis[row] == self.artificial();
             let first = right.then(is_artificial(*b).cmp(&is_artificial(*a)));
             (0..self.size)
@@ -115,7 +147,7 @@ impl Tableau {
         let mut z = vec![0.0; self.size];
         for (row, &variable) in self.basis.iter().enumerate() {
             if (self.size..2 * self.size).contains(&variable) {
-                z[variable - self.size] = self.at(row, 2 * self.size + 1).max(0.0);
+                z[variable - self.size] = self.at(row, self.values()).max(0.0);
             }
         }
         z
@@ -124,13 +156,7 @@ impl Tableau {
 
 #[cfg(test)]
 mod tests {
-    use super::lemke;
-
-    fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
-        let size = q.len();
-        let w = |row: usize| q[row] + (0..size).map(|column| m[row * size + column] * z[column]).sum::<f64>();
-        (0..size).map(|row| w(row).min(z[row]).abs()).fold(0.0, f64::max)
-    }
+    use super::{lemke, violation};
 
     #[test]
     fn positive_definite_problems_are_solved() {
@@ -147,7 +173,7 @@ mod tests {
                 .map(|at| product(at / size, at % size) + if at % (size + 1) == 0 { 0.1 } else { 0.0 })
                 .collect();
             let z = lemke(&m, &q).expect("a positive definite problem has a solution");
-            assert!(residual(&m, &q, &z) < 1e-10, "{size}");
+            assert!(violation(&m, &q, &z) < 1e-10, "{size}");
         }
     }
 

@@ -12,6 +12,7 @@ use super::stretch::{Ended, Flow, Inside, Over, Panel, Stretch};
 use crate::column::Column;
 use crate::friction::guards::Guard;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
+use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use crate::scene::Scene;
@@ -22,8 +23,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Number of places per radian of the ground motion at which contact forces at rest are recorded. The crest of a sine is missed by at most 1/500; by
-/// more, where [`PLACES`] limits their number: in a rest of 1,300 cycles or more.
+/// Number of places per radian of the ground motion at which contact forces at rest are recorded, their crests beside these places apart. A crest is
+/// missed only where [`PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
 const PLACES_PER_RADIAN: f64 = 8.0;
 
 /// Least and most places per segment.
@@ -121,7 +122,8 @@ impl Inside for Rest {
     }
 }
 
-/// Calls `note` at places of a span, its ends among them: with contact forces at rest, and the times of the place before and this one `[s]`.
+/// Calls `note` at places of a span, its ends and the crests of normal force and friction demand among them: with contact forces at rest, and the times
+/// of the place before and this one `[s]`.
 pub(crate) fn visit_forces(
     column: &Column,
     segment: &Segment,
@@ -130,12 +132,44 @@ pub(crate) fn visit_forces(
 ) {
     let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - from);
     let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
-    let count = if segment.is_quiet() || radians == 0.0 { 1 } else { count };
-    for place in 0..=count {
-        let t = from + (until - from) * place as f64 / count as f64;
-        let last = if place == 0 { t } else { t - (until - from) / count as f64 };
-        note(&contact_forces(column, Ground::at(segment, t, column.gravity())), [last, t]);
+    let gravity = column.gravity();
+    let mut last = from;
+    let mut visit = |t: f64| {
+        note(&contact_forces(column, Ground::at(segment, t, gravity)), [last, t]);
+        last = t;
+    };
+    visit(from);
+    if segment.is_quiet() || radians == 0.0 {
+        return visit(until);
     }
+    // Contacts carry `g + ÿ_g` and `ẍ_g` times one mass: slopes of their ratio, times a positive number, and of the first.
+    let demand: &dyn Fn(&GroundWithBounds) -> f64 = &|at| at.rates[0] * at.ground.gravity - at.ground.x * at.rates[1];
+    let weight: &dyn Fn(&GroundWithBounds) -> f64 = &|at| at.rates[1];
+    let at = |t: f64| GroundWithBounds::at(segment, gravity, t);
+    let mut before = at(from);
+    for place in 1..=count {
+        let here = at(from + (until - from) * place as f64 / count as f64);
+        let ends = [&before, &here];
+        let mut crests = [demand, weight].map(|slope| zero_between(ends, &at, slope).unwrap_or(here.t));
+        crests.sort_by(f64::total_cmp);
+        crests.into_iter().filter(|crest| *crest < here.t).for_each(&mut visit);
+        visit(here.t);
+        before = here;
+    }
+}
+
+/// Time between two places at which a slope that has different signs there is zero `[s]`.
+fn zero_between(
+    [before, here]: [&GroundWithBounds; 2],
+    at: &dyn Fn(f64) -> GroundWithBounds,
+    slope: &dyn Fn(&GroundWithBounds) -> f64,
+) -> Option<f64> {
+    let (start, span) = (slope(before), here.t - before.t);
+    if start * slope(here) >= 0.0 {
+        return None;
+    }
+    let share = first_crossing(|s| start.signum() * slope(&at(before.t + s * span)), start.abs(), 1.0)?;
+    Some(before.t + share * span)
 }
 
 /// The least horizontal acceleration of the ground that opens some interface, if the ground does not move vertically `[m/s²]`.

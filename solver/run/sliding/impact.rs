@@ -96,7 +96,7 @@ impl Instant<'_> {
         };
         let solution = found.ok_or(Stop::Undetermined)?;
         self.ambiguous += usize::from(solution.is_ambiguous);
-        let answer = self.rebounding(&search, touch, &solution, closing);
+        let answer = self.rebounding(&search, &solution, closing);
         for (interface, joint) in solution.joints.iter().enumerate() {
             if *joint == Joint::Free && before.joints[interface] != Joint::Free {
                 self.now.apart[interface] = chain.apart(interface);
@@ -140,13 +140,12 @@ impl Instant<'_> {
     }
 
     /// The answer with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted.
-    fn rebounding(&mut self, search: &Search, touch: &[Touch], plastic: &Solution, closing: &[usize]) -> Answer {
+    fn rebounding(&mut self, search: &Search, plastic: &Solution, closing: &[usize]) -> Answer {
         let kappa = &self.problem.kappa;
-        let all_stick =
-            plastic.joints.iter().zip(touch).all(|(joint, touch)| joint.sticks() || *touch == Touch::Nothing);
-        let rebounds = |&&i: &&usize| kappa[i] != 1.0 && matches!(plastic.joints[i], Joint::Corner(..));
+        let none_slides = plastic.joints.iter().all(|joint| joint.sticks() || *joint == Joint::Free);
+        let rebounds = |&&i: &&usize| kappa[i] != 1.0 && plastic.joints[i].is_corner();
         let Some(&interface) = closing.iter().find(rebounds) else { return plastic.answer.clone() };
-        let rebound = if all_stick { search.rebound(plastic, interface, kappa[interface]) } else { None };
+        let rebound = if none_slides { search.rebound(plastic, interface, kappa[interface]) } else { None };
         self.without_restitution += usize::from(rebound.is_none());
         rebound.unwrap_or_else(|| plastic.answer.clone())
     }

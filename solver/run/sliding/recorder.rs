@@ -7,7 +7,7 @@ use super::transition::{Change, Transition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Motion, Rates};
 use crate::friction::contact_problem::Coefficients;
-use crate::friction::joint::{Configuration, Joint, Slip};
+use crate::friction::joint::{Configuration, Face, Joint, Slip};
 use crate::mechanics::dynamics::ContactForce;
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
@@ -228,6 +228,16 @@ impl<'p> Recorder<'p> {
             let (blocks, energies) = self.blocks([&before, &after]);
             event.blocks = blocks;
             lost += energies[0] - energies[1];
+            for (interface, impulse) in event.impulses.iter_mut().enumerate() {
+                // An interface whose blocks turn alike was closed in the impact: their accelerations open it.
+                let is_corner = before.joints[interface].is_corner() || after.gap_rate(interface) != 0.0;
+                if let Joint::Corner(side, face, _) = after.joints[interface]
+                    && is_corner
+                {
+                    let turn = if face == Face::Upper { after.gap_angle(interface) } else { 0.0 };
+                    *impulse = at_corner(*impulse, f64::from(side) * column.contact_half_width(interface), turn);
+                }
+            }
             self.impulses(&event.impulses);
             self.events.push(event);
         }
@@ -484,6 +494,17 @@ fn highest(mut value: impl FnMut(f64) -> f64, [from, until]: [f64; 2], so_far: f
         }
     }
     so_far.max(heights[0]).max(heights[1])
+}
+
+/// An impulse in the axes of the lower face, with its moment about the contact's centre, as that of a corner: with the moment about the corner, `place`
+/// to the right of the centre `[m]`, in the axes of the face that carries it, which is turned by `turn` against the lower one `[rad]`.
+fn at_corner(impulse: Impulse, place: f64, turn: f64) -> Impulse {
+    let (Impulse { normal, tangential, moment }, (sin, cos)) = (impulse, libm::sincos(turn));
+    Impulse {
+        normal: normal * cos + tangential * sin,
+        tangential: tangential * cos - normal * sin,
+        moment: moment + place * normal,
+    }
 }
 
 /// Kinetic and potential energy relative to the moving ground `[J]`.

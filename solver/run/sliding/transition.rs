@@ -201,7 +201,7 @@ impl<'p> Instant<'p> {
             Some(found) => Some(found),
             None => self.search(&touch).solve_otherwise(&before.joints),
         };
-        let mut solution = match found {
+        let mut solution = match found.or_else(|| self.without_slow_slides()) {
             Some(solution) => solution,
             None => self.jammed()?,
         };
@@ -226,6 +226,27 @@ impl<'p> Instant<'p> {
         Ok(self.search(&self.touching()).carried(&solution))
     }
 
+    /// The accelerations once slides stick that are as slow as contacts that stay; `None` if there is no such slide, or still no motion. A slide that is
+    /// left over from rounding gives a contact a direction in which no motion may follow.
+    fn without_slow_slides(&mut self) -> Option<Solution> {
+        let is_slow = |interface: usize| {
+            (f64::MIN_POSITIVE..=self.resolution.speed).contains(&self.now.slide_rate[interface].abs())
+        };
+        let slow: Vec<usize> = (0..self.now.joints.len()).filter(|interface| is_slow(*interface)).collect();
+        if slow.is_empty() {
+            return None;
+        }
+        let mut joints = self.now.joints.clone();
+        for interface in slow {
+            if let Some((_, stuck)) = self.with_slip(interface, Slip::Sticks) {
+                joints[interface] = stuck;
+            }
+        }
+        self.hold(&joints);
+        let touch = self.joined();
+        self.accelerations(&touch, None)
+    }
+
     /// The accelerations after a jam.
     fn jammed(&mut self) -> Result<Solution, Stop> {
         self.jam();
@@ -248,7 +269,7 @@ impl<'p> Instant<'p> {
     /// What touches. Free interfaces that have met are joined; faces that stay on each other get one angle and one rate, to the last bit. Slide rates
     /// that are rounding are zero: a direction would be taken from them.
     fn joined(&mut self) -> Vec<Touch> {
-        let touch = self.touching();
+        let mut touch = self.touching();
         let has_met = |&i: &usize| touch[i] != Touch::Nothing && self.now.joints[i] == Joint::Free;
         let met: Vec<usize> = (0..touch.len()).filter(has_met).collect();
         if !met.is_empty() {
@@ -258,6 +279,8 @@ impl<'p> Instant<'p> {
                     contacts::met(self.column(), self.resolution, &self.now, interface, touch[interface]);
             }
             self.hold(&joints);
+            // What is held may move otherwise than before.
+            touch = self.touching();
         }
         for (interface, touch) in touch.iter().enumerate() {
             if *touch == Touch::Faces && self.now.joints[interface] != Joint::Free {
@@ -370,7 +393,7 @@ impl<'p> Instant<'p> {
         };
         let mut is_new = false;
         for (interface, joint) in solution.joints.iter().enumerate() {
-            let is_corner = matches!(joint, Joint::Corner(..));
+            let is_corner = joint.is_corner();
             if is_corner && !stilled.hops[interface] && hops(interface) {
                 (stilled.hops[interface], is_new) = (true, true);
             }
