@@ -519,7 +519,11 @@ impl Scene {
         let components = [("horizontal", &self.excitation.horizontal), ("vertical", &self.excitation.vertical)];
         for (component, motion) in components {
             if let Some((name, value)) = motion.as_ref().and_then(|motion| motion.invalid(LARGEST)) {
-                let remedy = "give a size up to 1e6, above zero for omega and dt";
+                let remedy = match name.rsplit('.').next() {
+                    Some("gamma") => "give a number up to 1e6, above 0 (of mavroeidis-papageorgiou, above 1)",
+                    Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",
+                    _ => "give a size up to 1e6, above zero for omega and dt",
+                };
                 faults.note(&format!("excitation.{component}.{name}"), format!("{value} is out of range"), remedy);
             }
         }
@@ -567,6 +571,10 @@ impl Scene {
             }
             if let Some((missing, _)) = places.iter().find(|(_, list)| list.is_empty()) {
                 faults.note(missing, format!("it is missing beside {given}"), "give x, y, vx and vy together");
+            }
+            if self.column.slides().iter().any(|slide| *slide != 0.0) {
+                let problem = format!("{given} places the blocks already");
+                faults.note("initial.slide", problem, "leave it out: slides follow from where the blocks are");
             }
         }
         for (key, values) in [("initial.theta", theta), ("initial.omega", omega)].into_iter().chain(places) {

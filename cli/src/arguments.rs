@@ -4,7 +4,7 @@ use crate::keys::Kind;
 pub use crate::plot::Picture;
 use crate::plot::WIDTHS_MM;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
 use rocking::intensity::{Intensity, NAMES};
@@ -220,6 +220,7 @@ pub struct Run {
 
 /// `rocking record`: what to print, and units and sampling where the file does not state them.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("spectral").args(["sa", "scale_to"]).multiple(true))]
 pub struct Record {
     /// Record file, or a folder of them.
     #[arg(value_name = "FILE", required_unless_present = "trim")]
@@ -254,9 +255,9 @@ pub struct Record {
     /// Print the spectral acceleration at this period in s; may be given several times.
     #[arg(long, value_name = "PERIOD", value_parser = positive)]
     pub sa: Vec<f64>,
-    /// Damping ratio of the spectral accelerations.
-    #[arg(long, value_name = "RATIO", default_value_t = 0.05, value_parser = damping)]
-    pub damping: f64,
+    /// Damping ratio of the spectral accelerations: of --sa, and of --scale-to where it names none [default: 0.05].
+    #[arg(long, value_name = "RATIO", requires = "spectral", value_parser = damping)]
+    pub damping: Option<f64>,
     /// Scene whose column measures the record: PGA/(g tan α) and p PGV/(g tan α).
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
@@ -408,6 +409,9 @@ pub struct Fragility {
     /// Column of the intensity measure; the only one with the name of a measure unless given.
     #[arg(long, value_name = "COLUMN")]
     pub measure: Option<String>,
+    /// Keep the rows with this value in a column; may be given several times. Rows of all values make one curve unless given.
+    #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = condition)]
+    pub conditions: Vec<(String, String)>,
     /// Whether several runs share each level (stripes) or none (cloud); as the table has it unless given.
     #[arg(long, value_name = "LAYOUT", value_parser = PossibleValuesParser::new(Layout::NAMES).try_map(|name| name.parse::<Layout>()))]
     pub layout: Option<Layout>,
@@ -429,6 +433,11 @@ pub struct Fragility {
     /// Print JSON instead of text.
     #[arg(long)]
     pub json: bool,
+}
+
+fn condition(text: &str) -> Result<(String, String), String> {
+    let (column, value) = text.split_once('=').ok_or("write COLUMN=VALUE, e.g. column.alpha=0.2")?;
+    Ok((column.trim().into(), value.trim().into()))
 }
 
 fn state(text: &str) -> Result<LimitState, String> {

@@ -81,7 +81,7 @@ fn contradictory_keys() {
 
 #[test]
 fn records() {
-    refused(&record("file = \"no.AT2\""), &["no.AT2", "line 6", "file", "relative to the scene"]);
+    refused(&record("file = \"no.AT2\""), &["no.AT2", "line 6", "file", "relative to the file that names it"]);
     refused(&record("file = \"word.AT2\""), &["word.AT2", "line 5, column 8", "`x3`", "mend or remove"]);
     refused(&record("file = \"short.AT2\""), &["short.AT2", "line 4", "declares 4", "has 3", "NPTS"]);
     refused(&record("accel = [0.1, 0.2]"), &["`excitation.horizontal.dt`", "missing", "sampling interval"]);

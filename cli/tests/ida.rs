@@ -6,6 +6,7 @@ use common::{root, succeeds};
 use rocking::ground::{Record, Synthetic};
 use rocking::{Block, Column, Excitation, Motion, Restitution, Scene, simulate};
 use std::collections::HashMap;
+use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -491,4 +492,61 @@ fn records_are_scaled_to_any_measure() {
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(2) && text.contains(word), "{keys}: {text}");
     }
+}
+
+/// Rows of another axis are pooled with a warning, and kept apart by `--where`.
+#[test]
+fn rows_of_other_axes_are_kept_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut table = String::from("index,column.alpha,seed,pgv,outcome\n");
+    for (index, (alpha, lost)) in [(0.15, 4), (0.3, 8)].into_iter().enumerate() {
+        for record in 0..6 {
+            for level in 1..=12 {
+                let outcome = if level + record % 3 > lost { "overturns" } else { "rocks" };
+                let _ = writeln!(table, "{index},{alpha},{record},{},{outcome}", f64::from(level) / 10.0);
+            }
+        }
+    }
+    std::fs::write(folder.path().join("t.csv"), table).expect("written");
+    let fitted = |arguments: &[&str]| {
+        let common = ["fragility", "t.csv", "--state", "overturned", "--replicates", "0", "--json"];
+        let output = common::rocking(folder.path(), &[&common[..], arguments].concat());
+        let (text, warnings) = (output.stdout, String::from_utf8_lossy(&output.stderr).into_owned());
+        let found: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+        let runs: u64 = found["fragilities"][0]["counts"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .filter_map(|count| count["runs"].as_u64())
+            .sum();
+        (runs, warnings)
+    };
+    let (all, warning) = fitted(&[]);
+    assert!(all == 144 && warning.contains("2 values of `column.alpha`") && warning.contains("--where"), "{warning}");
+    assert_eq!(fitted(&["--where", "column.alpha=0.30"]), (72, String::new()));
+    for (condition, word) in
+        [("alpha=0.3", "no column `alpha`"), ("column.alpha=0.4", "no row"), ("alpha", "COLUMN=VALUE")]
+    {
+        let output =
+            common::rocking(folder.path(), &["fragility", "t.csv", "--state", "overturned", "--where", condition]);
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && text.contains(word), "{condition}: {text}");
+    }
+}
+
+/// Companions say whether a verdict is determined; what is measured does not depend on them.
+#[test]
+fn largest_gaps_are_the_same_with_and_without_companions() {
+    let folder = folder();
+    let study =
+        "scene = \"block.toml\"\nmeasure = \"pgv\"\nlevels = [0.2, 0.5]\n[records]\nfiles = [\"records/A_H1.csv\"]\n";
+    let gaps = |trust: bool| {
+        let (succeeds, text) = run(folder.path(), &format!("trust = {trust}\n{study}"));
+        assert!(succeeds, "{text}");
+        rows(&folder.path().join("ida.csv")).iter().map(|row| row["largest_gap"].clone()).collect::<Vec<_>>()
+    };
+    let followed = gaps(true);
+    assert!(followed.iter().any(|gap| gap.parse::<f64>().is_ok_and(|gap| gap > 1e-3)), "{followed:?}");
+    std::fs::remove_file(folder.path().join("ida.csv")).expect("it is there");
+    assert_eq!(followed, gaps(false));
 }

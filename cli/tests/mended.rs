@@ -403,3 +403,35 @@ fn damaged_run_folders_are_refused_with_file_and_remedy() {
     }
     succeeds(folder.path(), &["plot", "out"]);
 }
+
+/// `slide` and `x` both say where blocks are: the motion followed `x`, slenderness and peaks `slide`.
+#[test]
+fn slides_of_blocks_that_are_placed_are_refused() {
+    let placed = "[initial]\nx = [0.0, 0.0]\ny = [0.78, 2.34]\nvx = [0.0, 0.0]\nvy = [0.0, 0.0]\nslide = [0.0, 0.3]\n";
+    let column = "friction = 0.5\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.56\n";
+    let folder = folder_with(&format!("{column}{placed}"));
+    fails(folder.path(), &["check", "scene.toml"], 2, &["line 11", "initial.slide", "leave it out"]);
+    write(folder.path().join("scene.toml"), format!("{column}{}", placed.replace("0.3]", "0.0]"))).expect("written");
+    succeeds(folder.path(), &["check", "scene.toml"]);
+}
+
+#[test]
+fn what_a_motion_does_before_the_run_begins_is_said_to_be_lost() {
+    let folder = folder_with(&SCENE.replace("omega = 10.0", "omega = 10.0\nstart = -0.3"));
+    for command in ["check", "run"] {
+        let output = rocking(folder.path(), &[command, "scene.toml"]);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(message.contains("begins at t = -0.3000 s"), "{command}: {message}");
+    }
+}
+
+#[test]
+fn inputs_of_init_and_record_are_not_written_over() {
+    let folder = folder_with(SCENE);
+    let samples = "time,acceleration (m/s2)\n0.0,0.0\n0.1,1.0\n0.2,-1.0\n0.3,0.0\n";
+    write(folder.path().join("a.csv"), samples).expect("written");
+    fails(folder.path(), &["init", "a.csv", "--force", "--record", "a.csv"], 2, &["a.csv"]);
+    fails(folder.path(), &["record", "a.csv", "--scene", "scene.toml", "--out", "scene.toml"], 2, &["scene.toml"]);
+    assert_eq!(read_to_string(folder.path().join("a.csv")).expect("it is still there"), samples);
+    assert_eq!(read_to_string(folder.path().join("scene.toml")).expect("it is still there"), SCENE);
+}

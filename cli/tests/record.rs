@@ -133,7 +133,7 @@ fn bad_input_is_refused_with_its_place() {
         refused(here.path(), &["record", &at2, &format!("--pga={pga}")], &["--pga", "give a "]);
     }
     refused(here.path(), &["record", &at2, "--pga", "1", "--scale", "2"], &["cannot be used with"]);
-    refused(here.path(), &["record", &at2, "--units", "knots"], &["knots", "choose g, m/s2"]);
+    refused(here.path(), &["record", &at2, "--units", "knots"], &["knots", "choose g, mg, m/s2"]);
     refused(here.path(), &["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "choose a file"]);
     refused(here.path(), &["record", &at2, "--channel", "2"], &["channel 2"]);
 }
@@ -220,12 +220,30 @@ fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
     for (keys, parts) in [
         ("file = \"short.AT2\"", ["line 6", "declares 50"]),
         ("file = \"short.AT2\"\nlenient = \"yes\"", ["line 7", "give true or false"]),
-        ("file = \"short.AT2\"\nchannel = 0", ["line 7", "give a whole number from 1 on"]),
+        ("file = \"short.AT2\"\nchannel = 0", ["line 7", "give a whole number from 1 to 9e15"]),
         ("file = \"short.AT2\"\nskip_rows = 1.5", ["line 7", "out of range"]),
         ("accel = [0.0, 1.0]\ndt = 0.1\nlenient = true", ["line 8", "give `file` instead"]),
         ("file = \"short.AT2\"\nlenient = true\ndt = 0.02", ["line 6", "`dt` is given as 0.02 s"]),
     ] {
         std::fs::write(here.path().join("scene.toml"), scene(keys)).expect("written");
         refused(here.path(), &["run", "scene.toml", "--out", "out"], &parts);
+    }
+}
+
+/// `--damping` is that of `--sa` and of `--scale-to`, and nothing without them. Columns are of tables.
+#[test]
+fn options_that_have_no_effect_are_refused() {
+    let here = tempfile::tempdir().expect("a folder");
+    let at2 = fixture("peer/RSN9001_HOLLOW_MIL090.AT2");
+    let peak = |arguments: &[&str]| {
+        let arguments = [&["record", at2.as_str(), "--scale-to", "sa(0.2)=3"], arguments].concat();
+        json(here.path(), &arguments)["pga"].as_f64().expect("a number")
+    };
+    let [usual, damped, named] = [&[][..], &["--damping", "0.2"], &["--sa", "0.2"]].map(peak);
+    assert!(usual == named && damped > 1.02 * usual, "{usual} {damped}");
+    refused(here.path(), &["record", &at2, "--damping", "0.2"], &["--sa"]);
+    for (option, value) in [("--column", "2"), ("--skip-rows", "1")] {
+        let key = option.trim_start_matches("--").replace('-', "_");
+        refused(here.path(), &["record", &at2, option, value], &["text tables", "PEER AT2", &key[..4]]);
     }
 }

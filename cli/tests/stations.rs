@@ -143,7 +143,7 @@ fn a_record_without_what_is_asked_for_is_refused_with_file_and_remedy() {
             ["RSN9002: it has no vertical component, only", "leave `vertical` out"],
         ),
         (station("record = \"records/RSN9\""), ["RSN9: no file of", "name one of RSN9001, RSN9002"]),
-        (station("record = \"nowhere/RSN9\""), ["nowhere", "relative to the scene"]),
+        (station("record = \"nowhere/RSN9\""), ["nowhere", "relative to the file that names it"]),
         (station("component = \"H1\""), ["station.record", "without its component"]),
         (station("record = \"records/RSN9001\"\nscale = 2\npga_g = 0.3"), ["pga_g", "`scale` is given as well"]),
         (station("record = \"records/RSN9001\"\nkind = \"record\""), ["kind", "station"]),

@@ -347,3 +347,52 @@ fn residual_slides_of_scenes_without_friction_are_refused() {
         assert!(message.contains(part), "`{part}` is not in {message}");
     }
 }
+
+/// What no row could answer is refused: validity with friction, from the base scene or an axis.
+#[test]
+fn validity_of_scenes_with_friction_is_refused() {
+    let folder = folder("scene = \"base.toml\"\nask = \"validity\"\n[axes]\nfriction = [0.3, 0.5]\n");
+    let output = common::rocking(folder.path(), &["sweep", "sweep.toml"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in ["sweep.toml", "line 2", "`ask`", "with friction", "slides"] {
+        assert!(message.contains(part), "`{part}` is not in {message}");
+    }
+}
+
+/// `friction = 0.5` of a base scene is short for a static coefficient: an axis may change that, or add a kinetic one.
+#[test]
+fn coefficients_of_friction_are_axes_over_the_short_form() {
+    let outcomes = |base: &str, axes: &str| {
+        let folder = folder(&format!("scene = \"base.toml\"\nask = \"slides\"\n[axes]\n{axes}"));
+        std::fs::write(folder.path().join("base.toml"), format!("{base}\n{BASE}")).expect("written");
+        let text = table(folder.path(), &[]);
+        rows(&text)[1..].iter().map(|row| row[2..].to_vec()).collect::<Vec<_>>()
+    };
+    let long = outcomes("friction = { static = 0.5, kinetic = 0.2 }", "friction.static = [0.3, 0.4]\n");
+    assert!(long.iter().all(|row| row[0] != "error"), "{long:?}");
+    let of_static = outcomes("friction = 0.5", "\"friction.static\" = [0.3, 0.4]\n");
+    assert_eq!(of_static, outcomes("friction = 0.5", "friction = [0.3, 0.4]\n"));
+    assert_ne!(of_static, long);
+    let of_kinetic = outcomes("friction = 0.5", "\"friction.kinetic\" = [0.2, 0.3]\n");
+    assert_eq!(of_kinetic, outcomes("friction = { static = 0.5 }", "\"friction.kinetic\" = [0.2, 0.3]\n"));
+}
+
+/// Components of the other direction are refused by the names of their files; documents in a folder are no records.
+#[test]
+fn folders_of_files_hold_components_of_one_direction() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\n\"excitation.vertical.file\" = { folder = \"records\" }\n");
+    let base = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.vertical]\nkind = \"record\"\nfile = \"records/A_UP.csv\"\n";
+    std::fs::write(folder.path().join("base.toml"), base).expect("written");
+    std::fs::create_dir(folder.path().join("records")).expect("made");
+    let put = |name: &str, text: &str| std::fs::write(folder.path().join("records").join(name), text).expect("written");
+    put("A_UP.csv", "t [s],a [m/s2]\n0,0\n0.1,1\n0.2,0\n");
+    put("README.md", "where the records are from");
+    put("readme.txt", "the same");
+    let text = table(folder.path(), &[]);
+    assert!(text.lines().count() == 2 && text.contains("A_UP.csv"), "{text}");
+    put("A_EW.csv", "t [s],a [m/s2]\n0,0\n0.1,1\n0.2,0\n");
+    let output = common::rocking(folder.path(), &["sweep", "sweep.toml"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && message.contains("A_EW.csv is a horizontal component"), "{message}");
+}

@@ -89,6 +89,9 @@ pub enum RecordError {
     /// An option contradicts the file.
     #[error("`{key}` is given as {given} and line {line} of the file says {file}; leave `{key}` out or correct it")]
     Contradiction { key: &'static str, given: String, line: usize, file: String },
+    /// An option of text tables is given for a file of another format.
+    #[error("`{key}` is an option of text tables, and the file is {format}; leave it out")]
+    NotOfTable { key: &'static str, format: String },
     /// A parameter of a record is out of range.
     #[error("{name} = {value} is out of range: give {wanted}")]
     OutOfRange { name: &'static str, value: f64, wanted: &'static str },

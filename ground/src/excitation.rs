@@ -20,7 +20,7 @@ pub struct Excitation {
 }
 
 impl Excitation {
-    /// Warnings about the files of its records, a sentence each.
+    /// Warnings, a sentence each: about the files of its records, and about what lies before `t = 0`.
     pub fn warnings(&self) -> Vec<String> {
         fn of(motion: &Motion) -> Vec<String> {
             match motion {
@@ -32,7 +32,9 @@ impl Excitation {
                 _ => Vec::new(),
             }
         }
-        [&self.horizontal, &self.vertical].into_iter().flatten().flat_map(of).collect()
+        let motions = [("horizontal", &self.horizontal), ("vertical", &self.vertical)];
+        let given = motions.into_iter().filter_map(|(name, motion)| Some((name, motion.as_ref()?)));
+        given.flat_map(|(name, motion)| of(motion).into_iter().chain(cut_at_start(name, motion))).collect()
     }
 
     /// Time from which on both accelerations are zero `[s]`; zero without any motion. It is `None` if a motion has no end.
@@ -85,9 +87,22 @@ impl Excitation {
     }
 }
 
+/// The warning of a motion that begins before `t = 0`; a motion without end has none, as it must be cut somewhere.
+fn cut_at_start(name: &str, motion: &Motion) -> Option<String> {
+    let (begin, end) = (motion.moves_from(), motion.still_from()?);
+    if begin >= 0.0 || begin == end {
+        return None;
+    }
+    let lost = if end <= 0.0 { "all of it" } else { "what lies before" };
+    Some(format!(
+        "the {name} ground motion is cut: it begins at t = {begin:.4} s, and runs begin at 0 s; {lost} is left out (give a later `start`)"
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Record;
     use std::f64::consts::TAU;
 
     #[test]
@@ -116,5 +131,19 @@ mod tests {
         let pulse = |omega: f64| Some(Motion::SinePulse { amplitude: 1.0, omega, start: 0.3 });
         let segments = Excitation { horizontal: pulse(7.0), vertical: pulse(7.0 + 1e-15) }.segments(5.0);
         assert_eq!(segments.len(), 3);
+    }
+
+    /// A pulse of 1 s that begins before the run, one that is over before it, a harmonic without end, and a record whose first samples are zero.
+    #[test]
+    fn what_lies_before_the_run_is_said() {
+        let says = |motion: Motion| Excitation { horizontal: Some(motion), vertical: None }.warnings().join(" ");
+        let pulse = |start: f64| says(Motion::SinePulse { amplitude: 2.0, omega: TAU, start });
+        assert!(pulse(0.0).is_empty());
+        assert!(pulse(-0.5).contains("begins at t = -0.5000 s") && pulse(-0.5).contains("what lies before"));
+        assert!(pulse(-3.0).contains("all of it"));
+        assert!(says(Motion::Harmonic { amplitude: 2.0, omega: TAU, start: -0.5, phase: 0.0 }).is_empty());
+        let record =
+            |start: f64| says(Motion::Record(Record::new(vec![0.0, 0.0, 1.0, 0.0], 1.0, start).expect("valid")));
+        assert!(record(-1.0).is_empty() && record(-1.5).contains("begins at t = -0.5000 s"));
     }
 }

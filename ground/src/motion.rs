@@ -251,6 +251,15 @@ impl Motion {
         }
     }
 
+    /// Time up to which the acceleration is zero `[s]`: the start of the motion, but for a record the last of the zeros at its start.
+    pub(crate) fn moves_from(&self) -> f64 {
+        match self {
+            Motion::Record(record) => record.moves_from(),
+            Motion::Sum { terms } => terms.iter().map(Motion::moves_from).fold(f64::INFINITY, f64::min),
+            _ => self.pieces().first().map_or(0.0, |span| span.start),
+        }
+    }
+
     /// Name and value of the first parameter that is not finite, exceeds `largest` in magnitude, or is not above its lower bound. It is `None` if
     /// all parameters are valid. In a sum the name is `term[k].name`, with `k` from 1.
     pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {

@@ -195,6 +195,12 @@ impl Record {
         moving.map_or(self.start, |last| self.time((last + 1).min(self.accel.len() - 1)))
     }
 
+    /// Time up to which the acceleration is zero `[s]`: that of the last of the zeros at the start, or else of the first sample.
+    pub(crate) fn moves_from(&self) -> f64 {
+        let moving = self.accel.iter().position(|a| *a != 0.0);
+        self.time(moving.map_or(0, |first| first.saturating_sub(1)))
+    }
+
     /// Largest magnitude of the samples `[m/s²]`.
     pub fn peak(&self) -> f64 {
         self.accel.peak

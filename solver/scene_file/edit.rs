@@ -1,7 +1,7 @@
 //! Changes of the values in a table: keys are set by their dotted names, and replace keys that they exclude.
 
 use super::key_value::Setting;
-use super::table::{Entry, Table, Value, without_index};
+use super::table::{Entry, Table, Value, index, without_index};
 use std::sync::Arc;
 
 impl Value {
@@ -30,11 +30,7 @@ impl Table {
     pub fn set(&mut self, key: &str, value: &Setting) -> Option<()> {
         let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
         let (name, index) = match first.split_once('[') {
-            Some((name, index)) => {
-                let index = index.strip_suffix(']')?;
-                let number: usize = index.parse().ok().filter(|number: &usize| number.to_string() == index)?;
-                (name, Some(number.checked_sub(1)?))
-            }
+            Some((name, _)) => (name, Some(index(first)?)),
             None => (first, None),
         };
         if rest.is_none() && index.is_none() {
@@ -52,6 +48,9 @@ impl Table {
                 value,
             });
         }
+        if rest.is_some() {
+            self.lengthen(name);
+        }
         let entries = Arc::make_mut(&mut self.entries);
         let found = match (&mut entries.iter_mut().find(|entry| *entry.key == *name)?.value, index) {
             (Value::Array(items), Some(index)) => &mut Arc::make_mut(items).get_mut(index)?.0,
@@ -68,7 +67,20 @@ impl Table {
         }
     }
 
-    /// Sets a key of this table itself. A key that is new removes its alternatives.
+    /// Writes the short form of a table as the table: `friction = 0.7` as `[friction] static = 0.7`.
+    fn lengthen(&mut self, name: &str) {
+        let Some((_, key)) = SHORT_FORMS.into_iter().find(|(short, _)| *short == name) else { return };
+        let dotted = self.dotted(name);
+        let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) else { return };
+        if !matches!(entry.value, Value::Table(_)) {
+            let mut table = Table::empty(dotted, entry.key_place.clone());
+            let value = std::mem::replace(&mut entry.value, Value::Number(0.0));
+            table.set_own(key, value);
+            entry.value = Value::Table(table);
+        }
+    }
+
+    /// Sets a key of this table itself. A key that is new removes its alternatives, and what is of use with these alone.
     fn set_own(&mut self, name: &str, value: Value) {
         // The usual case in a sweep: the key is there, and no alternative of it.
         if let Some(entry) = Arc::make_mut(&mut self.entries).iter_mut().find(|entry| *entry.key == *name) {
@@ -78,6 +90,9 @@ impl Table {
         let place = self.find(name);
         let entries = Arc::make_mut(&mut self.entries);
         entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
+        if !SPECTRAL.contains(&name) && are_alternatives(SPECTRAL[0], name) {
+            entries.retain(|entry| !OF_SPECTRAL.contains(&&*entry.key));
+        }
         entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
     }
 
@@ -120,6 +135,13 @@ const ALTERNATIVES: [&[&str]; 10] = [
     &["density", "mass"],
     &["eta", "factors", "law"],
 ];
+
+/// Sizes of a record on a response spectrum, and the keys of the oscillator, which serve them alone.
+const SPECTRAL: [&str; 2] = ["sa", "sa_g"];
+const OF_SPECTRAL: [&str; 2] = ["sa_period", "sa_damping"];
+
+/// Keys whose value may stand for a table, and the key in that table.
+const SHORT_FORMS: [(&str, &str); 1] = [("friction", "static")];
 
 /// Whether two different keys, given by their dotted names, exclude each other in a scene.
 pub fn exclude_each_other(a: &str, b: &str) -> bool {

@@ -195,7 +195,7 @@ impl Reader<'_> {
             problem,
         };
         let bytes = rocking_ground::read_file(&path)
-            .map_err(|error| refuse(format!("{error}; give the path relative to the scene file")))?;
+            .map_err(|error| refuse(format!("{error}; give the path relative to the file that names it")))?;
         let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
         if let Some(records) = self.records {
             records.keep(kept(), &record);

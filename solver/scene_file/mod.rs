@@ -3,6 +3,7 @@
 pub(crate) mod edit;
 mod error;
 pub(crate) mod excitation;
+mod file_kind;
 mod key_value;
 pub(crate) mod reader;
 pub(crate) mod record_cache;
@@ -11,6 +12,7 @@ pub(crate) mod table;
 mod template;
 
 pub use error::{SceneFileError, text};
+pub use file_kind::FileKind;
 pub use key_value::Setting;
 pub use reader::{Derived, SceneFile};
 pub use table::Cause;

@@ -4,6 +4,7 @@
 //! when it is closed, refuses keys that were not asked for. Units are converted while a file is read and nowhere else.
 
 use super::error::{SceneFileError, text};
+use super::file_kind::FileKind;
 use super::record_cache::Records;
 use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Block, Column, ColumnError, MOST_BLOCKS, Shape};
@@ -273,7 +274,9 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
             place: column.place(),
             key: "column".into(),
             problem: "`[[block]]` is given as well".into(),
-            remedy: "describe the column in one way".into(),
+            remedy:
+                "describe the column in one way; an axis of a sweep over a block is named as in `block[1].half_width`"
+                    .into(),
             cause: Cause::Key,
         }),
         (Some(mut tables), None) if !tables.is_empty() => {
@@ -294,9 +297,14 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
             }
             cut(&mut column, count as usize, derived)
         }
-        _ if root.has("axes") => Err(root.missing("block", "this is a sweep file: give it to `rocking sweep`")),
-        _ if root.has("levels") => Err(root.missing("block", "this is the file of a study: give it to `rocking ida`")),
-        _ => Err(root.missing("block", "add a [[block]] with half_width and half_height for each block, base first")),
+        _ => {
+            let remedy = match FileKind::of_root(root) {
+                FileKind::Sweep => "this is a sweep file: give it to `rocking sweep`",
+                FileKind::Study => "this is the file of a study: give it to `rocking ida`",
+                FileKind::Scene => "add a [[block]] with half_width and half_height for each block, base first",
+            };
+            Err(root.missing("block", remedy))
+        }
     }
 }
 

@@ -30,18 +30,20 @@ impl Component {
     }
 }
 
-/// Extensions of files with velocity or displacement, which PEER gives beside the acceleration.
-const NO_ACCELERATION: [&str; 2] = ["vt2", "dt2"];
+/// Extensions of files without accelerations: velocity and displacement, which PEER gives beside them, and documents.
+const NO_ACCELERATION: [&str; 6] = ["vt2", "dt2", "md", "pdf", "html", "htm"];
 
-/// Names of the files of a folder, sorted. Hidden files and files with velocity or displacement are left out.
+/// Names of the files of a folder, sorted. Hidden files, files with velocity or displacement, documents and `README` files are left out.
 pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
         let file = entry.file_name().to_string_lossy().into_owned();
         let extension = file.rsplit_once('.').map_or("", |(_, extension)| extension);
-        let is_acceleration = !NO_ACCELERATION.iter().any(|other| extension.eq_ignore_ascii_case(other));
-        if entry.path().is_file() && !file.starts_with('.') && is_acceleration {
+        let is_other = NO_ACCELERATION.iter().any(|other| extension.eq_ignore_ascii_case(other))
+            || file.to_ascii_lowercase().starts_with("readme")
+            || file.starts_with('.');
+        if entry.path().is_file() && !is_other {
             files.push(file);
         }
     }
@@ -168,7 +170,9 @@ impl Reader<'_> {
         let (folder, own) = parted(name);
         let path = self.beside(&folder.to_string_lossy());
         let listed = |error: std::io::Error| {
-            let problem = format!("its folder {}: {error}; give the folder relative to the scene file", path.display());
+            let shown = if path.as_os_str().is_empty() { Path::new(".") } else { &path };
+            let remedy = "give folder and name of the record, relative to the file that names it";
+            let problem = format!("its folder {}: {error}; {remedy}", shown.display());
             refuse("record", problem)
         };
         let kept = self.records.and_then(|records| records.folder(&path));

@@ -211,7 +211,16 @@ impl Table {
             Some((first, rest)) if !self.has(key) => (first, Some(rest)),
             _ => (key, None),
         };
-        match (self.entry(first).or_else(|| self.entry(without_index(first))), rest) {
+        let entry = self.entry(first).or_else(|| self.entry(without_index(first)));
+        if let Some(Entry { value: Value::Array(items), .. }) = entry
+            && let Some((item, place)) = index(first).and_then(|index| items.get(index))
+        {
+            return match (item, rest) {
+                (Value::Table(table), Some(rest)) => table.find(rest),
+                _ => place.clone(),
+            };
+        }
+        match (entry, rest) {
             (Some(Entry { value: Value::Table(table), .. }), Some(rest)) => table.find(rest),
             (Some(entry), _) => entry.key_place.start..entry.value_place.end.max(entry.key_place.end),
             (None, _) => self.place(),
@@ -358,9 +367,8 @@ impl Table {
     /// A whole number from `least` on.
     pub fn whole(&mut self, key: &'static str, least: u32) -> Result<Option<u64>, Wrong> {
         match self.number(key)? {
-            Some((value, _)) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(
-                self.wrong(key, format!("{value} is out of range"), &format!("give a whole number from {least} on"))
-            ),
+            Some((value, _)) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(self
+                .wrong(key, format!("{value} is out of range"), &format!("give a whole number from {least} to 9e15"))),
             found => Ok(found.map(|(value, _)| value as u64)),
         }
     }
@@ -429,9 +437,19 @@ impl Table {
             }
         });
         let Some(unknown) = self.entries.iter().find(|entry| !self.has_asked(&entry.key)) else { return Ok(()) };
-        let nearest = self.asked.iter().min_by_key(|known| strsim::levenshtein(known, &unknown.key));
+        let distance = |known: &&Cow<str>| {
+            let lower = [known.as_ref(), &*unknown.key].map(str::to_lowercase);
+            (strsim::levenshtein(&lower[0], &lower[1]), strsim::levenshtein(known, &unknown.key))
+        };
+        let nearest = self.asked.iter().min_by_key(distance);
         let remedy = match nearest.filter(|known| is_slip(known, &unknown.key)) {
             Some(known) => format!("did you mean `{known}`?"),
+            None if !self.name.is_empty() && OF_NO_TABLE.contains(&&*unknown.key) => {
+                format!("move it to the top of the file, above all tables: below [{}] it is a key of that", self.name)
+            }
+            None if &*self.name == "excitation" => {
+                "write it below [excitation.horizontal] or [excitation.vertical]".into()
+            }
             None => format!("remove it; known here are {}", self.asked.join(", ")),
         };
         Err(self.unknown(unknown, remedy))
@@ -441,6 +459,13 @@ impl Table {
         let (place, key) = (entry.key_place.clone(), self.dotted(&entry.key));
         Wrong { place, key, problem: "this key is unknown here".into(), remedy, cause: Cause::Key }
     }
+}
+
+/// Index from zero of `block[2]`.
+pub fn index(name: &str) -> Option<usize> {
+    let (_, index) = name.strip_suffix(']')?.split_once('[')?;
+    let number: usize = index.parse().ok().filter(|number: &usize| number.to_string() == index)?;
+    number.checked_sub(1)
 }
 
 /// `block` of `block[2]`.
@@ -489,6 +514,9 @@ fn hint(message: &str, line: &str) -> &'static str {
         "decimals have a point, text stands in quotes, lists in brackets"
     }
 }
+
+/// Keys of a scene that stand in no table.
+const OF_NO_TABLE: [&str; 3] = ["title", "gravity", "friction"];
 
 /// Whether `written` may be a misspelling of `key`, or the last part of `key`, as `width` is of `half_width`.
 fn is_slip(key: &str, written: &str) -> bool {

@@ -312,14 +312,19 @@ impl Ida {
     /// As [`Ida::runs`], but returns `made(run)` for each run. The call is on the thread that made the run.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
-        let simulator = || if self.needs_rows() { Simulator::new() } else { Simulator::recording_gaps() };
+        let simulator = || if self.records_gaps() { Simulator::recording_gaps() } else { Simulator::new() };
         indices.map_init(simulator, |simulator, index| made(self.run(simulator, index))).collect()
     }
 
-    /// Whether runs need rows: with companions (peaks and gap up to the horizon come from rows), with friction, or with initial angles or rates.
-    fn needs_rows(&self) -> bool {
+    /// Whether runs record their largest gaps. With friction, and with initial angles or rates, gaps come from rows.
+    fn records_gaps(&self) -> bool {
         let initial = &self.scene.initial;
-        self.is_followed || self.scene.friction.is_some() || !(initial.theta.is_empty() && initial.omega.is_empty())
+        self.scene.friction.is_none() && initial.theta.is_empty() && initial.omega.is_empty()
+    }
+
+    /// Whether runs need rows: companions are compared at rows, and peaks and gaps up to the horizon come from them.
+    fn needs_rows(&self) -> bool {
+        self.is_followed || !self.records_gaps()
     }
 
     fn run(&self, simulator: &mut Simulator, index: usize) -> IdaRun {
@@ -375,6 +380,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
 
 /// Outcome of a run whose verdict is not determined: what is known up to the horizon `[s]`.
 fn open(scene: &Scene, mut response: Response, horizon: f64) -> IdaOutcome {
+    response.largest_gaps.clear();
     response.samples.retain(|row| row.t <= horizon);
     response.events.retain(|event| event.t <= horizon);
     let largest = |block: usize| response.samples.iter().map(|row| row.theta[block].abs()).fold(0.0, f64::max);

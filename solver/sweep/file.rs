@@ -77,44 +77,58 @@ impl Sweep {
         let combine = sample(&root, combine, sampling, &mut placed, &template).map_err(own)?;
         let (axes, places): (_, Vec<Place>) = placed.into_iter().map(|(axis, place, _)| (axis, place)).unzip();
         let sweep = Sweep { template, axes, combine, ask };
-        if ask == Ask::Slides && sweep.scene(0).is_ok_and(|scene| scene.friction.is_none()) {
-            let problem =
-                format!("blocks do not slide without friction, and {} has none", sweep.template.file().display());
-            return Err(own(root.wrong("ask", problem, "give the base scene friction, or let friction be an axis")));
+        sweep.check(&root, &places).map_err(own)?;
+        Ok(sweep)
+    }
+
+    /// Refuses what no row could answer; `places` are those of the axes in the file.
+    fn check(&self, root: &Table, places: &[Place]) -> Result<(), Wrong> {
+        let base = self.template.file().display();
+        let has_friction = self.scene(0).ok().map(|scene| scene.friction.is_some());
+        match (self.ask, has_friction) {
+            (Ask::Slides, Some(false)) => {
+                let problem = format!("blocks do not slide without friction, and {base} has none");
+                return Err(root.wrong("ask", problem, "give the base scene friction, or let friction be an axis"));
+            }
+            (Ask::Validity, Some(true)) => {
+                let problem = "with friction blocks slide and part: there is no limit of validity".to_string();
+                return Err(root.wrong("ask", problem, "ask for \"slides\", or leave out friction"));
+            }
+            _ => {}
         }
-        let lengths: Vec<usize> = sweep.axes.iter().map(|axis| axis.values.len()).collect();
-        let problem = match combine {
+        let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
+        let problem = match self.combine {
             Combine::Paired if lengths.iter().any(|length| *length != lengths[0]) => {
                 Some((format!("the axes have {lengths:?} values"), "paired axes must be equally long"))
             }
-            Combine::Cartesian | Combine::Sampled(_) if too_many(&sweep) => {
+            Combine::Cartesian | Combine::Sampled(_) if too_many(self) => {
                 Some(("there are more than 1e12 points".to_string(), "give the axes fewer values"))
             }
             _ => None,
         };
         if let Some((problem, remedy)) = problem {
-            return Err(own(root.wrong("axes", problem, remedy)));
+            return Err(root.wrong("axes", problem, remedy));
         }
-        if let Some((key, problem, remedy)) = sweep.misfit() {
-            let axis = sweep.axes.iter().position(|axis| is_of_axis(&axis.key, &key));
-            return Err(own(Wrong {
+        if let Some((key, problem, remedy)) = self.misfit() {
+            let axis = self.axes.iter().position(|axis| is_of_axis(&axis.key, &key));
+            return Err(Wrong {
                 place: axis.map_or_else(|| root.find("axes"), |axis| places[axis].clone()),
-                problem: format!("`{key}` of {}: {problem}", sweep.template.file().display()),
-                key: axis.map_or_else(|| "axes".into(), |axis| format!("axes.{}", sweep.axes[axis].key)),
+                problem: format!("`{key}` of {base}: {problem}"),
+                key: axis.map_or_else(|| "axes".into(), |axis| format!("axes.{}", self.axes[axis].key)),
                 remedy,
                 cause: Cause::Key,
-            }));
+            });
         }
-        if let Some((axis, problem)) = sweep.bad_sample() {
-            return Err(own(Wrong {
+        if let Some((axis, problem)) = self.bad_sample() {
+            return Err(Wrong {
                 place: places[axis].clone(),
-                key: format!("axes.{}", sweep.axes[axis].key),
+                key: format!("axes.{}", self.axes[axis].key),
                 problem,
                 remedy: "cut the distribution off by `min` and `max`, or choose one without such values".into(),
                 cause: Cause::Value,
-            }));
+            });
         }
-        Ok(sweep)
+        Ok(())
     }
 
     /// Sampled axis whose smallest or largest sample the scene refuses, and why. Every such sample would be a row with an error.
@@ -332,9 +346,16 @@ fn files(table: &mut Table, key: &str, template: &Template) -> Result<Vec<Settin
     let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);
     let files = files_in(&path).map_err(|error| no_folder(table, &path, &error))?;
-    let is_vertical = |file: &&String| Direction::of(record_and_component(file).1, "") == Direction::Vertical;
-    if let Some(file) = files.iter().find(is_vertical).filter(|_| key.contains("horizontal")) {
-        let problem = format!("{name}/{file} is a vertical component by its name");
+    let (other, other_name) = match key.contains("vertical") {
+        true => (Direction::Horizontal, "horizontal"),
+        false => (Direction::Vertical, "vertical"),
+    };
+    let is_other = |file: &&String| {
+        let component = record_and_component(file).1;
+        !component.is_empty() && Direction::of(component, "") == other
+    };
+    if let Some(file) = files.iter().find(is_other) {
+        let problem = format!("{name}/{file} is a {other_name} component by its name");
         let remedy =
             "take it out of the folder, or let `record` of [excitation.station] be the axis, which knows components";
         return Err(table.wrong("folder", problem, remedy));

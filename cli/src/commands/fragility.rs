@@ -6,19 +6,21 @@ use crate::commands::spectrum::beside;
 use crate::commands::sweep::{OUTCOME, TRUST};
 use crate::error::{Failure, at};
 use crate::table::{Format, open};
-use crate::terminal::{json, print};
+use crate::terminal::{json, print, warn};
 use crate::text::shown;
 use crate::{output, plot};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Fits, prints, writes and draws.
 pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
-    let Runs { measure, runs, peaks, has_slides, .. } = read(&asked.table, asked.measure.as_deref())?;
+    let Runs { measure, runs, pooled, peaks, has_slides, .. } =
+        read(&asked.table, asked.measure.as_deref(), &asked.conditions)?;
     let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
     let states = match &asked.state[..] {
         [] => DEFAULT_STATES.to_vec(),
@@ -56,6 +58,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
         write(&figure, picture)?;
         let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
     }
+    warn(&pooled);
     if asked.json { json(&conclusions) } else { print(&told) }
 }
 
@@ -66,20 +69,30 @@ pub struct Runs {
     pub runs: Vec<Observation>,
     /// The first error in the table.
     pub first_error: Option<String>,
+    /// Warnings: columns that are neither the record nor the measure, and whose values differ.
+    pooled: Vec<String>,
     /// Number of the columns of peaks, one for each block.
     peaks: usize,
     has_slides: bool,
 }
 
-/// Reads the table of a study, or of a sweep over records and a measure.
-pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
+/// Reads the table of a study, or of a sweep over records and a measure: the rows that have each value in its column.
+pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]) -> Result<Runs, Failure> {
     let refused = |problem: String| Failure::Study(table.into(), problem);
     Format::of(table)?;
     let found = open(table).map_err(at(Failure::Study, table))?;
     let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
+    let conditions = columns.conditions(conditions).map_err(refused)?;
+    let mut values = vec![BTreeSet::new(); columns.others.len()];
     let (mut runs, mut first_error) = (Vec::new(), None);
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
+        if !conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
+            continue;
+        }
+        for (values, place) in values.iter_mut().zip(&columns.others) {
+            values.insert(row[*place].to_string());
+        }
         if let ("error", Some(error)) = (&row[columns.outcome], columns.error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
@@ -87,11 +100,30 @@ pub fn read(table: &Path, measure: Option<&str>) -> Result<Runs, Failure> {
         runs.push(run.map_err(|problem| refused(format!("row {}, {problem}", number + 1)))?);
     }
     if runs.is_empty() {
-        return Err(refused("it has no row; give the table of a finished study".into()));
+        let problem = match &conditions[..] {
+            [] => "it has no row; give the table of a finished study",
+            _ => "no row has these values; see its columns for those that there are",
+        };
+        return Err(refused(problem.into()));
     }
+    let several = columns.others.iter().zip(&values).filter(|(_, values)| values.len() > 1);
+    let pooled = several.map(|(place, values)| {
+        let (name, count) = (&columns.names[*place], values.len());
+        format!("the rows of all {count} values of `{name}` make one curve; --where {name}=VALUE keeps those of one")
+    });
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
-    Ok(Runs { measure, runs, first_error, peaks: columns.peaks.len(), has_slides: !columns.slides.is_empty() })
+    let (pooled, peaks, has_slides) = (pooled.collect(), columns.peaks.len(), !columns.slides.is_empty());
+    Ok(Runs { measure, runs, first_error, pooled, peaks, has_slides })
+}
+
+/// Columns before the outcome that are no axes.
+const NO_AXES: [&str; 2] = ["index", "scale"];
+
+/// Whether a cell has a value: the same text, or the same number.
+fn is_value(cell: &str, value: &str) -> bool {
+    let number = |text: &str| text.parse::<f64>().ok();
+    cell == value || number(cell).is_some_and(|cell| number(value) == Some(cell))
 }
 
 /// The columns of a table of runs, by their places.
@@ -102,6 +134,8 @@ struct Columns {
     records: Vec<usize>,
     /// The level of the measure.
     level: usize,
+    /// Axes of a sweep that are neither the record nor the measure.
+    others: Vec<usize>,
     outcome: usize,
     uplift: Option<usize>,
     error: Option<usize>,
@@ -134,8 +168,12 @@ impl Columns {
             };
             (1..=count).map(place).collect()
         };
+        let records = studies::record_columns(&names);
+        let is_other =
+            |place: &usize| *place != level && !records.contains(place) && !NO_AXES.contains(&names[*place].as_str());
         Ok(Columns {
-            records: studies::record_columns(&names),
+            others: (0..outcome).filter(is_other).collect(),
+            records,
             level,
             outcome,
             uplift: column("first_uplift"),
@@ -145,6 +183,16 @@ impl Columns {
             slides: numbered("residual_slide_")?,
             names,
         })
+    }
+
+    /// Conditions with the places of their columns. The error names a column that is not there.
+    fn conditions<'c>(&self, given: &'c [(String, String)]) -> Result<Vec<(usize, &'c str)>, String> {
+        let known = || self.names.join(", ");
+        let place = |name: &str| {
+            let place = self.names.iter().position(|own| own == name);
+            place.ok_or_else(|| format!("there is no column `{name}`; it has {}", known()))
+        };
+        given.iter().map(|(name, value)| Ok((place(name)?, value.as_str()))).collect()
     }
 
     /// The run of a row, counted from zero. The error says what is wrong with a cell.

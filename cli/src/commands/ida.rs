@@ -53,7 +53,7 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
-    let runs = fragility::read(out, None)?.runs;
+    let runs = fragility::read(out, None, &[])?.runs;
     let stripes = stripes(&runs);
     output::file(&stripes_file, stripe_table(ida, &stripes))?;
     let measure = ida.intensity().to_string();
@@ -85,7 +85,7 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     }
     let failed: usize = stripes.iter().map(|stripe| stripe.errors).sum();
     if failed == ida.len() {
-        let first = fragility::read(out, None)?.first_error.unwrap_or_default();
+        let first = fragility::read(out, None, &[])?.first_error.unwrap_or_default();
         return Err(Failure::NoResult(out.clone(), failed, first));
     }
     Ok(())
@@ -99,7 +99,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     if !["record", "scale", "first_uplift", "peak_1"].iter().all(|name| header.iter().any(|own| own == *name)) {
         return Ok(None);
     }
-    let read = fragility::read(table, None)?;
+    let read = fragility::read(table, None, &[])?;
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
     let conclusions = Conclusions::of(&read.runs, &read.measure, &DEFAULT_STATES, &FragilityOptions::default());
     let mut told = String::new();

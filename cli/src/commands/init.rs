@@ -7,13 +7,14 @@ use crate::terminal::print;
 use crate::text::{shell_word, shown};
 use rocking::ground::{RecordFile, TextOptions};
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Writes a scene of `blocks` equal blocks, excited by `record`, or else by a pulse. An existing file is written over only with `force`.
 pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> Result<(), Failure> {
     if file.exists() && !force {
         return Err(Failure::Taken(file.into()));
     }
+    output::spare(&record.map(PathBuf::from).into_iter().collect::<Vec<_>>(), [file.into()])?;
     let record = record.map(|record| NamedRecord::new(file, record)).transpose()?;
     output::file(file, scene(blocks, record.as_ref()))?;
     let lacking =

@@ -9,8 +9,8 @@ use crate::number::significant;
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use crate::{output, plot};
-use rocking::ground::{Measures, RecordFile, TextOptions};
-use rocking::intensity::{Intensity, IntensityUnit};
+use rocking::ground::{Measure, Measures, RecordFile, TextOptions};
+use rocking::intensity::{DEFAULT_DAMPING, Intensity, IntensityUnit};
 use rocking::{Column, DEFAULT_GRAVITY, Record, RecordError};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -40,7 +40,13 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
     }
     let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
-    if let Some((intensity, size)) = arguments.scale_to {
+    let damping = arguments.damping.unwrap_or(DEFAULT_DAMPING);
+    if let Some((mut intensity, size)) = arguments.scale_to {
+        if let Measure::Sa { damping: own, .. } = &mut intensity.measure
+            && *own == DEFAULT_DAMPING
+        {
+            *own = damping;
+        }
         let unit = match (&column, intensity.unit) {
             (Some(column), _) => intensity.unit_size(column),
             (None, IntensityUnit::Si) => 1.0,
@@ -50,9 +56,10 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         record = record.scaled_to(intensity.measure, size * unit, DEFAULT_GRAVITY).map_err(refused)?;
     }
     description.measure(&record);
-    description.measure_by(&record, &arguments.sa, arguments.damping, column.as_ref());
+    description.measure_by(&record, &arguments.sa, damping, column.as_ref());
     let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
-    output::check(&outputs, std::slice::from_ref(&path))?;
+    let inputs: Vec<PathBuf> = std::iter::once(&path).chain(&arguments.scene).cloned().collect();
+    output::check(&outputs, &inputs)?;
     if let Some(out) = &arguments.out {
         output::file(out, record.to_csv())?;
     }

@@ -11,6 +11,7 @@ use crate::number::significant;
 use crate::terminal::{json, print};
 use crate::text::shown;
 use rocking::ground::{Direction, TextOptions, by_number, record_and_component};
+use rocking::intensity::DEFAULT_DAMPING;
 use rocking::{Record, RecordError};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -71,7 +72,7 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     names.sort();
     let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
     let by = |description: &mut Description, record: &Record| {
-        description.measure_by(record, &arguments.sa, arguments.damping, column.as_ref());
+        description.measure_by(record, &arguments.sa, arguments.damping.unwrap_or(DEFAULT_DAMPING), column.as_ref());
     };
     let mut groups: BTreeMap<String, Vec<Listed>> = BTreeMap::new();
     let mut unread = Vec::new();

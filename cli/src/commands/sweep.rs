@@ -106,6 +106,13 @@ pub fn read(file: &Path) -> Result<Sweep, Failure> {
 /// Number of points that [`check_keys`] reads: the first ones, and as many again spread evenly over the sweep.
 const SAMPLES: usize = 64;
 
+/// Points of a sweep, the first and the last among them: all if there are no more than `most`, otherwise as many, evenly spread.
+pub fn evenly_spread(points: usize, most: usize) -> impl Iterator<Item = usize> {
+    let count = points.min(most);
+    let steps = (count.max(2) - 1) as u128;
+    (0..count).map(move |place| ((points - 1) as u128 * place as u128 / steps) as usize)
+}
+
 /// Refuses a key that no scene knows. `Sweep::from_file` does so by the first scene. If a record of the first scene cannot be read, other scenes
 /// are read here: the sweep is refused if each of them, apart from those with unreadable records, is refused for a key.
 fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
@@ -113,9 +120,8 @@ fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
     if !matches!(sweep.scene(0), Err(SceneFileError::Record { .. } | SceneFileError::Unreadable { .. })) {
         return Ok(());
     }
-    let last = sweep.len() - 1;
-    let spread = (1..SAMPLES).map(|sample| (last as u128 * sample as u128 / (SAMPLES - 1) as u128) as usize);
-    let samples = (1..last.min(SAMPLES)).chain(spread).map(|index| sweep.scene(index).err());
+    let spread = evenly_spread(sweep.len(), SAMPLES).skip(1);
+    let samples = (1..SAMPLES.min(sweep.len() - 1)).chain(spread).map(|index| sweep.scene(index).err());
     // A record that cannot be read is no reason to refuse a sweep: its rows have errors.
     let mut others = samples.filter(|error| !matches!(error, Some(SceneFileError::Record { .. })));
     match others.next() {

@@ -35,6 +35,10 @@ impl RecordFile {
             Format::Table => table::read(&lines, options),
         }?;
         check_range(&file.accel)?;
+        let of_table = [("column", options.column.is_some()), ("skip_rows", options.skip_rows > 0)];
+        if let Some((key, _)) = of_table.into_iter().find(|(_, is_given)| *is_given && file.format != Format::Table) {
+            return Err(RecordError::NotOfTable { key, format: file.format.to_string() });
+        }
         if file.channels.is_empty() {
             file.channels = vec![if file.component.is_empty() { "1".into() } else { format!("1: {}", file.component) }];
         }

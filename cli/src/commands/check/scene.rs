@@ -1,0 +1,344 @@
+//! `rocking check` of a scene: its column, its ground motion and its contacts, and what opens or slides first.
+
+use crate::commands::thresholds;
+use crate::error::Failure;
+use crate::ground_in_words;
+use crate::number::{coefficients, fixed, significant, widths};
+use crate::terminal::{json, print, warn};
+use crate::text::{printable, shown};
+use rocking::scene_file::{Derived, SceneFile};
+use rocking::{Block, Friction, Motion, Restitution, Scene};
+use serde::{Serialize, Serializer};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Reads a scene and explains it.
+pub fn check(path: &Path, text: &str, as_json: bool) -> Result<(), Failure> {
+    let SceneFile { scene, derived } = SceneFile::from_toml(text, path).map_err(Failure::scene)?;
+    let findings = Findings::of(&scene, derived);
+    warn(&findings.warnings);
+    if as_json { json(&findings) } else { print(&findings.text(path, &scene)) }
+}
+
+/// Description of a scene. Lists have N entries, per block or interface, base first.
+#[derive(Debug, Serialize)]
+struct Findings {
+    title: String,
+    blocks: Vec<Block>,
+    derived: Vec<Derived>,
+    stacks: Vec<thresholds::Row>,
+    /// Factors of the plastic relative rates at the interfaces, dimensionless.
+    restitution_factors: Vec<f64>,
+    /// What gives way first at each interface; empty for a scene without friction.
+    contacts: Vec<ContactFindings>,
+    horizontal: Option<MotionFindings>,
+    vertical: Option<MotionFindings>,
+    /// Interfaces, from 1, that the ground motion opens from rest, if none of the others opens or slides before.
+    opens: Vec<usize>,
+    /// When the first of them opens `[s]`.
+    first_opening: Option<f64>,
+    method: &'static str,
+    rows: u64,
+    /// Warnings of the readers of record files.
+    warnings: Vec<String>,
+}
+
+/// What gives way first at an interface: the contact slides, or it opens. The stack above counts as one body; the ground moves horizontally only.
+#[derive(Debug, Serialize)]
+struct ContactFindings {
+    /// From 1, base first.
+    interface: usize,
+    /// Coefficient of static friction, dimensionless.
+    coefficient: f64,
+    /// Horizontal ground acceleration at which the contact slides `[m/s²]`.
+    slides_at: f64,
+    /// Horizontal ground acceleration at which the contact opens `[m/s²]`.
+    opens_at: f64,
+    /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground; `None` if the ground moves vertically
+    /// as well.
+    at_pga: Option<&'static str>,
+    /// Least coefficient with which the stack would rock at the PGA without sliding; `None` if the contact slides first, or does not open.
+    coefficient_to_rock: Option<f64>,
+}
+
+impl ContactFindings {
+    /// The contact below a stack under a peak ground acceleration `[m/s²]`; `None` if the ground moves vertically as well.
+    fn of(stack: &thresholds::Row, friction: &Friction, pga: Option<f64>) -> ContactFindings {
+        let coefficient = friction.fixed[(stack.interface - 1).min(friction.fixed.len() - 1)];
+        let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
+        let opens_by = pga.filter(|pga| slides_at > opens_at && *pga > opens_at && opens_at > 0.0);
+        let needed = opens_by.map(|pga| stack.stack.coefficient_to_rock(pga));
+        let at_pga = pga.map(|pga| match needed {
+            Some(needed) if coefficient < needed => "slides-and-rocks",
+            Some(_) => "rocks",
+            None if opens_at <= 0.0 => "rocks",
+            None if pga > slides_at && slides_at <= opens_at => "slides",
+            None => "rests",
+        });
+        let interface = stack.interface;
+        ContactFindings { interface, coefficient, slides_at, opens_at, at_pga, coefficient_to_rock: needed }
+    }
+
+    /// In a sentence.
+    fn text(&self, gravity: f64) -> String {
+        let ContactFindings { interface, coefficient, .. } = self;
+        let [slides, opens] =
+            [self.slides_at, self.opens_at].map(|acceleration| significant(acceleration / gravity, 4));
+        if self.opens_at <= 0.0 {
+            return format!("interface {interface} opens by itself: the stack above leans beyond its support");
+        }
+        if self.slides_at <= self.opens_at {
+            return format!("interface {interface} slides at {slides} g before it opens at {opens} g");
+        }
+        let both = self.coefficient_to_rock.map(|needed| {
+            let (needed, verb) = (
+                significant(needed, 4),
+                if self.at_pga == Some("rocks") { "rocks without sliding" } else { "slides and rocks" },
+            );
+            format!("; at the PGA it {verb}: that takes {needed} (mu_c), and it has {}", significant(*coefficient, 4))
+        });
+        format!("interface {interface} opens at {opens} g before it slides at {slides} g{}", both.unwrap_or_default())
+    }
+}
+
+/// A component of the ground motion.
+#[derive(Debug, Serialize)]
+struct MotionFindings {
+    #[serde(flatten)]
+    #[serde(serialize_with = "described")]
+    motion: Motion,
+    /// Largest acceleration of the ground until the end of the run `[m/s²]`.
+    pga: f64,
+    /// Largest velocity of the ground until the end of the run `[m/s]`.
+    pgv: f64,
+    /// Largest displacement of the ground until the end of the run `[m]`.
+    pgd: f64,
+    /// End of the motion `[s]`; none for a motion without end.
+    end: Option<f64>,
+    /// Velocity and displacement of the ground at the end of the motion `[m/s]`, `[m]`; none for a motion without end.
+    left_with: Option<[f64; 2]>,
+}
+
+/// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
+const TALL: f64 = 60.0;
+
+/// Serialises the description of a motion, without the samples of records.
+fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::Error> {
+    motion.description().serialize(serializer)
+}
+
+impl Findings {
+    fn of(scene: &Scene, derived: Vec<Derived>) -> Findings {
+        let column = &scene.column;
+        let stacks = thresholds::rows(scene);
+        let component =
+            |motion: &Option<Motion>| motion.as_ref().map(|motion| MotionFindings::of(motion, scene.options.t_end));
+        let horizontal = component(&scene.excitation.horizontal);
+        let pga = horizontal.as_ref().map_or(0.0, |motion| motion.pga);
+        let openings = scene.openings_at_rest();
+        let opened = (1..).zip(&openings).filter(|(_, opening)| opening.is_some());
+        let pga_alone = scene.excitation.vertical.is_none().then_some(pga);
+        Findings {
+            title: scene.title.clone(),
+            blocks: column.blocks().to_vec(),
+            derived,
+            opens: opened.map(|(interface, _)| interface).collect(),
+            first_opening: openings.into_iter().flatten().reduce(f64::min),
+            contacts: scene
+                .friction
+                .iter()
+                .flat_map(|friction| stacks.iter().map(|stack| ContactFindings::of(stack, friction, pga_alone)))
+                .collect(),
+            stacks,
+            restitution_factors: scene.restitution.factors(column),
+            horizontal,
+            vertical: component(&scene.excitation.vertical),
+            method: scene.options.method.stepper().name(),
+            rows: scene.row_times().count() as u64,
+            warnings: scene.excitation.warnings(),
+        }
+    }
+
+    fn text(&self, path: &Path, scene: &Scene) -> String {
+        let mut text = format!("{}: a valid scene", shown(path));
+        if !self.title.is_empty() {
+            let _ = write!(text, ", {}", printable(&self.title));
+        }
+        text.push('\n');
+        self.column(&mut text, scene);
+        self.ground(&mut text, scene);
+        self.friction(&mut text, scene);
+        let options = &scene.options;
+        let _ = writeln!(
+            text,
+            "\nrun until {} s with method {}{}, rtol {:e}, atol {:e}; {} row(s) in response.csv",
+            options.t_end,
+            self.method,
+            if options.method.name() == self.method { "" } else { " (chosen by auto)" },
+            options.rtol,
+            options.atol,
+            self.rows
+        );
+        text
+    }
+
+    fn column(&self, text: &mut String, scene: &Scene) {
+        let whole = &self.stacks[0];
+        let gravity = scene.column.gravity();
+        let _ = writeln!(
+            text,
+            "\ncolumn of {} block(s): {:.4} m tall, {} kg, gravity {gravity} m/s²\n\
+             as one body: slenderness alpha = {:.4} rad ({:.2}°), R = {:.4} m, p = {:.4} rad/s",
+            self.blocks.len(),
+            whole.stack.height,
+            significant(whole.stack.mass, 6),
+            whole.slenderness,
+            whole.slenderness.to_degrees(),
+            whole.stack.radius(),
+            whole.frequency_parameter
+        );
+        if whole.stack.height > TALL {
+            text.push_str("note: no column is as tall; sizes are in m\n");
+        }
+        text.push_str("\nblock  width [m]  height [m]  mass [kg]     inertia [kg m²]   (base first)\n");
+        for (index, block) in self.blocks.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "{:<6} {:<10} {:<11.4} {:<13} {}",
+                index + 1,
+                widths(block, 4),
+                2.0 * block.half_height,
+                significant(block.mass, 6),
+                significant(block.inertia, 6)
+            );
+        }
+        if !self.derived.is_empty() {
+            text.push_str("derived, not given:\n");
+            for Derived { key, value, unit, from } in &self.derived {
+                let _ = writeln!(text, "  {key} = {} {unit}: {from}", significant(*value, 6));
+            }
+        }
+        text.push_str(
+            "\nthe stack above each interface as one body, c half-width of its contact, h_P height of its centre of gravity:\n\
+             interface  c [m]    h_P [m]  alpha [rad]  p [rad/s]  opens at [m/s2]  [g]      Housner's ratio\n",
+        );
+        for stack in &self.stacks {
+            let _ = writeln!(
+                text,
+                "{:<10} {:<8.4} {:<8.4} {:<12.4} {:<10.4} {:<16.4} {:<8.4} {:.4}",
+                stack.interface,
+                stack.stack.contact_half_width,
+                stack.stack.centroid_height,
+                stack.slenderness,
+                stack.frequency_parameter,
+                stack.uplift_acceleration,
+                stack.uplift_acceleration / gravity,
+                stack.housner_ratio
+            );
+        }
+        let factors: Vec<String> = self.restitution_factors.iter().map(|factor| format!("{factor:.4}")).collect();
+        let factors = factors.join(", ");
+        let _ = match &scene.restitution {
+            Restitution::Plastic => {
+                writeln!(text, "impacts: plastic, nothing rebounds (Housner's ratio for one block)")
+            }
+            Restitution::Eta(eta) => writeln!(
+                text,
+                "impacts: eta = {eta} for the column as one body, {factors} of the plastic relative rate at each interface"
+            ),
+            _ => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
+        };
+    }
+
+    fn friction(&self, text: &mut String, scene: &Scene) {
+        let gravity = scene.column.gravity();
+        let Some(friction) = &scene.friction else {
+            text.push_str("\nfriction is not given: blocks neither slide nor fly\n");
+            return;
+        };
+        let _ = writeln!(
+            text,
+            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest:",
+            coefficients(friction)
+        );
+        for contact in &self.contacts {
+            let _ = writeln!(text, "  {}", contact.text(gravity));
+        }
+    }
+
+    fn ground(&self, text: &mut String, scene: &Scene) {
+        let gravity = scene.column.gravity();
+        let components = [("horizontal", &self.horizontal), ("vertical", &self.vertical)];
+        if components.iter().all(|(_, motion)| motion.is_none()) {
+            text.push_str("\nthe ground does not move\n");
+        }
+        for (component, motion) in components {
+            let Some(motion) = motion else { continue };
+            let words = ground_in_words::words(
+                &serde_json::to_value(motion.motion.description()).unwrap_or_default(),
+                gravity,
+                0.0,
+            );
+            let _ = writeln!(text, "\n{component} ground motion: {words}");
+            let _ = writeln!(
+                text,
+                "  PGA {:.4} g ({:.4} m/s²), PGV {:.4} m/s, PGD {:.4} m until {} s",
+                motion.pga / gravity,
+                motion.pga,
+                motion.pgv,
+                motion.pgd,
+                scene.options.t_end
+            );
+            match (motion.end, motion.left_with) {
+                (Some(end), Some([velocity, displacement])) => {
+                    let _ = writeln!(
+                        text,
+                        "  ends at {end:.4} s; the ground is left with {} m/s, displaced by {} m",
+                        fixed(velocity, 4),
+                        fixed(displacement, 4)
+                    );
+                    if end > scene.options.t_end {
+                        let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
+                    }
+                }
+                _ => text.push_str("  goes on for ever\n"),
+            }
+        }
+        let lowest = self.stacks.iter().map(|stack| stack.uplift_acceleration).fold(f64::INFINITY, f64::min).max(0.0);
+        let interfaces = self.opens.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let _ = match (&self.horizontal, &self.vertical) {
+            (None, None) => Ok(()),
+            (horizontal, Some(_)) => {
+                let motion = if horizontal.is_some() { "with the vertical motion it" } else { "it" };
+                match self.first_opening {
+                    Some(t) => writeln!(
+                        text,
+                        "  {motion} opens interface(s) {interfaces} of the column at rest, the first at t = {t:.4} s"
+                    ),
+                    None => writeln!(text, "  {motion} opens no interface of the column at rest"),
+                }
+            }
+            (Some(motion), None) => {
+                let [pga, lowest] = [motion.pga, lowest].map(|acceleration| acceleration / gravity);
+                match &*interfaces {
+                    "" => writeln!(
+                        text,
+                        "  {pga:.4} g opens no interface of the column at rest, which takes {lowest:.4} g"
+                    ),
+                    _ => writeln!(
+                        text,
+                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest; the first opens at {lowest:.4} g"
+                    ),
+                }
+            }
+        };
+    }
+}
+
+impl MotionFindings {
+    fn of(motion: &Motion, t_end: f64) -> MotionFindings {
+        let [pga, pgv, pgd] = motion.peaks(t_end);
+        let end = motion.end();
+        MotionFindings { motion: motion.clone(), pga, pgv, pgd, end, left_with: end.map(|end| motion.travel(end)) }
+    }
+}

@@ -1,0 +1,62 @@
+//! `rocking check` of a study: its records with their factors, its levels and limit states.
+
+use crate::error::Failure;
+use crate::number::significant;
+use crate::terminal::{json, print};
+use crate::text::{printable, shown};
+use rocking::studies::{IdaFile, StudyRecord};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Description of a study.
+#[derive(Debug, Serialize)]
+struct Findings {
+    measure: String,
+    levels: Vec<f64>,
+    records: Vec<StudiedRecord>,
+    runs: usize,
+    states: Vec<String>,
+}
+
+/// A record of a study.
+#[derive(Debug, Serialize)]
+struct StudiedRecord {
+    name: String,
+    has_vertical: bool,
+    /// Factors at the lowest and the highest level, dimensionless.
+    scales: [f64; 2],
+}
+
+/// Reads a study and explains it.
+pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
+    let IdaFile { ida, states, .. } = IdaFile::from_file(path).map_err(Failure::scene)?;
+    let record = |(number, record): (usize, &StudyRecord)| {
+        let scales = (0..ida.levels().len()).map(|level| ida.scale(number * ida.levels().len() + level));
+        let around = scales.fold([f64::INFINITY, 0.0_f64], |[low, high], scale| [low.min(scale), high.max(scale)]);
+        StudiedRecord { name: record.name.clone(), has_vertical: record.vertical.is_some(), scales: around }
+    };
+    let findings = Findings {
+        measure: ida.intensity().to_string(),
+        levels: ida.levels().to_vec(),
+        records: ida.records().iter().enumerate().map(record).collect(),
+        runs: ida.len(),
+        states: states.iter().map(ToString::to_string).collect(),
+    };
+    if as_json {
+        return json(&findings);
+    }
+    let mut text = format!("{}: a valid study of {} run(s)\n", shown(path), findings.runs);
+    let [first, last] = [0, findings.levels.len() - 1].map(|level| significant(findings.levels[level], 5));
+    let label = ida.intensity().label();
+    let _ = writeln!(text, "  {label}: {} level(s), from {first} to {last}", findings.levels.len());
+    let _ = writeln!(text, "  {} record(s), scaled by", findings.records.len());
+    for record in &findings.records {
+        let [low, high] = record.scales.map(|scale| significant(scale, 4));
+        let vertical = if record.has_vertical { ", with its vertical component" } else { "" };
+        let _ = writeln!(text, "    {low} to {high}  {}{vertical}", printable(&record.name));
+    }
+    let _ = writeln!(text, "  limit states: {}", findings.states.join(", "));
+    let _ = writeln!(text, "run it with `rocking ida {}`", shown(path));
+    print(&text)
+}

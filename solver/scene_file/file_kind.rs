@@ -1,0 +1,40 @@
+//! What a TOML file describes.
+
+use super::table::Table;
+
+/// What a TOML file describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FileKind {
+    /// A scene: `rocking run`.
+    Scene,
+    /// A sweep over a base scene: `rocking sweep`.
+    Sweep,
+    /// An incremental dynamic analysis: `rocking ida`.
+    Study,
+}
+
+impl FileKind {
+    /// The kind of a text, by keys that the other kinds do not have. A text that is no TOML counts as a scene.
+    ///
+    /// ```
+    /// use rocking::scene_file::FileKind;
+    /// assert_eq!(FileKind::of("scene = \"base.toml\"\n[axes]\neta = [0.9, 1.0]\n"), FileKind::Sweep);
+    /// assert_eq!(FileKind::of("scene = \"base.toml\"\nmeasure = \"pgv\"\n"), FileKind::Study);
+    /// assert_eq!(FileKind::of("[column]\nblocks = 3\n"), FileKind::Scene);
+    /// ```
+    pub fn of(text: &str) -> FileKind {
+        Table::parse(text).map_or(FileKind::Scene, |root| FileKind::of_root(&root))
+    }
+
+    pub(super) fn of_root(root: &Table) -> FileKind {
+        let has_one = |keys: &[&str]| keys.iter().any(|key| root.has(key));
+        if has_one(&["axes", "ask", "combine"]) {
+            FileKind::Sweep
+        } else if has_one(&["levels", "measure", "records"]) {
+            FileKind::Study
+        } else {
+            FileKind::Scene
+        }
+    }
+}
