@@ -16,6 +16,7 @@ mod recorder;
 mod rest;
 mod simulator;
 mod sliding;
+mod start_from_rest;
 mod state;
 mod step;
 mod stretch;

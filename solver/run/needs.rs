@@ -31,15 +31,15 @@ pub(crate) struct Needs {
 /// What one contact has needed so far.
 #[derive(Clone, Copy)]
 struct Account {
-    demand: Found,
-    normal: Found,
+    demand: ExtremeSoFar,
+    normal: ExtremeSoFar,
     tension: f64,
     above: [f64; COEFFICIENTS.len()],
 }
 
 /// An extreme: value, time, angle; an angle that is not a number is still to be found.
 #[derive(Clone, Copy)]
-struct Found {
+struct ExtremeSoFar {
     value: f64,
     t: f64,
     theta: f64,
@@ -55,8 +55,8 @@ pub(crate) struct InPanel {
 
 impl Account {
     const NEW: Account = Account {
-        demand: Found { value: 0.0, t: 0.0, theta: 0.0 },
-        normal: Found { value: f64::INFINITY, t: 0.0, theta: 0.0 },
+        demand: ExtremeSoFar { value: 0.0, t: 0.0, theta: 0.0 },
+        normal: ExtremeSoFar { value: f64::INFINITY, t: 0.0, theta: 0.0 },
         tension: 0.0,
         above: [0.0; COEFFICIENTS.len()],
     };
@@ -74,10 +74,10 @@ impl Account {
         let pull = own.normal.map(|normal| -normal);
         if is_higher {
             let extreme = if own.largest_demand.is_finite() { own.demand } else { pull };
-            self.demand = Found { value: own.largest_demand, t: place(extreme, times), theta: f64::NAN };
+            self.demand = ExtremeSoFar { value: own.largest_demand, t: place(extreme, times), theta: f64::NAN };
         }
         if is_lower {
-            self.normal = Found { value: own.least_normal, t: place(pull, times), theta: f64::NAN };
+            self.normal = ExtremeSoFar { value: own.least_normal, t: place(pull, times), theta: f64::NAN };
         }
         if own.least_normal < 0.0 {
             self.tension += seconds * share_above(pull, 0.0);
@@ -207,7 +207,7 @@ impl Needs {
             self.come_back();
         }
         let share = |time: f64| if until > 0.0 { time / until } else { 0.0 };
-        let extreme = |found: &Found| Extreme { value: found.value, t: found.t, theta: found.theta };
+        let extreme = |found: &ExtremeSoFar| Extreme { value: found.value, t: found.t, theta: found.theta };
         let contact = |account: &Account| ContactNeeds {
             friction_demand: extreme(&account.demand),
             min_normal_force: extreme(&account.normal),

@@ -85,7 +85,7 @@ pub(super) struct Gap {
     end: usize,
     /// The gap `s (θ_i - θ_{i-1})`: sign and indices of both angles.
     pub across: Difference,
-    /// Known roots of the gap at the start of the step: one if the gap is zero, two if its rate is zero as well, three if its acceleration is, too.
+    /// KnownPart roots of the gap at the start of the step: one if the gap is zero, two if its rate is zero as well, three if its acceleration is, too.
     pub start_roots: usize,
 }
 
@@ -179,52 +179,67 @@ pub(super) enum Kind {
 pub(super) struct ForceCache {
     /// The forces evaluated last.
     pub last: PerBlock<ContactForce>,
-    /// Forces at the start of the stretch, if they are known at all interfaces.
-    pub start: PerBlock<ContactForce>,
-    pub is_start_known: bool,
-    /// Margins `c N - |M|` of the closed interfaces at the start of the stretch, if they are known.
+    /// At the start of the stretch.
+    pub start: KnownForces,
+    /// At its end.
+    pub end: KnownForces,
+}
+
+/// Contact forces at an instant, as far as they are known.
+#[derive(Clone)]
+pub(super) struct KnownForces {
+    pub known: KnownPart,
+    /// Forces at all interfaces.
+    pub forces: PerBlock<ContactForce>,
+    /// Margins `c N - |M|` of the closed interfaces.
     pub margins: PerBlock<f64>,
-    pub are_margins_known: bool,
-    /// Forces at the end of the stretch, if they are known at all interfaces.
-    pub end: PerBlock<ContactForce>,
-    pub is_end_known: bool,
-    /// Margins at the end of the stretch, if they are known.
-    pub end_margins: PerBlock<f64>,
-    pub are_end_margins_known: bool,
+}
+
+/// How much is known of contact forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum KnownPart {
+    Nothing,
+    /// The margins of closed interfaces.
+    Margins,
+    /// These, and the forces at all interfaces.
+    Forces,
+}
+
+impl KnownForces {
+    /// Keeps forces that have been evaluated at all interfaces, or at the `closed` ones.
+    pub fn keep(&mut self, forces: &PerBlock<ContactForce>, which: Interfaces, closed: &[usize], column: &Column) {
+        for (margin, &interface) in self.margins.iter_mut().zip(closed) {
+            *margin = margin_of(&forces[interface], column, interface);
+        }
+        self.known = KnownPart::Margins;
+        if which == Interfaces::All {
+            self.forces.copy_from_slice(forces);
+            self.known = KnownPart::Forces;
+        }
+    }
+}
+
+/// `c N - |M|` of a closed interface.
+fn margin_of(force: &ContactForce, column: &Column, interface: usize) -> f64 {
+    column.contact_half_width(interface) * force.normal - force.moment.abs()
 }
 
 impl ForceCache {
     fn new(blocks: usize, closed: usize) -> ForceCache {
         let (forces, margins) = (PerBlock::filled(ContactForce::default(), blocks), PerBlock::filled(0.0, closed));
-        ForceCache {
-            last: forces.clone(),
-            start: forces.clone(),
-            is_start_known: false,
-            margins: margins.clone(),
-            are_margins_known: false,
-            end: forces,
-            is_end_known: false,
-            end_margins: margins,
-            are_end_margins_known: false,
-        }
+        let unknown = KnownForces { known: KnownPart::Nothing, forces: forces.clone(), margins };
+        ForceCache { last: forces, start: unknown.clone(), end: unknown }
     }
 
     /// Forgets all that is known.
     pub fn forget(&mut self) {
-        (self.is_start_known, self.are_margins_known) = (false, false);
-        (self.is_end_known, self.are_end_margins_known) = (false, false);
+        (self.start.known, self.end.known) = (KnownPart::Nothing, KnownPart::Nothing);
     }
 
     /// Makes the end of the stretch its start.
     pub fn advance(&mut self) {
-        self.is_start_known = std::mem::take(&mut self.is_end_known);
-        if self.is_start_known {
-            std::mem::swap(&mut self.start, &mut self.end);
-        }
-        self.are_margins_known = std::mem::take(&mut self.are_end_margins_known);
-        if self.are_margins_known {
-            std::mem::swap(&mut self.margins, &mut self.end_margins);
-        }
+        std::mem::swap(&mut self.start, &mut self.end);
+        self.end.known = KnownPart::Nothing;
     }
 }
 
@@ -321,36 +336,24 @@ impl Phase {
 
     /// `c N - |M|` of a closed interface, from the forces evaluated last.
     pub(super) fn margin(&self, column: &Column, interface: usize) -> f64 {
-        let force = self.forces.last[interface];
-        column.contact_half_width(interface) * force.normal - force.moment.abs()
-    }
-
-    /// Keeps the margins of all closed interfaces, from the forces evaluated last, as those at the start of the stretch.
-    fn note_margins(&mut self, column: &Column) {
-        for index in 0..self.closed.len() {
-            self.forces.margins[index] = self.margin(column, self.closed[index]);
-        }
+        margin_of(&self.forces.last[interface], column, interface)
     }
 
     /// Evaluates contact forces at the start of the stretch, unless all that is requested of them is known.
     pub(super) fn evaluate_start_forces(&mut self, problem: &Problem) {
         let which = problem.interfaces();
-        let is_known = match which {
-            Interfaces::All => self.forces.is_start_known,
-            Interfaces::Closed => self.forces.are_margins_known,
+        let needed = match which {
+            Interfaces::All => KnownPart::Forces,
+            Interfaces::Closed => KnownPart::Margins,
         };
-        if is_known {
+        if self.forces.start.known >= needed {
             return;
         }
         self.work.force_calls += 1;
         self.inside.copy_from_slice(self.integrator.start());
         self.integrator.contact_forces(self.t, &self.inside, which, &mut self.forces.last);
-        self.note_margins(&problem.scene.column);
-        self.forces.are_margins_known = true;
-        if which == Interfaces::All {
-            self.forces.start.copy_from_slice(&self.forces.last);
-            self.forces.is_start_known = true;
-        }
+        let ForceCache { last, start, .. } = &mut self.forces;
+        start.keep(last, which, &self.closed, &problem.scene.column);
     }
 
     /// Evaluates contact forces at the state `inside`, at `t`.

@@ -11,10 +11,9 @@
 
 use super::error::SolveError;
 use super::expected_event;
-use super::phase::{Gap, Kind, Phase, StepEnd};
+use super::phase::{Gap, Kind, KnownPart, Phase, StepEnd};
 use super::problem::Problem;
 use super::stretch::{Ended, Found, Over, Panel};
-use crate::mechanics::dynamics::Interfaces;
 use crate::mechanics::integrator::Excursion;
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
@@ -26,7 +25,7 @@ use rocking_codegen::pattern::Interface;
 
 /// The guard that is zero inside a step.
 #[derive(Clone, Copy, Debug)]
-enum Guard {
+enum StepEvent {
     Gap(Gap),
     Tilt { link: usize, sign: f64 },
     Contact { interface: usize },
@@ -104,9 +103,9 @@ impl Phase {
     }
 
     /// The first event inside the step just accepted, and its place in the step, 0 to 1. The step ends at the time `end` `[s]`.
-    fn first_event(&mut self, problem: &Problem, h: f64, end: f64) -> Option<(Guard, f64)> {
-        let mut first: Option<(Guard, f64)> = None;
-        let mut offer = |guard: Guard, s: Option<f64>| {
+    fn first_event(&mut self, problem: &Problem, h: f64, end: f64) -> Option<(StepEvent, f64)> {
+        let mut first: Option<(StepEvent, f64)> = None;
+        let mut offer = |guard: StepEvent, s: Option<f64>| {
             if let Some(s) = s.filter(|s| first.is_none_or(|(_, earliest)| *s < earliest)) {
                 first = Some((guard, s));
             }
@@ -130,7 +129,7 @@ impl Phase {
             if gap.start_roots > 0 && size <= resolution {
                 continue;
             }
-            offer(Guard::Gap(*gap), track.first_root(gap.start_roots));
+            offer(StepEvent::Gap(*gap), track.first_root(gap.start_roots));
         }
         let limit = problem.scene.options.overturn_angle;
         let tilting = if reach < limit { 0..0 } else { 0..self.dof };
@@ -138,7 +137,7 @@ impl Phase {
             let track = self.integrator.track(Difference { sign: 1.0, upper: link, lower: None }, false);
             if track.size() >= limit {
                 let sign = if self.integrator.end()[link] < 0.0 { -1.0 } else { 1.0 };
-                offer(Guard::Tilt { link, sign }, track.shifted(-sign, limit).first_root(0));
+                offer(StepEvent::Tilt { link, sign }, track.shifted(-sign, limit).first_root(0));
             }
         }
         let reach = first.map_or(1.0, |(_, s)| s);
@@ -146,13 +145,13 @@ impl Phase {
     }
 
     /// The first opening of a closed interface before `reach`. Margins at the end of the step are kept if they are known and the step has no event.
-    fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(Guard, f64)> {
-        let mut first: Option<(Guard, f64)> = None;
+    fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(StepEvent, f64)> {
+        let mut first: Option<(StepEvent, f64)> = None;
         self.margin_samples.clear();
         for index in 0..self.closed.len() {
             let reach = first.map_or(reach, |(_, s)| s);
             if let Some(s) = self.opening_before(problem, [h, end], index, reach) {
-                first = Some((Guard::Contact { interface: self.closed[index] }, s));
+                first = Some((StepEvent::Contact { interface: self.closed[index] }, s));
             }
         }
         if !problem.skips.forces && !problem.records_forces() {
@@ -162,8 +161,8 @@ impl Phase {
             && reach >= 1.0
             && let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == 1.0)
         {
-            self.forces.end_margins.copy_from_slice(margins);
-            self.forces.are_end_margins_known = true;
+            self.forces.end.margins.copy_from_slice(margins);
+            self.forces.end.known = KnownPart::Margins;
         }
         first
     }
@@ -183,7 +182,7 @@ impl Phase {
             }
         }
         self.evaluate_start_forces(problem);
-        let start = self.forces.margins[index];
+        let start = self.forces.start.margins[index];
         if start <= 0.0 && is_held {
             return None;
         }
@@ -219,7 +218,7 @@ impl Phase {
 
     /// Makes the step end where the guard is zero. `None` if the guard does not touch zero at the end of the shortened step: the dense output was
     /// mistaken, and the phase continues from there.
-    fn cut_at(&mut self, problem: &Problem, guard: Guard, attempted: f64, s: f64) -> Option<Ended> {
+    fn cut_at(&mut self, problem: &Problem, guard: StepEvent, attempted: f64, s: f64) -> Option<Ended> {
         let t = self.t;
         let mut h = s * attempted;
         let (mut taken, mut has_touched) = (h, true);
@@ -229,11 +228,11 @@ impl Phase {
             self.integrator.cut(t, h, problem.tolerance);
             let end = self.integrator.end();
             let (value, rate) = match guard {
-                Guard::Gap(gap) => (gap.across.of(&end[..self.dof]), gap.across.of(&end[self.dof..])),
-                Guard::Tilt { link, sign } => {
+                StepEvent::Gap(gap) => (gap.across.of(&end[..self.dof]), gap.across.of(&end[self.dof..])),
+                StepEvent::Tilt { link, sign } => {
                     (problem.scene.options.overturn_angle - sign * end[link], -sign * end[self.dof + link])
                 }
-                Guard::Contact { .. } => break,
+                StepEvent::Contact { .. } => break,
             };
             has_touched = rate < 0.0 || value <= self.resolution(self.integrator.start());
             let correction = -value / rate;
@@ -255,13 +254,13 @@ impl Phase {
             return None;
         }
         Some(match guard {
-            Guard::Contact { interface } => {
+            StepEvent::Contact { interface } => {
                 self.evaluate_end_forces(problem, end);
                 let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
                 Ended::Opening(interface, side)
             }
-            Guard::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
-            Guard::Gap(gap) => {
+            StepEvent::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
+            StepEvent::Gap(gap) => {
                 self.closing = self.closing_with(end, gap);
                 Ended::Closing
             }
@@ -317,7 +316,7 @@ impl Phase {
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
         let panels = (PANELS_PER_TURN * turned + PANELS_PER_RADIAN * radians).ceil().clamp(1.0, MOST_PANELS) as usize;
         let at = |place: f64| place / panels as f64;
-        let (mut start, mut end) = (self.forces.start.clone(), last.clone());
+        let (mut start, mut end) = (self.forces.start.forces.clone(), last.clone());
         for panel in 0..panels {
             if panel + 1 < panels {
                 self.evaluate_forces_at_share(problem, step, at(panel as f64 + 1.0));
@@ -331,12 +330,7 @@ impl Phase {
             std::mem::swap(&mut start, &mut end);
         }
         self.forces.last.copy_from_slice(&last);
-        for index in 0..self.closed.len() {
-            self.forces.end_margins[index] = self.margin(&problem.scene.column, self.closed[index]);
-        }
-        self.forces.are_end_margins_known = true;
-        self.forces.end = last;
-        self.forces.is_end_known = problem.interfaces() == Interfaces::All;
+        self.forces.end.keep(&last, problem.interfaces(), &self.closed, &problem.scene.column);
     }
 
     /// Evaluates contact forces at a share of the step as far as it was taken.

@@ -148,7 +148,7 @@ impl Phase {
                 Some(s) => Some(s).filter(|s| *s < reach),
                 None => {
                     self.evaluate_start_forces(problem);
-                    let start = self.forces.margins[index];
+                    let start = self.forces.start.margins[index];
                     first_crossing(|s| margin(self, s), start, reach)
                 }
             };
@@ -206,7 +206,7 @@ impl Phase {
         }
         self.evaluate_start_forces(problem);
         let panels = (PANELS_PER_TURN * (to - from).abs()).ceil().max(1.0) as usize;
-        let mut start = self.forces.start.clone();
+        let mut start = self.forces.start.forces.clone();
         for panel in 0..panels {
             let at = |place: f64| from + (to - from) * place / panels as f64;
             self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 0.5));

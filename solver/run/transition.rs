@@ -2,7 +2,7 @@
 
 use super::error::SolveError;
 use super::problem::Problem;
-use super::rest;
+use super::start_from_rest;
 use super::state::{ContactMemory, State};
 use super::stretch::Ended;
 use crate::contact::{self, Decision, Gaps, ImpactLaw, SingularMass};
@@ -95,7 +95,7 @@ pub(crate) fn initial(problem: &Problem) -> State {
 /// The transition at time zero, if there is one: every closed interface is examined.
 pub(crate) fn start(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
     let is_at_rest = state.pattern.lowest_open().is_none();
-    if is_at_rest && !rest::may_open(problem, state.segment, state.t) {
+    if is_at_rest && !start_from_rest::may_open(problem, state.segment, state.t) {
         return Ok(None);
     }
     let decision = forces(problem, state, &[])?;

@@ -321,14 +321,20 @@ struct Sizes {
 enum Amount {
     /// `[kg]`
     Mass(f64),
-    /// Density of the side view `[kg/m²]`; of the solid `[kg/m³]` for drums and with a depth `[m]`. `None` for a number that is not given.
-    Density { density: Option<f64>, depth: Option<f64> },
+    Density(Density),
 }
 
-impl Amount {
-    /// Mass of a part by its density `[kg]`, and the formula in words; `None` if the mass itself is given.
-    fn mass(&self, shape: Shape, half_widths: [f64; 2], half_height: f64) -> Option<(f64, String)> {
-        let Amount::Density { density, depth } = *self else { return None };
+/// Density of the side view `[kg/m²]`; of the solid `[kg/m³]` for drums and with a depth `[m]`. `None` for a number that is not given.
+#[derive(Clone, Copy)]
+struct Density {
+    density: Option<f64>,
+    depth: Option<f64>,
+}
+
+impl Density {
+    /// Mass of a part `[kg]`, and the formula in words.
+    fn mass(self, shape: Shape, half_widths: [f64; 2], half_height: f64) -> (f64, String) {
+        let Density { density, depth } = self;
         let is_tapered = half_widths[0] != half_widths[1];
         let measure = match (shape, is_tapered) {
             (Shape::Prism, false) => "4 · half_width · half_height",
@@ -345,7 +351,7 @@ impl Amount {
             _ => value * shape.measure(half_widths, half_height),
         };
         let depth = depth.map_or(String::new(), |depth| format!(" · depth {depth} m"));
-        Some((mass, format!("{measure}{depth} · {named}")))
+        (mass, format!("{measure}{depth} · {named}"))
     }
 }
 
@@ -410,7 +416,7 @@ fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
         (Some(_), Some(_)) => return Err(table.clash("mass", "density")),
         (None, Some(_)) if depth.is_some() => return Err(table.clash("mass", "depth")),
         (_, Some(mass)) => Amount::Mass(mass),
-        (density, None) => Amount::Density { density, depth },
+        (density, None) => Amount::Density(Density { density, depth }),
     };
     Ok(Sizes { shape, half_widths, half_height, amount })
 }
@@ -422,13 +428,13 @@ fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<(Block, Look),
     let mut derive = |key: String, value: f64, unit: &'static str, from: String| {
         derived.push(Derived { key, value, unit, from });
     };
-    let mass = match (&amount, amount.mass(shape, half_widths, half_height)) {
-        (Amount::Mass(mass), _) => *mass,
-        (_, Some((mass, from))) => {
+    let mass = match amount {
+        Amount::Mass(mass) => mass,
+        Amount::Density(density) => {
+            let (mass, from) = density.mass(shape, half_widths, half_height);
             derive(table.dotted("mass"), mass, "kg", from);
             mass
         }
-        (Amount::Density { .. }, None) => unreachable!("a density gives a mass"),
     };
     let mut block = Block::of_shape(shape, half_widths, half_height, mass);
     match table.positive("centroid_height")? {
@@ -508,11 +514,10 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
     let whole = shape.measure(half_widths, half_height * parts);
     let of_part = |index: usize| {
         let half_widths = [at(index), at(index + 1)];
-        let mass = match (&amount, amount.mass(shape, half_widths, half_height)) {
-            (Amount::Mass(mass), _) if bottom == top => mass / parts,
-            (Amount::Mass(mass), _) => mass * (shape.measure(half_widths, half_height) / whole),
-            (_, Some((mass, _))) => mass,
-            (Amount::Density { .. }, None) => unreachable!("a density gives a mass"),
+        let mass = match &amount {
+            Amount::Mass(mass) if bottom == top => mass / parts,
+            Amount::Mass(mass) => mass * (shape.measure(half_widths, half_height) / whole),
+            Amount::Density(density) => density.mass(shape, half_widths, half_height).0,
         };
         Block::of_shape(shape, half_widths, half_height, mass)
     };
@@ -522,12 +527,15 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
     };
     derive("half_height", half_height, "m", format!("of each block: the whole over {count}"));
     let (lowest, part) = (&blocks[0], if bottom == top { "each block" } else { "the lowest block" });
-    match amount.mass(shape, [at(0), at(1)], half_height) {
-        None if bottom == top => derive("mass", lowest.mass, "kg", format!("of each block: the whole over {count}")),
-        None => derive("mass", lowest.mass, "kg", "of the lowest block: its share of the whole".into()),
-        Some((_, from)) if bottom == top => derive("mass", lowest.mass, "kg", from),
-        Some((_, from)) => derive("mass", lowest.mass, "kg", format!("of {part}: {from}")),
-    }
+    let from = match &amount {
+        Amount::Mass(_) if bottom == top => format!("of each block: the whole over {count}"),
+        Amount::Mass(_) => "of the lowest block: its share of the whole".into(),
+        Amount::Density(density) => match density.mass(shape, [at(0), at(1)], half_height).1 {
+            from if bottom == top => from,
+            from => format!("of {part}: {from}"),
+        },
+    };
+    derive("mass", lowest.mass, "kg", from);
     let from = homogeneous(shape, [at(0), at(1)]);
     let from = if bottom == top { from.into() } else { format!("of {part}: {from}") };
     derive("inertia", lowest.inertia, "kg m²", from);

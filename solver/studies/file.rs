@@ -141,7 +141,7 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
     let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
     match table.text("folder").map_err(own)? {
         Some((folder, _)) => {
-            let wanted = Wanted { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
+            let wanted = ComponentChoice { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
             found.extend(of_folder(reader, &table, &folder, &wanted, &options)?);
         }
         None => {
@@ -185,14 +185,14 @@ fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
 }
 
 /// Components that a study takes from the records of a folder.
-struct Wanted<'t> {
+struct ComponentChoice<'t> {
     /// `horizontal` or `vertical` for all components of that direction, or the name of a component, from the end of its file's name or from the file.
     /// `H1` and `H2`, where no component has that name, are the first and the second horizontal component in the order of file names.
     component: &'t str,
     with_vertical: bool,
 }
 
-impl Wanted<'_> {
+impl ComponentChoice<'_> {
     /// Components of one record that the study takes.
     fn of<'c>(&self, components: &'c [Component]) -> Vec<&'c Component> {
         let along = |direction: Direction| components.iter().filter(move |own| own.direction == direction);
@@ -215,7 +215,7 @@ fn of_folder(
     reader: &Reader,
     table: &Table,
     folder: &str,
-    wanted: &Wanted,
+    wanted: &ComponentChoice,
     options: &TextOptions,
 ) -> Result<Vec<StudyRecord>, SceneFileError> {
     let refuse = |key: &str, problem: String, remedy: &str| reader.error(table.wrong(key, problem, remedy));

@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 /// Joins tables in the order of their points. With the sweep's file, it also checks that all points are there.
 pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(), Failure> {
     let format = Format::of(out)?;
-    let wanted = sweep.map(Wanted::of).transpose()?;
+    let wanted = sweep.map(ExpectedSweep::of).transpose()?;
     let mut inputs = shards.to_vec();
     inputs.extend(wanted.iter().flat_map(|wanted| inputs_of(wanted.file, &wanted.sweep)));
     let is_sampled = wanted.as_ref().is_some_and(|wanted| wanted.sweep.samples().is_some());
@@ -65,7 +65,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     share(&merged).map_err(failed)?;
     merged.persist(target).map_err(|error| failed(error.error))?;
     let mut told = format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out));
-    if let Some(Wanted { sweep, .. }) = &wanted {
+    if let Some(ExpectedSweep { sweep, .. }) = &wanted {
         told.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);
         if fractiles::has(sweep) {
             told.push_str(&fractiles::write(sweep, out)?);
@@ -75,16 +75,16 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
 }
 
 /// The sweep that the tables must make up.
-struct Wanted<'a> {
+struct ExpectedSweep<'a> {
     file: &'a Path,
     sweep: Sweep,
     columns: Vec<Column>,
 }
 
-impl Wanted<'_> {
-    fn of(file: &Path) -> Result<Wanted<'_>, Failure> {
+impl ExpectedSweep<'_> {
+    fn of(file: &Path) -> Result<ExpectedSweep<'_>, Failure> {
         let sweep = sweep::read(file)?;
-        Ok(Wanted { file, columns: columns(&sweep)?, sweep })
+        Ok(ExpectedSweep { file, columns: columns(&sweep)?, sweep })
     }
 
     /// Whether a row may be that of a point: it has the values of the point, each cell fits its column, and a time of overturning stands there
@@ -104,7 +104,7 @@ impl Wanted<'_> {
 
 /// Refuses a table whose digest is not that of the sweep, or of the first table if no sweep is given.
 /// A table passes if it has no digest, or if there is none to compare it with.
-fn check_digest(path: &Path, first: &Path, wanted: Option<&Wanted>) -> Result<(), Failure> {
+fn check_digest(path: &Path, first: &Path, wanted: Option<&ExpectedSweep>) -> Result<(), Failure> {
     let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let Some(own) = of_table(path) else { return Ok(()) };
     let (expected, other) = match wanted {
@@ -130,7 +130,7 @@ fn first(path: &Path) -> Result<Option<u64>, Failure> {
 /// or an error. Points must count up from zero without gap or repetition. If `wanted` is given, the rows must be all rows of that sweep.
 fn join(
     tables: &[&Path],
-    wanted: Option<&Wanted>,
+    wanted: Option<&ExpectedSweep>,
     mut write: impl FnMut(&StringRecord) -> Result<(), Failure>,
 ) -> Result<usize, Failure> {
     let mut header = wanted.map(|wanted| wanted.columns.iter().map(|column| column.name.as_str()).collect());
@@ -160,7 +160,7 @@ fn join(
         }
     }
     match wanted {
-        Some(Wanted { sweep, file, .. }) if sweep.len() != next => {
+        Some(ExpectedSweep { sweep, file, .. }) if sweep.len() != next => {
             Err(Failure::ShardsMissing(file.into(), sweep.len(), next))
         }
         _ => Ok(next),
@@ -177,7 +177,7 @@ fn is_whole(row: &StringRecord, outcome: usize) -> bool {
 /// Writes the rows of tables below their header.
 fn join_csv(
     tables: &[&Path],
-    wanted: Option<&Wanted>,
+    wanted: Option<&ExpectedSweep>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<usize, Failure> {
@@ -209,7 +209,7 @@ fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
 #[cfg(feature = "parquet")]
 fn join_parquet(
     tables: &[&Path],
-    wanted: Option<&Wanted>,
+    wanted: Option<&ExpectedSweep>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<usize, Failure> {
@@ -233,7 +233,7 @@ fn index(row: &StringRecord, path: &Path) -> Result<u64, Failure> {
     index.ok_or_else(|| broken(path)(format!("the row `{}` does not begin with the number of its point", text())))
 }
 
-fn other_columns(path: &Path, wanted: Option<&Wanted>) -> Failure {
+fn other_columns(path: &Path, wanted: Option<&ExpectedSweep>) -> Failure {
     broken(path)(match wanted {
         Some(wanted) => format!("its columns are not those of {}", shown(wanted.file)),
         None => "its columns are not those of the others".into(),

@@ -1,7 +1,7 @@
 //! Impacts with friction: gaps that close, corners that land, and velocities that jump because no acceleration is admissible.
 
 use super::contacts;
-use super::state::Stop;
+use super::state::RunEnd;
 use super::transition::Instant;
 use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Rates};
@@ -43,7 +43,7 @@ impl Instant<'_> {
             // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
             let before = self.now.clone();
             self.change(EventKind::Collapsed, vec![interface], &before, None);
-            self.stop = Some(Stop::Collapsed(interface));
+            self.stop = Some(RunEnd::Collapsed(interface));
             return;
         }
         let [beside, other_above] = gaps::gap(&chain, Corner { side: -side, ..corner });
@@ -69,7 +69,7 @@ impl Instant<'_> {
     ///
     /// # Errors
     /// Why the run ends, if no motion follows.
-    pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), Stop> {
+    pub fn strike(&mut self, touch: &[Touch], kind: EventKind, closing: &[usize]) -> Result<(), RunEnd> {
         // Blocks that fly in touch may have slid on each other: their contact is where they are, not where they parted.
         for (interface, &touches) in touch.iter().enumerate() {
             let flies_in_touch = self.now.joints[interface] == Joint::Free && touches != Touch::Nothing;
@@ -94,7 +94,7 @@ impl Instant<'_> {
             }
             search.solve_from(first)
         };
-        let solution = found.ok_or(Stop::Undetermined)?;
+        let solution = found.ok_or(RunEnd::Undetermined)?;
         self.ambiguous += usize::from(solution.is_ambiguous);
         let answer = self.rebounding(&search, &solution, closing);
         for (interface, joint) in solution.joints.iter().enumerate() {

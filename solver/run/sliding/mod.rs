@@ -31,9 +31,9 @@ use crate::friction::search::acceleration_scale;
 use crate::response::Response;
 use crate::scene::Scene;
 use mover::Mover;
-use recorder::Recorder;
-use state::{Ended, State, Stop};
-use sticking::{Part, Progress, Sticking, Stuck};
+use recorder::SlidingRecorder;
+use state::{RunEnd, SlidingEnded, SlidingState};
+use sticking::{Part, Progress, Sticking, StickingSpan};
 use transition::{start, transition};
 
 /// Share of the time, or of a second if that is longer, within which events count as one instant.
@@ -64,15 +64,15 @@ pub(super) fn run(
     progress: &mut Progress,
 ) -> Result<Response, SolveError> {
     let (mut sticking, mut mover) = (Sticking::new(problem, friction, sticking), Mover::new(problem, friction));
-    let mut at = State::initial(problem);
-    let mut recorder = Recorder::new(problem, friction, &at);
+    let mut at = SlidingState::initial(problem);
+    let mut recorder = SlidingRecorder::new(problem, friction, &at);
     // Blocks with given places are dropped or thrown: they do not begin on each other.
     let is_placed = !problem.scene.initial.x.is_empty();
-    let stuck = if is_placed { Stuck::Nowhere } else { sticking.begin(modes, progress)? };
+    let stuck = if is_placed { StickingSpan::Nowhere } else { sticking.begin(modes, progress)? };
     let mut next = match stuck {
-        Stuck::Throughout(response) => return Ok(*response),
-        Stuck::Nowhere => start(problem, friction, &at),
-        Stuck::Part(part) => {
+        StickingSpan::Throughout(response) => return Ok(*response),
+        StickingSpan::Nowhere => start(problem, friction, &at),
+        StickingSpan::Part(part) => {
             let Part { response, column, until, ended } = *part;
             recorder.append(&column, [&at, &until], response);
             at = until;
@@ -82,8 +82,9 @@ pub(super) fn run(
     let mut simultaneous = SimultaneousEvents::default();
     loop {
         recorder.transition(&at, &next);
-        let stop =
-            next.stop.or_else(|| simultaneous.is_stuck(&at, least_hop(problem, &at)).then_some(Stop::Undetermined));
+        let stop = next
+            .stop
+            .or_else(|| simultaneous.goes_in_circles(&at, least_hop(problem, &at)).then_some(RunEnd::Undetermined));
         at.configuration = next.after;
         if let Some(stop) = stop {
             return Ok(recorder.finish(at, stop, mover.work));
@@ -97,7 +98,7 @@ pub(super) fn run(
             None => {
                 let (mut until, ended) = mover.pass(&at, &mut recorder)?;
                 recorder.leave(&at, &until);
-                if ended == Ended::Rest {
+                if ended == SlidingEnded::Rest {
                     // If nothing starts the column any more, the end is the time at which the rest began.
                     until.t = at.t;
                 }
@@ -117,7 +118,7 @@ pub(super) fn run(
 }
 
 /// Time that a hop of `stick_angle`, the least hop that is followed, takes under the accelerations at work `[s]`.
-fn least_hop(problem: &Problem, at: &State) -> f64 {
+fn least_hop(problem: &Problem, at: &SlidingState) -> f64 {
     let (column, options) = (&problem.scene.column, &problem.scene.options);
     let acceleration = acceleration_scale(column, &at.configuration, problem.ground_at(at.segment, at.t));
     (8.0 * options.stick_angle * column.size() / acceleration).sqrt()
@@ -133,13 +134,13 @@ struct SimultaneousEvents {
 
 impl SimultaneousEvents {
     /// Whether an event is within the instant of the events before it.
-    fn includes(&self, at: &State, hop: f64) -> bool {
+    fn includes(&self, at: &SlidingState, hop: f64) -> bool {
         let instant = (HOPS_AT_ONCE * hop).max(AT_ONCE * at.t.max(1.0));
         self.count > 0 && at.t - self.first <= instant
     }
 
     /// Counts an event; returns whether the events of one instant are so many that they go in a cycle.
-    fn is_stuck(&mut self, at: &State, hop: f64) -> bool {
+    fn goes_in_circles(&mut self, at: &SlidingState, hop: f64) -> bool {
         *self = if self.includes(at, hop) {
             SimultaneousEvents { count: self.count + 1, ..*self }
         } else {
@@ -149,7 +150,7 @@ impl SimultaneousEvents {
     }
 
     /// Time by which the ground's acceleration is ahead for the next event `[s]`: it doubles with each event of the instant.
-    fn lookahead(&self, at: &State, hop: f64) -> f64 {
+    fn lookahead(&self, at: &SlidingState, hop: f64) -> f64 {
         let usual = EVENTS_BEFORE_LOOKAHEAD * (at.configuration.joints.len() + 1);
         if !self.includes(at, hop) || self.count <= usual {
             return 0.0;

@@ -1,9 +1,9 @@
 //! What moves a column with friction: at rest it waits until the ground starts it, in motion it takes steps until a guard falls to zero. Steps of
 //! explicit methods are here, steps on Taylor series in `series_steps.rs`.
 
-use super::recorder::{Moments, Recorder};
+use super::recorder::{Moments, SlidingRecorder};
 use super::smooth::{Moment, Smooth};
-use super::state::{Ended, State};
+use super::state::{SlidingEnded, SlidingState};
 use super::step::Step;
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
@@ -15,7 +15,7 @@ use crate::numerics::ode::methods::{ForTableau, Method};
 use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::problem::Problem;
-use crate::run::rest;
+use crate::run::start_from_rest;
 use crate::scene::DynamicsSource;
 
 /// First step of a run `[s]`; step control corrects it.
@@ -68,7 +68,7 @@ pub(super) struct SegmentTime {
 
 impl SegmentTime {
     /// Goes on to the segment that is not over. Returns why the steps end: there is no such segment, or the ground jumps; otherwise `None`.
-    pub fn next_segment(&mut self, problem: &Problem) -> Option<Ended> {
+    pub fn next_segment(&mut self, problem: &Problem) -> Option<SlidingEnded> {
         loop {
             let left = problem.ground[self.segment].end - self.t;
             if self.t + left > self.t {
@@ -76,11 +76,11 @@ impl SegmentTime {
             }
             self.t = problem.ground[self.segment].end;
             if self.segment + 1 == problem.ground.len() {
-                return Some(Ended::Time);
+                return Some(SlidingEnded::Time);
             }
             self.segment += 1;
             if problem.ground[self.segment].jumps {
-                return Some(Ended::Jump);
+                return Some(SlidingEnded::Jump);
             }
         }
     }
@@ -89,12 +89,12 @@ impl SegmentTime {
 /// A phase to be integrated by the tableau of a method.
 struct Passing<'m, 'p> {
     mover: &'m mut Mover<'p>,
-    from: &'m State,
-    recorder: &'m mut Recorder<'p>,
+    from: &'m SlidingState,
+    recorder: &'m mut SlidingRecorder<'p>,
 }
 
 impl ForTableau for Passing<'_, '_> {
-    type Built = Result<(State, Ended), SolveError>;
+    type Built = Result<(SlidingState, SlidingEnded), SolveError>;
 
     fn with<M: Tableau>(self) -> Self::Built {
         self.mover.steps::<M>(self.from, self.recorder)
@@ -111,7 +111,11 @@ impl<'p> Mover<'p> {
     }
 
     /// Moves the column until something happens.
-    pub fn pass(&mut self, from: &State, recorder: &mut Recorder<'p>) -> Result<(State, Ended), SolveError> {
+    pub fn pass(
+        &mut self,
+        from: &SlidingState,
+        recorder: &mut SlidingRecorder<'p>,
+    ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         if from.configuration.is_at_rest() {
             return Ok(self.wait(from, recorder));
         }
@@ -128,11 +132,12 @@ impl<'p> Mover<'p> {
     }
 
     /// Waits at rest for the ground to start the column.
-    fn wait(&mut self, from: &State, recorder: &mut Recorder<'p>) -> (State, Ended) {
+    fn wait(&mut self, from: &SlidingState, recorder: &mut SlidingRecorder<'p>) -> (SlidingState, SlidingEnded) {
         let column = self.column().clone().displaced(from.configuration.slide.to_vec());
         let column = column.unwrap_or_else(|_| self.column().clone());
         let ground = self.problem.ground;
-        let starts = |segment: usize, t: f64| rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
+        let starts =
+            |segment: usize, t: f64| start_from_rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
         let mut rest = Resting { smooth: self.smooth(from), moment: None };
         let (mut t, mut segment) = (from.t, from.segment);
         // A ground whose acceleration just reaches what starts the column, and goes no further, has started nothing: the start was in vain.
@@ -147,26 +152,26 @@ impl<'p> Mover<'p> {
             t = until;
             if let Some((start, guard)) = start {
                 self.started = start;
-                break Ended::Guard(guard);
+                break SlidingEnded::Guard(guard);
             }
             if segment + 1 == ground.len() {
-                break Ended::Rest;
+                break SlidingEnded::Rest;
             }
             segment += 1;
-            let may_start = || rest::may_start_at_once(&column, &self.friction.fixed, &ground[segment], t);
+            let may_start = || start_from_rest::may_start_at_once(&column, &self.friction.fixed, &ground[segment], t);
             if ground[segment].jumps && may_start() {
-                break Ended::Jump;
+                break SlidingEnded::Jump;
             }
         };
-        (State { t, segment, configuration: from.configuration.clone() }, ended)
+        (SlidingState { t, segment, configuration: from.configuration.clone() }, ended)
     }
 
-    pub(super) fn smooth(&self, from: &State) -> Smooth<'p> {
+    pub(super) fn smooth(&self, from: &SlidingState) -> Smooth<'p> {
         Smooth::new(self.problem, self.friction, from)
     }
 
     /// Where steps from a state begin.
-    pub(super) fn enter(&self, from: &State) -> SegmentTime {
+    pub(super) fn enter(&self, from: &SlidingState) -> SegmentTime {
         SegmentTime { t: from.t, segment: from.segment }
     }
 
@@ -176,7 +181,11 @@ impl<'p> Mover<'p> {
     }
 
     /// Steps until a guard falls to zero, the ground jumps, or the time is over.
-    fn steps<M: Tableau>(&mut self, from: &State, recorder: &mut Recorder<'p>) -> Result<(State, Ended), SolveError> {
+    fn steps<M: Tableau>(
+        &mut self,
+        from: &SlidingState,
+        recorder: &mut SlidingRecorder<'p>,
+    ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
         let mut smooth = self.smooth(from);
         let mut at = self.enter(from);
@@ -238,12 +247,12 @@ impl<'p> Mover<'p> {
             at.t = end.t;
             if let Some(guard) = end.guard {
                 x = smooth.state(&end.configuration);
-                break Ended::Guard(guard);
+                break SlidingEnded::Guard(guard);
             }
             x.clone_from(method.end());
         };
         self.pace = Some(wanted);
         self.work.rhs_calls += smooth.calls;
-        Ok((State { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
+        Ok((SlidingState { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }
 }

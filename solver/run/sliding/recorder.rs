@@ -2,8 +2,8 @@
 
 use super::contacts::{self, slide};
 use super::smooth::{Moment, Smooth};
-use super::state::{State, Stop};
-use super::transition::{Change, Transition};
+use super::state::{RunEnd, SlidingState};
+use super::transition::{Change, SlidingTransition};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Motion, Rates};
 use crate::friction::contact_problem::Coefficients;
@@ -29,7 +29,7 @@ pub trait Moments<'p> {
 }
 
 /// The inside of a step.
-pub trait Inside<'p>: Moments<'p> {
+pub trait StepInside<'p>: Moments<'p> {
     /// Raises the largest magnitudes of the blocks' angles `[rad]` by those up to a time `[s]`.
     fn peaks(&mut self, until: f64, peaks: &mut [f64]);
 
@@ -59,7 +59,7 @@ pub struct Node {
 const LIGHT_SHARE: f64 = 1e-9;
 
 /// The record of a run under way.
-pub struct Recorder<'p> {
+pub struct SlidingRecorder<'p> {
     problem: &'p Problem<'p>,
     friction: &'p Coefficients,
     samples: Vec<Sample>,
@@ -88,13 +88,13 @@ pub struct Recorder<'p> {
     pub work: Work,
 }
 
-impl<'p> Recorder<'p> {
+impl<'p> SlidingRecorder<'p> {
     /// The record of a run that begins with a state.
-    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, start: &State) -> Recorder<'p> {
+    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, start: &SlidingState) -> SlidingRecorder<'p> {
         let Configuration { theta, slide, .. } = &start.configuration;
         let blocks = theta.len();
         let sizes = |values: &[f64]| values.iter().map(|value| value.abs()).collect();
-        Recorder {
+        SlidingRecorder {
             problem,
             friction,
             samples: Vec::new(),
@@ -128,7 +128,7 @@ impl<'p> Recorder<'p> {
     }
 
     /// Records a transition from `x⁻`. What it takes from the energy is lost: at impacts, and where hops and slides that are too low to be followed end.
-    pub fn transition(&mut self, at: &State, transition: &Transition) {
+    pub fn transition(&mut self, at: &SlidingState, transition: &SlidingTransition) {
         let (t, before, after) = (at.t, &at.configuration, &transition.after);
         if self.problem.is_recorded() && !before.moves_like(after) {
             self.report.impact_losses += energy(self.column(), before) - energy(self.column(), after);
@@ -207,7 +207,7 @@ impl<'p> Recorder<'p> {
 
     /// Records the response of a part in which everything sticks: its column with slides, and the states at its two ends. The work of the ground in it
     /// is the change of energy plus the losses at impacts.
-    pub fn append(&mut self, column: &Column, [from, until]: [&State; 2], response: Response) {
+    pub fn append(&mut self, column: &Column, [from, until]: [&SlidingState; 2], response: Response) {
         self.work.add(&response.work);
         self.used_generic |= response.used_generic;
         if !self.problem.is_recorded() {
@@ -258,7 +258,7 @@ impl<'p> Recorder<'p> {
     /// A moment of a column in which everything sticks, with its accelerations and forces.
     fn moment(&mut self, t: f64, configuration: Configuration) -> Moment<'p> {
         let segment = self.segment_of_row(t);
-        let from = State { t, segment: 0, configuration };
+        let from = SlidingState { t, segment: 0, configuration };
         let mut smooth = Smooth::new(self.problem, self.friction, &from);
         smooth.segment = segment;
         let mut moment = smooth.moment(from.configuration);
@@ -267,7 +267,7 @@ impl<'p> Recorder<'p> {
     }
 
     /// Records that a stretch with constant states has ended: times in modes and contacts, and slides.
-    pub fn leave(&mut self, from: &State, until: &State) {
+    pub fn leave(&mut self, from: &SlidingState, until: &SlidingState) {
         let span = until.t - from.t;
         self.read_until = f64::NAN;
         let (now, end, size) = (&from.configuration, &until.configuration, self.column().size());
@@ -318,7 +318,7 @@ impl<'p> Recorder<'p> {
     }
 
     /// Records rows, peaks, forces and work of a step with these states of the interfaces, or of its part up to the zero of a guard.
-    pub fn read(&mut self, segment: usize, joints: &[Joint], [from, until]: [f64; 2], inside: &mut dyn Inside<'p>) {
+    pub fn read(&mut self, segment: usize, joints: &[Joint], [from, until]: [f64; 2], inside: &mut dyn StepInside<'p>) {
         if !self.problem.is_recorded() {
             return;
         }
@@ -407,7 +407,7 @@ impl<'p> Recorder<'p> {
     }
 
     /// The response of a run that ends in a state.
-    pub fn finish(mut self, end: State, stop: Stop, steps: Work) -> Response {
+    pub fn finish(mut self, end: SlidingState, stop: RunEnd, steps: Work) -> Response {
         self.work.add(&steps);
         let status = stop.status();
         self.work.ended_early = status == StopReason::AtRest;
@@ -435,8 +435,8 @@ impl<'p> Recorder<'p> {
             status,
             t_final: end.t,
             truncated: false,
-            overturned_block: if let Stop::Overturned(block) = stop { Some(block + 1) } else { None },
-            collapsed_block: if let Stop::Collapsed(block) = stop { Some(block + 1) } else { None },
+            overturned_block: if let RunEnd::Overturned(block) = stop { Some(block + 1) } else { None },
+            collapsed_block: if let RunEnd::Collapsed(block) = stop { Some(block + 1) } else { None },
             samples: self.samples,
             events: self.events,
             impacts: self.impacts,

@@ -1,8 +1,8 @@
 //! Steps on Taylor series: as many orders as the step needs, and a step as long as its last terms allow (Jorba & Zou, 2005).
 
 use super::mover::{Mover, RESOLVING, SHORTEST_SHARE};
-use super::recorder::Recorder;
-use super::state::{Ended, State};
+use super::recorder::SlidingRecorder;
+use super::state::{SlidingEnded, SlidingState};
 use super::step::Step;
 use crate::friction::guard_series::{Limits, SeriesSpan};
 use crate::friction::guards::{self, Guard};
@@ -25,9 +25,9 @@ impl<'p> Mover<'p> {
     /// Steps on series until a guard falls to zero, the ground jumps, or the time is over.
     pub(super) fn steps_on_series(
         &mut self,
-        from: &State,
-        recorder: &mut Recorder<'p>,
-    ) -> Result<(State, Ended), SolveError> {
+        from: &SlidingState,
+        recorder: &mut SlidingRecorder<'p>,
+    ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
         let options = &problem.scene.options;
         let joints = &from.configuration.joints;
@@ -55,7 +55,11 @@ impl<'p> Mover<'p> {
             let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
             self.work.rhs_calls += series.orders();
             let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
-                break if begun.is_none() { Ended::Jam } else { smooth.without_step(t, &x, length.unwrap_or(0.0))? };
+                break if begun.is_none() {
+                    SlidingEnded::Jam
+                } else {
+                    smooth.without_step(t, &x, length.unwrap_or(0.0))?
+                };
             };
             wanted = if h < most { h } else { wanted.max(h) };
             self.work.steps += 1;
@@ -75,12 +79,12 @@ impl<'p> Mover<'p> {
             let end = step.record(first, at.segment, recorder);
             (at.t, x) = (end.t, smooth.state(&end.configuration));
             if let Some(guard) = end.guard {
-                break Ended::Guard(guard);
+                break SlidingEnded::Guard(guard);
             }
         };
         self.pace = Some(wanted);
         self.work.rhs_calls += smooth.calls;
-        Ok((State { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
+        Ok((SlidingState { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }
 }
 

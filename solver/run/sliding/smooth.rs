@@ -1,6 +1,6 @@
 //! Smooth motion: the right-hand side of the equations of one set of states.
 
-use super::state::{Ended, State};
+use super::state::{SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, centre};
@@ -44,7 +44,7 @@ pub struct Smooth<'p> {
 
 impl<'p> Smooth<'p> {
     /// The motion of the states of a configuration on a segment of the ground motion.
-    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, from: &State) -> Smooth<'p> {
+    pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, from: &SlidingState) -> Smooth<'p> {
         let (column, base) = (&problem.scene.column, from.configuration.clone());
         let is_generic = problem.scene.options.dynamics == DynamicsSource::Generic;
         Smooth {
@@ -121,12 +121,12 @@ impl<'p> Smooth<'p> {
     /// # Errors
     /// [`SolveError::StepTooSmall`], unless the motion jams: some normal force exceeds `JAMMING` times the forces at work, and the rows hardly
     /// determine it any more (Painlevé).
-    pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<Ended, SolveError> {
+    pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<SlidingEnded, SolveError> {
         let ground = Ground::at(self.segment, t, self.gravity);
         let mut moment = self.moment(self.configuration(x));
         let largest = self.answer(t, &mut moment).contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
         if largest > JAMMING * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground) {
-            return Ok(Ended::Jam);
+            return Ok(SlidingEnded::Jam);
         }
         let mode = format!("{} with friction", self.base.pattern());
         Err(SolveError::StepTooSmall { time: t, step, mode })

@@ -9,7 +9,7 @@ use crate::scene::Initial;
 
 /// The state of a run at an instant.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct SlidingState {
     /// `[s]`
     pub t: f64,
     /// Segment of the ground motion.
@@ -20,7 +20,7 @@ pub struct State {
 
 /// Why a stretch of a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ended {
+pub enum SlidingEnded {
     /// A guard, a condition of a contact or a block, fell to zero.
     Guard(Guard),
     /// The ground's acceleration jumped.
@@ -33,21 +33,21 @@ pub enum Ended {
     Rest,
 }
 
-impl Ended {
+impl SlidingEnded {
     /// Why the run ends with the stretch; `None` if the run continues.
-    pub fn stop(self) -> Option<Stop> {
+    pub fn stop(self) -> Option<RunEnd> {
         match self {
-            Ended::Time => Some(Stop::EndOfTime),
-            Ended::Rest => Some(Stop::AtRest),
-            Ended::Guard(Guard::Overturn(block)) => Some(Stop::Overturned(block)),
-            Ended::Guard(_) | Ended::Jump | Ended::Jam => None,
+            SlidingEnded::Time => Some(RunEnd::EndOfTime),
+            SlidingEnded::Rest => Some(RunEnd::AtRest),
+            SlidingEnded::Guard(Guard::Overturn(block)) => Some(RunEnd::Overturned(block)),
+            SlidingEnded::Guard(_) | SlidingEnded::Jump | SlidingEnded::Jam => None,
         }
     }
 }
 
 /// Why a run ends. Blocks are counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum RunEnd {
     /// The angle of this block reached the overturning angle.
     Overturned(usize),
     /// This block slid or flew off its support.
@@ -60,21 +60,21 @@ pub enum Stop {
     EndOfTime,
 }
 
-impl Stop {
+impl RunEnd {
     pub fn status(self) -> StopReason {
         match self {
-            Stop::Overturned(_) => StopReason::Overturned,
-            Stop::Collapsed(_) => StopReason::Collapsed,
-            Stop::Undetermined => StopReason::Undetermined,
-            Stop::AtRest => StopReason::AtRest,
-            Stop::EndOfTime => StopReason::EndOfTime,
+            RunEnd::Overturned(_) => StopReason::Overturned,
+            RunEnd::Collapsed(_) => StopReason::Collapsed,
+            RunEnd::Undetermined => StopReason::Undetermined,
+            RunEnd::AtRest => StopReason::AtRest,
+            RunEnd::EndOfTime => StopReason::EndOfTime,
         }
     }
 }
 
-impl State {
+impl SlidingState {
     /// The state in which a scene begins.
-    pub fn initial(problem: &Problem) -> State {
+    pub fn initial(problem: &Problem) -> SlidingState {
         let start = transition::initial(problem);
         let column = &problem.scene.column;
         let mut configuration = Configuration::sticking(column, &start.pattern, &start.theta, &start.omega);
@@ -82,6 +82,6 @@ impl State {
         if !x.is_empty() {
             configuration.place(column, [x, y], [vx, vy]);
         }
-        State { t: 0.0, segment: 0, configuration }
+        SlidingState { t: 0.0, segment: 0, configuration }
     }
 }

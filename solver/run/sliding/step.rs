@@ -4,7 +4,7 @@
 mod first_zero;
 mod inside;
 
-use super::recorder::Recorder;
+use super::recorder::SlidingRecorder;
 use super::smooth::{Moment, Smooth};
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::guards::{self, Guard};
@@ -89,7 +89,12 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     }
 
     /// Records the step up to its end: the first guard that falls to zero and where, or the end of the whole step.
-    pub fn record(&mut self, first: Option<(f64, Guard)>, segment: usize, recorder: &mut Recorder<'p>) -> StepEnd {
+    pub fn record(
+        &mut self,
+        first: Option<(f64, Guard)>,
+        segment: usize,
+        recorder: &mut SlidingRecorder<'p>,
+    ) -> StepEnd {
         let (s, guard) = first.map_or((1.0, None), |(s, guard)| (s, Some(guard)));
         let (from, t) = (self.t, if s == 1.0 { self.t + self.h } else { self.t + s * self.h });
         let joints = self.smooth.base.joints.clone();

@@ -2,7 +2,7 @@
 //!
 //! A run whose friction is never used up is one such part, and equals the run without friction to the last bit.
 
-use super::state::{Ended, State};
+use super::state::{SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards::Guard;
@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 pub type Progress<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
 /// How far everything sticks.
-pub enum Stuck {
+pub enum StickingSpan {
     /// From the start of the run to its end.
     Throughout(Box<Response>),
     /// Up to the end of this part.
@@ -37,8 +37,8 @@ pub struct Part {
     pub response: Response,
     /// The column with its slides in this part.
     pub column: Column,
-    pub until: State,
-    pub ended: Ended,
+    pub until: SlidingState,
+    pub ended: SlidingEnded,
 }
 
 /// What runs the parts in which everything sticks.
@@ -71,7 +71,7 @@ impl<'p> Sticking<'p> {
     ///
     /// # Errors
     /// [`SolveError::Cancelled`]
-    pub fn begin(&self, modes: &mut Modes, progress: &mut Progress) -> Result<Stuck, SolveError> {
+    pub fn begin(&self, modes: &mut Modes, progress: &mut Progress) -> Result<StickingSpan, SolveError> {
         self.fold(modes, None, 0, progress)
     }
 
@@ -81,7 +81,7 @@ impl<'p> Sticking<'p> {
     /// [`SolveError::Cancelled`]
     pub fn pass(
         &mut self,
-        from: &State,
+        from: &SlidingState,
         rows: usize,
         progress: &mut Progress,
     ) -> Result<Option<Box<Part>>, SolveError> {
@@ -106,8 +106,8 @@ impl<'p> Sticking<'p> {
         let folded = self.fold(&mut modes, Some(start), rows, progress);
         self.modes = modes;
         Ok(match folded? {
-            Stuck::Part(part) => Some(part),
-            Stuck::Throughout(_) | Stuck::Nowhere => None,
+            StickingSpan::Part(part) => Some(part),
+            StickingSpan::Throughout(_) | StickingSpan::Nowhere => None,
         })
     }
 
@@ -117,7 +117,7 @@ impl<'p> Sticking<'p> {
         from: Option<state::State>,
         rows: usize,
         progress: &mut Progress,
-    ) -> Result<Stuck, SolveError> {
+    ) -> Result<StickingSpan, SolveError> {
         let mut problem = Problem::new(&self.scene, self.problem.ground, None, self.problem.skips);
         problem.kappa.clone_from(&self.problem.kappa);
         let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
@@ -134,35 +134,35 @@ impl<'p> Sticking<'p> {
         let (last, ended, status) = match leaving {
             Leaving::Over(last, over) if is_beginning => {
                 let response = recorder.finish(&problem, &last, over, modes);
-                return Ok(Stuck::Throughout(Box::new(reported(&self.scene.column, response))));
+                return Ok(StickingSpan::Throughout(Box::new(reported(&self.scene.column, response))));
             }
             Leaving::Over(last, over) => {
                 let (ended, status) = match over {
                     Over::Overturned(block) | Over::Falls(block) => {
-                        (Ended::Guard(Guard::Overturn(block)), StopReason::Overturned)
+                        (SlidingEnded::Guard(Guard::Overturn(block)), StopReason::Overturned)
                     }
-                    Over::AtRest | Over::Stands => (Ended::Rest, StopReason::AtRest),
-                    Over::EndOfTime => (Ended::Time, StopReason::EndOfTime),
+                    Over::AtRest | Over::Stands => (SlidingEnded::Rest, StopReason::AtRest),
+                    Over::EndOfTime => (SlidingEnded::Time, StopReason::EndOfTime),
                 };
                 (last, ended, status)
             }
-            Leaving::Beyond(Exceeded::Start) => return Ok(Stuck::Nowhere),
-            Leaving::Beyond(Exceeded::Phase(last)) => (last, Ended::Jump, StopReason::EndOfTime),
+            Leaving::Beyond(Exceeded::Start) => return Ok(StickingSpan::Nowhere),
+            Leaving::Beyond(Exceeded::Phase(last)) => (last, SlidingEnded::Jump, StopReason::EndOfTime),
             Leaving::Beyond(Exceeded::Event(last, why, closing)) => {
                 let ended = match why {
-                    stretch::Ended::Closing => {
-                        closing.first().map_or(Ended::Jump, |interface| Ended::Guard(Guard::Close(*interface)))
-                    }
-                    stretch::Ended::Opening(interface, side) => Ended::Guard(Guard::Tip(interface, side.sign())),
-                    stretch::Ended::Jump | stretch::Ended::Over(_) => Ended::Jump,
+                    stretch::Ended::Closing => closing
+                        .first()
+                        .map_or(SlidingEnded::Jump, |interface| SlidingEnded::Guard(Guard::Close(*interface))),
+                    stretch::Ended::Opening(interface, side) => SlidingEnded::Guard(Guard::Tip(interface, side.sign())),
+                    stretch::Ended::Jump | stretch::Ended::Over(_) => SlidingEnded::Jump,
                 };
                 (last, ended, StopReason::EndOfTime)
             }
         };
         let configuration = Configuration::sticking(&self.scene.column, &last.pattern, &last.theta, &last.omega);
-        let until = State { t: last.t, segment: last.segment, configuration };
+        let until = SlidingState { t: last.t, segment: last.segment, configuration };
         let response = recorder.so_far(&problem, &last, status, modes);
-        Ok(Stuck::Part(Box::new(Part { response, column: self.scene.column.clone(), until, ended })))
+        Ok(StickingSpan::Part(Box::new(Part { response, column: self.scene.column.clone(), until, ended })))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Transitions: from `x⁻` at the end of a stretch to `x⁺`, by the laws of contact with friction.
 
 use super::contacts::{self, Resolution, touching};
-use super::state::{Ended, State, Stop};
+use super::state::{RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, Question, Touch, half_length};
@@ -15,7 +15,7 @@ use crate::response::{EventKind, Impulse};
 use crate::run::problem::Problem;
 
 /// A transition of a run: what the laws of contact have decided about `x⁻`.
-pub struct Transition {
+pub struct SlidingTransition {
     /// Blocks and interfaces at `x⁺`.
     pub after: Configuration,
     /// What happened on the way there, in order.
@@ -27,7 +27,7 @@ pub struct Transition {
     /// Number of impacts at which restitution was left out.
     pub without_restitution: usize,
     /// Why the run ends; `None` if it continues.
-    pub stop: Option<Stop>,
+    pub stop: Option<RunEnd>,
 }
 
 /// An event within a transition.
@@ -42,7 +42,7 @@ pub struct Change {
 }
 
 /// The transition at time zero.
-pub fn start(problem: &Problem, friction: &Coefficients, at: &State) -> Transition {
+pub fn start(problem: &Problem, friction: &Coefficients, at: &SlidingState) -> SlidingTransition {
     Instant::new(problem, friction, at, 0.0).decided(EventKind::Start, None)
 }
 
@@ -50,21 +50,21 @@ pub fn start(problem: &Problem, friction: &Coefficients, at: &State) -> Transiti
 pub fn transition(
     problem: &Problem,
     friction: &Coefficients,
-    before: &State,
-    ended: Ended,
+    before: &SlidingState,
+    ended: SlidingEnded,
     lookahead: f64,
-) -> Transition {
+) -> SlidingTransition {
     let mut instant = Instant::new(problem, friction, before, lookahead);
     let guard = match ended {
-        Ended::Guard(guard) => guard,
-        Ended::Jam => {
+        SlidingEnded::Guard(guard) => guard,
+        SlidingEnded::Jam => {
             instant.jam();
             return instant.decided(EventKind::Impact, None);
         }
-        Ended::Jump | Ended::Time | Ended::Rest => return instant.decided(EventKind::Jump, None),
+        SlidingEnded::Jump | SlidingEnded::Time | SlidingEnded::Rest => return instant.decided(EventKind::Jump, None),
     };
     let (kind, hint) = match guard {
-        Guard::Overturn(block) => return instant.end(Stop::Overturned(block)),
+        Guard::Overturn(block) => return instant.end(RunEnd::Overturned(block)),
         Guard::Collapse(interface) => return instant.collapsed(interface),
         Guard::Close(interface) => {
             instant.close(interface);
@@ -107,7 +107,7 @@ pub(super) struct Instant<'p> {
     pub ambiguous: usize,
     is_jammed: bool,
     pub without_restitution: usize,
-    pub stop: Option<Stop>,
+    pub stop: Option<RunEnd>,
 }
 
 /// Hops and slides, per interface, that have been ended in an instant because they are too low.
@@ -124,7 +124,7 @@ impl Stilled {
 }
 
 impl<'p> Instant<'p> {
-    fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, at: &State, lookahead: f64) -> Instant<'p> {
+    fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, at: &SlidingState, lookahead: f64) -> Instant<'p> {
         Instant {
             problem,
             friction,
@@ -146,20 +146,20 @@ impl<'p> Instant<'p> {
     }
 
     /// The transition with which the run ends.
-    fn end(self, stop: Stop) -> Transition {
+    fn end(self, stop: RunEnd) -> SlidingTransition {
         Instant { stop: Some(stop), ..self }.transition()
     }
 
-    fn transition(self) -> Transition {
+    fn transition(self) -> SlidingTransition {
         let Instant { now, changes, ambiguous, is_jammed, without_restitution, stop, .. } = self;
-        Transition { after: now, changes, ambiguous, is_jammed, without_restitution, stop }
+        SlidingTransition { after: now, changes, ambiguous, is_jammed, without_restitution, stop }
     }
 
     /// The end of the run: the blocks at an interface have lost contact, as its length or their overlap has fallen to zero.
-    fn collapsed(mut self, interface: usize) -> Transition {
+    fn collapsed(mut self, interface: usize) -> SlidingTransition {
         let before = self.now.clone();
         self.change(EventKind::Collapsed, vec![interface], &before, None);
-        self.end(Stop::Collapsed(interface))
+        self.end(RunEnd::Collapsed(interface))
     }
 
     /// Notes an event that led from `before` to the present configuration.
@@ -174,7 +174,7 @@ impl<'p> Instant<'p> {
     }
 
     /// Decides the accelerations at `x⁺` and returns the transition. `hint` is the state of an interface named by the guard that ended the stretch.
-    fn decided(mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> Transition {
+    fn decided(mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> SlidingTransition {
         if self.stop.is_none() {
             let before = self.now.clone();
             match self.accelerated(&before, hint) {
@@ -189,7 +189,7 @@ impl<'p> Instant<'p> {
     }
 
     /// The states with which the column moves on from here.
-    fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<PerBlock<Joint>, Stop> {
+    fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<PerBlock<Joint>, RunEnd> {
         let touch = self.joined();
         // States whose guard has just fallen to zero do not follow themselves, even if they are admissible up to rounding. Only a slide that has
         // come to rest may begin anew.
@@ -248,11 +248,11 @@ impl<'p> Instant<'p> {
     }
 
     /// The accelerations after a jam.
-    fn jammed(&mut self) -> Result<Solution, Stop> {
+    fn jammed(&mut self) -> Result<Solution, RunEnd> {
         self.jam();
         match self.stop {
             Some(stop) => Err(stop),
-            None => self.accelerations(&self.touching(), None).ok_or(Stop::Undetermined),
+            None => self.accelerations(&self.touching(), None).ok_or(RunEnd::Undetermined),
         }
     }
 

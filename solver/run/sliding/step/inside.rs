@@ -8,7 +8,7 @@ use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::track::Track;
-use crate::run::sliding::recorder::{Inside, Moments, Node};
+use crate::run::sliding::recorder::{Moments, Node, StepInside};
 use crate::run::sliding::smooth::Moment;
 
 /// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
@@ -26,7 +26,7 @@ impl<'p, O: Output> Moments<'p> for Step<'_, 'p, O> {
     }
 }
 
-impl<'p, O: Output> Inside<'p> for Step<'_, 'p, O> {
+impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
     fn peaks(&mut self, until: f64, peaks: &mut [f64]) {
         let end = self.place(until);
         if let Some(span) = self.output.series() {

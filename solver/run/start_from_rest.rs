@@ -1,0 +1,336 @@
+//! When the ground starts a column at rest: the first instant at which an interface opens or, with friction, slides. Nothing is integrated.
+//!
+//! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (docs/book/model.md, section 4; the paper's Eq. 1). On a piece of ground motion with a bounded
+//! second derivative, the parabola with the guard's value and slope that bends down by this bound lies below the guard. A step to the zero of this
+//! parabola cannot jump over a root: the search is conservative and converges quadratically. Under a single sine it begins just before the instant
+//! that the arc sine gives.
+
+use super::problem::Problem;
+use crate::column::Column;
+use crate::friction::guards::Guard;
+use crate::mechanics::dynamics::Ground;
+use crate::scene::Scene;
+use rocking_codegen::pattern::Interface;
+use rocking_ground::{Piece, Segment};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
+const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The least horizontal acceleration of the ground that opens some interface, if the ground does not move vertically `[m/s²]`.
+pub(super) fn least_uplift(column: &Column) -> f64 {
+    let lever = |i: usize| column.contact_half_width(i) - column.centroid_offset(i).abs();
+    let own = |i: usize| column.gravity() * lever(i) / column.centroid_height(i);
+    (0..column.len()).map(own).fold(f64::INFINITY, f64::min)
+}
+
+/// Share of [`least_uplift`] below which rounding cannot open an interface.
+const CLEAR_SHARE: f64 = 1.0 - 1e-9;
+
+/// The first opening of the column at rest between `t` and the end of a segment: time `[s]`, interface (from zero) and side. `limit` is [`least_uplift`].
+pub(super) fn earliest_start(
+    problem: &Problem,
+    segment: &Segment,
+    t: f64,
+    limit: f64,
+) -> Option<(f64, usize, Interface)> {
+    if !problem.skips.rests {
+        return by_steps(problem, segment, t);
+    }
+    if let (Piece::Linear { .. }, Piece::Zero) = (&segment.horizontal, &segment.vertical) {
+        // A record has many segments, all linear in time: the largest acceleration of one is at an end.
+        let largest = segment.horizontal.value(t).abs().max(segment.horizontal.value(segment.end).abs());
+        if largest < CLEAR_SHARE * limit {
+            return None;
+        }
+    }
+    if segment.is_quiet() {
+        return None;
+    }
+    start_before(problem, segment, t + until_sine_is(CLEAR_SHARE * limit, segment, t), segment.end)
+}
+
+/// For how long after `t` the ground's acceleration stays below `limit` in magnitude `[s]`; infinite if always. Zero if it is not a single sine.
+fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
+    let (amplitude, omega, turned) = match (&segment.horizontal, &segment.vertical) {
+        (&Piece::Sine { amplitude, omega, start, phase }, Piece::Zero) => {
+            (amplitude, omega, omega * (t - start) + phase)
+        }
+        (&Piece::Cosine { amplitude, omega, start }, Piece::Zero) => {
+            (amplitude, omega, omega * (t - start) + FRAC_PI_2)
+        }
+        _ => return 0.0,
+    };
+    let share = limit / amplitude.abs();
+    if share > 1.0 {
+        return f64::INFINITY;
+    }
+    let (first, within) = (libm::asin(share), turned.rem_euclid(PI));
+    // From `first` to `π - first` of each half turn it is above the limit.
+    let before = if within > PI - first { within - PI } else { within };
+    (first - before).max(0.0) / omega
+}
+
+/// Steps of a rest that is not skipped: per radian of the ground motion, and the least number per second.
+const STEPS_PER_RADIAN_AND_SECOND: [f64; 2] = [20.0, 100.0];
+
+/// As [`earliest_start`], but nothing is left out: step by step, as an integrator would go.
+fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usize, Interface)> {
+    let omega = segment.horizontal.omega().max(segment.vertical.omega());
+    let step = 1.0 / (STEPS_PER_RADIAN_AND_SECOND[0] * omega).max(STEPS_PER_RADIAN_AND_SECOND[1]);
+    let mut t = from;
+    loop {
+        let until = (t + step).min(segment.end);
+        let start = start_before(problem, segment, t, until.next_up());
+        if start.is_some() || until >= segment.end {
+            return start;
+        }
+        t = until;
+    }
+}
+
+/// The first opening between two instants.
+fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
+    let column = &problem.scene.column;
+    let guards = || (0..column.len()).flat_map(|interface| corners(column, interface));
+    first_zero(segment, column.gravity(), [from, until], guards).map(|(t, (interface, side))| (t, interface, side))
+}
+
+/// The guards of the two corners of an interface: arm, side, and what they guard.
+fn corners(column: &Column, interface: usize) -> impl Iterator<Item = ([f64; 2], Interface, (usize, Interface))> {
+    [Interface::Right, Interface::Left]
+        .into_iter()
+        .map(move |side| (arm(column, interface, side), side, (interface, side)))
+}
+
+/// The first zero of some guards between two instants of a segment `[s]`, and the guard that has it. Each guard has an arm, a side and a name. All
+/// guards are evaluated at the same places, spaced so that none of them can pass zero in between.
+#[inline(always)]
+fn first_zero<G, I: Iterator<Item = ([f64; 2], Interface, G)>>(
+    segment: &Segment,
+    gravity: f64,
+    [from, until]: [f64; 2],
+    guards: impl Fn() -> I,
+) -> Option<(f64, G)> {
+    let mut t = from;
+    while t < until {
+        let motion = GroundWithBounds::at(segment, gravity, t);
+        let mut step = f64::INFINITY;
+        for (arm, side, guard) in guards() {
+            match motion.step_to_zero(arm, side) {
+                Some(0.0) => return Some((t, guard)),
+                Some(own) => step = step.min(own),
+                None => {}
+            }
+        }
+        t += step;
+    }
+    None
+}
+
+impl Scene {
+    /// When the ground motion first opens each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
+    /// if it does not open up to the end of the run. Both components of the ground motion count.
+    ///
+    /// ```
+    /// use rocking::{Column, Motion, Scene};
+    /// let mut scene = Scene::new(Column::equal_blocks(1, 0.5, 0.5, 1.0, 9.81)?);
+    /// scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.8 * 9.81, start: 0.5, duration: 1.0 });
+    /// assert_eq!(scene.openings_at_rest(), [None]); // a cube opens at 1 g
+    /// scene.excitation.vertical = Some(Motion::Rectangular { amplitude: -0.4 * 9.81, start: 0.7, duration: 1.0 });
+    /// assert_eq!(scene.openings_at_rest(), [Some(0.7)]);
+    /// # Ok::<(), rocking::ColumnError>(())
+    /// ```
+    pub fn openings_at_rest(&self) -> Vec<Option<f64>> {
+        let segments = self.excitation.segments(self.options.t_end);
+        let opening =
+            |interface: usize| segments.iter().find_map(|segment| opening_in(&self.column, segment, interface));
+        (0..self.column.len()).map(opening).collect()
+    }
+}
+
+/// The first instant in a segment at which an interface of a column at rest opens, if no other does.
+fn opening_in(column: &Column, segment: &Segment, interface: usize) -> Option<f64> {
+    let at_start = GroundWithBounds::at(segment, column.gravity(), segment.start);
+    // Where the ground jumps, a guard may be below zero without having fallen there.
+    if corners(column, interface).any(|(arm, side, _)| at_start.guard(arm, side) < 0.0) {
+        return Some(segment.start);
+    }
+    let span = [segment.start, segment.end];
+    first_zero(segment, column.gravity(), span, || corners(column, interface)).map(|(t, _)| t)
+}
+
+/// The first instant in a segment from a time on at which an interface of a column at rest tips or slides, with the coefficients `fixed` of static
+/// friction: as [`earliest_start`], with the guards `μ (g + ÿ_g) ± ẍ_g` beside those of the corners.
+pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
+    let of_interface = |(interface, coefficient): (usize, &f64)| {
+        let cone = [*coefficient, 1.0];
+        corners(column, interface).flat_map(move |(arm, side, _)| {
+            let sign = side.sign();
+            [(cone, side, Guard::Cone(interface, sign)), (arm, side, Guard::Tip(interface, sign))]
+        })
+    };
+    first_zero(segment, column.gravity(), [from, segment.end], || fixed.iter().enumerate().flat_map(of_interface))
+}
+
+/// Whether a jump of the ground to a segment may start a column whose friction is limited: some guard of [`first_start`] is not above rounding.
+pub(crate) fn may_start_at_once(column: &Column, fixed: &[f64], segment: &Segment, t: f64) -> bool {
+    let ground = Ground::at(segment, t, column.gravity());
+    let is_critical = |[half_width, height]: [f64; 2], side: Interface| {
+        let (holding, tipping) = (half_width * ground.gravity, height * ground.x);
+        holding + f64::from(side.sign()) * tipping <= GUARD_ROUNDING * (holding.abs() + tipping.abs())
+    };
+    fixed.iter().enumerate().any(|(interface, coefficient)| {
+        [Interface::Right, Interface::Left]
+            .into_iter()
+            .any(|side| is_critical([*coefficient, 1.0], side) || is_critical(arm(column, interface, side), side))
+    })
+}
+
+/// Whether some interface cannot stay closed under the acceleration that the ground has at `t` in a segment.
+pub(super) fn is_thrown_open(problem: &Problem, segment: usize, t: f64) -> bool {
+    least_margin(problem, segment, t) < 0.0
+}
+
+/// Whether some interface may open under the acceleration at `t`. Margins that rounding may decide count: the contact problem decides them.
+pub(crate) fn may_open(problem: &Problem, segment: usize, t: f64) -> bool {
+    least_margin(problem, segment, t) < CONTACT_PROBLEM_MARGIN
+}
+
+/// Relative margin below which the contact problem decides about an opening.
+const CONTACT_PROBLEM_MARGIN: f64 = 1e-9;
+
+/// The least margin against opening, relative to its own scale.
+fn least_margin(problem: &Problem, segment: usize, t: f64) -> f64 {
+    let (ground, column) = (problem.ground_at(segment, t), &problem.scene.column);
+    let margin = |i: usize| {
+        // The ground pushes towards one side, and away from the other.
+        let side = Interface::from_sign(if ground.x < 0.0 { 1 } else { -1 });
+        let margin = |side: Interface, push: f64| {
+            let [lever, height] = arm(column, i, side);
+            let arms = [lever * ground.gravity, height * push];
+            (arms[0] - arms[1]) / (arms[0].abs() + arms[1].abs())
+        };
+        margin(side, ground.x.abs()).min(margin(side.mirror(), -ground.x.abs()))
+    };
+    (0..column.len()).map(margin).fold(f64::INFINITY, f64::min)
+}
+
+/// Arms of the weight and of the ground's push about a corner of an interface: lever of the stack's centre of gravity and its height `[m]`.
+fn arm(column: &Column, interface: usize, side: Interface) -> [f64; 2] {
+    let sign = f64::from(side.sign());
+    let lever = column.contact_half_width(interface) - sign * column.centroid_offset(interface);
+    [lever, column.centroid_height(interface)]
+}
+
+/// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
+pub(super) struct GroundWithBounds {
+    /// `[s]`
+    pub t: f64,
+    pub ground: Ground,
+    /// `[m/s³]`
+    pub rates: [f64; 2],
+    /// `[m/s⁴]`
+    bends: [f64; 2],
+}
+
+impl GroundWithBounds {
+    pub fn at(segment: &Segment, gravity: f64, t: f64) -> GroundWithBounds {
+        let Segment { horizontal, vertical, .. } = segment;
+        let [(x, rate), (y, rate_upwards)] = [horizontal, vertical].map(|piece| piece.with_rate(t));
+        GroundWithBounds {
+            t,
+            ground: Ground { x, gravity: gravity + y },
+            rates: [rate, rate_upwards],
+            bends: [horizontal.curvature_bound(), vertical.curvature_bound()],
+        }
+    }
+
+    /// The guard `c (g + ÿ_g) + s h ẍ_g` of a side at this instant: positive `ẍ_g` tips to the left `[m²/s²]`.
+    fn guard(&self, [half_width, height]: [f64; 2], side: Interface) -> f64 {
+        half_width * self.ground.gravity + f64::from(side.sign()) * height * self.ground.x
+    }
+
+    /// A time within which the guard of a side does not fall below zero `[s]`. Zero if it falls below zero at this instant, `None` if it never does.
+    fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
+        let GroundWithBounds { t, ground, rates, bends } = self;
+        let sign = f64::from(side.sign());
+        let value = self.guard([half_width, height], side);
+        let slope = half_width * rates[1] + sign * height * rates[0];
+        let bend = half_width * bends[1] + height * bends[0];
+        let scale = half_width * ground.gravity.abs() + height * ground.x.abs();
+        if value <= GUARD_ROUNDING * scale && slope < 0.0 {
+            return Some(0.0);
+        }
+        // The longest step for which value + slope h - bend h²/2 stays at or above zero, without cancellation for either slope.
+        let value = value.max(0.0);
+        let root = (slope * slope + 2.0 * bend * value).sqrt();
+        let step = match (slope < 0.0, bend > 0.0) {
+            (true, _) => 2.0 * value / (root - slope),
+            (false, true) => (slope + root) / bend,
+            (false, false) => return None,
+        };
+        Some(match (t + step > *t, slope < 0.0) {
+            (true, _) => step,
+            // Below the resolution of the time: a root if the guard falls, else a touch to be passed.
+            (false, true) => 0.0,
+            (false, false) => 2.0 * f64::EPSILON * t.abs().max(1e-12),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// First zero of one guard.
+    fn zero_of(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {
+        first_zero(segment, 9.81, [segment.start, segment.end], || [(arm, side, ())].into_iter()).map(|(t, ())| t)
+    }
+
+    fn segment(amplitude: f64) -> Segment {
+        let horizontal = Piece::Sine { amplitude, omega: 10.0, start: 0.0, phase: 0.0 };
+        Segment { start: 0.0, end: 0.6, horizontal, vertical: Piece::Zero, jumps: false }
+    }
+
+    #[test]
+    fn the_start_is_where_the_sine_reaches_the_threshold() {
+        // sin(10 t) = c g / (h A) = 0.5, tipping to the left.
+        let arm = [0.2, 0.8];
+        let amplitude = 0.2 * 9.81 / (0.8 * 0.5);
+        let t = zero_of(&segment(amplitude), arm, Interface::Left).expect("it starts");
+        assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
+        let later = zero_of(&segment(amplitude), arm, Interface::Right).expect("it starts");
+        assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_search_under_a_sine_begins_shortly_before_the_limit() {
+        let limit = 1.3;
+        for (amplitude, phase, since) in [(2.0, 0.4, 0.0), (-1.31, 2.9, 0.3), (5.0, -7.0, 1.7), (1.4, 1.5, 0.55)] {
+            let sine = Piece::Sine { amplitude, omega: 3.0, start: 0.2, phase };
+            let segment = Segment { start: 0.0, end: 9.0, horizontal: sine, vertical: Piece::Zero, jumps: false };
+            let wait = until_sine_is(limit, &segment, since);
+            let size = |t: f64| segment.horizontal.value(t).abs();
+            // A microsecond later the limit is passed: by 1e-6 s times a slope of 0.4 m/s³ at least, far above rounding.
+            assert!(
+                (0..1000).all(|i| size(since + wait * f64::from(i) / 1000.0) < limit || wait == 0.0),
+                "{amplitude}"
+            );
+            assert!(size(since + wait + 1e-6) > limit, "{amplitude} {wait}");
+        }
+        let quiet = Piece::Sine { amplitude: 1.29, omega: 3.0, start: 0.0, phase: 0.0 };
+        let segment = Segment { start: 0.0, end: 9.0, horizontal: quiet, vertical: Piece::Zero, jumps: false };
+        assert_eq!(until_sine_is(limit, &segment, 0.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_needle_starts_at_once_and_a_threshold_above_the_crest_is_never_reached() {
+        let t = zero_of(&segment(3.0), [1e-200, 1.6], Interface::Left).expect("it starts");
+        assert!(t < 1e-199);
+        let arm = [0.2, 0.8];
+        let crest = 0.2 * 9.81 / 0.8;
+        assert_eq!(zero_of(&segment(crest * (1.0 - 1e-12)), arm, Interface::Left), None);
+        assert!(zero_of(&segment(crest * (1.0 + 1e-9)), arm, Interface::Left).is_some());
+    }
+}
