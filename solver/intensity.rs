@@ -94,6 +94,15 @@ impl Intensity {
         }
     }
 
+    /// Value of one unit without a column, where one g is `gravity [m/s²]`; `None` for a unit that is that of a column.
+    pub fn unit_size_without_column(&self, gravity: f64) -> Option<f64> {
+        match self.unit {
+            IntensityUnit::Si => Some(1.0),
+            IntensityUnit::Gravity => Some(gravity),
+            IntensityUnit::Uplift => None,
+        }
+    }
+
     /// The label of an axis: quantity and unit.
     pub fn label(&self) -> String {
         match (self.measure, self.unit) {

@@ -498,12 +498,13 @@ fn records_are_scaled_to_any_measure() {
 #[test]
 fn rows_of_other_axes_are_kept_apart() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut table = String::from("index,column.alpha,seed,pgv,outcome\n");
+    let mut table = String::from("index,column.alpha,seed,pgv,outcome,truncated\n");
     for (index, (alpha, lost)) in [(0.15, 4), (0.3, 8)].into_iter().enumerate() {
         for record in 0..6 {
             for level in 1..=12 {
                 let outcome = if level + record % 3 > lost { "overturns" } else { "rocks" };
-                let _ = writeln!(table, "{index},{alpha},{record},{},{outcome}", f64::from(level) / 10.0);
+                let is_cut = alpha > 0.2 && level == 1;
+                let _ = writeln!(table, "{index},{alpha},{record},{},{outcome},{is_cut}", f64::from(level) / 10.0);
             }
         }
     }
@@ -523,7 +524,9 @@ fn rows_of_other_axes_are_kept_apart() {
     };
     let (all, warning) = fitted(&[]);
     assert!(all == 144 && warning.contains("2 values of `column.alpha`") && warning.contains("--where"), "{warning}");
-    assert_eq!(fitted(&["--where", "column.alpha=0.30"]), (72, String::new()));
+    assert_eq!(fitted(&["--where", "column.alpha=0.15"]), (72, String::new()));
+    let (runs, warning) = fitted(&["--where", "column.alpha=0.30"]);
+    assert!(runs == 72 && warning.contains("6 run(s) end before their ground motion"), "{warning}");
     for (condition, word) in
         [("alpha=0.3", "no column `alpha`"), ("column.alpha=0.4", "no row"), ("alpha", "COLUMN=VALUE")]
     {

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking::ground::{AccelerationUnit, Measure, Synthetic, TextOptions, read_file};
-use rocking::intensity::{DEFAULT_DAMPING, Intensity, IntensityUnit, NAMES};
+use rocking::intensity::{DEFAULT_DAMPING, Intensity, NAMES};
 use std::path::PathBuf;
 
 /// A record: accelerations at equal intervals, linear between.
@@ -107,21 +107,14 @@ impl Record {
         if !(size.is_finite() && size > 0.0) {
             return Err(PyValueError::new_err(format!("{measure} = {size} is out of range; give a number above zero")));
         }
-        let (unit, gravity) = match (intensity.unit, column) {
-            (_, Some(scene)) => (intensity.unit_size(&scene.scene.column), scene.scene.column.gravity()),
-            (IntensityUnit::Si, None) => (1.0, gravity),
-            (IntensityUnit::Gravity, None) => (gravity, gravity),
-            _ => {
-                return Err(PyValueError::new_err(format!(
-                    "{measure} is over what opens the base of a column; give `column`"
-                )));
-            }
+        let (unit, gravity) = match column.map(|scene| &scene.scene.column) {
+            Some(column) => (Some(intensity.unit_size(column)), column.gravity()),
+            None => (intensity.unit_size_without_column(gravity), gravity),
         };
-        let record = self.record.clone();
-        let scaled = match intensity.measure {
-            Measure::Pga => record.scaled_to_peak(size * unit),
-            other => record.scaled_to(other, size * unit, gravity),
-        };
+        let unit = unit.ok_or_else(|| {
+            PyValueError::new_err(format!("{measure} is over what opens the base of a column; give `column`"))
+        })?;
+        let scaled = self.record.clone().scaled_to(intensity.measure, size * unit, gravity);
         scaled.map(Record::from).map_err(|refused| self.refused(py, &refused))
     }
 

@@ -166,8 +166,8 @@ impl Reader<'_> {
             (Some((factor, _)), None) => record
                 .scaled(factor)
                 .map_err(|error| own(table.wrong("scale", error.to_string(), "give a smaller factor")))?,
-            (None, Some(target)) => target
-                .scale(record, column.gravity())
+            (None, Some(target)) => record
+                .scaled_to(target.measure, target.size, column.gravity())
                 .map_err(|error| own(table.wrong(key, error.to_string(), "use another record or another size")))?,
             (None, None) => record,
         };
@@ -230,15 +230,6 @@ pub(super) struct Target {
     pub measure: Measure,
     /// Size, in the unit of the measure.
     pub size: f64,
-}
-
-impl Target {
-    fn scale(&self, record: Record, gravity: f64) -> Result<Record, RecordError> {
-        match self.measure {
-            Measure::Pga => record.scaled_to_peak(self.size),
-            measure => record.scaled_to(measure, self.size, gravity),
-        }
-    }
 }
 
 /// Size that one of the keys [`NAMES`](crate::intensity::NAMES) gives; `None` without such a key.
@@ -425,8 +416,8 @@ fn synthetic(table: &mut Table, column: &Column) -> Result<Record, Wrong> {
     })?;
     let record = match target.measure {
         Measure::Pga => record,
-        _ => {
-            let scaled = target.scale(record, column.gravity());
+        measure => {
+            let scaled = record.scaled_to(measure, target.size, column.gravity());
             scaled.map_err(|error| table.wrong(target.key, error.to_string(), "correct the number"))?
         }
     };

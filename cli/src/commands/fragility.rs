@@ -3,7 +3,7 @@
 use crate::arguments;
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TRUST};
+use crate::commands::sweep::{OUTCOME, TRUNCATED, TRUST};
 use crate::error::{Failure, at};
 use crate::table::{Format, open};
 use crate::terminal::{json, print, warn};
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Fits, prints, writes and draws.
 pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
-    let Runs { measure, runs, pooled, peaks, has_slides, .. } =
+    let Runs { measure, runs, warnings, peaks, has_slides, .. } =
         read(&asked.table, asked.measure.as_deref(), &asked.conditions)?;
     let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
     let states = match &asked.state[..] {
@@ -58,7 +58,7 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
         write(&figure, picture)?;
         let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
     }
-    warn(&pooled);
+    warn(&warnings);
     if asked.json { json(&conclusions) } else { print(&told) }
 }
 
@@ -69,8 +69,8 @@ pub struct Runs {
     pub runs: Vec<Observation>,
     /// The first error in the table.
     pub first_error: Option<String>,
-    /// Warnings: columns that are neither the record nor the measure, and whose values differ.
-    pooled: Vec<String>,
+    /// Warnings: columns that are neither the record nor the measure, and whose values differ; runs that were cut.
+    warnings: Vec<String>,
     /// Number of the columns of peaks, one for each block.
     peaks: usize,
     has_slides: bool,
@@ -84,7 +84,7 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
     let conditions = columns.conditions(conditions).map_err(refused)?;
     let mut values = vec![BTreeSet::new(); columns.others.len()];
-    let (mut runs, mut first_error) = (Vec::new(), None);
+    let (mut runs, mut first_error, mut cut) = (Vec::new(), None, 0);
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
         if !conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
@@ -96,6 +96,7 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
         if let ("error", Some(error)) = (&row[columns.outcome], columns.error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
+        cut += usize::from(columns.truncated.is_some_and(|truncated| &row[truncated] == "true"));
         let run = columns.observation(&row, number);
         runs.push(run.map_err(|problem| refused(format!("row {}, {problem}", number + 1)))?);
     }
@@ -113,8 +114,12 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     });
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
-    let (pooled, peaks, has_slides) = (pooled.collect(), columns.peaks.len(), !columns.slides.is_empty());
-    Ok(Runs { measure, runs, first_error, pooled, peaks, has_slides })
+    let mut warnings: Vec<String> = pooled.collect();
+    if cut > 0 {
+        warnings.push(format!("{cut} run(s) end before their ground motion (`{TRUNCATED}`), and count as standing"));
+    }
+    let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
+    Ok(Runs { measure, runs, first_error, warnings, peaks, has_slides })
 }
 
 /// Columns before the outcome that are no axes.
@@ -140,6 +145,7 @@ struct Columns {
     uplift: Option<usize>,
     error: Option<usize>,
     trust: Option<usize>,
+    truncated: Option<usize>,
     /// One for each block.
     peaks: Vec<usize>,
     /// One for each interface.
@@ -179,6 +185,7 @@ impl Columns {
             uplift: column("first_uplift"),
             error: column("error"),
             trust: column(TRUST),
+            truncated: column(TRUNCATED),
             peaks: numbered("peak_")?,
             slides: numbered("residual_slide_")?,
             names,

@@ -10,7 +10,7 @@ use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use crate::{output, plot};
 use rocking::ground::{Measure, Measures, RecordFile, TextOptions};
-use rocking::intensity::{DEFAULT_DAMPING, Intensity, IntensityUnit};
+use rocking::intensity::{DEFAULT_DAMPING, Intensity};
 use rocking::{Column, DEFAULT_GRAVITY, Record, RecordError};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -47,12 +47,11 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         {
             *own = damping;
         }
-        let unit = match (&column, intensity.unit) {
-            (Some(column), _) => intensity.unit_size(column),
-            (None, IntensityUnit::Si) => 1.0,
-            (None, IntensityUnit::Gravity) => DEFAULT_GRAVITY,
-            (None, _) => return Err(Failure::NoColumn(intensity.to_string())),
+        let unit = match &column {
+            Some(column) => Some(intensity.unit_size(column)),
+            None => intensity.unit_size_without_column(DEFAULT_GRAVITY),
         };
+        let unit = unit.ok_or_else(|| Failure::NoColumn(intensity.to_string()))?;
         record = record.scaled_to(intensity.measure, size * unit, DEFAULT_GRAVITY).map_err(refused)?;
     }
     description.measure(&record);

@@ -38,6 +38,9 @@ pub trait StepInside<'p>: Moments<'p> {
 
     /// Contact forces at a time `[s]`, as in [`Node::contacts`].
     fn contacts(&mut self, t: f64) -> PerBlock<ContactForce>;
+
+    /// Gap of a free interface at a time `[s]` `[m]`.
+    fn gap(&mut self, t: f64, interface: usize) -> f64;
 }
 
 /// A node of the quadrature over a step.
@@ -335,7 +338,7 @@ impl<'p> SlidingRecorder<'p> {
         self.read_until = until;
         for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free {
-                let gap = |t: f64| contacts::gap(inside.moment(t, false).chain(), interface);
+                let gap = |t: f64| inside.gap(t, interface);
                 self.report.highest_flight = highest(gap, [from, until], self.report.highest_flight);
             }
         }

@@ -1,13 +1,14 @@
 //! What the recorder reads of a step: moments, crests of angles, forces and work at the nodes of a quadrature.
 
 use super::{Output, Step};
-use crate::friction::chain::Rates;
+use crate::friction::chain::{Chain, Rates};
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::joint::Configuration;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::track::Track;
+use crate::run::sliding::contacts;
 use crate::run::sliding::recorder::{Moments, Node, StepInside};
 use crate::run::sliding::smooth::Moment;
 
@@ -72,6 +73,12 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
 
     fn contacts(&mut self, t: f64) -> PerBlock<ContactForce> {
         self.contacts_at(self.place(t))
+    }
+
+    fn gap(&mut self, t: f64, interface: usize) -> f64 {
+        self.output.state(self.place(t), &mut self.state);
+        let now = self.smooth.configuration(&self.state);
+        contacts::gap(&Chain::new(self.smooth.column, &now), interface)
     }
 }
 
