@@ -28,7 +28,7 @@ pub enum StopReason {
     AtRest,
     /// The run reached `t_end`.
     EndOfTime,
-    /// The energy left cannot overturn the column, which may still rock; only where nothing but the outcome is wanted.
+    /// The energy left cannot overturn the column, which may still rock; only where nothing but the outcome is requested.
     Stands,
     /// The column is certain to overturn before `t_end`, but has not yet; only for [`crate::Wanted::Overturns`].
     Falls,
@@ -308,7 +308,7 @@ pub struct Separation {
 pub struct Response {
     /// Why the run ended.
     pub status: StopReason,
-    /// When the run ended `[s]`: at overturning or collapse, at coming to rest for good, when what is wanted is certain, or at `t_end`.
+    /// When the run ended `[s]`: at overturning or collapse, at coming to rest for good, when what is requested is certain, or at `t_end`.
     pub t_final: f64,
     /// Whether the column stands at the end of the run and the ground still moves after `t_end`: the outcome then holds up to `t_end` only.
     #[serde(default)]
@@ -321,15 +321,15 @@ pub struct Response {
     /// The column at the output times.
     #[serde(skip)]
     pub samples: Vec<Sample>,
-    /// Events in order of time; none where nothing but the outcome is wanted.
+    /// Events in order of time; none where nothing but the outcome is requested.
     #[serde(skip)]
     pub events: Vec<Event>,
     /// Number of impacts.
     pub impacts: usize,
-    /// Largest magnitude of each block's angle `[rad]`; empty where nothing but the outcome is wanted.
+    /// Largest magnitude of each block's angle `[rad]`; empty where nothing but the outcome is requested.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`; a pattern and its mirror image are one mode. `rest` counts as a mode, in which a column that has come to
-    /// rest for good stays until `t_end`. Empty where nothing but the outcome is wanted.
+    /// rest for good stays until `t_end`. Empty where nothing but the outcome is requested.
     pub time_in_mode: BTreeMap<String, f64>,
     /// Largest `|T| / N` per interface, a fall included, dimensionless; infinite if a tangential force acts without compression.
     /// Empty if the scene's options ask for no forces.
@@ -369,7 +369,7 @@ impl Response {
 
     /// Largest `|θ|` of each block over the slenderness of the stack from that block up, base first, dimensionless. Above one, the block has been
     /// past its balance; so it is from the start in a stack that does not stand by itself, whose share is infinite. Empty where nothing but the
-    /// outcome is wanted.
+    /// outcome is requested.
     pub fn peaks(&self, column: &Column) -> Vec<f64> {
         let share = |(block, peak): (usize, &f64)| match column.stack(block).slenderness() {
             slenderness if slenderness > 0.0 => peak / slenderness,

@@ -746,3 +746,18 @@ fn the_onset_of_a_slide_is_not_ambiguous() {
     let sliding = run(&scene).sliding.expect("friction");
     assert!(sliding.way_slid[0] > 1e-3 && sliding.ambiguous.is_empty(), "{:?}", sliding.ambiguous);
 }
+
+/// Where the upper of two flat blocks turns, the force that its kinetic friction leaves is less than the lower contact can hold: it alone slides on. Both
+/// slid, and the lower block was left displaced by 7 mm.
+#[test]
+fn no_contact_slides_that_static_friction_holds() {
+    let block = || Block::rectangle(2.0, 0.2, 1.0);
+    let mut scene = scene(vec![block(), block()], vec![0.35, 0.18]);
+    scene.friction = Some(Friction::new(vec![0.35, 0.18], vec![0.19, 0.09]));
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 0.5 * GRAVITY, omega: 12.0, start: 0.0 });
+    scene.options.t_end = 3.0;
+    let sliding = run(&scene).sliding.expect("friction");
+    // While the upper block slides, the lower contact needs (0.5 + 0.09) m g / 2 m g = 0.295 at most.
+    assert!(sliding.way_slid[0] == 0.0 && sliding.way_slid[1] > 0.1, "{:?}", sliding.way_slid);
+    assert_eq!(sliding.ambiguous.len(), 1, "both might slide");
+}

@@ -25,24 +25,37 @@ fn contact_problems_of_many_blocks_are_solved() {
     }
 }
 
+/// Corners inside a face by rounding and on their way out landed again and again (`landloop9`, `landloop12`); hops that are too low were ended and opened in
+/// turn (`cycle6`, `cycle7`, `thrown166`, `limit8`).
+#[test]
+fn events_of_one_instant_come_to_an_end() {
+    for name in ["landloop9", "landloop12", "cycle6", "cycle7", "thrown166", "limit8"] {
+        let (_, response) = run(name);
+        assert!(response.status != StopReason::Undetermined, "{name}: at {} s", response.t_final);
+    }
+}
+
 /// Faces that had met got one rate without regard to momentum: the energy rose by 8e-6 of it at 0.4058 s.
 #[test]
 fn events_take_energy_and_never_give_it() {
-    let (scene, response) = run("joined6");
     let mut counted = 0;
-    for event in response.events.iter().filter(|event| !event.blocks.is_empty()) {
-        let kinetic = |velocity: &dyn Fn(usize) -> [f64; 2], omega: &[f64]| -> f64 {
-            let parts = scene.column.blocks().iter().enumerate().map(|(j, block)| {
-                let [vx, vy] = velocity(j);
-                0.5 * (block.mass * (vx * vx + vy * vy) + block.inertia * omega[j] * omega[j])
-            });
-            parts.sum()
-        };
-        let before = kinetic(&|j| event.blocks[j].velocity_before, &event.omega_before);
-        let after = kinetic(&|j| event.blocks[j].velocity_after, &event.omega_after);
-        // Velocities of 1 m/s have roundings of 1e-15: energies of some joules are exact to 1e-13.
-        assert!(after <= before + 1e-13, "t = {}: {before} J to {after} J", event.t);
-        counted += 1;
+    // A face that meets while others are joined had no projection of its own: 5e-3 of the energy at 0.5864 s.
+    for name in ["joined6", "energy7"] {
+        let (scene, response) = run(name);
+        for event in response.events.iter().filter(|event| !event.blocks.is_empty()) {
+            let kinetic = |velocity: &dyn Fn(usize) -> [f64; 2], omega: &[f64]| -> f64 {
+                let parts = scene.column.blocks().iter().enumerate().map(|(j, block)| {
+                    let [vx, vy] = velocity(j);
+                    0.5 * (block.mass * (vx * vx + vy * vy) + block.inertia * omega[j] * omega[j])
+                });
+                parts.sum()
+            };
+            let before = kinetic(&|j| event.blocks[j].velocity_before, &event.omega_before);
+            let after = kinetic(&|j| event.blocks[j].velocity_after, &event.omega_after);
+            // Velocities of 1 m/s have roundings of 1e-15: energies of some joules are exact to 1e-13.
+            assert!(after <= before + 1e-13, "t = {}: {before} J to {after} J", event.t);
+            counted += 1;
+        }
     }
     assert!(counted > 50, "{counted} events");
 }

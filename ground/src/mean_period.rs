@@ -21,8 +21,8 @@ impl Record {
     /// Mean period `[s]`. It is zero for a record of zeros, and if no frequency of the transform lies in the band.
     pub(crate) fn mean_period(&self) -> f64 {
         let (samples, dt) = (self.accel(), self.dt());
-        let wanted = (1.0 / (LARGEST_STEP * dt)).min((samples.len() * MOST_PADDING) as f64) as usize;
-        let size = samples.len().max(wanted).next_power_of_two();
+        let padded = (1.0 / (LARGEST_STEP * dt)).min((samples.len() * MOST_PADDING) as f64) as usize;
+        let size = samples.len().max(padded).next_power_of_two();
         let step = 1.0 / (size as f64 * dt);
         // A band without a frequency needs no transform.
         if step > BAND[1] || 0.5 / dt < BAND[0] {

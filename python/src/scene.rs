@@ -111,6 +111,14 @@ impl Scene {
             let excitation = &mut scene.excitation;
             excitation.horizontal = horizontal.map(motion).or(excitation.horizontal.take());
             excitation.vertical = vertical.map(motion).or(excitation.vertical.take());
+            // The end of a run that is not given follows from the ground motion, which the text does not have.
+            let end = match keys.get_item("solver")? {
+                Some(solver) => solver.contains("t_end")?,
+                None => false,
+            };
+            if let Some(t_end) = scene.end_of_free_swing().filter(|_| !end) {
+                scene.options.t_end = t_end;
+            }
             scene.check().map_err(|errors| error::faults(py, &file, &errors))?;
         }
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })

@@ -225,7 +225,17 @@ impl Runs<'_> {
         if !(level.is_finite() && level > 0.0) {
             return Err(PyValueError::new_err(format!("row {run}: the level {level} is not a number above zero")));
         }
-        let numbers = |row: ArrayView1<'_, f64>| row.iter().copied().filter(|number| !number.is_nan()).collect();
+        // Columns of blocks that this run's column does not have are blank, at the end.
+        let numbers = |row: ArrayView1<'_, f64>| -> PyResult<Vec<f64>> {
+            let filled = row.iter().rposition(|number| !number.is_nan()).map_or(0, |last| last + 1);
+            match row.iter().take(filled).position(|number| number.is_nan()) {
+                Some(blank) => Err(PyValueError::new_err(format!(
+                    "row {run}: the number of block or interface {} is blank, and later ones are not",
+                    blank + 1
+                ))),
+                None => Ok(row.iter().take(filled).copied().collect()),
+            }
+        };
         let outcome = self.outcomes[run].as_deref();
         let cells = Cells {
             record: self.records[run].clone(),
@@ -233,8 +243,8 @@ impl Runs<'_> {
             outcome,
             trust: self.trust.as_ref().and_then(|trust| trust[run].as_deref()),
             has_uplift: self.uplift.as_ref().map(|uplift| uplift[run]),
-            peaks: numbers(peaks),
-            residual_slides: numbers(slides),
+            peaks: numbers(peaks)?,
+            residual_slides: numbers(slides)?,
         };
         let wrong =
             |refused| PyValueError::new_err(format!("row {run}: `{}` is {refused}", outcome.unwrap_or_default()));

@@ -284,3 +284,49 @@ def test_the_figure_of_a_study_leaves_runs_out_that_are_not_determined() -> None
     drawn = axes.lines[0].get_xdata()
     assert axes.get_xlim()[1] < 1.2 and np.isnan(drawn[1:3]).all() and drawn[0] == 0.4 and np.isfinite(drawn[3])
     plt.close("all")
+
+
+def test_a_record_in_memory_decides_the_end_of_the_run():
+    """As a record file does: the run ended as if there were no ground motion."""
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
+    record = rk.Record.synthetic(1, duration=40)
+    assert rk.Scene(column, record).t_end == rk.Scene(column, rk.total(record)).t_end >= 50
+    assert rk.Scene(column, rk.pulse("sine-pulse", amplitude=1, omega=5), vertical=record).t_end >= 50
+    assert rk.Scene(column, record, t_end=3).t_end == 3
+
+
+def test_the_scene_of_a_point_is_run_as_it_is():
+    """Its keys were those of the base scene: whatever was replaced in it ran another scene."""
+    pulse = rk.pulse("sine-pulse", amplitude_uplift=3, omega_p=5)
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.56), pulse, eta=0.9, t_end=10)
+    point = rk.Sweep(scene, {"amplitude_uplift": [0.5, 8.0]}).scene(0)
+    assert rk.simulate(point).outcome == "no-uplift"
+    for use in (lambda: point.toml, lambda: point.keys, lambda: point.replace(rtol=1e-8), lambda: rk.simulate(point, rtol=1e-8), lambda: point.column):
+        with pytest.raises(ValueError, match="point of a sweep"):
+            use()
+
+
+def test_columns_of_blocks_go_by_their_numbers():
+    table = pd.DataFrame({"record": np.repeat(list("abcdefghij"), 6), "pgv": np.tile([0.1, 0.2, 0.3, 0.4, 0.5, 0.6], 10), "outcome": "rocks"})
+    table["peak_2"], table["peak_1"] = table.pgv, 0.0
+    study = rk.Study(table)
+    assert study.fragility("peak_2 > 0.33", replicates=0).counts.reached.tolist() == [0, 0, 0, 10, 10, 10]
+    assert study.fragility("peak_1 > 0.33", replicates=0).counts.reached.tolist() == [0] * 6
+    with pytest.raises(rk.StudyError, match="from 1"):
+        rk.Study(table.drop(columns="peak_1")).fragility("overturned", replicates=0)
+    table.loc[3, "peak_1"] = np.nan
+    with pytest.raises(ValueError, match="row 3"):
+        rk.Study(table).fragility("overturned", replicates=0)
+
+
+def test_rows_of_other_axes_make_one_curve_with_a_warning():
+    table = pd.DataFrame({"alpha": [0.1, 0.2] * 6, "record": list("abcdef") * 2, "pgv": np.linspace(0.1, 1.2, 12), "outcome": ["rocks"] * 6 + ["overturns"] * 6})
+    with pytest.warns(UserWarning, match="2 values of `alpha`"):
+        rk.Study(table).fragility("overturned", replicates=0)
+
+
+def test_arguments_that_a_study_does_not_use_are_refused():
+    column = rk.Column.prisms(1, half_width=0.3, half_height=1.2)
+    for argument in ({"vertical": rk.pulse("ricker", amplitude=1, omega=5)}, {"t_end": 20.0}):
+        with pytest.raises(TypeError, match="a study has no argument"):
+            rk.ida(column, rk.synthetic(range(2)), "PGV", [0.1, 0.2], **argument)

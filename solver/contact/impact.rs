@@ -1,10 +1,10 @@
 //! Impacts: the plastic law, restitution, and the rest rule (docs/book/model.md, section 5).
 
 use super::decision::Decision;
-use super::instant::{
-    Answer, Instant, Mechanism, ROUNDING, SingularMass, accelerate, chosen, may_open, project, sizes,
-};
 use super::search::ContactProblem;
+use super::state_at_event::{
+    Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_open, project, sizes,
+};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::kinematics::{Factorised, relative};
@@ -38,11 +38,11 @@ pub fn impact(
     ground: Ground,
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
-    for_size!(column.len(), size => impact_at(&Instant::new(size, column, theta), pattern, omega, closing, ground, law))
+    for_size!(column.len(), size => impact_at(&StateAtEvent::new(size, column, theta), pattern, omega, closing, ground, law))
 }
 
 fn impact_at<S: Size>(
-    instant: &Instant<S>,
+    instant: &StateAtEvent<S>,
     pattern: &Pattern,
     omega: &[f64],
     closing: &[usize],
@@ -115,7 +115,7 @@ pub(crate) fn stick(
     omega: &[f64],
     closing: &[usize],
 ) -> Result<Decision, SingularMass> {
-    let instant = Instant::new(Any(column.len()), column, theta);
+    let instant = StateAtEvent::new(Any(column.len()), column, theta);
     let mut states = instant.states(pattern);
     let posture = instant.posture(&states);
     let before = instant.motion(&posture, omega);
@@ -220,7 +220,7 @@ const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 /// closed as well. Mechanism and rates become those with the interfaces closed; returns the accelerations and forces.
 #[inline(always)]
 fn settle<'a, S: Size>(
-    instant: &Instant<'a, S>,
+    instant: &StateAtEvent<'a, S>,
     mechanism: &mut Mechanism<'a, S>,
     rates: &mut S::List<f64>,
     free: &[bool],

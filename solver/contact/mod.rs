@@ -16,16 +16,16 @@
 
 mod decision;
 mod impact;
-mod instant;
 mod opening;
 mod search;
+mod state_at_event;
 
 pub use decision::Decision;
 pub(crate) use impact::{ENERGY_ROUNDING, stick};
 pub use impact::{ImpactLaw, impact};
-pub use instant::SingularMass;
-pub(crate) use instant::{Gaps, critical_acceleration, rounding_acceleration};
 pub use opening::open;
+pub use state_at_event::SingularMass;
+pub(crate) use state_at_event::{Gaps, critical_acceleration, rounding_acceleration};
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,8 @@
 //! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
 
 use super::decision::Decision;
-use super::instant::{Instant, Mechanism, SingularMass, accelerate, critical_acceleration, may_open};
 use super::search::ContactProblem;
+use super::state_at_event::{Mechanism, SingularMass, StateAtEvent, accelerate, critical_acceleration, may_open};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::kinematics::relative;
@@ -23,11 +23,11 @@ pub fn open(
     ground: Ground,
     released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
-    for_size!(column.len(), size => open_at(&Instant::new(size, column, theta), pattern, omega, ground, released))
+    for_size!(column.len(), size => open_at(&StateAtEvent::new(size, column, theta), pattern, omega, ground, released))
 }
 
 fn open_at<S: Size>(
-    instant: &Instant<S>,
+    instant: &StateAtEvent<S>,
     pattern: &Pattern,
     omega: &[f64],
     ground: Ground,

@@ -1,7 +1,7 @@
 //! Search for the admissible pattern of a contact problem: from a guess by changing the states whose conditions are violated, and for the nearest
 //! of all patterns if that fails (docs/book/model.md, section 5, item 3, and section 9).
 
-use super::instant::{Answer, Instant, Mechanism, SingularMass, chosen};
+use super::state_at_event::{Answer, Mechanism, SingularMass, StateAtEvent, chosen};
 use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::{PerBlock, Size};
 use rocking_codegen::pattern::Interface;
@@ -17,7 +17,7 @@ const CRITICAL_SHARE: f64 = 1e-12;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
 pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
-    pub(super) instant: &'i Instant<'a, S>,
+    pub(super) instant: &'i StateAtEvent<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
     pub(super) free: &'i [bool],
     /// Least relative motion with which an open interface parts: zero for accelerations, above rounding for rates.
@@ -229,7 +229,7 @@ fn distance<S: Size>(mechanism: &Mechanism<S>, answer: &Answer<S>) -> f64 {
 mod tests {
     use super::*;
     use crate::column::{Block, Column};
-    use crate::contact::instant::{accelerate, project, sizes};
+    use crate::contact::state_at_event::{accelerate, project, sizes};
     use crate::mechanics::dynamics::Ground;
     use crate::numerics::per_block::{Any, largest};
     use proptest::prelude::*;
@@ -328,7 +328,7 @@ mod tests {
             if closing.is_empty() {
                 return;
             }
-            let instant = &Instant::new(Any(column.len()), &column, &theta);
+            let instant = &StateAtEvent::new(Any(column.len()), &column, &theta);
             let states = instant.states(&pattern);
             let before = instant.motion(&instant.posture(&states), &omega);
             let free = instant.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
@@ -352,7 +352,7 @@ mod tests {
         for_random(500, &stack, |(blocks, x, gravity)| {
             let column = Column::new(blocks, 9.81).expect("valid");
             let (ground, zero) = (Ground { x, gravity }, vec![0.0; column.len()]);
-            let instant = &Instant::new(Any(column.len()), &column, &zero);
+            let instant = &StateAtEvent::new(Any(column.len()), &column, &zero);
             let free = instant.size.list_of(|_| true);
             let answer = |candidate: &Mechanism<Any>| accelerate(candidate, &zero, ground);
             let given = |_: usize| [x.abs() + gravity.abs(), 0.0];

@@ -133,6 +133,34 @@ impl<'a> Search<'a> {
 
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
+        self.found_from(first).map(|found| self.with_fewest_slides(found))
+    }
+
+    /// Where kinetic friction is less than static friction, contacts may slide together of which one alone would do: the others stick, as far as the states
+    /// are admissible then, which are fewer changes. Both being admissible, the instant is ambiguous.
+    fn with_fewest_slides(&self, mut found: Solution) -> Solution {
+        let Coefficients { fixed, kinetic } = self.friction;
+        if matches!(self.question, Question::Impact(_)) || fixed == kinetic {
+            return found;
+        }
+        for interface in 0..found.joints.len() {
+            let mut joints = found.joints.clone();
+            joints[interface] = match joints[interface] {
+                _ if self.given_slip(interface).is_some() => continue,
+                Joint::Closed(Slip::Slides(_)) => Joint::Closed(Slip::Sticks),
+                Joint::Corner(side, _, Slip::Slides(_)) => self.corner(interface, side, Slip::Sticks),
+                _ => continue,
+            };
+            let answer = self.answer(&joints);
+            if let Some(answer) = answer.filter(|answer| self.is_admissible(&joints, answer, self.slack.margin())) {
+                found = Solution { joints, answer, is_ambiguous: true };
+            }
+        }
+        found
+    }
+
+    /// The states that follow, with as many slides as the search comes to.
+    fn found_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let guided = self.guided(first.clone());
         let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;

@@ -36,6 +36,18 @@ pub struct ContactForce {
     pub moment: f64,
 }
 
+impl ContactForce {
+    /// The coefficient of friction that the force needs, `|T| / N`. If the normal force is not positive: zero without a tangential force, infinite with
+    /// one.
+    pub fn friction_demand(&self) -> f64 {
+        match (self.normal > 0.0, self.tangential == 0.0) {
+            (true, _) => self.tangential.abs() / self.normal,
+            (false, true) => 0.0,
+            (false, false) => f64::INFINITY,
+        }
+    }
+}
+
 /// Interfaces at which forces are requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interfaces {

@@ -32,8 +32,8 @@ pub(crate) trait Steps {
     fn cost_follows_length(&self) -> bool {
         false
     }
-    /// Attempts a step of length `wanted`, or of a length that the method finds better, but of no more than `most` `[s]`.
-    fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt;
+    /// Attempts a step of length `suggested`, or of a length that the method finds better, but of no more than `most` `[s]`.
+    fn attempt(&mut self, t: f64, suggested: f64, most: f64, tolerance: Tolerance) -> Attempt;
     /// Accepts the last attempt. Then its inside may be read.
     fn accept(&mut self);
     /// Makes the accepted attempt end after `h` `[s]`, at an event.
@@ -200,23 +200,23 @@ impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
         self.fixed.unwrap_or_else(|| self.control.first_step(&self.start, &self.slope, tolerance))
     }
 
-    fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {
-        let h = without_remainder(wanted, most);
+    fn attempt(&mut self, t: f64, suggested: f64, most: f64, tolerance: Tolerance) -> Attempt {
+        let h = without_remainder(suggested, most);
         self.part = Part::Attempt;
         self.interpolants.iter_mut().for_each(|(_, is_current)| *is_current = false);
         let error = self.method.attempt(&mut self.system, t, &self.start, &self.slope, h, tolerance);
         let fits = h * if self.fixed.is_some() { 1.0 } else { self.control.factor(error) };
-        let wanted = if error.is_nan() {
+        let suggested = if error.is_nan() {
             0.1 * h
         } else if error > 1.0 {
             fits.min(h)
-        } else if h < wanted {
-            // A step cut short by a segment's end says nothing against the step wanted.
-            wanted.max(fits)
+        } else if h < suggested {
+            // A step cut short by a segment's end says nothing against the step suggested.
+            suggested.max(fits)
         } else {
             fits
         };
-        Attempt { h, error, wanted }
+        Attempt { h, error, suggested }
     }
 
     fn accept(&mut self) {
@@ -388,9 +388,9 @@ impl<D: Dynamics> Steps for TaylorSteps<D> {
         self.series.adds_orders_singly()
     }
 
-    fn attempt(&mut self, t: f64, wanted: f64, most: f64, tolerance: Tolerance) -> Attempt {
+    fn attempt(&mut self, t: f64, suggested: f64, most: f64, tolerance: Tolerance) -> Attempt {
         let known = self.series.known_at(t, &self.start);
-        let attempted = self.series.attempt(&mut self.system, t, &self.start, [wanted, most], tolerance);
+        let attempted = self.series.attempt(&mut self.system, t, &self.start, [suggested, most], tolerance);
         self.system.driven.calls += self.series.known_at(t, &self.start) - known;
         attempted
     }

@@ -264,24 +264,24 @@ impl Mode {
             return Err(IntegrateError::Gap { time: pair[0].end });
         }
         let (mut t, mut states) = (first, vec![x.to_vec()]);
-        let (mut wanted, mut has_begun) = (f64::INFINITY, false);
+        let (mut suggested, mut has_begun) = (f64::INFINITY, false);
         for segment in segments.iter().filter(|segment| segment.end > first) {
             let end = segment.end.min(last);
             integrator.enter(segment);
             let start = if has_begun { integrator.start().to_vec() } else { x.to_vec() };
             integrator.begin(t, &start);
             if !has_begun {
-                (wanted, has_begun) = (integrator.first_step(tolerance), true);
+                (suggested, has_begun) = (integrator.first_step(tolerance), true);
             }
             let mut longest = f64::INFINITY;
             while t < end {
                 let left = end - t;
-                let attempt = integrator.attempt(t, wanted, left.min(longest), tolerance);
-                wanted = attempt.wanted;
+                let attempt = integrator.attempt(t, suggested, left.min(longest), tolerance);
+                suggested = attempt.suggested;
                 if !attempt.is_good() {
-                    longest = wanted;
-                    if t + wanted <= t {
-                        return Err(IntegrateError::StepTooSmall { time: t, step: wanted });
+                    longest = suggested;
+                    if t + suggested <= t {
+                        return Err(IntegrateError::StepTooSmall { time: t, step: suggested });
                     }
                     continue;
                 }

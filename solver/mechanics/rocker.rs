@@ -13,7 +13,7 @@ pub(crate) struct Rocker {
     /// `[G, G']` `[1/m]`
     pulled: f64x2,
     /// `[H, H']` `[1/m]`
-    shaken: f64x2,
+    excited: f64x2,
 }
 
 impl Rocker {
@@ -26,7 +26,7 @@ impl Rocker {
             Some(f64x2::new([-of_cos.as_slice().first()? / inertia, -of_sin.as_slice().first()? / inertia]))
         };
         let pulled = under(Ground { x: 0.0, gravity: 1.0 })?;
-        Some(Rocker { gravity, pulled, shaken: under(Ground { x: 1.0, gravity: 0.0 })? })
+        Some(Rocker { gravity, pulled, excited: under(Ground { x: 1.0, gravity: 0.0 })? })
     }
 
     /// Weights in the part of a segment from `t` to `t + h` `[s]`, with `h` as unit of time. `None` if the ground's acceleration is not linear there.
@@ -35,8 +35,8 @@ impl Rocker {
         let [a, a_slope] = segment.horizontal.line_at(t)?;
         let [v, v_slope] = segment.vertical.line_at(t)?;
         let (g, square) = (self.gravity + v, h * h);
-        let start = self.pulled * f64x2::splat(g) + self.shaken * f64x2::splat(a);
-        let slope = self.pulled * f64x2::splat(v_slope) + self.shaken * f64x2::splat(a_slope);
+        let start = self.pulled * f64x2::splat(g) + self.excited * f64x2::splat(a);
+        let slope = self.pulled * f64x2::splat(v_slope) + self.excited * f64x2::splat(a_slope);
         Some([start * f64x2::splat(square), slope * f64x2::splat(square * h)])
     }
 }

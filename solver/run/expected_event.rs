@@ -4,12 +4,12 @@
 /// Ratio of a step to the time of the expected event. Smaller, and the event falls into the next step more often; larger, and the step takes more orders.
 const STEP_OVER_EXPECTED_TIME: f64 = 1.25;
 
-/// Least share of the wanted step to which an expected event shortens a step. Zero, and a step could be too short to advance the time.
-const LEAST_SHARE_OF_WANTED_STEP: f64 = 1e-6;
+/// Least share of the suggested step to which an expected event shortens a step. Zero, and a step could be too short to advance the time.
+const LEAST_SHARE_OF_SUGGESTED_STEP: f64 = 1e-6;
 
-/// Length of a step that ends soon after an event expected at `time` `[s]`, where the method wants a step of length `wanted` `[s]`.
-pub fn longest_step(time: f64, wanted: f64) -> f64 {
-    (STEP_OVER_EXPECTED_TIME * time).max(LEAST_SHARE_OF_WANTED_STEP * wanted)
+/// Length of a step that ends soon after an event expected at `time` `[s]`, where the method suggests a step of length `suggested` `[s]`.
+pub fn longest_step(time: f64, suggested: f64) -> f64 {
+    (STEP_OVER_EXPECTED_TIME * time).max(LEAST_SHARE_OF_SUGGESTED_STEP * suggested)
 }
 
 /// Time at which a gap of this value, rate and constant acceleration closes `[s]`; infinite if it does not close. A gap that is zero has just opened.

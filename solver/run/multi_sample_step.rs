@@ -153,16 +153,16 @@ impl Phase {
 
     /// Visits the steps from sample to sample up to a time `[s]`.
     fn visit_samples(&mut self, problem: &Problem, until: f64, visit: &mut dyn FnMut(&mut Stretch)) {
-        let (mut wanted, mut longest) = (f64::INFINITY, f64::INFINITY);
+        let (mut suggested, mut longest) = (f64::INFINITY, f64::INFINITY);
         loop {
             let t = self.t;
             let last = problem.ground[self.segment].end.min(until);
-            let attempt = self.integrator.attempt(t, wanted, longest.min(last - t), problem.tolerance);
-            wanted = attempt.wanted;
+            let attempt = self.integrator.attempt(t, suggested, longest.min(last - t), problem.tolerance);
+            suggested = attempt.suggested;
             if !attempt.is_good() {
                 self.work.rejected += 1;
-                longest = wanted;
-                if t + wanted <= t {
+                longest = suggested;
+                if t + suggested <= t {
                     return;
                 }
                 continue;

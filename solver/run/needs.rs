@@ -5,6 +5,7 @@
 
 use super::stretch::{Inside, Panel};
 use crate::column::Column;
+use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::root_between;
 use crate::numerics::per_block::PerBlock;
 use crate::validity::{COEFFICIENTS, ContactNeeds, Exceedance, Extreme, Span, Validity};
@@ -45,12 +46,60 @@ struct ExtremeSoFar {
     theta: f64,
 }
 
-/// What a contact needs within a panel: friction demands and normal forces at start, middle and end, and their extremes between.
+/// What a contact needs within a panel: forces and friction demands at start, middle and end, and extremes of the parabolas through them.
 pub(crate) struct InPanel {
-    pub demand: [f64; 3],
-    pub normal: [f64; 3],
+    tangential: [f64; 3],
+    normal: [f64; 3],
+    demand: [f64; 3],
     pub largest_demand: f64,
     pub least_normal: f64,
+}
+
+impl InPanel {
+    /// From the contact forces at start, middle and end.
+    #[inline(always)]
+    pub fn of(forces: [ContactForce; 3]) -> InPanel {
+        let (tangential, normal) = (forces.map(|force| force.tangential), forces.map(|force| force.normal));
+        let least_normal = -crest(normal.map(|normal| -normal));
+        let demand = forces.map(|force| force.friction_demand());
+        let is_finite = demand.iter().all(|demand| demand.is_finite());
+        // Between the three places the contact may part while a tangential force acts.
+        let parts = least_normal <= 0.0 && tangential.iter().any(|tangential| *tangential != 0.0);
+        let largest_demand = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
+        InPanel { tangential, normal, demand, largest_demand, least_normal }
+    }
+
+    /// The same within a part of the panel, between two shares of it.
+    fn part(&self, [from, until]: [f64; 2]) -> InPanel {
+        let force = |share: f64| ContactForce {
+            normal: parabola(self.normal, share),
+            tangential: parabola(self.tangential, share),
+            moment: 0.0,
+        };
+        InPanel::of([from, 0.5 * (from + until), until].map(force))
+    }
+
+    /// Share of the panel in which the friction demand is above a coefficient.
+    fn share_above(&self, coefficient: f64) -> f64 {
+        if self.demand.iter().all(|demand| demand.is_finite()) {
+            return share_above(self.demand, coefficient);
+        }
+        // Where the normal force passes zero, the demand has no bound, but what the tangential force is above has: `μ N`.
+        let excess = |place: usize| self.tangential[place].abs() - coefficient * self.normal[place];
+        share_above([0, 1, 2].map(excess), 0.0)
+    }
+}
+
+/// The largest value of the parabola through three equally spaced values, between the outer two.
+fn crest([a, b, c]: [f64; 3]) -> f64 {
+    let largest = a.max(b).max(c);
+    let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
+    if bend < 0.0 && slope.abs() < -bend { largest.max(b - 0.5 * slope * slope / bend) } else { largest }
+}
+
+/// The parabola through values at 0, 1/2 and 1.
+fn parabola([a, b, c]: [f64; 3], share: f64) -> f64 {
+    a + share * (4.0 * b - 3.0 * a - c + share * (2.0 * a - 4.0 * b + 2.0 * c))
 }
 
 impl Account {
@@ -85,7 +134,7 @@ impl Account {
         // The coefficients rise: the demand is above the first few of them.
         let is_reached = |(_, level): &(&mut f64, f64)| own.largest_demand > *level;
         for (time, level) in self.above.iter_mut().zip(COEFFICIENTS).take_while(is_reached) {
-            *time += seconds * share_above(own.demand, level);
+            *time += seconds * own.share_above(level);
         }
         is_higher || is_lower
     }
@@ -131,15 +180,21 @@ impl Needs {
         if self.is_near {
             let theta = inside.state_at(end).0;
             let mut is_any_beyond = false;
-            let mut has_returned = false;
-            for ((is_past, theta), balance) in self.is_past.iter_mut().zip(&theta).zip(&self.balances) {
-                let was_past = std::mem::replace(is_past, theta.abs() > *balance);
-                has_returned |= was_past && !*is_past;
+            let mut returned: Option<f64> = None;
+            for (block, is_past) in self.is_past.iter_mut().enumerate() {
+                let (was_past, balance) =
+                    (std::mem::replace(is_past, theta[block].abs() > self.balances[block]), self.balances[block]);
+                if was_past && !*is_past {
+                    let mut past = |t: f64| inside.state_at(t).0[block].abs() - balance;
+                    let t =
+                        if past(self.last_end) > 0.0 { root_between(self.last_end, end, past) } else { self.last_end };
+                    returned = Some(returned.map_or(t, |latest| latest.max(t)));
+                }
                 is_any_beyond |= *is_past;
             }
-            if has_returned {
+            if let Some(t) = returned {
                 self.come_back();
-                self.beyond = if is_any_beyond { end } else { f64::INFINITY };
+                self.beyond = if is_any_beyond { t } else { f64::INFINITY };
             } else if is_any_beyond && !self.beyond.is_finite() {
                 self.beyond = root_between(self.last_end, end, |t| left(&inside.state_at(t).0, &self.balances));
             }
@@ -172,14 +227,15 @@ impl Needs {
             self.is_fresh |= counted.add(own, times, seconds);
             return;
         }
-        if times[0] < self.beyond {
-            // If a block passes its balance within the panel, only the values at the start are sure to be before that.
-            let ([demand, ..], [normal, ..]) = (own.demand, own.normal);
-            let start =
-                InPanel { demand: [demand; 3], normal: [normal; 3], largest_demand: demand, least_normal: normal };
-            self.is_fresh |= counted.add(&start, [times[0]; 2], 0.0);
+        let apart = &mut self.apart[interface];
+        if self.beyond <= times[0] {
+            self.is_fresh |= apart.add(own, times, seconds);
+            return;
         }
-        self.is_fresh |= self.apart[interface].add(own, times, seconds);
+        // A block passes its balance within the panel.
+        let share = (self.beyond - times[0]) / (times[1] - times[0]);
+        self.is_fresh |= counted.add(&own.part([0.0, share]), [times[0], self.beyond], share * seconds);
+        self.is_fresh |= apart.add(&own.part([share, 1.0]), [self.beyond, times[1]], (1.0 - share) * seconds);
     }
 
     /// Ends a stretch: gives its extremes their angles.
@@ -255,8 +311,6 @@ fn share_above([a, b, c]: [f64; 3], level: f64) -> f64 {
     let half = |a: f64, b: f64| match (a > level, b > level) {
         (true, true) => 0.5,
         (false, false) => 0.0,
-        // A half with an infinite value counts in full.
-        _ if a.is_infinite() || b.is_infinite() => 0.5,
         _ => 0.5 * (a.max(b) - level) / (a - b).abs(),
     };
     half(a, b) + half(b, c)
@@ -274,6 +328,12 @@ mod tests {
         assert_eq!(place([1.0, 2.0, 3.0], [2.0, 4.0]), 4.0);
         assert_eq!(place([3.0, 2.0, 1.0], [2.0, 4.0]), 2.0);
         assert_eq!(share_above([0.0, 1.0, 3.0], 2.0), 0.25);
-        assert_eq!(share_above([-1.0, -1.0, f64::INFINITY], 0.5), 0.5);
+        // Normal forces of 2, 1 and 0 under a tangential force of 1: the demand is above 2 from N = 1/2 on.
+        let forces = [2.0, 1.0, 0.0].map(|normal| ContactForce { normal, tangential: -1.0, moment: 0.0 });
+        assert_eq!(InPanel::of(forces).share_above(2.0), 0.25);
+        // The first half of a panel of the parabola (1 + x)²: values at 0, 1/4 and 1/2.
+        let forces =
+            [0.0, 0.5, 1.0].map(|x: f64| ContactForce { normal: (1.0 + x) * (1.0 + x), tangential: 0.0, moment: 0.0 });
+        assert_eq!(InPanel::of(forces).part([0.0, 0.5]).normal, [1.0, 1.5625, 2.25]);
     }
 }

@@ -54,7 +54,7 @@ pub(crate) struct Phase {
     pub(super) held_until: f64,
     pub(super) pace: Pace,
     /// Step length to attempt next `[s]`.
-    pub(super) wanted: f64,
+    pub(super) suggested: f64,
     /// Bound of the step length after a rejected attempt `[s]`; infinite otherwise.
     pub(super) longest: f64,
     /// Whether to examine if the outcome is certain: the run may end early, and its outcome may have become certain since the last examination.
@@ -290,7 +290,7 @@ impl Phase {
             segment: 0,
             held_until: f64::NEG_INFINITY,
             pace: Pace::default(),
-            wanted: 0.0,
+            suggested: 0.0,
             longest: f64::INFINITY,
             is_outcome_open: true,
             stretch: Kind::Instant,

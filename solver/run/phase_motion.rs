@@ -159,7 +159,7 @@ impl Flow for Phase {
         (self.t, self.segment) = (after.t, after.segment);
         (self.held_until, self.pace) = (after.contact.hold.until, after.pace);
         self.arm(&problem.scene.column, &after.contact.released);
-        self.wanted = match self.pace.step {
+        self.suggested = match self.pace.step {
             Some(step) => step,
             None => self.integrator.first_step(problem.tolerance),
         };
@@ -268,7 +268,7 @@ impl Inside for Phase {
             state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
         }
         (state.t, state.segment) = (t, segment);
-        state.pace = Pace { step: Some(self.wanted), ..self.pace };
+        state.pace = Pace { step: Some(self.suggested), ..self.pace };
         state
     }
 }

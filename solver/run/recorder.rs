@@ -243,7 +243,7 @@ impl Recorder {
         let largest = impulses.iter().map(size).fold(0.0, f64::max);
         for (own, impulse) in self.impulse_friction_demand.iter_mut().zip(impulses) {
             if size(impulse) > NEGLIGIBLE_IMPULSE * largest {
-                *own = own.max(friction(impulse));
+                *own = own.max(impulse.friction_demand());
             }
         }
     }
@@ -339,16 +339,9 @@ fn raise_forces(
     mut account: impl FnMut(usize, &InPanel),
 ) {
     for (interface, (largest, least)) in friction_demand.iter_mut().zip(min_normal_force).enumerate() {
-        let forces = panel.forces.map(|forces| forces[interface]);
-        let normal = forces.map(|force| force.normal);
-        let least_normal = -crest(normal.map(|normal| -normal));
-        let demand = forces.map(|force| friction(&force));
-        let is_finite = demand.iter().all(|demand| demand.is_finite());
-        // Between the three places the contact may part while a tangential force acts.
-        let parts = least_normal <= 0.0 && forces.iter().any(|force| force.tangential != 0.0);
-        let largest_demand = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
-        (*least, *largest) = (least.min(least_normal), largest.max(largest_demand));
-        account(interface, &InPanel { demand, normal, largest_demand, least_normal });
+        let own = InPanel::of(panel.forces.map(|forces| forces[interface]));
+        (*least, *largest) = (least.min(own.least_normal), largest.max(own.largest_demand));
+        account(interface, &own);
     }
 }
 
@@ -379,20 +372,4 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
         energy_lost: (transition.kind == EventKind::Impact).then_some(transition.decision.energy_lost),
         impulses: if strikes { impulses() } else { PerBlock::new() },
     }
-}
-
-/// `|T| / N`. If the normal force is not positive: zero without a tangential force, infinite with one.
-fn friction(force: &ContactForce) -> f64 {
-    match (force.normal > 0.0, force.tangential == 0.0) {
-        (true, _) => force.tangential.abs() / force.normal,
-        (false, true) => 0.0,
-        (false, false) => f64::INFINITY,
-    }
-}
-
-/// The largest value of the parabola through three equally spaced values, between the outer two.
-fn crest([a, b, c]: [f64; 3]) -> f64 {
-    let largest = a.max(b).max(c);
-    let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
-    if bend < 0.0 && slope.abs() < -bend { largest.max(b - 0.5 * slope * slope / bend) } else { largest }
 }

@@ -56,15 +56,15 @@ impl Phase {
         let held = self.held_until - t;
         let most = if held > 0.0 { left.min(held) } else { left }.min(self.longest);
         let most = match self.integrator.cost_follows_length() {
-            true => most.min(expected_event::longest_step(self.expected_closing(), self.wanted)),
+            true => most.min(expected_event::longest_step(self.expected_closing(), self.suggested)),
             false => most,
         };
-        let attempt = self.integrator.attempt(t, self.wanted, most, problem.tolerance);
-        self.wanted = attempt.wanted;
+        let attempt = self.integrator.attempt(t, self.suggested, most, problem.tolerance);
+        self.suggested = attempt.suggested;
         if !attempt.is_good() {
             self.work.rejected += 1;
             self.check_step(attempt)?;
-            self.longest = self.wanted;
+            self.longest = self.suggested;
             return Ok(Found::Nothing);
         }
         self.longest = f64::INFINITY;
@@ -88,7 +88,7 @@ impl Phase {
 
     #[cold]
     fn check_step(&self, rejected: Attempt) -> Result<(), SolveError> {
-        let (time, step) = (self.t, rejected.wanted);
+        let (time, step) = (self.t, rejected.suggested);
         // The end of a segment or an event may leave less than the resolution of the time for a step. Only an error may not shorten it to that.
         if step > 2.0 * f64::EPSILON * time.abs().max(f64::MIN_POSITIVE) && step > 1e-300 {
             return Ok(());

@@ -18,5 +18,5 @@ pub use reader::{Derived, SceneFile};
 pub use table::Cause;
 #[doc(hidden)]
 pub use table::keys_asked_by;
-pub(crate) use template::Shaken;
 pub use template::Template;
+pub(crate) use template::VariedExcitation;

@@ -99,7 +99,7 @@ impl Reader<'_> {
         let options = text_options(table, column.gravity()).map_err(own)?;
         let remedy = "give folder and name of the record without its component, e.g. \"records/RSN1045\"";
         let name = table.text("record").map_err(own)?.ok_or_else(|| own(table.missing("record", remedy)))?.0;
-        let wanted = table.text("component").map_err(own)?.map_or_else(|| "H1".into(), |(component, _)| component);
+        let requested = table.text("component").map_err(own)?.map_or_else(|| "H1".into(), |(component, _)| component);
         let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
         let refuse = |key: &str, problem: String| SceneFileError::Record {
             file: self.file.into(),
@@ -112,11 +112,11 @@ impl Reader<'_> {
         let known = components.iter().map(|component| component.name.as_str()).collect::<Vec<_>>().join(", ");
         let along: Vec<&Component> =
             components.iter().filter(|component| component.direction == Direction::Horizontal).collect();
-        let by_place = ["H1", "H2"].iter().position(|place| wanted.eq_ignore_ascii_case(place));
-        let called = along.iter().find(|component| component.is_called(&wanted));
+        let by_place = ["H1", "H2"].iter().position(|place| requested.eq_ignore_ascii_case(place));
+        let called = along.iter().find(|component| component.is_called(&requested));
         let Some(horizontal) = called.or_else(|| along.get(by_place?)).copied() else {
             let problem = format!(
-                "it has no horizontal component `{wanted}`, only {known}; choose H1, H2 or the end of a file's name, or leave the record out"
+                "it has no horizontal component `{requested}`, only {known}; choose H1, H2 or the end of a file's name, or leave the record out"
             );
             return Err(refuse("component", problem));
         };

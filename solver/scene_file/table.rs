@@ -188,19 +188,19 @@ impl Table {
         };
         self.ask(key.to_string());
         let Some(entry) = self.entry(key) else { return Ok(None) };
-        let wanted = "finite numbers or texts";
+        let needed = "finite numbers or texts";
         match &entry.value {
             Value::Array(items) => {
                 let item = |(number, (item, _)): (usize, &(Value, Place))| {
                     single(item).ok_or_else(|| {
                         let what = format!("item {} of the list is {}", number + 1, item.shown());
-                        self.wrong(key, what, &format!("give {wanted}"))
+                        self.wrong(key, what, &format!("give {needed}"))
                     })
                 };
                 items.iter().enumerate().map(item).collect::<Result<_, _>>().map(Some)
             }
             Value::Table(_) => Ok(None),
-            value => single(value).map(|value| Some(vec![value])).ok_or_else(|| self.expected(key, value, wanted)),
+            value => single(value).map(|value| Some(vec![value])).ok_or_else(|| self.expected(key, value, needed)),
         }
     }
 
@@ -265,8 +265,8 @@ impl Table {
         self.asked.iter().any(|asked| asked == key)
     }
 
-    fn expected(&self, key: &str, found: &Value, wanted: &str) -> Wrong {
-        let wrong = self.wrong(key, format!("{} stands here", found.what()), &format!("give {wanted}"));
+    fn expected(&self, key: &str, found: &Value, needed: &str) -> Wrong {
+        let wrong = self.wrong(key, format!("{} stands here", found.what()), &format!("give {needed}"));
         Wrong { cause: Cause::Key, ..wrong }
     }
 

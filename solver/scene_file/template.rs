@@ -80,9 +80,9 @@ impl Template {
 
     /// The template for scenes in which little but the ground motion changes. `others` are all keys that will be set: they show whether one of them
     /// gives the end of the run.
-    pub(crate) fn shaken<'k>(&self, mut others: impl Iterator<Item = &'k str>) -> Shaken<'_> {
+    pub(crate) fn with_varied_excitation<'k>(&self, mut others: impl Iterator<Item = &'k str>) -> VariedExcitation<'_> {
         let has_end = self.root.named("t_end").iter().any(|key| key == END) || others.any(|key| key == END);
-        Shaken { template: self, root: self.root.apart(), amplitude: None, has_end }
+        VariedExcitation { template: self, root: self.root.apart(), amplitude: None, has_end }
     }
 
     fn reader(&self) -> Reader<'_> {
@@ -146,7 +146,7 @@ fn change<'s>(root: &mut Table, settings: impl IntoIterator<Item = (&'s str, &'s
 }
 
 /// A template whose ground motion is changed again and again: only the ground motion is read anew.
-pub(crate) struct Shaken<'t> {
+pub(crate) struct VariedExcitation<'t> {
     template: &'t Template,
     root: Table,
     /// Amplitude of the last scene that `root` does not have yet, and its dotted key.
@@ -155,7 +155,7 @@ pub(crate) struct Shaken<'t> {
     has_end: bool,
 }
 
-impl<'t> Shaken<'t> {
+impl<'t> VariedExcitation<'t> {
     /// Sets these keys of the ground motion, all of them under `excitation`, to these values. No scene is made.
     ///
     /// # Errors
@@ -187,7 +187,7 @@ impl<'t> Shaken<'t> {
         scene.check().map_err(|errors| reader.refused(&self.root, &errors.faults()[0]))
     }
 
-    /// As [`Shaken::set`], for a single amplitude and without reading anything. `false` if any other key changes, or if the amplitude is not valid.
+    /// As [`VariedExcitation::set`], for a single amplitude and without reading anything. `false` if any other key changes, or if the amplitude is not valid.
     fn set_amplitude(&mut self, scene: &mut Scene, settings: impl IntoIterator<Item = (&'t str, &'t Setting)>) -> bool {
         let mut settings = settings.into_iter();
         let (Some((key, setting)), None) = (settings.next(), settings.next()) else { return false };

@@ -141,8 +141,8 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
     let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
     match table.text("folder").map_err(own)? {
         Some((folder, _)) => {
-            let wanted = ComponentChoice { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
-            found.extend(of_folder(reader, &table, &folder, &wanted, &options)?);
+            let choice = ComponentChoice { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
+            found.extend(of_folder(reader, &table, &folder, &choice, &options)?);
         }
         None => {
             if let Some(key) = ["component", "vertical"].into_iter().find(|key| table.has(key)) {
@@ -215,7 +215,7 @@ fn of_folder(
     reader: &Reader,
     table: &Table,
     folder: &str,
-    wanted: &ComponentChoice,
+    choice: &ComponentChoice,
     options: &TextOptions,
 ) -> Result<Vec<StudyRecord>, SceneFileError> {
     let refuse = |key: &str, problem: String, remedy: &str| reader.error(table.wrong(key, problem, remedy));
@@ -255,12 +255,12 @@ fn of_folder(
             })
             .collect()
     };
-    let missing = lacking(wanted.component, &|components| !wanted.of(components).is_empty());
+    let missing = lacking(choice.component, &|components| !choice.of(components).is_empty());
     if !missing.is_empty() {
         let key = if table.has("component") { "component" } else { "folder" };
         return Err(refuse(key, missing.join("; "), "choose another component, or name the files with `files`"));
     }
-    if wanted.with_vertical {
+    if choice.with_vertical {
         let is_up = |component: &Component| component.direction == Direction::Vertical;
         let missing = lacking("vertical", &|components| components.iter().any(is_up));
         if !missing.is_empty() {
@@ -270,8 +270,8 @@ fn of_folder(
     let mut found = Vec::new();
     for (_, components) in &groups {
         let up = components.iter().find(|component| component.direction == Direction::Vertical);
-        for component in wanted.of(components) {
-            let vertical = up.filter(|_| wanted.with_vertical).map(|component| component.record.clone());
+        for component in choice.of(components) {
+            let vertical = up.filter(|_| choice.with_vertical).map(|component| component.record.clone());
             let (name, horizontal) = (component.name.clone(), component.record.clone());
             found.push(StudyRecord { name, horizontal, vertical });
         }

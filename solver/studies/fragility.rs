@@ -290,12 +290,12 @@ impl Fragility {
     /// Findings in words, one sentence each, with numbers in the unit of the measure: the curve or why there is none, extrapolation, bands,
     /// few records, goodness of fit, shares that are not monotonic, undecided runs.
     pub fn statements(&self) -> Vec<String> {
-        let mut told = vec![self.fit_in_words()];
-        told.extend(self.extrapolation());
+        let mut statements = vec![self.fit_in_words()];
+        statements.extend(self.extrapolation());
         if let Some(bands) = &self.bands {
             let Bands { confidence, replicates, fitted, .. } = bands;
             let percent = brief(100.0 * confidence);
-            told.push(match (bands.median, bands.dispersion) {
+            statements.push(match (bands.median, bands.dispersion) {
                 (Some([low, high]), Some([least, most])) => format!(
                     "{percent} % bands by resampling {} records: median {} to {}, dispersion {} to {}{}",
                     self.records,
@@ -319,12 +319,13 @@ impl Fragility {
             });
         }
         if self.records < FEW_RECORDS && self.bands.as_ref().is_some_and(|bands| bands.median.is_some()) {
-            told.push(format!("{} records are few: bands of fewer than {FEW_RECORDS} are too narrow", self.records));
+            statements
+                .push(format!("{} records are few: bands of fewer than {FEW_RECORDS} are too narrow", self.records));
         }
         if let Some(Goodness { chi_squared, degrees_of_freedom, p_value, pseudo_r2 }) = &self.goodness {
             let parts = if self.layout == Layout::Stripes { "stripes" } else { "groups" };
             let p = p_value.map_or(String::new(), |p| format!(", p = {} if runs were independent", brief(p)));
-            told.push(format!(
+            statements.push(format!(
                 "goodness: Pearson's chi-squared over {parts} {} at {degrees_of_freedom} degree(s) of freedom{p}; McFadden's R² {}",
                 brief(*chi_squared),
                 brief(*pseudo_r2)
@@ -342,12 +343,12 @@ impl Fragility {
                 reasons.push(format!("{count} of {} {reason} ({names})", self.records));
             }
             let curve = if self.probability(1.0).is_some() { ", which no lognormal curve shows" } else { "" };
-            told.push(format!("not monotonic: {}; see the raw shares{curve}", reasons.join("; ")));
+            statements.push(format!("not monotonic: {}; see the raw shares{curve}", reasons.join("; ")));
         }
         if self.undecided() > 0 {
-            told.push(format!("{} undecided run(s) are left out", self.undecided()));
+            statements.push(format!("{} undecided run(s) are left out", self.undecided()));
         }
-        told
+        statements
     }
 
     /// Warning that the median lies beyond the levels of the runs; `None` if it does not, or without a curve.
@@ -627,10 +628,10 @@ mod tests {
         }
         // One of six records overturns at 0.8 and two at 1.6: the curve reaches one half beyond these levels.
         let rare = overturning(&all(|record, level| level > 0.8 && record < 2 || level > 0.5 && record == 0, 6));
-        let told = rare.statements();
+        let statements = rare.statements();
         assert!(
-            told[1].starts_with("extrapolated: the median lies beyond the levels of the runs, 0.2 to 1.6"),
-            "{told:?}"
+            statements[1].starts_with("extrapolated: the median lies beyond the levels of the runs, 0.2 to 1.6"),
+            "{statements:?}"
         );
         let falling = overturning(&all(|record, level| level < 0.3 || level < 1.0 && record == 0, 3));
         assert_eq!((falling.fit, falling.falls.len()), (Fit::Falling, 2));

@@ -10,7 +10,7 @@ use crate::column::Column;
 use crate::response::{Fate, ModeName, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
-use crate::scene_file::{SceneFileError, Setting, Shaken, Template};
+use crate::scene_file::{SceneFileError, Setting, Template, VariedExcitation};
 use crate::trust::{Follow, follow_run};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
@@ -226,7 +226,7 @@ const LEAST_POINTS: usize = 16;
 struct Worker<'s> {
     sweep: &'s Sweep,
     simulator: Simulator,
-    shaken: Shaken<'s>,
+    varied: VariedExcitation<'s>,
     /// The scene of the last point.
     scene: Option<Scene>,
     /// Values of the present point, in the order of the axes.
@@ -242,7 +242,7 @@ impl<'s> Worker<'s> {
         Worker {
             sweep,
             simulator: Simulator::new(),
-            shaken: sweep.template.shaken(sweep.axes.iter().map(|axis| axis.key.as_str())),
+            varied: sweep.template.with_varied_excitation(sweep.axes.iter().map(|axis| axis.key.as_str())),
             scene: None,
             settings: Vec::new(),
             last_settings: Vec::new(),
@@ -273,11 +273,11 @@ impl<'s> Worker<'s> {
             Some(scene) if axes(false).all(|(place, _, setting)| is_as_before(place, setting)) => {
                 // All axes from the first changed one on are set again: a key may replace an earlier one.
                 let changes = axes(true).skip_while(|(place, _, setting)| is_as_before(*place, setting));
-                self.shaken.set(scene, changes.map(|(_, key, setting)| (key, setting)))?;
+                self.varied.set(scene, changes.map(|(_, key, setting)| (key, setting)))?;
                 scene
             }
             scene => {
-                self.shaken.go_to(axes(true).map(|(_, key, setting)| (key, setting)))?;
+                self.varied.go_to(axes(true).map(|(_, key, setting)| (key, setting)))?;
                 scene.insert(self.sweep.scene(index)?)
             }
         };

@@ -56,7 +56,7 @@ impl Change {
                 let lists = [&mut initial.omega, &mut initial.vx, &mut initial.vy].into_iter();
                 let angles = (!is_placed).then_some(&mut initial.theta);
                 lists.chain(angles).flatten().for_each(|value| *value *= 1.0 + change);
-                return shaken(&changed, 1.0 + change);
+                return with_scaled_motion(&changed, 1.0 + change);
             }
             Change::Sizes(change) => {
                 changed.column = widened(&scene.column, change)?;
@@ -84,15 +84,15 @@ impl Change {
 }
 
 /// The scene with its ground motion multiplied by a factor; `None` if accelerations would be out of range.
-pub(super) fn shaken(scene: &Scene, factor: f64) -> Option<Scene> {
-    let mut shaken = scene.clone();
+pub(super) fn with_scaled_motion(scene: &Scene, factor: f64) -> Option<Scene> {
+    let mut changed = scene.clone();
     let scaled = |motion: Motion| motion.scaled(factor).ok();
-    for motion in [&mut shaken.excitation.horizontal, &mut shaken.excitation.vertical] {
+    for motion in [&mut changed.excitation.horizontal, &mut changed.excitation.vertical] {
         if let Some(old) = motion.take() {
             *motion = Some(scaled(old)?);
         }
     }
-    Some(shaken)
+    Some(changed)
 }
 
 /// The column changed as by [`Change::Sizes`]; `None` if it would be refused.

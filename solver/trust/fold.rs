@@ -3,7 +3,7 @@
 //! Outcomes are not monotonic: a column that overturns with 1 % more may stand with 2 % more, and what lies between two changes tried is not known.
 
 use super::cancellation;
-use super::companions::shaken;
+use super::companions::with_scaled_motion;
 use super::verdict::Verdict;
 use crate::response::Response;
 use crate::run::SolveError;
@@ -58,7 +58,7 @@ impl Fold {
         let slides = response.motion_at_contacts().is_some();
         let sizes: &[f64] = if slides { &TRIED_WITH_SLIDING } else { &TRIED };
         let turn = |change: f64| {
-            let Some(changed) = shaken(&short, 1.0 + change) else { return Ok(None) };
+            let Some(changed) = with_scaled_motion(&short, 1.0 + change) else { return Ok(None) };
             let run = run(&changed);
             if let Some(cancelled) = cancellation(&run) {
                 return Err(cancelled);
@@ -89,11 +89,11 @@ impl Fold {
             );
         }
         let way = |change: f64| if change > 0.0 { "more" } else { "less" };
-        let told: Vec<String> = self
+        let parts: Vec<String> = self
             .turns
             .iter()
             .map(|Turn { change, verdict }| format!("{verdict} with {} % {}", 100.0 * change.abs(), way(*change)))
             .collect();
-        format!("{} shaking", told.join(", "))
+        format!("{} shaking", parts.join(", "))
     }
 }

@@ -274,7 +274,7 @@ impl Trust {
             return text;
         }
         let verdicts = self.verdicts();
-        let told = match &verdicts[..] {
+        let verdicts_in_words = match &verdicts[..] {
             [(Some(verdict), _)] if *verdict == self.verdict => {
                 format!("all {count} companions {} as well, which proves nothing beyond", plural(*verdict))
             }
@@ -283,7 +283,10 @@ impl Trust {
                 format!("of {count} companions {}", counts.join(", "))
             }
         };
-        format!("angles are known up to t = {:.4} s only; small changes grow {grown} times; {told}", self.horizon)
+        format!(
+            "angles are known up to t = {:.4} s only; small changes grow {grown} times; {verdicts_in_words}",
+            self.horizon
+        )
     }
 }
 

@@ -18,11 +18,11 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Fits, prints, writes and draws.
-pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
+pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     let Runs { measure, runs, warnings, peaks, has_slides, .. } =
-        read(&asked.table, asked.measure.as_deref(), &asked.conditions)?;
-    let refused = |problem: String| Failure::Study(asked.table.clone(), problem);
-    let states = match &asked.state[..] {
+        read(&request.table, request.measure.as_deref(), &request.conditions)?;
+    let refused = |problem: String| Failure::Study(request.table.clone(), problem);
+    let states = match &request.state[..] {
         [] => DEFAULT_STATES.to_vec(),
         given => given.to_vec(),
     };
@@ -44,22 +44,23 @@ pub fn fragility(asked: &arguments::Fragility) -> Result<(), Failure> {
         }
     }
     let mut options = FragilityOptions::default();
-    (options.replicates, options.confidence, options.seed) = (asked.replicates as usize, asked.confidence, asked.seed);
-    options.layout = asked.layout;
-    let out = asked.out.clone().unwrap_or_else(|| tables(&asked.table)[0].clone());
-    let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(asked.plot.clone());
-    output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&asked.table))?;
+    (options.replicates, options.confidence, options.seed) =
+        (request.replicates as usize, request.confidence, request.seed);
+    options.layout = request.layout;
+    let out = request.out.clone().unwrap_or_else(|| tables(&request.table)[0].clone());
+    let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
+    output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&request.table))?;
     let conclusions = Conclusions::of(&runs, &measure, &states, &options);
-    let mut told = conclusions.text();
-    told.push_str(&conclusions.write_to(&out)?);
-    if let Some(picture) = &asked.plot {
+    let mut report = conclusions.text();
+    report.push_str(&conclusions.write_to(&out)?);
+    if let Some(picture) = &request.plot {
         let label = measure.parse().map_or(measure.clone(), |intensity: Intensity| intensity.label());
         let figure = plot::fragility(&label, &conclusions.fragilities, &plot::Paper::default());
         write(&figure, picture)?;
-        let _ = writeln!(told, "wrote {}: {}", shown(picture), figure.caption);
+        let _ = writeln!(report, "wrote {}: {}", shown(picture), figure.caption);
     }
     warn(&warnings);
-    if asked.json { json(&conclusions) } else { print(&told) }
+    if request.json { json(&conclusions) } else { print(&report) }
 }
 
 /// Runs of a table.
@@ -208,9 +209,10 @@ impl Columns {
             |place: usize, wanted: &str| format!("column `{}`: `{}` is not {wanted}", self.names[place], &row[place]);
         let level: Option<f64> = row[self.level].parse().ok();
         let level = level.filter(|level| level.is_finite() && *level > 0.0);
+        // Columns of blocks that this row's column does not have are blank, at the end.
         let numbers = |places: &[usize]| -> Result<Vec<f64>, String> {
-            let filled = places.iter().filter(|place| !row[**place].is_empty());
-            filled.map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
+            let filled = places.iter().rposition(|place| !row[*place].is_empty()).map_or(0, |last| last + 1);
+            places[..filled].iter().map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
         };
         let cells = Cells {
             record: record_of(row, &self.records, number),

@@ -30,23 +30,23 @@ use std::path::{Path, PathBuf};
 const FIRST_BATCH: usize = 16;
 
 /// Runs a study, or the missing runs of an interrupted one.
-pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
-    let out = &asked.out;
+pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
+    let out = &request.out;
     let format = Format::of(out)?;
-    inputs::check(&asked.file)?;
-    let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&asked.file).map_err(Failure::scene)?;
+    inputs::check(&request.file)?;
+    let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&request.file).map_err(Failure::scene)?;
     let stripes_file = beside(&out.with_extension("csv"), "stripes");
     let [curves_file, shares_file] = fragility::tables(out);
     let mut outputs = vec![out.clone(), stripes_file.clone(), curves_file, shares_file];
-    let pictures = asked.plot.as_ref().map(|picture| [picture.clone(), beside(picture, "fragility")]);
+    let pictures = request.plot.as_ref().map(|picture| [picture.clone(), beside(picture, "fragility")]);
     outputs.extend(pictures.iter().flatten().cloned());
     output::check(&outputs, inputs)?;
     let target = output::target(out)?;
-    let threads = threads(asked.threads)?;
+    let threads = threads(request.threads)?;
     let columns = columns(ida);
     let mut table = Growing::open(&target, &columns, digest(inputs)?.number(), 0..ida.len())?;
     let resumed = table.next;
-    let bar = Progress::of_points(ida.len(), resumed, asked.quiet || asked.json);
+    let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
     table.fill(ida.len(), FIRST_BATCH, &threads, &bar, |batch| {
         ida.lines(batch, |run| cells(ida, &run, columns.len()))
     })?;
@@ -58,12 +58,12 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
     output::file(&stripes_file, stripe_table(ida, &stripes))?;
     let measure = ida.intensity().to_string();
     let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
-    let mut told = tally(ida, &stripes);
-    told.push_str(&conclusions.text());
+    let mut report = tally(ida, &stripes);
+    report.push_str(&conclusions.text());
     let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-    let _ = writeln!(told, "wrote {} row(s){resumed} to {}", ida.len(), shown(out));
-    let _ = writeln!(told, "wrote {}", shown(&stripes_file));
-    told.push_str(&conclusions.write(out)?);
+    let _ = writeln!(report, "wrote {} row(s){resumed} to {}", ida.len(), shown(out));
+    let _ = writeln!(report, "wrote {}", shown(&stripes_file));
+    report.push_str(&conclusions.write(out)?);
     if let Some([picture, curves]) = &pictures {
         let (label, paper) = (ida.intensity().label(), Paper::default());
         for (figure, path) in [
@@ -71,17 +71,17 @@ pub fn ida(asked: &arguments::Ida) -> Result<(), Failure> {
             (plot::fragility(&label, &conclusions.fragilities, &paper), curves),
         ] {
             write(&figure, path)?;
-            let _ = writeln!(told, "wrote {}: {}", shown(path), figure.caption);
+            let _ = writeln!(report, "wrote {}: {}", shown(path), figure.caption);
         }
     }
-    if asked.json {
+    if request.json {
         json(&Summary {
             measure,
             stripes: stripes.iter().map(Line::of).collect(),
             fragility: &conclusions.fragilities,
         })?;
-    } else if !asked.quiet {
-        print(&told)?;
+    } else if !request.quiet {
+        print(&report)?;
     }
     let failed: usize = stripes.iter().map(|stripe| stripe.errors).sum();
     if failed == ida.len() {
@@ -102,15 +102,15 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     let read = fragility::read(table, None, &[])?;
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
     let conclusions = Conclusions::of(&read.runs, &read.measure, &DEFAULT_STATES, &FragilityOptions::default());
-    let mut told = String::new();
+    let mut report = String::new();
     for (figure, path) in [
         (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture.to_path_buf()),
         (plot::fragility(&label, &conclusions.fragilities, paper), beside(picture, "fragility")),
     ] {
         write(&figure, &path)?;
-        let _ = writeln!(told, "wrote {}: {}", shown(&path), figure.caption);
+        let _ = writeln!(report, "wrote {}: {}", shown(&path), figure.caption);
     }
-    Ok(Some(told))
+    Ok(Some(report))
 }
 
 /// The digest of all that decides the rows.
@@ -197,10 +197,11 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     let total = |place: usize| stripes.iter().map(|stripe| stripe.fates[place]).sum::<usize>();
     let always = [Fate::NoUplift, Fate::Rocks, Fate::Overturns];
     let fates = Fate::ALL.iter().enumerate().map(|(place, fate)| (fate, total(place)));
-    let told = fates.filter(|(fate, count)| *count > 0 || always.contains(*fate));
-    let told: Vec<String> = told.map(|(fate, count)| format!("{} {count}", fate.name().replace('-', " "))).collect();
+    let report = fates.filter(|(fate, count)| *count > 0 || always.contains(*fate));
+    let report: Vec<String> =
+        report.map(|(fate, count)| format!("{} {count}", fate.name().replace('-', " "))).collect();
     let errors: usize = stripes.iter().map(|stripe| stripe.errors).sum();
-    let _ = writeln!(text, "{}, errors {errors}", told.join(", "));
+    let _ = writeln!(text, "{}, errors {errors}", report.join(", "));
     text
 }
 

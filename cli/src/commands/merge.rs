@@ -27,13 +27,13 @@ use std::path::{Path, PathBuf};
 /// Joins tables in the order of their points. With the sweep's file, it also checks that all points are there.
 pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(), Failure> {
     let format = Format::of(out)?;
-    let wanted = sweep.map(ExpectedSweep::of).transpose()?;
+    let expected = sweep.map(ExpectedSweep::of).transpose()?;
     let mut inputs = shards.to_vec();
-    inputs.extend(wanted.iter().flat_map(|wanted| inputs_of(wanted.file, &wanted.sweep)));
-    let is_sampled = wanted.as_ref().is_some_and(|wanted| wanted.sweep.samples().is_some());
+    inputs.extend(expected.iter().flat_map(|expected| inputs_of(expected.file, &expected.sweep)));
+    let is_sampled = expected.as_ref().is_some_and(|expected| expected.sweep.samples().is_some());
     let mut outputs: Vec<PathBuf> =
         [out.into()].into_iter().chain(is_sampled.then(|| probability::table(out))).collect();
-    outputs.extend(wanted.as_ref().filter(|wanted| fractiles::has(&wanted.sweep)).map(|_| fractiles::table(out)));
+    outputs.extend(expected.as_ref().filter(|expected| fractiles::has(&expected.sweep)).map(|_| fractiles::table(out)));
     output::check(&outputs, &inputs)?;
     let mut tables = Vec::new();
     for path in shards {
@@ -51,27 +51,27 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let target = output::target(out)?;
     let merged = tempfile::NamedTempFile::new_in(folder_of(&target)).map_err(failed)?;
     let rows = match format {
-        Format::Csv => join_csv(&tables, wanted.as_ref(), merged.as_file(), failed)?,
+        Format::Csv => join_csv(&tables, expected.as_ref(), merged.as_file(), failed)?,
         #[cfg(feature = "parquet")]
-        Format::Parquet => join_parquet(&tables, wanted.as_ref(), merged.as_file(), failed)?,
+        Format::Parquet => join_parquet(&tables, expected.as_ref(), merged.as_file(), failed)?,
     };
     for path in shards {
-        check_digest(path, &shards[0], wanted.as_ref())?;
+        check_digest(path, &shards[0], expected.as_ref())?;
     }
-    let told = match &wanted {
-        Some(wanted) => format!("all points of {}", shown(wanted.file)),
+    let report = match &expected {
+        Some(expected) => format!("all points of {}", shown(expected.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
     share(&merged).map_err(failed)?;
     merged.persist(target).map_err(|error| failed(error.error))?;
-    let mut told = format!("wrote {rows} row(s) of {} table(s) to {}: {told}\n", tables.len(), shown(out));
-    if let Some(ExpectedSweep { sweep, .. }) = &wanted {
-        told.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);
+    let mut report = format!("wrote {rows} row(s) of {} table(s) to {}: {report}\n", tables.len(), shown(out));
+    if let Some(ExpectedSweep { sweep, .. }) = &expected {
+        report.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);
         if fractiles::has(sweep) {
-            told.push_str(&fractiles::write(sweep, out)?);
+            report.push_str(&fractiles::write(sweep, out)?);
         }
     }
-    print(&told)
+    print(&report)
 }
 
 /// The sweep that the tables must make up.
@@ -104,11 +104,11 @@ impl ExpectedSweep<'_> {
 
 /// Refuses a table whose digest is not that of the sweep, or of the first table if no sweep is given.
 /// A table passes if it has no digest, or if there is none to compare it with.
-fn check_digest(path: &Path, first: &Path, wanted: Option<&ExpectedSweep>) -> Result<(), Failure> {
+fn check_digest(path: &Path, first: &Path, expected: Option<&ExpectedSweep>) -> Result<(), Failure> {
     let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let Some(own) = of_table(path) else { return Ok(()) };
-    let (expected, other) = match wanted {
-        Some(wanted) => (Some(TableDigest::of(&wanted.sweep, wanted.file)?.to_string()), wanted.file),
+    let (expected, other) = match expected {
+        Some(expected) => (Some(TableDigest::of(&expected.sweep, expected.file)?.to_string()), expected.file),
         None => (of_table(first), first),
     };
     match expected {
@@ -127,18 +127,18 @@ fn first(path: &Path) -> Result<Option<u64>, Failure> {
 }
 
 /// Passes the rows of tables to `write`, in order, and returns their number. The tables must have the same columns. Each row must have an outcome
-/// or an error. Points must count up from zero without gap or repetition. If `wanted` is given, the rows must be all rows of that sweep.
+/// or an error. Points must count up from zero without gap or repetition. If `expected` is given, the rows must be all rows of that sweep.
 fn join(
     tables: &[&Path],
-    wanted: Option<&ExpectedSweep>,
+    expected: Option<&ExpectedSweep>,
     mut write: impl FnMut(&StringRecord) -> Result<(), Failure>,
 ) -> Result<usize, Failure> {
-    let mut header = wanted.map(|wanted| wanted.columns.iter().map(|column| column.name.as_str()).collect());
+    let mut header = expected.map(|expected| expected.columns.iter().map(|column| column.name.as_str()).collect());
     let mut next = 0;
     for path in tables {
         let Rows { header: found, rows } = open(path).map_err(broken(path))?;
         if *header.get_or_insert_with(|| found.clone()) != found {
-            return Err(other_columns(path, wanted));
+            return Err(other_columns(path, expected));
         }
         let outcome = found.iter().position(|name| name == OUTCOME);
         let outcome = outcome.ok_or_else(|| broken(path)(format!("it has no column `{OUTCOME}`")))?;
@@ -151,15 +151,15 @@ fn join(
             if !is_whole(&row, outcome) {
                 return Err(broken(path)(format!("the row of point {point} is not whole")));
             }
-            if let Some(wanted) = wanted.filter(|wanted| !wanted.has(&row, next)) {
-                let problem = format!("the row of point {point} is not one of {}", shown(wanted.file));
+            if let Some(expected) = expected.filter(|expected| !expected.has(&row, next)) {
+                let problem = format!("the row of point {point} is not one of {}", shown(expected.file));
                 return Err(broken(path)(problem));
             }
             write(&row)?;
             next += 1;
         }
     }
-    match wanted {
+    match expected {
         Some(ExpectedSweep { sweep, file, .. }) if sweep.len() != next => {
             Err(Failure::ShardsMissing(file.into(), sweep.len(), next))
         }
@@ -177,7 +177,7 @@ fn is_whole(row: &StringRecord, outcome: usize) -> bool {
 /// Writes the rows of tables below their header.
 fn join_csv(
     tables: &[&Path],
-    wanted: Option<&ExpectedSweep>,
+    expected: Option<&ExpectedSweep>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<usize, Failure> {
@@ -189,7 +189,7 @@ fn join_csv(
     let mut writer = csv::Writer::from_writer(out);
     let mut write = |row: &StringRecord| writer.write_record(row).map_err(|error| failed(error.into()));
     write(&open(tables[0]).map_err(broken(tables[0]))?.header)?;
-    let rows = join(tables, wanted, write)?;
+    let rows = join(tables, expected, write)?;
     writer.flush().map_err(&failed)?;
     Ok(rows)
 }
@@ -209,19 +209,19 @@ fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
 #[cfg(feature = "parquet")]
 fn join_parquet(
     tables: &[&Path],
-    wanted: Option<&ExpectedSweep>,
+    expected: Option<&ExpectedSweep>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<usize, Failure> {
     let columns = |path: &Path| parquet::Reader::open(path).map(|table| table.columns).map_err(broken(path));
-    let own = wanted.map_or_else(|| columns(tables[0]), |wanted| Ok(wanted.columns.clone()))?;
+    let own = expected.map_or_else(|| columns(tables[0]), |expected| Ok(expected.columns.clone()))?;
     for path in tables {
         if columns(path)? != own {
-            return Err(other_columns(path, wanted));
+            return Err(other_columns(path, expected));
         }
     }
     let mut writer = parquet::Writer::new(BufWriter::new(out), &own).map_err(&failed)?;
-    let rows = join(tables, wanted, |row| writer.push(row).map_err(&failed))?;
+    let rows = join(tables, expected, |row| writer.push(row).map_err(&failed))?;
     writer.finish().and_then(|mut file| file.flush()).map_err(&failed)?;
     Ok(rows)
 }
@@ -233,9 +233,9 @@ fn index(row: &StringRecord, path: &Path) -> Result<u64, Failure> {
     index.ok_or_else(|| broken(path)(format!("the row `{}` does not begin with the number of its point", text())))
 }
 
-fn other_columns(path: &Path, wanted: Option<&ExpectedSweep>) -> Failure {
-    broken(path)(match wanted {
-        Some(wanted) => format!("its columns are not those of {}", shown(wanted.file)),
+fn other_columns(path: &Path, expected: Option<&ExpectedSweep>) -> Failure {
+    broken(path)(match expected {
+        Some(expected) => format!("its columns are not those of {}", shown(expected.file)),
         None => "its columns are not those of the others".into(),
     })
 }

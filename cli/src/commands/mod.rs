@@ -43,11 +43,11 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Plot { folder, format, out, degrees, width } => {
             plot::plot(&folder, format, out.as_ref().unwrap_or(&folder), &paper(degrees, width))
         }
-        Command::Record(mut asked) => {
-            let window = record::Window::of(&mut asked)?;
-            match &asked.file {
-                Some(folder) if folder.is_dir() => records::list(folder, &asked),
-                _ => record::record(&asked, window),
+        Command::Record(mut request) => {
+            let window = record::Window::of(&mut request)?;
+            match &request.file {
+                Some(folder) if folder.is_dir() => records::list(folder, &request),
+                _ => record::record(&request, window),
             }
         }
         Command::Modes { blocks, json: true, friction: true, .. } => json(&modes::moving_rows(usize::from(blocks))),
@@ -57,14 +57,14 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),
         Command::Derive { blocks, mode, counts, format } => {
-            let asked = if counts { Asked::Counts } else { Asked::Derivation(format) };
-            print(&modes::derive(usize::from(blocks), &mode, asked)?)
+            let request = if counts { Asked::Counts } else { Asked::Derivation(format) };
+            print(&modes::derive(usize::from(blocks), &mode, request)?)
         }
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&inputs::scene(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&inputs::scene(&scene)?)),
-        Command::Sweep(asked) => sweep::sweep(&asked),
-        Command::Ida(asked) => ida::ida(&asked),
-        Command::Fragility(asked) => fragility::fragility(&asked),
+        Command::Sweep(request) => sweep::sweep(&request),
+        Command::Ida(request) => ida::ida(&request),
+        Command::Fragility(request) => fragility::fragility(&request),
         Command::Merge { out, shards, sweep } => merge::merge(&out, &shards, sweep.as_deref()),
         Command::Keys { file, schema } => keys::keys(file, schema),
         Command::Completions { shell } => shell::completions(shell),

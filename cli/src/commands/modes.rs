@@ -103,10 +103,10 @@ pub enum Asked {
 }
 
 /// The derivation or the operation counts of a mode or of states, as text.
-pub fn derive(blocks: usize, mode: &str, asked: Asked) -> Result<String, Failure> {
+pub fn derive(blocks: usize, mode: &str, request: Asked) -> Result<String, Failure> {
     if !mode.trim_start().starts_with('(') {
         let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
-        return Ok(of_pattern(&pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?, asked));
+        return Ok(of_pattern(&pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?, request));
     }
     let joints = Joints::parse(mode).map_err(|error| Failure::States(mode.into(), error))?;
     if joints.0.len() != blocks {
@@ -114,13 +114,13 @@ pub fn derive(blocks: usize, mode: &str, asked: Asked) -> Result<String, Failure
     }
     match joints.pattern() {
         Some(pattern) if pattern.dof() == 0 => Err(Failure::AtRest(mode.into())),
-        Some(pattern) => Ok(of_pattern(&pattern, asked)),
-        None => Ok(of_joints(&joints, asked)),
+        Some(pattern) => Ok(of_pattern(&pattern, request)),
+        None => Ok(of_joints(&joints, request)),
     }
 }
 
-fn of_pattern(pattern: &Pattern, asked: Asked) -> String {
-    match asked {
+fn of_pattern(pattern: &Pattern, request: Asked) -> String {
+    match request {
         Asked::Counts => report::counts(pattern),
         Asked::Derivation(Format::Text) => report::text(pattern),
         Asked::Derivation(Format::Rust) => report::rust(pattern),
@@ -128,8 +128,8 @@ fn of_pattern(pattern: &Pattern, asked: Asked) -> String {
     }
 }
 
-fn of_joints(joints: &Joints, asked: Asked) -> String {
-    match asked {
+fn of_joints(joints: &Joints, request: Asked) -> String {
+    match request {
         Asked::Counts => report::moving_counts(joints),
         Asked::Derivation(Format::Text) => report::moving_text(joints),
         Asked::Derivation(Format::Rust) => report::moving_rust(joints),

@@ -88,12 +88,12 @@ pub fn write(sweep: &Sweep, lost: &[Lost], out: &Path) -> Result<String, Failure
     }
     let bytes = rows.into_inner().map_err(|error| failed(csv::Error::from(error.into_error())))?;
     output::file(&path, bytes)?;
-    let mut told: String = lost.iter().take(PRINTED).map(|lost| lost.line()).collect();
+    let mut report: String = lost.iter().take(PRINTED).map(|lost| lost.line()).collect();
     if lost.len() > PRINTED {
-        let _ = writeln!(told, "and {} more combinations", lost.len() - PRINTED);
+        let _ = writeln!(report, "and {} more combinations", lost.len() - PRINTED);
     }
-    let _ = writeln!(told, "wrote {}", shown(&path));
-    Ok(told)
+    let _ = writeln!(report, "wrote {}", shown(&path));
+    Ok(report)
 }
 
 impl Lost {

@@ -20,12 +20,12 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Runs a scene and writes its results into a folder. Figures and report of an earlier run are removed from this folder.
-pub fn run(asked: &Run) -> Result<(), Failure> {
-    let Run { scene: path, out, .. } = asked;
+pub fn run(request: &Run) -> Result<(), Failure> {
+    let Run { scene: path, out, .. } = request;
     let text = inputs::text(path)?;
     let template = Template::from_toml(text.clone(), path).map_err(Failure::scene)?;
     let mut scene = template.with(std::iter::empty()).map_err(Failure::scene)?;
-    if asked.dynamics == Dynamics::Generic {
+    if request.dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::create(out)?;
@@ -37,7 +37,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     let touched = FILES.into_iter().chain([COMPANIONS]).chain(outdated.iter().map(String::as_str));
     let inputs: Vec<PathBuf> = template.records().into_iter().chain([path.clone()]).collect();
     output::spare(&inputs, touched.map(|name| out.join(name)))?;
-    let bar = Progress::of_run(scene.options.t_end, asked.quiet);
+    let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
     let response = simulate_observed(&scene, |t| {
@@ -46,7 +46,7 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     })
     .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
-    let followed = Followed::of(asked, &scene, &response, seconds).map_err(failed)?;
+    let followed = Followed::of(request, &scene, &response, seconds).map_err(failed)?;
     bar.finish();
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };
@@ -58,23 +58,23 @@ pub fn run(asked: &Run) -> Result<(), Failure> {
     if out.join(COMPANIONS).is_file() {
         written.push(COMPANIONS.into());
     }
-    if asked.plots || asked.report {
+    if request.plots || request.report {
         // Figures and page are made of the files, so that they are the same as those of `rocking plot` and `rocking report`.
         let results = Results::read(out)?;
-        if asked.plots {
+        if request.plots {
             written
                 .extend(plot::draw(&results, Picture::Svg, out, &Paper::default())?.into_iter().map(|(file, _)| file));
         }
-        if asked.report {
+        if request.report {
             output::file(&out.join(report::NAME), crate::report::page(&results))?;
             written.push(report::NAME.into());
         }
     }
-    if asked.quiet {
+    if request.quiet {
         return Ok(());
     }
     warn(&finished.warnings);
-    if asked.json {
+    if request.json {
         return json_text(&folder.summary()?);
     }
     print(&format!("{}wrote {} to {}\n", account(&scene, &response, &followed), written.join(", "), shown(out)))
@@ -126,15 +126,15 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
     // Names of blocks are printed once, in the first list.
     let with_names = |numbers: &[f64]| {
-        let told = numbers.iter().enumerate().map(|(block, number)| match name(scene, block + 1) {
+        let report = numbers.iter().enumerate().map(|(block, number)| match name(scene, block + 1) {
             "" => format!("{number:.5}"),
             name => format!("{} {number:.5}", printable(name)),
         });
-        told.collect::<Vec<_>>().join(", ")
+        report.collect::<Vec<_>>().join(", ")
     };
     let modes = response.modes_by_time();
-    let (told, others) = modes.split_at(modes.len().min(MODES_PRINTED));
-    let mut modes: Vec<String> = told.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
+    let (report, others) = modes.split_at(modes.len().min(MODES_PRINTED));
+    let mut modes: Vec<String> = report.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
     if !others.is_empty() {
         let time: f64 = others.iter().map(|(_, time)| time).sum();
         modes.push(format!("{} others {time:.3} s", others.len()));

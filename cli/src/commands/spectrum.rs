@@ -14,13 +14,13 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Refuses a sweep that cannot be drawn, before it is run.
-pub fn check(asked: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
-    if asked.shard.is_some() {
+pub fn check(request: &arguments::Sweep, sweep: &Sweep) -> Result<(), Failure> {
+    if request.shard.is_some() {
         return Err(Failure::PlotOfShard);
     }
     let values = |axis: &Axis| axis.values.iter().map(ToString::to_string).collect();
     let axes: Vec<(String, Vec<String>)> = sweep.axes.iter().map(|axis| (axis.key.clone(), values(axis))).collect();
-    check_axes(&axes, sweep.len(), sweep.ask.is_of_peaks()).map_err(at(Failure::Spectrum, &asked.file))
+    check_axes(&axes, sweep.len(), sweep.ask.is_of_peaks()).map_err(at(Failure::Spectrum, &request.file))
 }
 
 /// Draws a table into files with the name of the table, in the folder `out` or else beside the table.
@@ -43,9 +43,9 @@ pub fn plot(
     };
     output::check(&files(&picture), &[table.into()])?;
     if table.exists()
-        && let Some(told) = study(table, &picture, paper)?
+        && let Some(report) = study(table, &picture, paper)?
     {
-        return print(&told);
+        return print(&report);
     }
     print(&draw(table, &picture, paper)?)
 }

@@ -28,39 +28,39 @@ use std::path::{Path, PathBuf};
 const FIRST_BATCH: usize = 256;
 
 /// Runs a sweep, or the missing points of an interrupted one.
-pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
-    let out = asked.table();
+pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
+    let out = request.table();
     let format = Format::of(&out)?;
-    let sweep = read(&asked.file)?;
-    if asked.plot.is_some() {
-        spectrum::check(asked, &sweep)?;
+    let sweep = read(&request.file)?;
+    if request.plot.is_some() {
+        spectrum::check(request, &sweep)?;
     }
     let mut outputs = vec![out.clone()];
-    outputs.extend(asked.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    outputs.extend(request.plot.iter().flat_map(|picture| spectrum::files(picture)));
     // Probabilities and fractiles are made of whole tables only, not of shards.
-    let is_sampled = sweep.samples().is_some() && asked.shard.is_none();
+    let is_sampled = sweep.samples().is_some() && request.shard.is_none();
     outputs.extend(is_sampled.then(|| probability::table(&out)));
-    let is_of_records = asked.shard.is_none() && fractiles::has(&sweep);
+    let is_of_records = request.shard.is_none() && fractiles::has(&sweep);
     outputs.extend(is_of_records.then(|| fractiles::table(&out)));
-    let inputs = inputs_of(&asked.file, &sweep);
+    let inputs = inputs_of(&request.file, &sweep);
     output::check(&outputs, &inputs)?;
     let target = output::target(&out)?;
-    let range = asked.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
+    let range = request.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let (fields, columns) = (sweep.fields().map_err(Failure::scene)?, columns(&sweep)?);
-    let threads = threads(asked.threads)?;
-    let mut digest = TableDigest::of(&sweep, &asked.file)?;
+    let threads = threads(request.threads)?;
+    let mut digest = TableDigest::of(&sweep, &request.file)?;
     let of_sweep = digest.to_string();
     digest.add(format!("{range:?}").as_bytes());
     let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
     let resumed = table.next - range.start;
-    let bar = Progress::of_points(range.len(), resumed, asked.quiet || asked.json);
+    let bar = Progress::of_points(range.len(), resumed, request.quiet || request.json);
     table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
         sweep.lines(batch, |row| fields.iter().map(|field| cell(&row, *field, sweep.ask)).collect::<StringRecord>())
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     // Only now: an interrupted run leaves the table of an earlier one with the digest of that one.
-    match asked.shard {
+    match request.shard {
         Some(_) => output::file(&digest_file(&out), of_sweep)?,
         None => output::remove(&digest_file(&out), &inputs)?,
     }
@@ -69,13 +69,13 @@ pub fn sweep(asked: &arguments::Sweep) -> Result<(), Failure> {
         output::remove(&by_product, &inputs)?;
     }
     let drawn =
-        asked.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()))?;
+        request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()))?;
     let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
     let fractiles = if is_of_records { fractiles::write(&sweep, &out)? } else { String::new() };
-    if asked.json {
+    if request.json {
         json(&Counts { tally: &tally, lost })?;
-    } else if !asked.quiet {
+    } else if !request.quiet {
         let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
         let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
         // If all rows are errors, the failure below states the first one.

@@ -21,13 +21,13 @@ pub enum Followed {
 impl Followed {
     /// Follows a run that took `seconds`. Not with `--no-trust`, nor after more than [`LONGEST_FOLLOWED`] without `--trust`.
     pub fn of(
-        asked: &arguments::Run,
+        request: &arguments::Run,
         scene: &Scene,
         response: &Response,
         seconds: f64,
     ) -> Result<Followed, SolveError> {
-        match seconds > LONGEST_FOLLOWED && !asked.trust {
-            _ if asked.no_trust => Ok(Followed::No),
+        match seconds > LONGEST_FOLLOWED && !request.trust {
+            _ if request.no_trust => Ok(Followed::No),
             true => Ok(Followed::TooLong(seconds)),
             false => follow_run(scene, response, Follow::default()).map(|trust| Followed::By(Box::new(trust))),
         }

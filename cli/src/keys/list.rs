@@ -128,12 +128,12 @@ fn bounded(kind: &str, bounds: &Value) -> String {
     let of =
         |key: &str, sign: &str| bounds.get(key).and_then(Value::as_f64).map(|bound| format!("{sign} {}", brief(bound)));
     let bounds = [("minimum", "≥"), ("exclusiveMinimum", ">"), ("maximum", "≤"), ("exclusiveMaximum", "<")];
-    let told: Vec<String> = bounds.into_iter().filter_map(|(key, sign)| of(key, sign)).collect();
+    let parts: Vec<String> = bounds.into_iter().filter_map(|(key, sign)| of(key, sign)).collect();
     // Whole numbers have no sign: zero as the only bound is not stated.
-    if told.is_empty() || (kind == "whole number" && told == ["≥ 0"]) {
+    if parts.is_empty() || (kind == "whole number" && parts == ["≥ 0"]) {
         return kind.into();
     }
-    format!("{kind} {}", told.join(", "))
+    format!("{kind} {}", parts.join(", "))
 }
 
 /// A bound with few digits.
@@ -180,8 +180,8 @@ fn collect<'s>(schema: &Schema<'s>, value: &'s Value, path: &str, tables: &mut V
     tables.push(Table { heading, keys: properties.iter().map(key).collect() });
     for (name, own) in properties {
         // Not listed again: `vertical` has the keys of `horizontal`, `term` those of a component, `scene` those of scene files.
-        let is_told = name == "term" || name == "vertical" || path.is_empty() && name == "scene";
-        if !is_told {
+        let is_reported = name == "term" || name == "vertical" || path.is_empty() && name == "scene";
+        if !is_reported {
             let below = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
             collect(schema, own, &below, tables);
             of_any_name(schema, own, &below, tables);

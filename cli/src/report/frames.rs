@@ -97,8 +97,8 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
             frames.extend(sides(&results.column, event, ground.at(results, index, event.t)));
         }
         // A row at the time of an event is left out: the event gives the frames before and after.
-        let is_told = frames.last().is_some_and(|frame| frame.t == row.t);
-        if !is_told && (index % stride == 0 || index == last) {
+        let is_reported = frames.last().is_some_and(|frame| frame.t == row.t);
+        if !is_reported && (index % stride == 0 || index == last) {
             let at = ground.at(results, index, row.t);
             let places: Vec<[f64; 2]> = row.blocks.iter().map(|block| block.place).collect();
             frames.push(Frame {

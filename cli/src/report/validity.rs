@@ -59,14 +59,14 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
     };
     let slid = moved(|report, interface| report.way_slid[interface] > 0.0);
     let flew = moved(|report, interface| report.flights[interface] > 0);
-    let mut told = Vec::new();
+    let mut parts = Vec::new();
     if !slid.is_empty() {
-        told.push(format!("{} slid", named(&slid)));
+        parts.push(format!("{} slid", named(&slid)));
     }
     if !flew.is_empty() {
-        told.push(format!("{} parted for a time", named(&flew)));
+        parts.push(format!("{} parted for a time", named(&flew)));
     }
-    let mut why = format!("sliding and flight are part of it; {}", told.join(", "));
+    let mut why = format!("sliding and flight are part of it; {}", parts.join(", "));
     let mut notes = Vec::new();
     match report.balance() {
         Some(error) if error <= BALANCE => {
@@ -291,8 +291,9 @@ pub fn details(results: &Results) -> String {
 
 /// Table of the times for which each contact needs more than the [`COEFFICIENTS`], and for which it would pull. Empty if all times are zero.
 fn durations(validity: &Validity) -> String {
-    let is_told = |needs: &ContactNeeds| needs.tension.time > 0.0 || needs.above.iter().any(|above| above.time > 0.0);
-    if !validity.contacts.iter().any(is_told) {
+    let is_reported =
+        |needs: &ContactNeeds| needs.tension.time > 0.0 || needs.above.iter().any(|above| above.time > 0.0);
+    if !validity.contacts.iter().any(is_reported) {
         return String::new();
     }
     let cell = |time: f64, share: f64| match time {

@@ -40,12 +40,12 @@ impl Arena {
 
     /// `[inner, rest]` with `expr = factor · inner + rest`. A term goes to `inner` if it has every base of `factor` with at least that exponent.
     pub fn split_off(&mut self, expr: Expr, factor: Expr) -> [Expr; 2] {
-        let wanted = self.factors(factor);
+        let needed = self.factors(factor);
         let (mut inner, mut rest) = (Vec::new(), Vec::new());
         for (coefficient, term) in self.terms(expr) {
             let factors = self.factors(term);
-            if wanted.iter().all(|(f, power)| factors.iter().any(|(g, exponent)| g == f && exponent >= power)) {
-                let quotient = factors.into_iter().chain(wanted.iter().map(|&(f, power)| (f, -power)));
+            if needed.iter().all(|(f, power)| factors.iter().any(|(g, exponent)| g == f && exponent >= power)) {
+                let quotient = factors.into_iter().chain(needed.iter().map(|&(f, power)| (f, -power)));
                 inner.push((coefficient, self.product(quotient)));
             } else {
                 rest.push((coefficient, term));

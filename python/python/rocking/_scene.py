@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Name in errors of a scene that has no file.
 WITHOUT_FILE = "<scene>"
+#: File of the scene of a point of a sweep.
+WITHOUT_KEYS = "<point of a sweep>"
 
 Numbers = Union[Sequence[float], npt.NDArray[np.float64]]
 
@@ -337,7 +339,7 @@ class Scene:
         **arguments: "Unpack[SceneKeys]",
     ) -> "Scene":
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``. A value of None in ``keys`` removes a key."""
-        keys = _copy(self._keys)
+        keys = self.keys
         if column is not None:
             keys = {**{key: value for key, value in keys.items() if key not in ("column", "block")}, **_copy(column._keys)}
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
@@ -356,13 +358,15 @@ class Scene:
     @property
     def keys(self) -> dict[str, Any]:
         """The keys as in a scene file; a copy."""
+        if self._file == WITHOUT_KEYS:
+            raise ValueError("the scene of a point of a sweep has no keys of its own; change the base scene, or the axes")
         keys: dict[str, Any] = _copy(self._keys)
         return keys
 
     @property
     def toml(self) -> str:
         """The scene as the text of a scene file, records in memory with their samples."""
-        return self._text if self._text is not None else _rocking.to_toml(self._keys)
+        return self._text if self._text is not None else _rocking.to_toml(self.keys)
 
     @property
     def file(self) -> str:
@@ -373,7 +377,8 @@ class Scene:
     def column(self) -> Column:
         """The column."""
         made = Column.__new__(Column)
-        made._become({key: _copy(self._keys[key]) for key in ("column", "block", "gravity") if key in self._keys}, None)
+        keys = self.keys
+        made._become({key: keys[key] for key in ("column", "block", "gravity", "size") if key in keys}, None)
         return made
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -61,6 +62,9 @@ class Ida:
         trust: bool = True,
         **arguments: "Unpack[SceneKeys]",
     ) -> None:
+        for name in ("horizontal", "vertical", "t_end", "t_eval", "output_dt"):
+            if arguments.get(name) is not None:
+                raise TypeError(f"a study has no argument `{name}`: its records shake the column, and free_swing ends its runs")
         scene = column if isinstance(column, Scene) else Scene(column, **arguments)
         if scene is column and arguments:
             scene = scene.replace(**arguments)
@@ -206,11 +210,20 @@ class Study:
         else:
             records = [f"run {number}" for number in range(1, len(table) + 1)]
 
+        axes = [name for name in names[: names.index("outcome")] if name not in ("index", "scale", self.measure)] if "outcome" in names else []
+        for name in axes:
+            count = 1 if name in of_records else table[name].nunique(dropna=False)
+            if count > 1:
+                warnings.warn(f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one", stacklevel=3)
+
         def texts(name: str) -> list[str | None]:
             return [None if pd.isna(cell) else str(cell) for cell in table[name]]
 
         def grid(prefix: str) -> Array:
-            own = [name for name in names if name.startswith(prefix) and name[len(prefix) :].isdigit()]
+            numbers = sorted(int(name[len(prefix) :]) for name in names if name.startswith(prefix) and name[len(prefix) :].isdigit())
+            if numbers != list(range(1, len(numbers) + 1)):
+                raise StudyError(f"the columns {prefix}... have the numbers {numbers}; give all of them, from 1")
+            own = [f"{prefix}{number}" for number in numbers]
             return np.ascontiguousarray(table[own].to_numpy(dtype=np.float64, na_value=np.nan)).reshape(len(table), len(own))
 
         return Runs(

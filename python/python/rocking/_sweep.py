@@ -10,7 +10,7 @@ import pandas as pd
 
 from . import _rocking
 from ._frame import arrow, frame
-from ._scene import Scene
+from ._scene import WITHOUT_KEYS, Scene
 
 if TYPE_CHECKING:
     import pyarrow
@@ -83,9 +83,9 @@ class Sweep:
         return len(self._sweep)
 
     def scene(self, index: int) -> Scene:
-        """The scene of a point, without rows and forces."""
+        """The scene of a point, without rows and forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
         native = self._sweep.scene(index)
-        return Scene._of(_rocking.from_toml(native.toml), WITHOUT_KEYS, native, native.toml)
+        return Scene._of({}, WITHOUT_KEYS, native)
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
         """Runs the points from ``start`` to before ``stop``; a row each, with the columns of ``rocking sweep``.
@@ -121,7 +121,6 @@ class Sweep:
 
 
 #: File of a scene that a sweep made of its base scene.
-WITHOUT_KEYS = "<point of a sweep>"
 
 
 @overload

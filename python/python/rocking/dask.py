@@ -124,7 +124,11 @@ def to_parquet(
 
     Arguments as of :func:`frame`; ``options`` are those of ``dask.dataframe.DataFrame.to_parquet``.
     """
+    path = os.fspath(folder)
+    is_kept = options.get("overwrite") or options.get("append")
+    if not is_kept and os.path.isdir(path) and any(name.endswith((".parquet", ".parq")) for name in os.listdir(path)):
+        raise FileExistsError(f"{path} has Parquet files, which would be read with the new ones; give another folder, or overwrite=True")
     table: Any = frame(plan, rows=rows, partition_size=partition_size, threads=threads)
-    written = table.to_parquet(os.fspath(folder), write_index=False, compute=False, **options)
+    written = table.to_parquet(path, write_index=False, compute=False, **options)
     # One task for each partition: rows are written by the worker that made them.
     written.optimize(fuse=True).compute()

@@ -71,7 +71,7 @@ pub struct Attempt {
     /// Error relative to the tolerance, at most one if the step is good. Not a number if the step has left the range of doubles.
     pub error: f64,
     /// Length of the next attempt `[s]`: from the end of this step if it is good, otherwise from the same place.
-    pub wanted: f64,
+    pub suggested: f64,
 }
 
 impl Attempt {
@@ -90,10 +90,10 @@ pub enum Part {
     UpToEvent,
 }
 
-/// The wanted step, up to `most`; 0.6 of `most` where the whole step would leave a small remainder.
+/// The suggested step, up to `most`; 0.6 of `most` where the whole step would leave a small remainder.
 #[inline(always)]
-pub fn without_remainder(wanted: f64, most: f64) -> f64 {
-    if wanted >= most { most } else { wanted.min(0.6 * most) }
+pub fn without_remainder(suggested: f64, most: f64) -> f64 {
+    if suggested >= most { most } else { suggested.min(0.6 * most) }
 }
 
 /// `x^(1/n)` of a normal positive number, the same on every machine. Right to 1 %, for `n >= 3` to 0.5 %: step lengths need no more.

@@ -41,7 +41,7 @@ pub const SAFETY: f64 = 0.9;
 /// Error of a step above which no longer step is sought: it would save less than the search costs.
 const LONG_ENOUGH: f64 = 0.1;
 
-/// Largest ratio of a step to the wanted length, and of the next wanted length to the step. The last terms of a series say little about a
+/// Largest ratio of a step to the suggested length, and of the next suggested length to the step. The last terms of a series say little about a
 /// step far beyond the length for which they were examined, least of all where the motion lingers at an unstable balance.
 pub const LARGEST_GROWTH: f64 = 8.0;
 
@@ -84,7 +84,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         self.series.forget();
     }
 
-    /// Attempts a step from `(t, x)` that is as long as the terms allow, but no longer than `most`; `wanted` is a guess of this length. A repeated
+    /// Attempts a step from `(t, x)` that is as long as the terms allow, but no longer than `most`; `suggested` is a guess of this length. A repeated
     /// attempt from the same place computes only the coefficients that are missing.
     #[inline(always)]
     pub fn attempt<S: SeriesSystem<State = V, Links = L>>(
@@ -92,13 +92,13 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         system: &mut S,
         t: f64,
         x: &V,
-        [wanted, most]: [f64; 2],
+        [suggested, most]: [f64; 2],
         tolerance: Tolerance,
     ) -> Attempt {
         // A step that is cut short, for example by the next sample of a record, begins with few orders and adds those that it needs.
-        let orders = if wanted >= most { self.first_orders() } else { self.series.largest_order };
+        let orders = if suggested >= most { self.first_orders() } else { self.series.largest_order };
         self.series.expand(system, t, x, orders);
-        let (mut target, mut guesses) = (wanted, 0);
+        let (mut target, mut guesses) = (suggested, 0);
         let (h, order, error, next) = loop {
             let h = without_remainder(target, most);
             let is_cut = h == most || h < target;
@@ -112,7 +112,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
                 break (h, order, error, h * self.factor_wanted(error, order));
             }
             let (factor, is_sure) = fitting(error, order);
-            target = (h * factor).min(LARGEST_GROWTH * wanted);
+            target = (h * factor).min(LARGEST_GROWTH * suggested);
             if is_sure {
                 break (without_remainder(target, most), order, 1.0, target);
             }
@@ -124,7 +124,11 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
             self.evaluate(order, h);
             is_finite = self.end.as_slice().iter().all(|value| value.is_finite());
         }
-        if is_finite { Attempt { h, error, wanted: next } } else { Attempt { h, error: f64::NAN, wanted: 0.1 * h } }
+        if is_finite {
+            Attempt { h, error, suggested: next }
+        } else {
+            Attempt { h, error: f64::NAN, suggested: 0.1 * h }
+        }
     }
 
     /// Whether orders are added one by one, as a step needs them: true for several angles. With one angle, adding all missing orders at once
@@ -415,7 +419,7 @@ mod tests {
                 x = *taylor.end();
                 steps += 1;
             }
-            h = attempt.wanted;
+            h = attempt.suggested;
         }
         // Three thousand steps of some roundings each, at random: 1e-16 · 55, three times over.
         assert!((energy(&x) - start).abs() < 2e-14, "{:e}", energy(&x) - start);

@@ -85,7 +85,7 @@ pub(crate) struct OutcomeBounds {
 }
 
 impl OutcomeBounds {
-    /// The bounds for runs of this scene; `None` if more than the outcome is wanted.
+    /// The bounds for runs of this scene; `None` if more than the outcome is requested.
     pub fn new(scene: &Scene) -> Option<OutcomeBounds> {
         let is_outcome_all = scene.options.wanted != Wanted::Everything;
         let barrier = is_outcome_all.then(|| scene.column.barrier(scene.options.overturn_angle))?;
@@ -127,7 +127,7 @@ impl OutcomeBounds {
 }
 
 /// Least rate `q` at which a single block runs away from its balance until it has overturned `[1/s]`. `None` if the column has several blocks, or
-/// more is wanted than whether it overturns.
+/// more is requested than whether it overturns.
 fn growth_rate(scene: &Scene) -> Option<f64> {
     let (stack, limit) = (scene.column.stack(0), scene.options.overturn_angle);
     let widest = stack.slenderness().max((limit - stack.slenderness()).abs());
@@ -190,7 +190,7 @@ mod tests {
             let mut scene = Scene::new(Column::new(blocks.collect(), 9.81).expect("positive sizes"));
             scene.options.wanted = crate::Wanted::Outcome;
             let turns: Vec<Turn> = theta.iter().map(|angle| Turn::new(*angle)).collect();
-            let outcome_bounds = OutcomeBounds::new(&scene).expect("nothing but the outcome is wanted");
+            let outcome_bounds = OutcomeBounds::new(&scene).expect("nothing but the outcome is requested");
             (outcome_bounds.potential(&turns), potential(&scene.column, theta))
         };
         for theta in [[0.1, 0.2, -0.3], [-0.2, 0.1, 0.4], [0.3, 0.25, 0.1], [-0.1, -0.7, -0.2]] {

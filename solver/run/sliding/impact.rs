@@ -2,7 +2,7 @@
 
 use super::contacts;
 use super::state::RunEnd;
-use super::transition::Instant;
+use super::transition::PendingTransition;
 use crate::friction::DEPTH_SHARE;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Question, Touch};
@@ -13,7 +13,7 @@ use crate::friction::search::{Search, Solution};
 use crate::mechanics::kinematics::lower;
 use crate::response::{EventKind, Impulse};
 
-impl Instant<'_> {
+impl PendingTransition<'_> {
     /// Closes an interface whose gap of angles has fallen to zero.
     pub fn close(&mut self, interface: usize) {
         let Joint::Corner(side, _, slip) = self.now.joints[interface] else { return };

@@ -197,7 +197,7 @@ impl<'p> Mover<'p> {
         let control = StepControl::new(M::ERROR_ORDER);
         let has_step_control = problem.scene.options.method.has_step_control();
         let first_step = if has_step_control { self.first_step() } else { problem.scene.options.step };
-        let (mut wanted, mut longest) = (first_step, f64::INFINITY);
+        let (mut suggested, mut longest) = (first_step, f64::INFINITY);
         self.work.phases += 1;
         let ended = 'stretch: loop {
             if let Some(ended) = at.next_segment(problem) {
@@ -206,7 +206,7 @@ impl<'p> Mover<'p> {
             smooth.segment = &problem.ground[at.segment];
             let (t, left) = (at.t, smooth.segment.end - at.t);
             smooth.slope(t, &x, &mut slope);
-            let mut h = wanted.min(left).min(longest);
+            let mut h = suggested.min(left).min(longest);
             loop {
                 let mut error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
                 if error <= 1.0 {
@@ -216,10 +216,10 @@ impl<'p> Mover<'p> {
                 }
                 if error <= 1.0 {
                     let factor = control.factor(error);
-                    wanted = if !has_step_control {
+                    suggested = if !has_step_control {
                         problem.scene.options.step
-                    } else if h < wanted && factor > 1.0 {
-                        wanted
+                    } else if h < suggested && factor > 1.0 {
+                        suggested
                     } else {
                         h * factor
                     };
@@ -227,7 +227,7 @@ impl<'p> Mover<'p> {
                 }
                 self.work.rejected += 1;
                 h *= if error.is_finite() { control.factor(error) } else { 0.1 };
-                wanted = h;
+                suggested = h;
                 if t + h <= t {
                     break 'stretch smooth.without_step(t, &x, h)?;
                 }
@@ -237,7 +237,7 @@ impl<'p> Mover<'p> {
             let mut step = Step::new(&mut smooth, &interpolant, [t, h], &problem.scene.options);
             let first = step.first_of(&list);
             let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && guard.may_start_from_zero());
-            if is_unresolved && h > SHORTEST_SHARE * wanted {
+            if is_unresolved && h > SHORTEST_SHARE * suggested {
                 // A gap that has just opened, or a slide that has just begun, is less than the error of so long a step.
                 longest = RESOLVING * h;
                 continue;
@@ -251,7 +251,7 @@ impl<'p> Mover<'p> {
             }
             x.clone_from(method.end());
         };
-        self.pace = Some(wanted);
+        self.pace = Some(suggested);
         self.work.rhs_calls += smooth.calls;
         Ok((SlidingState { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }

@@ -36,7 +36,7 @@ impl<'p> Mover<'p> {
         let most_orders = most_orders(problem.tolerance.rtol);
         let (mut at, mut x) = (self.enter(from), smooth.state(&from.configuration));
         let list = guards::guards(joints);
-        let (mut wanted, mut longest) = (self.first_step(), f64::INFINITY);
+        let (mut suggested, mut longest) = (self.first_step(), f64::INFINITY);
         self.work.phases += 1;
         let ended = loop {
             if let Some(ended) = at.next_segment(problem) {
@@ -50,8 +50,8 @@ impl<'p> Mover<'p> {
             segment.vertical.expand_at(t, &mut ground[1][..most_orders]);
             ground[1][0] += smooth.gravity;
             let begun = series.begin(&x, [&ground[0], &ground[1]]);
-            let most = left.min(LARGEST_GROWTH * wanted).min(longest);
-            let most = most.min(expected_event::longest_step(expected_end(&series, joints), wanted));
+            let most = left.min(LARGEST_GROWTH * suggested).min(longest);
+            let most = most.min(expected_event::longest_step(expected_end(&series, joints), suggested));
             let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
             self.work.rhs_calls += series.orders();
             let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
@@ -61,7 +61,7 @@ impl<'p> Mover<'p> {
                     smooth.without_step(t, &x, length.unwrap_or(0.0))?
                 };
             };
-            wanted = if h < most { h } else { wanted.max(h) };
+            suggested = if h < most { h } else { suggested.max(h) };
             self.work.steps += 1;
             let now = smooth.configuration(&x);
             let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
@@ -70,7 +70,7 @@ impl<'p> Mover<'p> {
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
             let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
-            if is_unresolved && h > SHORTEST_SHARE * wanted {
+            if is_unresolved && h > SHORTEST_SHARE * suggested {
                 // A landing may be sampled: a gap that has just opened may be less than the rounding of so long a step.
                 longest = RESOLVING * h;
                 continue;
@@ -82,7 +82,7 @@ impl<'p> Mover<'p> {
                 break SlidingEnded::Guard(guard);
             }
         };
-        self.pace = Some(wanted);
+        self.pace = Some(suggested);
         self.work.rhs_calls += smooth.calls;
         Ok((SlidingState { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }

@@ -43,7 +43,7 @@ pub struct Change {
 
 /// The transition at time zero.
 pub fn start(problem: &Problem, friction: &Coefficients, at: &SlidingState) -> SlidingTransition {
-    Instant::new(problem, friction, at, 0.0).decided(EventKind::Start, None)
+    PendingTransition::new(problem, friction, at, 0.0).decided(EventKind::Start, None)
 }
 
 /// The transition at the end of a stretch. Accelerations follow from the ground's acceleration later by `lookahead` `[s]`.
@@ -54,7 +54,7 @@ pub fn transition(
     ended: SlidingEnded,
     lookahead: f64,
 ) -> SlidingTransition {
-    let mut instant = Instant::new(problem, friction, before, lookahead);
+    let mut instant = PendingTransition::new(problem, friction, before, lookahead);
     let guard = match ended {
         SlidingEnded::Guard(guard) => guard,
         SlidingEnded::Jam => {
@@ -94,7 +94,7 @@ pub fn transition(
 }
 
 /// An instant that is being decided: the column on its way from `x⁻` to `x⁺`.
-pub(super) struct Instant<'p> {
+pub(super) struct PendingTransition<'p> {
     pub problem: &'p Problem<'p>,
     pub friction: &'p Coefficients,
     pub resolution: Resolution,
@@ -123,9 +123,14 @@ impl Stilled {
     }
 }
 
-impl<'p> Instant<'p> {
-    fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, at: &SlidingState, lookahead: f64) -> Instant<'p> {
-        Instant {
+impl<'p> PendingTransition<'p> {
+    fn new(
+        problem: &'p Problem<'p>,
+        friction: &'p Coefficients,
+        at: &SlidingState,
+        lookahead: f64,
+    ) -> PendingTransition<'p> {
+        PendingTransition {
             problem,
             friction,
             resolution: Resolution::new(&problem.scene.column),
@@ -147,11 +152,11 @@ impl<'p> Instant<'p> {
 
     /// The transition with which the run ends.
     fn end(self, stop: RunEnd) -> SlidingTransition {
-        Instant { stop: Some(stop), ..self }.transition()
+        PendingTransition { stop: Some(stop), ..self }.transition()
     }
 
     fn transition(self) -> SlidingTransition {
-        let Instant { now, changes, ambiguous, is_jammed, without_restitution, stop, .. } = self;
+        let PendingTransition { now, changes, ambiguous, is_jammed, without_restitution, stop, .. } = self;
         SlidingTransition { after: now, changes, ambiguous, is_jammed, without_restitution, stop }
     }
 
@@ -220,6 +225,12 @@ impl<'p> Instant<'p> {
                 solution = self.jammed()?;
                 continue;
             };
+            let opens = |(joint, was_stilled): (&Joint, &bool)| *was_stilled && joint.is_corner();
+            if self.lookahead > 0.0 && without.joints.iter().zip(&stilled.hops).any(opens) {
+                // A hop that has been ended in vain opens again at once: it goes on.
+                self.now = moving;
+                break;
+            }
             solution = without;
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
@@ -270,16 +281,19 @@ impl<'p> Instant<'p> {
     /// that are rounding are zero: a direction would be taken from them.
     fn joined(&mut self) -> Vec<Touch> {
         let mut touch = self.touching();
-        let has_met = |&i: &usize| touch[i] != Touch::Nothing && self.now.joints[i] == Joint::Free;
-        let met: Vec<usize> = (0..touch.len()).filter(has_met).collect();
-        if !met.is_empty() {
+        // What is held may move otherwise than before, and then something else touches.
+        for _ in 0..touch.len() {
+            let has_met = |&i: &usize| touch[i] != Touch::Nothing && self.now.joints[i] == Joint::Free;
+            let met: Vec<usize> = (0..touch.len()).filter(has_met).collect();
+            if met.is_empty() {
+                break;
+            }
             let mut joints = self.now.joints.clone();
             for interface in met {
                 (joints[interface], self.now.slide[interface]) =
                     contacts::met(self.column(), self.resolution, &self.now, interface, touch[interface]);
             }
             self.hold(&joints);
-            // What is held may move otherwise than before.
             touch = self.touching();
         }
         for (interface, touch) in touch.iter().enumerate() {

@@ -63,8 +63,8 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
     sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &legend(&grid.panels, Some(LEAST))) + 6.0;
 
     let share = |panel: usize| percent(Grid::share(&grid.panels[panel..=panel], Class::overturns));
-    let told = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
-    let caption = format!("{what}. Share of the plane that overturns: {}.", told.collect::<Vec<_>>().join(", "));
+    let parts = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
+    let caption = format!("{what}. Share of the plane that overturns: {}.", parts.collect::<Vec<_>>().join(", "));
     Figure::new("overturning-spectrum", caption, sheet)
 }
 

@@ -49,12 +49,12 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
     sheet.height = sheet.legend(below[1] + 8.0, &legend(&strips, None)) + 6.0;
     let share = |strip: &Vec<Class>| percent(Grid::share(std::slice::from_ref(strip), Class::is_lost));
-    let told: Vec<String> = family
+    let parts: Vec<String> = family
         .titles
         .iter()
         .zip(&strips)
         .map(|(title, strip)| format!("{title} {}", share(strip)).trim_start().into())
         .collect();
-    let caption = format!("{what}. Share of the points that are lost: {}.", told.join(", "));
+    let caption = format!("{what}. Share of the points that are lost: {}.", parts.join(", "));
     Figure::new("outcomes", caption, sheet)
 }

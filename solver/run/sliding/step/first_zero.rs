@@ -87,6 +87,15 @@ impl<O: Output> Step<'_, '_, O> {
             // Flush with the end of the face and inside: the larger of both stays at zero.
             return Some(0.0);
         }
+        let depth = beside.max(above);
+        if depth < -CLEARLY * noise && self.leaves(gap, depth) {
+            // Less deep than is followed, and on its way out: it lands when it comes back to where it is.
+            let value = |step: &mut Self, s: f64| {
+                let [beside, above] = gap(step, s);
+                beside.max(above) - depth
+            };
+            return self.crossing(guard, &value, limit);
+        }
         if above >= -noise {
             let s = fall(self)?;
             if s > 0.0 && gap(self, s)[0] <= 0.0 {
@@ -98,6 +107,12 @@ impl<O: Output> Step<'_, '_, O> {
             beside.max(above)
         };
         self.crossing(guard, &value, limit)
+    }
+
+    /// Whether a gap of this depth at the start opens, by more than its noise within the place at which guards that start from zero are examined.
+    fn leaves(&mut self, gap: &dyn Fn(&mut Self, f64) -> [f64; 2], depth: f64) -> bool {
+        let [beside, above] = gap(self, NEAR_START);
+        beside.max(above) > depth
     }
 
     /// The first place up to `limit` at which a guard that is this polynomial falls to zero. As many roots at the start are divided out as leading

@@ -33,7 +33,7 @@ pub(super) struct Answer<S: Size> {
 pub struct SingularMass;
 
 /// The column as it stands at the instant of a contact problem.
-pub(super) struct Instant<'a, S: Size> {
+pub(super) struct StateAtEvent<'a, S: Size> {
     pub(super) size: S,
     pub(super) column: &'a Column,
     /// Gaps between the blocks' angles.
@@ -48,10 +48,10 @@ pub(super) struct Mechanism<'a, S: Size> {
     pub(super) mass: Factorised<S>,
 }
 
-impl<'a, S: Size> Instant<'a, S> {
+impl<'a, S: Size> StateAtEvent<'a, S> {
     #[inline(always)]
-    pub(super) fn new(size: S, column: &'a Column, theta: &'a [f64]) -> Instant<'a, S> {
-        Instant { size, column, gaps: Gaps::of(&theta[..size.blocks()]), turns: Turn::all(size, theta) }
+    pub(super) fn new(size: S, column: &'a Column, theta: &'a [f64]) -> StateAtEvent<'a, S> {
+        StateAtEvent { size, column, gaps: Gaps::of(&theta[..size.blocks()]), turns: Turn::all(size, theta) }
     }
 
     #[inline(always)]
@@ -173,7 +173,7 @@ pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], groun
 /// Whether an interface may choose its state anew: it is closed, or open without gap and rate.
 #[inline(always)]
 pub(super) fn may_open<'f, S: Size>(
-    instant: &'f Instant<S>,
+    instant: &'f StateAtEvent<S>,
     states: &'f [Interface],
     omega: &'f [f64],
 ) -> impl Fn(usize) -> bool + 'f {
