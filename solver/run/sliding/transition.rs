@@ -237,6 +237,26 @@ impl<'p> PendingTransition<'p> {
         Ok(self.search(&self.touching()).carried(&solution))
     }
 
+    /// Gives faces that stay on each other one angle and one rate, to the last bit. Momentum is conserved where their rates differ.
+    fn join_faces(&mut self, touch: &[Touch]) {
+        let mut joints = self.now.joints.clone();
+        let mut turns = false;
+        for (interface, joint) in joints.iter_mut().enumerate() {
+            if let (Touch::Faces, Some(slip)) = (touch[interface], joint.slip()) {
+                turns |= self.now.gap_rate(interface) != 0.0;
+                *joint = Joint::Closed(slip);
+            }
+        }
+        if turns {
+            self.hold(&joints);
+        }
+        for (interface, touch) in touch.iter().enumerate() {
+            if *touch == Touch::Faces && self.now.joints[interface] != Joint::Free {
+                self.lay(interface);
+            }
+        }
+    }
+
     /// The accelerations once slides stick that are as slow as contacts that stay; `None` if there is no such slide, or still no motion. A slide that is
     /// left over from rounding gives a contact a direction in which no motion may follow.
     fn without_slow_slides(&mut self) -> Option<Solution> {
@@ -296,11 +316,7 @@ impl<'p> PendingTransition<'p> {
             self.hold(&joints);
             touch = self.touching();
         }
-        for (interface, touch) in touch.iter().enumerate() {
-            if *touch == Touch::Faces && self.now.joints[interface] != Joint::Free {
-                self.lay(interface);
-            }
-        }
+        self.join_faces(&touch);
         let rounding = self.resolution.rounding;
         self.now.slide_rate.iter_mut().filter(|rate| rate.abs() <= rounding).for_each(|rate| *rate = 0.0);
         touch
