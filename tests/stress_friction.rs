@@ -318,7 +318,10 @@ fn is_decided(response: &Response) -> bool {
 #[derive(Debug, Default)]
 struct Tally {
     outcomes: BTreeMap<String, usize>,
+    /// Scenes of one coefficient for each contact.
     ambiguous: usize,
+    /// Scenes whose kinetic friction is less than their static friction somewhere.
+    ambiguous_with_two: usize,
     jammed: usize,
     undetermined: Vec<u64>,
     given_up: Vec<String>,
@@ -338,6 +341,7 @@ impl Tally {
             *self.outcomes.entry(outcome).or_insert(0) += times;
         }
         self.ambiguous += other.ambiguous;
+        self.ambiguous_with_two += other.ambiguous_with_two;
         self.jammed += other.jammed;
         self.undetermined.extend(other.undetermined);
         self.given_up.extend(other.given_up);
@@ -394,7 +398,9 @@ fn run(kind: Kind, seed: u64) -> Tally {
         Ok(Ok(response)) => response,
     };
     let sliding = response.sliding.as_ref().expect("a run with friction");
-    tally.ambiguous += usize::from(!sliding.ambiguous.is_empty());
+    let has_one_coefficient = scene.friction.as_ref().is_none_or(|friction| friction.fixed == friction.kinetic);
+    let ambiguous = if has_one_coefficient { &mut tally.ambiguous } else { &mut tally.ambiguous_with_two };
+    *ambiguous += usize::from(!sliding.ambiguous.is_empty());
     tally.jammed += usize::from(!sliding.jammed.is_empty());
     *tally.outcomes.entry(outcome(&response)).or_insert(0) += 1;
     if response.status == StopReason::Undetermined {
@@ -487,6 +493,7 @@ fn run_all(kind: Kind, seeds: std::ops::Range<u64>) -> Tally {
 struct Shares {
     undetermined: usize,
     ambiguous: usize,
+    ambiguous_with_two: usize,
     jammed: usize,
     given_up: usize,
     parted: usize,
@@ -499,6 +506,7 @@ fn check(kind: Kind, seeds: std::ops::Range<u64>, most: &Shares) {
     tally.outcomes.iter().for_each(|(outcome, times)| println!("{times:8} {outcome}"));
     println!("{:8} given up with an error", tally.given_up.len());
     println!("{:8} with an instant that has several motions", tally.ambiguous);
+    println!("{:8} with such an instant and two coefficients", tally.ambiguous_with_two);
     println!("{:8} with an instant that has none (jammed)", tally.jammed);
     let (mirrored, same) = (tally.mirrored, tally.same);
     println!(
@@ -519,6 +527,7 @@ fn check(kind: Kind, seeds: std::ops::Range<u64>, most: &Shares) {
     let bounds = [
         ("undetermined", tally.undetermined.len(), most.undetermined),
         ("ambiguous", tally.ambiguous, most.ambiguous),
+        ("ambiguous with two coefficients", tally.ambiguous_with_two, most.ambiguous_with_two),
         ("jammed", tally.jammed, most.jammed),
         ("given up", tally.given_up.len(), most.given_up),
         ("not mirrored", tally.parted.len(), most.parted),
@@ -530,9 +539,12 @@ fn check(kind: Kind, seeds: std::ops::Range<u64>, most: &Shares) {
     assert!(tally.held > 0, "no run without friction to compare with");
 }
 
-// Where kinetic friction is less than static friction, several slides are often admissible of which fewer would do: these instants are ambiguous.
-const EVERYDAY: Shares = Shares { undetermined: 3, ambiguous: 20, jammed: 1, given_up: 0, parted: 5 };
-const HOSTILE: Shares = Shares { undetermined: 20, ambiguous: 60, jammed: 40, given_up: 2, parted: 5 };
+// Where kinetic friction is less than static friction, several slides are often admissible of which fewer would do: 59 of 4,000 everyday scenes and 60 of
+// 1,500 hostile ones have such an instant. With one coefficient none and 2 have one.
+const EVERYDAY: Shares =
+    Shares { undetermined: 3, ambiguous: 1, ambiguous_with_two: 20, jammed: 1, given_up: 0, parted: 5 };
+const HOSTILE: Shares =
+    Shares { undetermined: 20, ambiguous: 4, ambiguous_with_two: 60, jammed: 40, given_up: 2, parted: 5 };
 
 #[test]
 fn everyday_scenes_run_to_their_end() {

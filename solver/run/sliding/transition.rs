@@ -54,46 +54,46 @@ pub fn transition(
     ended: SlidingEnded,
     lookahead: f64,
 ) -> SlidingTransition {
-    let mut instant = PendingTransition::new(problem, friction, before, lookahead);
+    let mut pending = PendingTransition::new(problem, friction, before, lookahead);
     let guard = match ended {
         SlidingEnded::Guard(guard) => guard,
         SlidingEnded::Jam => {
-            instant.jam();
-            return instant.decided(EventKind::Impact, None);
+            pending.jam();
+            return pending.decided(EventKind::Impact, None);
         }
-        SlidingEnded::Jump | SlidingEnded::Time | SlidingEnded::Rest => return instant.decided(EventKind::Jump, None),
+        SlidingEnded::Jump | SlidingEnded::Time | SlidingEnded::Rest => return pending.decided(EventKind::Jump, None),
     };
     let (kind, hint) = match guard {
-        Guard::Overturn(block) => return instant.end(RunEnd::Overturned(block)),
-        Guard::Collapse(interface) => return instant.collapsed(interface),
+        Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
+        Guard::Collapse(interface) => return pending.collapsed(interface),
         Guard::Close(interface) => {
-            instant.close(interface);
+            pending.close(interface);
             (EventKind::Impact, None)
         }
         Guard::Land(corner) => {
-            instant.land(corner);
+            pending.land(corner);
             (EventKind::Landing, None)
         }
         Guard::Edge(interface) => {
-            instant.set_free(interface);
-            instant.change(EventKind::Edge, vec![interface], &before.configuration, None);
+            pending.set_free(interface);
+            pending.change(EventKind::Edge, vec![interface], &before.configuration, None);
             (EventKind::Flight, None)
         }
         Guard::Stop(interface) => {
-            instant.now.slide_rate[interface] = 0.0;
-            (EventKind::Stick, instant.with_slip(interface, Slip::Sticks))
+            pending.now.slide_rate[interface] = 0.0;
+            (EventKind::Stick, pending.with_slip(interface, Slip::Sticks))
         }
-        Guard::Cone(interface, direction) => (EventKind::Slip, instant.with_slip(interface, Slip::Slides(direction))),
+        Guard::Cone(interface, direction) => (EventKind::Slip, pending.with_slip(interface, Slip::Slides(direction))),
         Guard::Press(interface) => (EventKind::Flight, Some((interface, Joint::Free))),
         Guard::Tip(interface, side) => {
-            let slip = instant.now.joints[interface].slip().unwrap_or(Slip::Sticks);
-            (EventKind::Opening, Some((interface, instant.corner(interface, side, slip))))
+            let slip = pending.now.joints[interface].slip().unwrap_or(Slip::Sticks);
+            (EventKind::Opening, Some((interface, pending.corner(interface, side, slip))))
         }
     };
-    instant.decided(kind, hint)
+    pending.decided(kind, hint)
 }
 
-/// An instant that is being decided: the column on its way from `x⁻` to `x⁺`.
+/// A transition that is being decided: the column on its way from `x⁻` to `x⁺`.
 pub(super) struct PendingTransition<'p> {
     pub problem: &'p Problem<'p>,
     pub friction: &'p Coefficients,
