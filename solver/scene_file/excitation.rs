@@ -1,6 +1,6 @@
 //! `[excitation.horizontal]` and `[excitation.vertical]`: pulses by their parameters, records by their files. Records of stations: `stations.rs`.
 
-use super::error::SceneFileError;
+use super::fault::Fault;
 use super::reader::Reader;
 use super::table::{Table, Wrong};
 use crate::column::Column;
@@ -74,101 +74,95 @@ pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, 
 
 impl Reader<'_> {
     /// The ground motion of a scene.
-    pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
-        let own = |wrong| self.error(wrong);
-        let Some(mut table) = root.table("excitation").map_err(own)? else { return Ok(Excitation::default()) };
-        if let Some(mut station) = table.table("station").map_err(own)? {
+    pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, Fault> {
+        let Some(mut table) = root.table("excitation")? else { return Ok(Excitation::default()) };
+        if let Some(mut station) = table.table("station")? {
             if let Some(other) = ["horizontal", "vertical"].into_iter().find(|name| table.has(name)) {
-                return Err(own(table.clash(other, "station")));
+                return Err(table.clash(other, "station").into());
             }
             let excitation = self.station(&mut station, column)?;
-            station.close().map_err(own)?;
-            table.close().map_err(own)?;
+            station.close()?;
+            table.close()?;
             return Ok(excitation);
         }
-        let mut component = |name: &'static str| -> Result<Option<Motion>, SceneFileError> {
-            let Some(mut table) = table.table(name).map_err(own)? else { return Ok(None) };
+        let mut component = |name: &'static str| -> Result<Option<Motion>, Fault> {
+            let Some(mut table) = table.table(name)? else { return Ok(None) };
             let motion = self.motion(&mut table, column)?;
-            table.close().map_err(own)?;
+            table.close()?;
             Ok(Some(motion))
         };
         let excitation = Excitation { horizontal: component("horizontal")?, vertical: component("vertical")? };
-        table.close().map_err(own)?;
+        table.close()?;
         Ok(excitation)
     }
 
-    fn motion(&self, table: &mut Table, column: &Column) -> Result<Motion, SceneFileError> {
-        let own = |wrong| self.error(wrong);
-        let Some((kind, _)) = table.text("kind").map_err(own)? else {
-            return Err(own(table.missing("kind", &format!("choose one of {}", KINDS.join(", ")))));
+    fn motion(&self, table: &mut Table, column: &Column) -> Result<Motion, Fault> {
+        let Some((kind, _)) = table.text("kind")? else {
+            return Err(table.missing("kind", &format!("choose one of {}", KINDS.join(", "))).into());
         };
         match kind.as_str() {
             "sum" => self.sum(table, column),
             "record" => {
-                let start = start(table).map_err(own)?;
+                let start = start(table)?;
                 self.record(table, start, column).map(Motion::Record)
             }
-            "synthetic" => synthetic(table, column).map(Motion::Record).map_err(own),
-            _ => pulse(table, &kind, Scales::of(column)).map_err(own),
+            "synthetic" => Ok(Motion::Record(synthetic(table, column)?)),
+            _ => Ok(pulse(table, &kind, Scales::of(column))?),
         }
     }
 
     /// `[[excitation.horizontal.term]]`: each term is read as a component is.
-    fn sum(&self, table: &mut Table, column: &Column) -> Result<Motion, SceneFileError> {
-        let own = |wrong| self.error(wrong);
-        let mut tables = table.tables("term").map_err(own)?.unwrap_or_default();
+    fn sum(&self, table: &mut Table, column: &Column) -> Result<Motion, Fault> {
+        let mut tables = table.tables("term")?.unwrap_or_default();
         if tables.is_empty() {
             let remedy = format!("add [[{}]] for each motion of the sum", table.dotted("term"));
-            return Err(own(table.missing("term", &remedy)));
+            return Err(table.missing("term", &remedy).into());
         }
-        let mut term = |table: &mut Table| {
+        let mut term = |table: &mut Table| -> Result<Motion, Fault> {
             let motion = self.motion(table, column)?;
-            table.close().map_err(own)?;
+            table.close()?;
             Ok(motion)
         };
         Ok(Motion::Sum { terms: tables.iter_mut().map(&mut term).collect::<Result<_, _>>()? })
     }
 
-    fn record(&self, table: &mut Table, start: f64, column: &Column) -> Result<Record, SceneFileError> {
-        let own = |wrong| self.error(wrong);
+    fn record(&self, table: &mut Table, start: f64, column: &Column) -> Result<Record, Fault> {
         let gravity = column.gravity();
-        let options = text_options(table, gravity).map_err(own)?;
+        let options = text_options(table, gravity)?;
         let (units, dt) = (options.units, options.dt);
-        let accel = table.numbers("accel").map_err(own)?;
+        let accel = table.numbers("accel")?;
         let of_files = ["lenient", "channel", "skip_rows", "column"].into_iter().find(|key| table.has(key));
         if let Some(key) = of_files.filter(|_| accel.is_some()) {
-            return Err(own(table.wrong(
-                key,
-                "`accel` is given, not a file".into(),
-                "remove it, or give `file` instead",
-            )));
+            return Err(table
+                .wrong(key, "`accel` is given, not a file".into(), "remove it, or give `file` instead")
+                .into());
         }
-        let (record, key) = match (table.text("file").map_err(own)?, accel) {
+        let (record, key) = match (table.text("file")?, accel) {
             (Some((name, _)), None) => (self.record_file(table, "file", &name, &options)?, "file"),
             (None, Some(accel)) => {
-                let Some(dt) = dt else { return Err(own(table.missing("dt", "give the sampling interval in s"))) };
+                let Some(dt) = dt else { return Err(table.missing("dt", "give the sampling interval in s").into()) };
                 let scale = units.map_or(1.0, |unit| unit.in_si(gravity));
                 let accel = accel.into_iter().map(|a| a * scale).collect();
                 let refused =
-                    |error: crate::RecordError| own(table.wrong("accel", error.to_string(), "correct the samples"));
+                    |error: crate::RecordError| table.wrong("accel", error.to_string(), "correct the samples");
                 (Record::new(accel, dt, 0.0).map_err(refused)?, "accel")
             }
             (Some(_), Some(_)) => {
-                return Err(own(table.clash("accel", "file")));
+                return Err(table.clash("accel", "file").into());
             }
-            (None, None) => return Err(own(table.missing("file", "name a record file, or give `accel` and `dt`"))),
+            (None, None) => return Err(table.missing("file", "name a record file, or give `accel` and `dt`").into()),
         };
-        let target = target(table, column).map_err(own)?;
-        let record = match (table.number("scale").map_err(own)?, target) {
+        let target = target(table, column)?;
+        let record = match (table.number("scale")?, target) {
             (Some(_), Some(target)) => {
-                return Err(own(table.clash(target.key, "scale")));
+                return Err(table.clash(target.key, "scale").into());
             }
             (Some((factor, _)), None) => record
                 .scaled(factor)
-                .map_err(|error| own(table.wrong("scale", error.to_string(), "give a smaller factor")))?,
+                .map_err(|error| table.wrong("scale", error.to_string(), "give a smaller factor"))?,
             (None, Some(target)) => record
                 .scaled_to(target.measure, target.size, column.gravity())
-                .map_err(|error| own(table.wrong(key, error.to_string(), "use another record or another size")))?,
+                .map_err(|error| table.wrong(key, error.to_string(), "use another record or another size"))?,
             (None, None) => record,
         };
         Ok(record.starting_at(start))
@@ -180,20 +174,13 @@ impl Reader<'_> {
         key: &str,
         name: &str,
         options: &TextOptions,
-    ) -> Result<Record, SceneFileError> {
+    ) -> Result<Record, Fault> {
         let path = self.file.parent().unwrap_or(Path::new("")).join(name);
         let kept = || (path.clone(), format!("{options:?}"));
         if let Some(record) = self.records.and_then(|records| records.get(&kept())) {
             return Ok(record.named(name));
         }
-        let place = table.find(key);
-        let refuse = |problem: String| SceneFileError::Record {
-            file: self.file.into(),
-            line: self.line(&place),
-            key: table.dotted(key),
-            record: path.clone(),
-            problem,
-        };
+        let refuse = |problem: String| Fault::of_record(table, key, path.clone(), problem);
         let bytes = rocking_ground::read_file(&path)
             .map_err(|error| refuse(format!("{error}; give the path relative to the file that names it")))?;
         let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;

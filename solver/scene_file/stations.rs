@@ -3,12 +3,14 @@
 //! A record is named by its folder and by what the names of its files have in common: `records/RSN1045` of `RSN1045_NORTHR_WPI046.AT2`,
 //! `RSN1045_NORTHR_WPI316.AT2` and `RSN1045_NORTHR_WPI-UP.AT2` ([`record_and_component`]).
 
-use super::error::SceneFileError;
-use super::excitation::{Target, start, target, text_options};
+use super::excitation::{start, target, text_options};
+use super::fault::Fault;
 use super::reader::Reader;
 use super::table::{Table, Wrong};
 use crate::column::Column;
-use rocking_ground::{Direction, Excitation, Motion, Record, TextOptions, by_number, record_and_component};
+use rocking_ground::{
+    Direction, Excitation, Motion, Record, RecordError, TextOptions, by_number, record_and_component,
+};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -85,7 +87,7 @@ impl Reader<'_> {
         folder: &Path,
         file: &str,
         options: &TextOptions,
-    ) -> Result<Component, SceneFileError> {
+    ) -> Result<Component, Fault> {
         let name = folder.join(file).to_string_lossy().into_owned();
         let record = self.record_file(table, key, &name, options)?;
         let ending = record_and_component(file).1.to_string();
@@ -94,21 +96,14 @@ impl Reader<'_> {
     }
 
     /// `[excitation.station]`: components of one record, all scaled by one factor, that of the horizontal one.
-    pub(super) fn station(&self, table: &mut Table, column: &Column) -> Result<Excitation, SceneFileError> {
-        let own = |wrong| self.error(wrong);
-        let options = text_options(table, column.gravity()).map_err(own)?;
+    pub(super) fn station(&self, table: &mut Table, column: &Column) -> Result<Excitation, Fault> {
+        let options = text_options(table, column.gravity())?;
         let remedy = "give folder and name of the record without its component, e.g. \"records/RSN1045\"";
-        let name = table.text("record").map_err(own)?.ok_or_else(|| own(table.missing("record", remedy)))?.0;
-        let requested = table.text("component").map_err(own)?.map_or_else(|| "H1".into(), |(component, _)| component);
-        let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
-        let refuse = |key: &str, problem: String| SceneFileError::Record {
-            file: self.file.into(),
-            line: self.line(&table.find(key)),
-            key: table.dotted(key),
-            record: self.beside(&name),
-            problem,
-        };
-        let components = self.components(table, &name, &options, &refuse)?;
+        let name = table.text("record")?.ok_or_else(|| table.missing("record", remedy))?.0;
+        let requested = table.text("component")?.map_or_else(|| "H1".into(), |(component, _)| component);
+        let with_vertical = table.flag("vertical")?.unwrap_or(false);
+        let refuse = |key: &str, problem: String| Fault::of_record(table, key, self.beside(&name), problem);
+        let components = self.components(table, &name, &options)?;
         let known = components.iter().map(|component| component.name.as_str()).collect::<Vec<_>>().join(", ");
         let along: Vec<&Component> =
             components.iter().filter(|component| component.direction == Direction::Horizontal).collect();
@@ -130,14 +125,19 @@ impl Reader<'_> {
                 return Err(refuse("vertical", problem));
             }
         };
-        let target = target(table, column).map_err(own)?;
-        let factor = match (table.number("scale").map_err(own)?, target) {
-            (Some(_), Some(target)) => return Err(own(table.clash(target.key, "scale"))),
+        let target = target(table, column)?;
+        let factor = match (table.number("scale")?, target) {
+            (Some(_), Some(target)) => return Err(table.clash(target.key, "scale").into()),
             (Some((factor, _)), None) => Some(factor),
-            (None, Some(target)) => Some(self.factor(table, &horizontal.record, &target, column.gravity())?),
+            (None, Some(target)) => {
+                let factor = horizontal.record.factor_to(target.measure, target.size, column.gravity());
+                let wrong =
+                    |error: RecordError| table.wrong("record", error.to_string(), "use another record or another size");
+                Some(factor.map_err(wrong)?)
+            }
             (None, None) => None,
         };
-        let start = start(table).map_err(own)?;
+        let start = start(table)?;
         let scaled = |record: Record| -> Result<Motion, Wrong> {
             let record = match factor {
                 None => Ok(record),
@@ -147,33 +147,21 @@ impl Reader<'_> {
             Ok(Motion::Record(record.starting_at(start)))
         };
         Ok(Excitation {
-            horizontal: Some(scaled(horizontal.record.clone()).map_err(own)?),
-            vertical: vertical.map(scaled).transpose().map_err(own)?,
+            horizontal: Some(scaled(horizontal.record.clone())?),
+            vertical: vertical.map(scaled).transpose()?,
         })
     }
 
-    /// The factor that brings a record to a size.
-    fn factor(&self, table: &Table, record: &Record, target: &Target, gravity: f64) -> Result<f64, SceneFileError> {
-        let factor = record.factor_to(target.measure, target.size, gravity);
-        factor
-            .map_err(|error| self.error(table.wrong("record", error.to_string(), "use another record or another size")))
-    }
-
     /// The components of a record, by the names of their files.
-    fn components(
-        &self,
-        table: &Table,
-        name: &str,
-        options: &TextOptions,
-        refuse: &dyn Fn(&str, String) -> SceneFileError,
-    ) -> Result<Vec<Component>, SceneFileError> {
+    fn components(&self, table: &Table, name: &str, options: &TextOptions) -> Result<Vec<Component>, Fault> {
+        let refuse = |problem: String| Fault::of_record(table, "record", self.beside(name), problem);
         let (folder, own) = parted(name);
         let path = self.beside(&folder.to_string_lossy());
         let listed = |error: std::io::Error| {
             let shown = if path.as_os_str().is_empty() { Path::new(".") } else { &path };
             let remedy = "give folder and name of the record, relative to the file that names it";
             let problem = format!("its folder {}: {error}; {remedy}", shown.display());
-            refuse("record", problem)
+            refuse(problem)
         };
         let kept = self.records.and_then(|records| records.folder(&path));
         let records = match kept {
@@ -192,7 +180,7 @@ impl Reader<'_> {
                     format!("no file of {} is of this record; name one of {}{more}", path.display(), known.join(", "))
                 }
             };
-            return Err(refuse("record", problem));
+            return Err(refuse(problem));
         };
         files.iter().map(|file| self.component(table, "record", folder, file, options)).collect()
     }

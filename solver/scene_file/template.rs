@@ -3,7 +3,7 @@
 use super::error::{SceneFileError, text};
 use super::excitation::set_amplitude;
 use super::key_value::Setting;
-use super::reader::{Reader, end_after_free_swing};
+use super::reader::{Reader, end_after_free_swing, refused};
 use super::record_cache::Records;
 use super::stations;
 use super::table::{Cause, Table, Wrong};
@@ -74,8 +74,11 @@ impl Template {
         settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
     ) -> Result<Scene, SceneFileError> {
         let mut root = self.root.clone();
-        change(&mut root, settings).map_err(|wrong| self.reader().error(wrong))?;
-        self.reader().read(root).map(|read| read.scene)
+        let reader = self.reader();
+        reader.named(|| {
+            change(&mut root, settings)?;
+            reader.read(root).map(|read| read.scene)
+        })
     }
 
     /// The template for scenes in which little but the ground motion changes. `others` are all keys that will be set: they show whether one of them
@@ -179,12 +182,14 @@ impl<'t> VariedExcitation<'t> {
         }
         self.go_to(settings)?;
         let reader = self.template.reader();
-        scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
-        if !self.has_end && !end_after_free_swing(scene) {
-            // Reading the whole scene gives the error, with its remedy.
-            return reader.read(self.root.clone()).map(|_| ());
-        }
-        scene.check().map_err(|errors| reader.refused(&self.root, &errors.faults()[0]))
+        reader.named(|| {
+            scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
+            if !self.has_end && !end_after_free_swing(scene) {
+                // Reading the whole scene gives the error, with its remedy.
+                return reader.read(self.root.clone()).map(|_| ());
+            }
+            Ok(scene.check().map_err(|errors| refused(&self.root, &errors.faults()[0]))?)
+        })
     }
 
     /// As [`VariedExcitation::set`], for a single amplitude and without reading anything. `false` if any other key changes, or if the amplitude is not valid.

@@ -7,6 +7,7 @@ use crate::column::Column;
 use crate::intensity::{Intensity, NAMES};
 use crate::scene::Scene;
 use crate::scene_file::excitation::{noise, spectrum, text_options};
+use crate::scene_file::fault::Fault;
 use crate::scene_file::reader::Reader;
 use crate::scene_file::record_cache::Records;
 use crate::scene_file::stations::{Component, records_of};
@@ -49,17 +50,19 @@ impl IdaFile {
     pub fn from_toml(text: &str, file: &Path) -> Result<IdaFile, SceneFileError> {
         let kept = Records::default();
         let reader = Reader { text, file, records: Some(&kept) };
-        let own = |wrong| reader.error(wrong);
-        let mut root = Table::parse(text).map_err(own)?;
-        let mut inputs = vec![file.to_path_buf()];
-        let scene = scene(&reader, &mut root, &mut inputs)?;
-        let intensity = intensity(&mut root).map_err(own)?;
-        let levels = values(&mut root, "levels", "give a list, or { from, to, steps }").map_err(own)?;
-        let free_swing = root.number("free_swing").map_err(own)?.map_or(DEFAULT_FREE_SWING, |(value, _)| value);
-        let is_followed = root.flag("trust").map_err(own)?.unwrap_or(true);
-        let records = records(&reader, &mut root, &scene.column)?;
-        let (states, options) = fragility(&mut root, &scene).map_err(own)?;
-        root.close().map_err(own)?;
+        reader.named(|| IdaFile::read(&reader, &kept, Table::parse(text)?))
+    }
+
+    fn read(reader: &Reader, kept: &Records, mut root: Table) -> Result<IdaFile, Fault> {
+        let mut inputs = vec![reader.file.to_path_buf()];
+        let scene = scene(reader, &mut root, &mut inputs)?;
+        let intensity = intensity(&mut root)?;
+        let levels = values(&mut root, "levels", "give a list, or { from, to, steps }")?;
+        let free_swing = root.number("free_swing")?.map_or(DEFAULT_FREE_SWING, |(value, _)| value);
+        let is_followed = root.flag("trust")?.unwrap_or(true);
+        let records = records(reader, &mut root, &scene.column)?;
+        let (states, options) = fragility(&mut root, &scene)?;
+        root.close()?;
         inputs.extend(kept.files());
         let ida = Ida::new(scene, records, intensity, levels).and_then(|ida| ida.with_free_swing(free_swing));
         let ida = ida.map(|ida| ida.followed(is_followed));
@@ -71,24 +74,23 @@ impl IdaFile {
                 IdaError::SameName(_) => ("records", "rename one of them"),
                 IdaError::NoRecords => ("records", "give `files`, a `folder`, or [records.synthetic]"),
             };
-            own(root.wrong(key, error.to_string(), remedy))
+            root.wrong(key, error.to_string(), remedy)
         })?;
         Ok(IdaFile { ida, states, options, inputs })
     }
 }
 
 /// `scene = "file"`, or `[scene]` with the keys of a scene.
-fn scene(reader: &Reader, root: &mut Table, inputs: &mut Vec<PathBuf>) -> Result<Scene, SceneFileError> {
-    let own = |wrong| reader.error(wrong);
+fn scene(reader: &Reader, root: &mut Table, inputs: &mut Vec<PathBuf>) -> Result<Scene, Fault> {
     let remedy = "name a scene: scene = \"statue.toml\", or give its keys below [scene]";
     if root.has_table("scene") {
-        let table = root.table("scene").map_err(own)?.ok_or_else(|| own(root.missing("scene", remedy)))?;
+        let table = root.table("scene")?.ok_or_else(|| root.missing("scene", remedy))?;
         return reader.read(table).map(|read| read.scene);
     }
-    let Some((name, _)) = root.text("scene").map_err(own)? else { return Err(own(root.missing("scene", remedy))) };
+    let Some((name, _)) = root.text("scene")? else { return Err(root.missing("scene", remedy).into()) };
     let file = reader.file.parent().unwrap_or(Path::new("")).join(name);
     inputs.push(file.clone());
-    Scene::from_file(&file)
+    Ok(Scene::from_file(&file)?)
 }
 
 /// `measure`, with `sa_period` and `sa_damping`.
@@ -124,44 +126,43 @@ fn values(table: &mut Table, key: &'static str, remedy: &str) -> Result<Vec<f64>
 }
 
 /// `[records]`: files, a folder, seeds, in this order.
-fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<StudyRecord>, SceneFileError> {
-    let own = |wrong| reader.error(wrong);
+fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<StudyRecord>, Fault> {
     let remedy = "add [records] with `files`, a `folder`, or [records.synthetic]";
-    let Some(mut table) = root.table("records").map_err(own)? else { return Err(own(root.missing("records", remedy))) };
-    let options = text_options(&mut table, column.gravity()).map_err(own)?;
+    let Some(mut table) = root.table("records")? else { return Err(root.missing("records", remedy).into()) };
+    let options = text_options(&mut table, column.gravity())?;
     let mut found = Vec::new();
-    if let Some(files) = table.settings("files").map_err(own)? {
+    if let Some(files) = table.settings("files")? {
         for file in files {
             let name = file.to_string();
             let horizontal = reader.record_file(&table, "files", &name, &options)?;
             found.push(StudyRecord { name, horizontal, vertical: None });
         }
     }
-    let component = table.text("component").map_err(own)?.map(|(name, _)| name);
-    let with_vertical = table.flag("vertical").map_err(own)?.unwrap_or(false);
-    match table.text("folder").map_err(own)? {
+    let component = table.text("component")?.map(|(name, _)| name);
+    let with_vertical = table.flag("vertical")?.unwrap_or(false);
+    match table.text("folder")? {
         Some((folder, _)) => {
             let choice = ComponentChoice { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
             found.extend(of_folder(reader, &table, &folder, &choice, &options)?);
         }
         None => {
             if let Some(key) = ["component", "vertical"].into_iter().find(|key| table.has(key)) {
-                return Err(own(table.wrong(key, "it is of a `folder`, and none is given".into(), "remove it")));
+                return Err(table.wrong(key, "it is of a `folder`, and none is given".into(), "remove it").into());
             }
         }
     }
-    if let Some(mut inner) = table.table("synthetic").map_err(own)? {
-        found.extend(of_seeds(&mut inner).map_err(own)?);
-        inner.close().map_err(own)?;
+    if let Some(mut inner) = table.table("synthetic")? {
+        found.extend(of_seeds(&mut inner)?);
+        inner.close()?;
     }
-    table.close().map_err(own)?;
+    table.close()?;
     if let Some((place, twice)) = found
         .iter()
         .enumerate()
         .find(|(place, record)| found[..*place].iter().any(|other: &StudyRecord| other.name == record.name))
     {
         let problem = format!("record {} ({}) is there twice", place + 1, twice.name);
-        return Err(own(root.wrong("records", problem, "name each record once")));
+        return Err(root.wrong("records", problem, "name each record once").into());
     }
     Ok(found)
 }
@@ -217,8 +218,8 @@ fn of_folder(
     folder: &str,
     choice: &ComponentChoice,
     options: &TextOptions,
-) -> Result<Vec<StudyRecord>, SceneFileError> {
-    let refuse = |key: &str, problem: String, remedy: &str| reader.error(table.wrong(key, problem, remedy));
+) -> Result<Vec<StudyRecord>, Fault> {
+    let refuse = |key: &str, problem: String, remedy: &str| Fault::from(table.wrong(key, problem, remedy));
     let path = reader.file.parent().unwrap_or(Path::new("")).join(folder);
     let failed = |error: std::io::Error| {
         refuse("folder", format!("{}: {error}", path.display()), "give the folder relative to the study")
@@ -235,7 +236,7 @@ fn of_folder(
         for file in files {
             match component(file) {
                 Ok(read) => components.push(read),
-                Err(SceneFileError::Record { record, problem, .. }) => refused.push((record, problem)),
+                Err(Fault::Record { record, problem, .. }) => refused.push((record, problem)),
                 Err(other) => return Err(other),
             }
         }

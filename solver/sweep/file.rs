@@ -3,6 +3,7 @@
 use super::distributed::{KINDS, Placed, distribution, sample, sampling};
 use super::points::{Ask, Axis, Combine, Sweep};
 use crate::scene_file::edit::exclude_each_other;
+use crate::scene_file::fault::Fault;
 use crate::scene_file::reader::Reader;
 use crate::scene_file::stations::{files_in, records_of};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
@@ -40,44 +41,44 @@ impl Sweep {
     /// [`SceneFileError`]
     pub fn from_toml(text: &str, file: &Path, base: Option<Template>) -> Result<Sweep, SceneFileError> {
         let reader = Reader { text, file, records: None };
-        let own = |wrong| reader.error(wrong);
-        let mut root = Table::parse(text).map_err(own)?;
-        let template = match (base, root.text("scene").map_err(own)?) {
+        reader.named(|| Sweep::read(Table::parse(text)?, file, base))
+    }
+
+    fn read(mut root: Table, file: &Path, base: Option<Template>) -> Result<Sweep, Fault> {
+        let template = match (base, root.text("scene")?) {
             (Some(template), None) => template,
             (Some(_), Some(_)) => {
-                return Err(own(root.wrong("scene", "the base scene is given already".into(), "remove it")));
+                return Err(root.wrong("scene", "the base scene is given already".into(), "remove it").into());
             }
             (None, Some((name, _))) => Template::from_file(&file.parent().unwrap_or(Path::new("")).join(name))?,
-            (None, None) => return Err(own(root.missing("scene", "name the base scene: scene = \"base.toml\""))),
+            (None, None) => return Err(root.missing("scene", "name the base scene: scene = \"base.toml\"").into()),
         };
-        let combine = match root.text("combine").map_err(own)? {
+        let combine = match root.text("combine")? {
             None => Combine::Cartesian,
             Some((name, _)) => Combine::parse(&name)
-                .ok_or_else(|| own(root.no_such("combine", "way to combine axes", &name, &["cartesian", "paired"])))?,
+                .ok_or_else(|| root.no_such("combine", "way to combine axes", &name, &["cartesian", "paired"]))?,
         };
-        let ask = match root.text("ask").map_err(own)? {
+        let ask = match root.text("ask")? {
             None => Ask::default(),
-            Some((name, _)) => {
-                Ask::parse(&name).ok_or_else(|| own(root.no_such("ask", "question", &name, &Ask::NAMES)))?
-            }
+            Some((name, _)) => Ask::parse(&name).ok_or_else(|| root.no_such("ask", "question", &name, &Ask::NAMES))?,
         };
-        let sampling = sampling(&mut root).map_err(own)?;
-        let Some(mut table) = root.table("axes").map_err(own)? else {
-            return Err(own(root.missing("axes", "add [axes] with a line for each key that varies")));
+        let sampling = sampling(&mut root)?;
+        let Some(mut table) = root.table("axes")? else {
+            return Err(root.missing("axes", "add [axes] with a line for each key that varies").into());
         };
         let mut placed = Vec::new();
-        read_axes(&mut table, "", &template, &mut placed).map_err(own)?;
-        root.close().map_err(own)?;
+        read_axes(&mut table, "", &template, &mut placed)?;
+        root.close()?;
         if placed.is_empty() {
-            return Err(own(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies")));
+            return Err(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies").into());
         }
         // The parser puts dotted keys of one table together; axes have the order of the file.
         placed.sort_by_key(|(_, place, _)| place.start);
-        distinct(&placed).map_err(own)?;
-        let combine = sample(&root, combine, sampling, &mut placed, &template).map_err(own)?;
+        distinct(&placed)?;
+        let combine = sample(&root, combine, sampling, &mut placed, &template)?;
         let (axes, places): (_, Vec<Place>) = placed.into_iter().map(|(axis, place, _)| (axis, place)).unzip();
         let sweep = Sweep { template, axes, combine, ask };
-        sweep.check(&root, &places).map_err(own)?;
+        sweep.check(&root, &places)?;
         Ok(sweep)
     }
 
