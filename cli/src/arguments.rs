@@ -8,7 +8,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
 use rocking::intensity::{Intensity, NAMES};
-use rocking::studies::{Layout, LimitState};
+use rocking::studies::{Layout, LimitState, MOST_REPLICATES};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -416,7 +416,7 @@ pub struct Fragility {
     #[arg(long, value_name = "LAYOUT", value_parser = PossibleValuesParser::new(Layout::NAMES).try_map(|name| name.parse::<Layout>()))]
     pub layout: Option<Layout>,
     /// Sets of resampled records for the bands; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=MOST_REPLICATES as i64))]
     pub replicates: u32,
     /// Share of the resampled sets within the bands.
     #[arg(long, value_name = "SHARE", default_value_t = 0.9, value_parser = share)]

@@ -1,6 +1,6 @@
 //! Study files: a scene, records, levels of a measure, and limit states.
 
-use super::fragility::{FragilityOptions, Layout, NoLayout, some_of};
+use super::fragility::{FragilityOptions, Layout, MOST_REPLICATES, NoLayout, some_of};
 use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
 use super::observation::{DEFAULT_STATES, LimitState, NoLimitState};
 use crate::column::Column;
@@ -30,9 +30,6 @@ pub struct IdaFile {
     /// Input files: the study file, the scene file if the study names one, then the files of records.
     pub inputs: Vec<PathBuf>,
 }
-
-/// Largest number of replicates; a larger one is taken for a mistake.
-const MOST_REPLICATES: u64 = 1_000_000;
 
 impl IdaFile {
     /// Reads a study from a TOML file; scene and records are found relative to it.
@@ -289,7 +286,7 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
         Some(texts) => texts.iter().map(|text| state(&table, &text.to_string(), scene)).collect::<Result<_, _>>()?,
     };
     if let Some(replicates) = table.whole("replicates", 0)? {
-        if replicates > MOST_REPLICATES {
+        if replicates > MOST_REPLICATES as u64 {
             return Err(table.wrong("replicates", format!("{replicates} are too many"), "give at most 1e6"));
         }
         options.replicates = replicates as usize;

@@ -26,7 +26,15 @@ pub enum Layout {
 impl Layout {
     /// The names of all layouts.
     pub const NAMES: [&str; 2] = ["stripes", "cloud"];
+
+    /// The name of this layout.
+    pub fn name(self) -> &'static str {
+        Layout::NAMES[self as usize]
+    }
 }
+
+/// Largest number of replicates; a larger one is taken for a mistake.
+pub const MOST_REPLICATES: usize = 1_000_000;
 
 /// The text was none of the layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -18,8 +18,8 @@ mod proportion;
 mod stripes;
 
 pub use file::IdaFile;
-pub use fragility::{Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, NoLayout};
+pub use fragility::{Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, NoLayout};
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
-pub use observation::{Cells, DEFAULT_STATES, LimitState, NoLimitState, NoOutcome, Observation, record_columns};
+pub use observation::{Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, record_columns};
 pub use proportion::Proportion;
 pub use stripes::{FRACTILES, Stripe, fractile, stripes};

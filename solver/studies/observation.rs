@@ -52,7 +52,7 @@ pub struct Cells<'t> {
     pub level: f64,
     /// The column `outcome`; `None` and `error` stand for a run that failed.
     pub outcome: Option<&'t str>,
-    /// The column `trust`; `None` in a table without it.
+    /// The column `trust`: determined, not-determined, or blank for a run that failed; `None` in a table without it.
     pub trust: Option<&'t str>,
     /// Whether the column `first_uplift` is filled; `None` in a table without it.
     pub has_uplift: Option<bool>,
@@ -62,22 +62,39 @@ pub struct Cells<'t> {
     pub residual_slides: Vec<f64>,
 }
 
-/// The text is no outcome of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no outcome of a run; outcomes are {}, and error", Fate::ALL.map(Fate::name).join(", "))]
-pub struct NoOutcome;
+/// A cell of a table of runs has a word that is none of its column.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WrongCell {
+    /// No outcome of a run.
+    #[error("column `outcome`: `{found}` is no outcome of a run; outcomes are {}, and error", Fate::ALL.map(Fate::name).join(", "))]
+    Outcome {
+        /// The word.
+        found: String,
+    },
+    /// Nothing about the trust in a run.
+    #[error("column `trust`: `{found}` is neither determined nor not-determined")]
+    Trust {
+        /// The word.
+        found: String,
+    },
+}
 
 impl TryFrom<Cells<'_>> for Observation {
-    type Error = NoOutcome;
+    type Error = WrongCell;
 
-    fn try_from(cells: Cells<'_>) -> Result<Observation, NoOutcome> {
+    fn try_from(cells: Cells<'_>) -> Result<Observation, WrongCell> {
         let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
         let named = |name: &str| Fate::ALL.into_iter().find(|fate| fate.name() == name);
         let fate = match outcome {
             None | Some("error") => None,
-            Some(name) => Some(named(name).ok_or(NoOutcome)?),
+            Some(name) => Some(named(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
         };
-        let is_open = trust == Some(Fate::NotDetermined.name());
+        let is_open = match trust {
+            None | Some("" | "determined") => false,
+            Some("not-determined") => true,
+            Some(other) => return Err(WrongCell::Trust { found: other.into() }),
+        };
         let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined));
         Ok(Observation {
             record,
@@ -266,7 +283,9 @@ mod tests {
         assert_eq!(fate("no-uplift", Some("determined")), Ok((Some(Fate::NoUplift), false, 1)));
         assert_eq!(fate("rocks", Some("not-determined")), Ok((Some(Fate::NotDetermined), true, 0)));
         assert_eq!(fate("error", None), Ok((None, false, 1)));
-        assert_eq!(fate("falls over", None), Err(NoOutcome));
+        assert_eq!(fate("rocks", Some("")), Ok((Some(Fate::Rocks), true, 1)));
+        assert_eq!(fate("falls over", None), Err(WrongCell::Outcome { found: "falls over".into() }));
+        assert_eq!(fate("rocks", Some("no")), Err(WrongCell::Trust { found: "no".into() }));
         assert!(!read("slides", None, Some(false)).expect("an outcome").has_uplift);
         // A column that collapsed without a word on uplift has reached that state.
         assert_eq!(LimitState::Uplift.is_reached(&read("collapses", None, None).expect("an outcome")), Some(true));

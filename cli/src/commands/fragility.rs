@@ -223,8 +223,7 @@ impl Columns {
             peaks: numbers(&self.peaks)?,
             residual_slides: numbers(&self.slides)?,
         };
-        Observation::try_from(cells)
-            .map_err(|refused| format!("column `{}`: `{}` is {refused}", self.names[self.outcome], &row[self.outcome]))
+        Observation::try_from(cells).map_err(|refused| refused.to_string())
     }
 }
 
