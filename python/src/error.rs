@@ -63,6 +63,13 @@ pub fn faults(py: Python<'_>, file: &Path, errors: &SceneErrors) -> PyErr {
     }
 }
 
+/// `SceneError` for a record in memory at `key` of a scene whose ground motion is that of a station.
+pub fn beside_station(py: Python<'_>, file: &Path, key: &str) -> PyErr {
+    let file = file.display().to_string();
+    let (problem, remedy) = ("`station` is given as well", "remove one of the two");
+    exception(py, "SceneError", (format!("{file}: key `{key}`: {problem}; {remedy}"), file, 0, key, problem, remedy))
+}
+
 /// `SolveError(message, time)`; `SceneError` for a scene that is not valid.
 pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
     let time = match error {

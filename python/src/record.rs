@@ -60,6 +60,7 @@ impl Record {
                 PyValueError::new_err(format!("there is no unit `{name}`; give one of {known}"))
             })?),
         };
+        above_zero("gravity", gravity)?;
         let options = TextOptions { gravity, dt, units, lenient, channel, skip_rows, column };
         let name = file.to_string_lossy().into_owned();
         let bytes = py
@@ -104,9 +105,8 @@ impl Record {
         sa_damping: Option<f64>,
     ) -> PyResult<Record> {
         let intensity = intensity(measure, sa_period, sa_damping)?;
-        if !(size.is_finite() && size > 0.0) {
-            return Err(PyValueError::new_err(format!("{measure} = {size} is out of range; give a number above zero")));
-        }
+        above_zero(measure, size)?;
+        above_zero("gravity", gravity)?;
         let (unit, gravity) = match column.map(|scene| &scene.scene.column) {
             Some(column) => (Some(intensity.unit_size(column)), column.gravity()),
             None => (intensity.unit_size_without_column(gravity), gravity),
@@ -188,6 +188,7 @@ impl Record {
 
     /// Measures by name.
     fn measures<'py>(&self, py: Python<'py>, gravity: f64) -> PyResult<Bound<'py, PyDict>> {
+        above_zero("gravity", gravity)?;
         let measures = py.detach(|| self.record.measures(gravity));
         let text = serde_json::to_string(&measures).map_err(error::unwritable)?;
         py.import("json")?.getattr("loads")?.call1((text,))?.cast_into().map_err(Into::into)
@@ -230,6 +231,13 @@ impl Record {
 
     fn equals(&self, other: &Record) -> bool {
         self.record == other.record
+    }
+}
+
+fn above_zero(name: &str, value: f64) -> PyResult<()> {
+    match value.is_finite() && value > 0.0 {
+        true => Ok(()),
+        false => Err(PyValueError::new_err(format!("{name} = {value} is out of range; give a number above zero"))),
     }
 }
 

@@ -104,6 +104,12 @@ impl Scene {
         horizontal: Option<&Record>,
         vertical: Option<&Record>,
     ) -> PyResult<Scene> {
+        if let Some(key) = horizontal.map(|_| "horizontal").or(vertical.map(|_| "vertical")) {
+            let excitation = keys.get_item("excitation")?.filter(|excitation| !excitation.is_none());
+            if excitation.is_some_and(|excitation| excitation.contains("station").unwrap_or(false)) {
+                return Err(error::beside_station(py, &file, &format!("excitation.{key}")));
+            }
+        }
         let text = to_toml(keys)?;
         let mut scene = rocking::Scene::from_toml(&text, &file).map_err(|refused| error::scene(py, &refused))?;
         if horizontal.is_some() || vertical.is_some() {

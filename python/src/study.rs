@@ -13,7 +13,8 @@ use pyo3::types::{PyDict, PyList};
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, LimitState, NoLayout, Observation, RunError,
+    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES, NoLayout,
+    Observation, RunError,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -57,9 +58,6 @@ pub struct Ida {
     states: Vec<String>,
     options: FragilityOptions,
 }
-
-/// Number of runs in the first part.
-const FIRST_PART: usize = 16;
 
 #[pymethods]
 impl Ida {
@@ -122,10 +120,22 @@ impl Ida {
         self.ida.records().iter().map(|record| StudyRecord { record: record.clone() }).collect()
     }
 
-    /// Limit states, replicates, confidence and seed of a study's file.
+    /// Limit states of a study's file.
     #[getter]
-    fn conclusions(&self) -> (Vec<String>, usize, f64, u64) {
-        (self.states.clone(), self.options.replicates, self.options.confidence, self.options.seed)
+    fn states(&self) -> Vec<String> {
+        self.states.clone()
+    }
+
+    /// What [`fragility`] takes, by its names, as in a study's file.
+    #[getter]
+    fn options<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let FragilityOptions { replicates, confidence, seed, layout, .. } = self.options;
+        let options = PyDict::new(py);
+        options.set_item("replicates", replicates)?;
+        options.set_item("confidence", confidence)?;
+        options.set_item("seed", seed)?;
+        options.set_item("layout", layout.map(Layout::name))?;
+        Ok(options)
     }
 
     #[getter]
@@ -143,7 +153,7 @@ impl Ida {
     /// The rows of a range of runs.
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.ida.len())?;
-        let runs = in_parts(py, range, threads, FIRST_PART, |part| self.ida.runs(part))?;
+        let runs = in_parts(py, range, threads, |part| self.ida.runs(part))?;
         let scales = runs.iter().map(|run| run.scale).collect();
         let levels = runs.iter().map(|run| run.level).collect();
         let indices = runs.iter().map(|run| run.index as i64).collect();
@@ -236,19 +246,16 @@ impl Runs<'_> {
                 None => Ok(row.iter().take(filled).copied().collect()),
             }
         };
-        let outcome = self.outcomes[run].as_deref();
         let cells = Cells {
             record: self.records[run].clone(),
             level,
-            outcome,
+            outcome: self.outcomes[run].as_deref(),
             trust: self.trust.as_ref().and_then(|trust| trust[run].as_deref()),
             has_uplift: self.uplift.as_ref().map(|uplift| uplift[run]),
             peaks: numbers(peaks)?,
             residual_slides: numbers(slides)?,
         };
-        let wrong =
-            |refused| PyValueError::new_err(format!("row {run}: `{}` is {refused}", outcome.unwrap_or_default()));
-        Observation::try_from(cells).map_err(wrong)
+        Observation::try_from(cells).map_err(|refused| PyValueError::new_err(format!("row {run}: {refused}")))
     }
 }
 
@@ -260,7 +267,7 @@ pub fn record_columns(header: Vec<String>) -> Vec<usize> {
 
 /// The fragility of a limit state as JSON, and its statements.
 #[pyfunction]
-#[pyo3(signature = (runs, state, replicates, confidence, seed, layout_name))]
+#[pyo3(signature = (runs, state, replicates = 1000, confidence = 0.9, seed = 0, layout = None))]
 pub fn fragility(
     py: Python<'_>,
     runs: Runs<'_>,
@@ -268,7 +275,7 @@ pub fn fragility(
     replicates: usize,
     confidence: f64,
     seed: u64,
-    layout_name: Option<&str>,
+    layout: Option<&str>,
 ) -> PyResult<(String, Vec<String>)> {
     let runs = runs.observations()?;
     let state: LimitState =
@@ -278,15 +285,18 @@ pub fn fragility(
             "confidence = {confidence} is out of range; give a share between 0 and 1"
         )));
     }
+    if replicates > MOST_REPLICATES {
+        return Err(PyValueError::new_err(format!("replicates = {replicates} are too many; give at most 1e6")));
+    }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
-    let layout = |name: &str| {
+    let named = |name: &str| {
         name.parse()
             .map_err(|refused: NoLayout| PyValueError::new_err(format!("there is no layout `{name}`; {refused}")))
     };
-    options.layout = layout_name.map(layout).transpose()?;
+    options.layout = layout.map(named).transpose()?;
     // One part with one item, which computes its bands on the threads of the pool.
-    let made = in_parts(py, 0..1, 0, 1, |_| vec![Fragility::of(&runs, state, &options)])?;
+    let made = in_parts(py, 0..1, 0, |_| vec![Fragility::of(&runs, state, &options)])?;
     let found = made.first().ok_or_else(|| error::of_study(py, "no curve was made"))?;
     Ok((serde_json::to_string(found).map_err(error::unwritable)?, found.statements()))
 }

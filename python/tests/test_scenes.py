@@ -151,3 +151,44 @@ def test_bad_columns_and_motions_are_refused() -> None:
         rk.simulate(COLUMN, rk.pulse("rickr", amplitude=1.0, omega=1.0))
     with pytest.raises(rk.SceneError, match="amplitude_g"):
         rk.simulate(COLUMN, rk.pulse("ricker", amplitude=1.0, amplitude_g=1.0, omega=1.0))
+
+
+def test_what_was_given_may_change_afterwards() -> None:
+    """Arrays and dictionaries were shared: text, sweeps and pickles of a scene followed them, its runs did not."""
+    theta, motion, keys = np.array([0.02, 0.02]), {"kind": "ricker", "amplitude": 2.0, "omega": 5.0}, {"output.columns": ["top"]}
+    scene = rk.Scene(COLUMN, motion, theta=theta, keys=keys)
+    samples = [0.0, 1.0, 0.0]
+    recorded = rk.Motion(kind="record", accel=samples, dt=0.01)
+    axes = {"eta": np.array([0.8, 0.9])}
+    sweep = rk.Sweep(scene, axes)
+    before = scene.toml, sweep.table()
+    theta[0], motion["amplitude"], samples[1], axes["eta"][0] = 0.3, 9.0, 5.0, 0.1
+    keys["output.columns"].append("relative")
+    assert scene.toml == before[0] and recorded["accel"] == [0.0, 1.0, 0.0]
+    assert pickle.loads(pickle.dumps(sweep)).table().equals(before[1])
+    nested = {"column": {"blocks": 1, "half_width": 0.4, "half_height": 1.6}, "initial": {"theta": [0.1]}}
+    rk.Scene.from_dict(nested).replace(theta=[0.2])
+    assert nested["initial"] == {"theta": [0.1]}
+
+
+def test_none_leaves_a_key_out() -> None:
+    scene = rk.Scene(COLUMN, rk.pulse("ricker", amplitude=2.0, omega=5.0), friction=0.5, eta=0.9, t_end=7.0)
+    assert scene.replace(friction=None) == rk.Scene(COLUMN, rk.pulse("ricker", amplitude=2.0, omega=5.0), eta=0.9, t_end=7.0)
+    assert rk.simulate(scene, friction=None).slide is None and rk.simulate(scene).slide is not None
+    assert scene.replace(factors=None) == scene and rk.Scene(COLUMN, friction=None, t_end=3) == rk.Scene(COLUMN, t_end=3)
+
+
+def test_a_scene_is_not_saved_where_it_would_name_other_records(scenes: Path, tmp_path: Path) -> None:
+    scene = rk.Scene.load(scenes / "two-drums-record.toml")
+    with pytest.raises(ValueError, match="records/synthetic.AT2 relative to"):
+        scene.save(tmp_path / "scene.toml")
+    moved = scene.replace(keys={"excitation.horizontal.file": scenes.resolve() / "records" / "synthetic.AT2"})
+    moved.save(tmp_path / "scene.toml")
+    again = rk.Scene.load(tmp_path / "scene.toml")
+    assert rk.simulate(again).impacts == rk.simulate(scene).impacts
+
+
+def test_a_record_stands_beside_no_station() -> None:
+    with pytest.raises(rk.SceneError, match="`station` is given as well") as caught:
+        rk.Scene(COLUMN, rk.Record.synthetic(1), keys={"excitation.station": {"record": "records/RSN1"}})
+    assert caught.value.key == "excitation.horizontal"

@@ -330,3 +330,47 @@ def test_arguments_that_a_study_does_not_use_are_refused():
     for argument in ({"vertical": rk.pulse("ricker", amplitude=1, omega=5)}, {"t_end": 20.0}):
         with pytest.raises(TypeError, match="a study has no argument"):
             rk.ida(column, rk.synthetic(range(2)), "PGV", [0.1, 0.2], **argument)
+
+
+def test_a_study_follows_its_table():
+    """Curves were those of the table as it was when the first was made."""
+    table = pd.DataFrame({"record": np.repeat(list("abcdef"), 2), "pgv": [0.1, 0.2] * 6, "outcome": ["rocks", "overturns"] * 6})
+    study = rk.Study(table.copy())
+    assert study.fragility(replicates=0).counts.reached.tolist() == [0, 6] and study.stripes.overturns.tolist() == [0, 6]
+    study.table = table[table.record < "d"]
+    assert study.fragility(replicates=0).counts.reached.tolist() == [0, 3] and study.stripes.overturns.tolist() == [0, 3]
+
+
+def test_a_loaded_study_has_the_fragility_of_its_file(scenes: Path, tmp_path: Path):
+    text = (scenes / "studies" / "statue-ida.toml").read_text().replace("statue.toml", str(scenes.resolve() / "studies" / "statue.toml"))
+    head = text.split("[fragility]")[0]
+    file = tmp_path / "ida.toml"
+    file.write_text(head + '[fragility]\nstates = ["peak > 0.2", "overturned"]\nreplicates = 40\nconfidence = 0.5\nseed = 3\nlayout = "cloud"\n')
+    study = rk.Study.load(file)
+    assert study.states == ["peak > 0.2", "overturned"]
+    given = {"replicates": 40, "confidence": 0.5, "seed": 3, "layout": "cloud"}
+    own, plain = study.fragility("peak > 0.2"), rk.Study(study.table)
+    assert own.to_dict() == plain.fragility("peak > 0.2", **given).to_dict() != plain.fragility("peak > 0.2").to_dict()
+    assert study.fragility("peak > 0.2", replicates=0).bands is None and study.fragility("peak > 0.2", replicates=0).layout == "cloud"
+
+
+def test_words_that_a_table_of_runs_has_not_are_refused():
+    table = pd.DataFrame({"record": np.repeat(list("abcdef"), 2), "pgv": [0.1, 0.2] * 6, "outcome": ["rocks", "overturns"] * 6, "trust": "determined"})
+    assert rk.Study(table).fragility(replicates=0).counts.undecided.tolist() == [0, 0]
+    table.loc[[1, 3], "trust"] = ["not-determined", None]
+    assert rk.Study(table).fragility(replicates=0).counts.undecided.tolist() == [0, 1]
+    with pytest.raises(ValueError, match="row 0: column `trust`: `True` is neither determined nor not-determined"):
+        rk.Study(table.assign(trust=True)).fragility(replicates=0)
+    with pytest.raises(ValueError, match="row 0: column `outcome`: `fell` is no outcome"):
+        rk.Study(table.assign(outcome="fell")).fragility(replicates=0)
+
+
+def test_numbers_beyond_any_use_are_refused():
+    study = rk.Study(pd.DataFrame({"record": list("abcdef"), "pgv": 0.1, "outcome": "rocks"}))
+    with pytest.raises(ValueError, match="replicates"):
+        study.fragility(replicates=10_000_000)
+    with pytest.raises(ValueError, match="threads"):
+        rk.sweep(SCENE, {"amplitude_uplift": [2.0]}, threads=10_000)
+    for gravity in (0.0, -9.81, float("nan")):
+        with pytest.raises(ValueError, match="gravity"):
+            rk.Record.synthetic(1).scaled(pga_g=0.1, gravity=gravity)

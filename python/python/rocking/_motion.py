@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Union
 
+from ._keys import copied
 from ._record import Record
 
 #: What shakes in one direction: a pulse, a record, or the keys of a component as a mapping.
@@ -15,7 +16,7 @@ class Motion(Mapping[str, Any]):
     """The keys of one component of the ground motion, as below ``[excitation.horizontal]``; not changed after it was made."""
 
     def __init__(self, **keys: Any) -> None:
-        self._keys = {key: value for key, value in keys.items() if value is not None}
+        self._keys = {key: copied(value) for key, value in keys.items() if value is not None}
 
     def __getitem__(self, key: str) -> Any:
         return self._keys[key]

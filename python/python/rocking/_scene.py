@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
+from ._keys import copied
 from ._motion import Motion, MotionLike
 from ._record import Array, Record
 
@@ -109,7 +110,7 @@ class Block(Mapping[str, Any]):
             "inertia": inertia,
             **others,
         }
-        self._keys = {key: value for key, value in keys.items() if value is not None}
+        self._keys = {key: copied(value) for key, value in keys.items() if value is not None}
 
     def __getitem__(self, key: str) -> Any:
         return self._keys[key]
@@ -146,7 +147,7 @@ class Column:
     """
 
     def __init__(self, blocks: Iterable[Mapping[str, Any]], *, gravity: float | None = None) -> None:
-        self._become({"block": [dict(block) for block in blocks]}, gravity)
+        self._become({"block": [copied(block) for block in blocks]}, gravity)
 
     def _become(self, keys: dict[str, Any], gravity: float | None) -> None:
         self._keys: dict[str, Any] = {**keys, **({} if gravity is None else {"gravity": gravity})}
@@ -188,7 +189,7 @@ class Column:
             **others,
         }
         made = cls.__new__(cls)
-        made._become({"column": {key: value for key, value in keys.items() if value is not None}}, gravity)
+        made._become({"column": {key: copied(value) for key, value in keys.items() if value is not None}}, gravity)
         return made
 
     @classmethod
@@ -283,12 +284,12 @@ class Scene:
         **arguments: "Unpack[SceneKeys]",
     ) -> None:
         column = column if isinstance(column, Column) else Column(column)
-        keys = _copy(column._keys)
+        keys = copied(column._keys)
         motions = {name: motion for name, motion in (("horizontal", horizontal), ("vertical", vertical)) if motion is not None}
         if motions:
-            keys["excitation"] = motions
+            keys["excitation"] = copied(motions)
         for key, value in _dotted(arguments):
-            _put(keys, key, value)
+            _put(keys, key, copied(value))
         self._become(keys, WITHOUT_FILE)
 
     def _become(self, keys: dict[str, Any], file: str, native: _rocking.Scene | None = None, text: str | None = None) -> None:
@@ -328,7 +329,7 @@ class Scene:
     @classmethod
     def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
         """Reads the keys of a scene file as a nested dictionary."""
-        return cls._of(_copy(keys), os.fspath(file))
+        return cls._of(copied(keys), os.fspath(file))
 
     def replace(
         self,
@@ -338,21 +339,24 @@ class Scene:
         vertical: MotionLike | None = None,
         **arguments: "Unpack[SceneKeys]",
     ) -> "Scene":
-        """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``. A value of None in ``keys`` removes a key."""
+        """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
+
+        None removes a key: ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion.
+        """
         keys = self.keys
         if column is not None:
-            keys = {**{key: value for key, value in keys.items() if key not in ("column", "block")}, **_copy(column._keys)}
+            keys = {**{key: value for key, value in keys.items() if key not in ("column", "block")}, **copied(column._keys)}
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
             if motion is not None:
-                _put(keys, f"excitation.{name}", motion)
+                _put(keys, f"excitation.{name}", copied(motion))
         given = list(_dotted(arguments))
         # Those of the scene make room for those given; of two that are given the reader refuses one.
         for group in ALTERNATIVES:
-            if any(key in group for key, _ in given):
+            if any(key in group and value is not None for key, value in given):
                 for key in group:
                     _put(keys, key, None)
         for key, value in given:
-            _put(keys, key, value)
+            _put(keys, key, copied(value))
         return Scene._of(keys, self._file)
 
     @property
@@ -360,7 +364,7 @@ class Scene:
         """The keys as in a scene file; a copy."""
         if self._file == WITHOUT_KEYS:
             raise ValueError("the scene of a point of a sweep has no keys of its own; change the base scene, or the axes")
-        keys: dict[str, Any] = _copy(self._keys)
+        keys: dict[str, Any] = copied(self._keys)
         return keys
 
     @property
@@ -397,7 +401,17 @@ class Scene:
         return self._compiled.warnings
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes the scene file."""
+        """Writes the scene file.
+
+        Raises
+        ------
+        ValueError
+            Where the scene names records relative to its own folder and the file is for another one: it would name other records.
+        """
+        own, new = ("" if self._file == WITHOUT_FILE else os.path.dirname(self._file)), os.path.dirname(os.fspath(file))
+        named = [name for name in _files(self.keys.get("excitation")) if not os.path.isabs(name)]
+        if named and os.path.abspath(own) != os.path.abspath(new):
+            raise ValueError(f"the scene names {named[0]} relative to {own or '.'}; save it there, or name the record by its absolute path")
         with open(file, "w", encoding="utf-8") as out:
             out.write(self.toml)
 
@@ -423,25 +437,25 @@ class Scene:
 
 
 def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
-    """Arguments under the dotted names of their keys, those of ``keys`` last."""
+    """Arguments under the dotted names of their keys, those of ``keys`` last; None for a key that is left out."""
     for name, value in arguments.items():
         if name == "keys":
             continue
         if name not in ARGUMENTS:
             known = ", ".join([*ARGUMENTS, "keys"])
             raise TypeError(f"there is no argument `{name}`; arguments are {known}")
-        if value is not None:
-            yield ARGUMENTS[name], value
+        yield ARGUMENTS[name], value
     yield from arguments.get("keys", {}).items()
 
 
-def _copy(value: Any) -> Any:
-    """A copy of nested dictionaries and lists; motions and arrays are shared."""
-    if isinstance(value, Motion):
-        return value
-    if isinstance(value, Mapping):
-        return {key: _copy(item) for key, item in value.items()}
-    return [_copy(item) for item in value] if isinstance(value, list) else value
+def _files(motion: Any) -> Iterable[str]:
+    """Files that keys of the ground motion name."""
+    if isinstance(motion, Mapping):
+        for key, value in motion.items():
+            yield from [os.fspath(value)] if key in ("file", "record") and isinstance(value, (str, os.PathLike)) else _files(value)
+    elif isinstance(motion, list):
+        for item in motion:
+            yield from _files(item)
 
 
 def _put(keys: dict[str, Any], key: str, value: Any) -> None:

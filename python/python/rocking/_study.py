@@ -8,7 +8,6 @@ import re
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -174,6 +173,13 @@ class Study:
         A row per run, with the columns of ``rocking ida``, or of ``rocking sweep`` over records and a measure.
     measure : str
         Column of the levels; the one that has the name of a measure unless given.
+
+    Attributes
+    ----------
+    table, measure
+        As given; what follows from the table is computed when it is asked for.
+    states : list of str
+        Limit states of the study's file; none for a study that was not loaded from a file.
     """
 
     def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
@@ -188,19 +194,23 @@ class Study:
             if name not in table.columns:
                 raise StudyError(f"the table has no column `{name}`; it has {', '.join(map(str, table.columns))}")
         self.measure = measure
+        self.states: list[str] = []
+        self._options: dict[str, Any] = {}
 
     @classmethod
     def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
-        """Runs a study file of ``rocking ida``."""
+        """Runs a study file of ``rocking ida``. Its ``[fragility]`` gives ``states`` and what :meth:`fragility` takes unless given."""
         native = _rocking.Ida.from_toml(_rocking.scene_text(os.fspath(file)), os.fspath(file))
-        return cls(frame(native.table(0, len(native), threads)), native.measure)
+        study = cls(frame(native.table(0, len(native), threads)), native.measure)
+        study.states, study._options = native.states, native.options
+        return study
 
     @property
     def label(self) -> str:
         """Label of an axis of the measure: quantity and unit."""
         return _rocking.measure_label(_last(self.measure)) or self.measure
 
-    @cached_property
+    @property
     def _runs(self) -> "Runs":
         table = self.table
         names = [str(name) for name in table.columns]
@@ -236,7 +246,7 @@ class Study:
             slides=grid("residual_slide_"),
         )
 
-    @cached_property
+    @property
     def stripes(self) -> pd.DataFrame:
         """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost."""
         columns = _rocking.stripes(self._runs)
@@ -246,9 +256,9 @@ class Study:
         self,
         state: str = "overturned",
         *,
-        replicates: int = 1000,
-        confidence: float = 0.9,
-        seed: int = 0,
+        replicates: int | None = None,
+        confidence: float | None = None,
+        seed: int | None = None,
         layout: str | None = None,
     ) -> "Fragility":
         """The probability of a limit state given the level.
@@ -258,7 +268,8 @@ class Study:
         state : str
             ``uplift``, ``overturned``, ``peak > 0.35`` (|θ|/α), ``peak_2 > 0.35`` of the second block, or ``slide > 0.05`` [m].
         replicates, confidence, seed
-            Resampled sets of records for the bands, their share within the bands, and the seed of the resampling.
+            Resampled sets of records for the bands, their share within the bands, and the seed of the resampling; 1000, 0.9 and 0 unless given here or
+            in the study's file.
         layout : str
             ``stripes`` or ``cloud``; as the data have it unless given.
         """
@@ -271,7 +282,9 @@ class Study:
             raise StudyError(f"the state `{state}` needs the column peak_{named[1]}, and the columns of the table have {blocks} block(s)")
         if kind.startswith("slide") and runs.slides.shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: give the scene friction")
-        text, statements = _rocking.fragility(runs, state, replicates, confidence, seed, layout)
+        given = {"replicates": replicates, "confidence": confidence, "seed": seed, "layout": layout}
+        options = {**self._options, **{name: value for name, value in given.items() if value is not None}}
+        text, statements = _rocking.fragility(runs, state, **options)
         return Fragility(json.loads(text), statements, self.measure, self.label)
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

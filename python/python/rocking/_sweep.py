@@ -10,6 +10,7 @@ import pandas as pd
 
 from . import _rocking
 from ._frame import arrow, frame
+from ._keys import copied
 from ._scene import WITHOUT_KEYS, Scene
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ class Sweep:
         combine: str = "cartesian",
         sampling: Mapping[str, Any] | None = None,
     ) -> None:
-        self._source: tuple[Any, ...] = (scene, dict(axes), ask, combine, sampling)
+        self._source: tuple[Any, ...] = (scene, copied(axes), ask, combine, copied(sampling))
         drawn = {} if sampling is None else {"sampling": dict(sampling)}
         text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": dict(axes)})
         self._sweep = _rocking.Sweep.from_toml(text, "<sweep>", scene.toml, scene.file)
@@ -65,7 +66,8 @@ class Sweep:
     def load(cls, file: str | os.PathLike[str]) -> "Sweep":
         """Reads a sweep file."""
         made = cls.__new__(cls)
-        made._source = (os.fspath(file),)
+        # A process that runs a part may have another folder.
+        made._source = (os.path.abspath(file),)
         made._sweep = _rocking.Sweep.load(os.fspath(file))
         return made
 
@@ -118,9 +120,6 @@ class Sweep:
         else:
             scene, axes, ask, combine, sampling = source
             self.__init__(scene, axes, ask=ask, combine=combine, sampling=sampling)  # type: ignore[misc]
-
-
-#: File of a scene that a sweep made of its base scene.
 
 
 @overload
