@@ -310,9 +310,13 @@ pub struct Response {
     pub status: StopReason,
     /// When the run ended `[s]`: at overturning or collapse, at coming to rest for good, when what is requested is certain, or at `t_end`.
     pub t_final: f64,
-    /// Whether the column stands at the end of the run and the ground still moves after `t_end`: the outcome then holds up to `t_end` only.
+    /// Whether the column stands at the end of the run and the ground still moves after `t_end`, or the column [may overturn](Self::may_overturn)
+    /// on the ground at rest: the outcome then holds up to `t_end` only.
     #[serde(default)]
     pub truncated: bool,
+    /// Whether the ground rests from `t_end` on and the column that stands then is past its balance, or has the energy to get there: it may be falling.
+    #[serde(default)]
+    pub may_overturn: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
     /// The block that slid or flew off its support, from 1; only with friction.

@@ -3,7 +3,7 @@
 #[path = "common/stress.rs"]
 mod scenes;
 
-use rocking::{Method, Response, Scene, StopReason, Wanted, simulate};
+use rocking::{Column, Friction, Method, Response, Scene, StopReason, Wanted, simulate};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -187,4 +187,56 @@ fn one_block_is_certain_as_soon_as_the_ground_rests() {
     let overturns = simulate(&scene).expect("it runs");
     assert_eq!(overturns.status, StopReason::Overturned);
     assert!(overturns.samples.is_empty() && overturns.friction_demand.is_empty());
+}
+
+/// A free swing that begins with these angles over the slenderness and these rates over `p`, and ends after a fifth of a second or at `t_end`.
+fn free_swing(blocks: usize, theta: &[f64], omega: &[f64], friction: Option<f64>) -> Scene {
+    let mut scene = Scene::new(Column::equal_blocks(blocks, 0.4, 1.6, 1000.0, 9.81).expect("positive sizes"));
+    let stacks: Vec<_> = (0..blocks).map(|block| scene.column.stack(block)).collect();
+    scene.initial.theta = theta.iter().zip(&stacks).map(|(theta, stack)| theta * stack.slenderness()).collect();
+    scene.initial.omega = omega.iter().zip(&stacks).map(|(omega, stack)| omega * stack.frequency_parameter()).collect();
+    scene.friction = friction.map(Friction::uniform);
+    scene.options.t_end = 0.2;
+    scene
+}
+
+/// A run that is cut while its column falls does not stand.
+#[test]
+fn a_column_that_may_be_falling_at_the_end_is_told_from_one_that_stands() {
+    for friction in [None, Some(0.9)] {
+        for (theta, omega, may_overturn) in [(0.5, 0.0, false), (0.99, 0.0, false), (1.01, 0.0, true), (0.9, 0.3, true)]
+        {
+            let mut scene = free_swing(1, &[theta], &[omega], friction);
+            scene.options.t_end = 0.02;
+            for wanted in [Wanted::Everything, Wanted::Outcome] {
+                let run = wanting(&scene, wanted).expect("it runs");
+                let known = (run.may_overturn, run.truncated, run.status.stands());
+                assert_eq!(known, (may_overturn, may_overturn, true), "{theta} {omega} {friction:?} {wanted:?}");
+            }
+            let (_, trust) = rocking::trust::follow(&scene).expect("it runs");
+            assert_eq!(trust.determined, !may_overturn, "{theta} {omega} {friction:?}: {trust:?}");
+        }
+    }
+}
+
+/// Without sliding it is a proof: what stands at the end of a free swing stands for ever, and columns that overturn later have been told.
+#[test]
+fn columns_that_overturn_later_may_have_been_falling() {
+    let mut counts = [0, 0];
+    for seed in 0..600u64 {
+        let mut random = scenes::Random::new(seed);
+        let blocks = 1 + (seed % 3) as usize;
+        let angles: Vec<f64> = (0..blocks).map(|_| random.within(-1.0, 1.0)).collect();
+        let rates: Vec<f64> = (0..blocks).map(|_| random.within(-0.5, 0.5)).collect();
+        let mut scene = free_swing(blocks, &angles, &rates, None);
+        let Some(cut) = wanting(&scene, Wanted::Everything) else { continue };
+        scene.options.t_end = 60.0;
+        let Some(whole) = wanting(&scene, Wanted::Overturns) else { continue };
+        if !cut.status.stands() {
+            continue;
+        }
+        assert!(cut.may_overturn || !whole.status.overturns(), "seed {seed}: {:?} at {}", whole.status, whole.t_final);
+        counts[usize::from(cut.may_overturn)] += 1;
+    }
+    assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }

@@ -51,6 +51,29 @@ fn a_run_that_cuts_its_record_says_so_and_not_that_the_column_stands() {
 }
 
 #[test]
+fn a_run_that_ends_while_its_column_falls_does_not_say_that_it_stands() {
+    let pulse = "kind = \"sine-pulse\"\namplitude_uplift = 4.0\nomega_p = 5.0\n[restitution]\neta = 0.9\n";
+    for friction in ["", "friction = 0.9\n"] {
+        // It overturns at t = 3.1 s.
+        let folder = folder(&format!("{friction}{BLOCK}{pulse}[solver]\nt_end = 3.0\n"));
+        let output = rocking(folder.path(), &["run", "s.toml", "--report"]);
+        let (told, warned) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(told.contains("not determined; this run rocks; not overturned up to t = 3 s"), "{told}");
+        assert!(told.contains("has the energy to overturn") && !told.contains("stands"), "{told}");
+        assert!(warned.contains("past its balance, or with the energy to get there"), "{warned}");
+        let own = summary(folder.path());
+        assert_eq!((&own["may_overturn"], &own["truncated"]), (&true.into(), &true.into()));
+        assert_eq!(own["trust"]["determined"], false);
+        let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("written");
+        assert!(
+            page.contains("The verdict is <strong>not determined</strong>")
+                && page.contains("has not overturned up to")
+        );
+        assert!(!page.contains("<strong>stands</strong>"));
+    }
+}
+
+#[test]
 fn a_motion_without_an_end_wants_one_of_its_run() {
     let harmonic = "kind = \"harmonic\"\namplitude_g = 0.3\nfrequency = 2\n";
     let folder = folder(&format!("{BLOCK}{harmonic}"));
@@ -70,7 +93,7 @@ fn rows_of_a_sweep_say_whether_they_are_cut() {
     let sweep = "scene = \"s.toml\"\n[axes]\n\"solver.t_end\" = [5, 30]\nscale = [0.1, 1]\n";
     std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
     let told = succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
-    assert!(told.contains("the ground still moves at the end of 2 run(s)"), "{told}");
+    assert!(told.contains("2 run(s) are cut at solver.t_end"), "{told}");
     let table = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
     let ends: Vec<&str> = table.lines().map(|line| line.rsplit(',').nth(1).expect("a cell")).collect();
     assert_eq!(ends, ["truncated", "true", "true", "false", "false"], "{table}");

@@ -27,6 +27,10 @@ pub struct SlidingReport {
     pub impact_losses: f64,
     /// Work of the ground's inertial forces on the column `[J]`. While everything sticks, it is the change of energy plus the losses at impacts.
     pub ground_work: f64,
+    /// Work of the ground on the column and of the column on the ground, added up without signs `[J]`: the work of a ground that gives and takes back the same
+    /// energy is rounding, this is not.
+    #[serde(default)]
+    pub ground_exchange: f64,
     /// Energy at the end less that at the start, relative to the ground `[J]`.
     pub energy_change: f64,
     /// Times at which several motions were admissible `[s]`.
@@ -54,11 +58,18 @@ impl SlidingReport {
     /// Whether the report has one entry per interface in each list, and finite slides, energies and instants.
     pub(crate) fn is_of(&self, blocks: usize) -> bool {
         let lengths = [&self.peak_slide, &self.residual_slide, &self.way_slid];
-        let sums = [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.energy_change];
+        let sums =
+            [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.ground_exchange];
         let moments = self.ambiguous.iter().chain(&self.jammed);
         lengths.iter().all(|list| list.len() == blocks)
             && (self.times.len(), self.flights.len()) == (blocks, blocks)
-            && lengths.into_iter().flatten().chain(&sums).chain(moments).all(|value| value.is_finite())
+            && lengths
+                .into_iter()
+                .flatten()
+                .chain(&sums)
+                .chain([&self.energy_change])
+                .chain(moments)
+                .all(|value| value.is_finite())
     }
 
     /// Whether an interface has slid or flown.
@@ -71,13 +82,12 @@ impl SlidingReport {
         self.way_slid[interface] > 0.0 || self.flights[interface] > 0
     }
 
-    /// Error of the energy balance, relative to the work of the ground or, without such work, to the largest of the other terms; `None` where
+    /// Error of the energy balance, relative to the work of the ground or, where that is the rounding of other terms, to the largest of these; `None` where
     /// nothing slid or flew, or only the outcome was wanted.
     pub fn balance(&self) -> Option<f64> {
-        let SlidingReport { ground_work, friction_work, impact_losses, energy_change, .. } = *self;
+        let SlidingReport { ground_work, friction_work, impact_losses, ground_exchange, energy_change, .. } = *self;
         let open = ground_work + friction_work - impact_losses - energy_change;
-        let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs());
-        // Work that is the rounding of other terms is none.
+        let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs()).max(ground_exchange);
         let scale = if ground_work.abs() > 1e-9 * largest { ground_work.abs() } else { largest };
         (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
     }

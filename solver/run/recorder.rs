@@ -1,5 +1,6 @@
 //! The recorder: the only writer of rows, events, peaks, forces and times in modes.
 
+use super::certainty::verdict;
 use super::modes::Modes;
 use super::needs::{InPanel, Needs};
 use super::problem::Problem;
@@ -282,6 +283,7 @@ impl Recorder {
         }
         let mut response = self.so_far(problem, last, status, modes);
         response.overturned_block = block.map(|block| block + 1);
+        response.may_overturn = status == StopReason::EndOfTime && verdict::may_overturn(problem.scene, last);
         response.work.ended_early = !matches!(over, Over::Overturned(_) | Over::EndOfTime);
         response
     }
@@ -310,6 +312,7 @@ impl Recorder {
             status,
             t_final: last.t,
             truncated: false,
+            may_overturn: false,
             overturned_block: None,
             collapsed_block: None,
             samples: self.samples,

@@ -112,7 +112,9 @@ impl Simulator {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
         let mut response = self.response(scene, progress)?;
-        response.truncated = response.status.stands() && scene.excitation.moves_after(scene.options.t_end);
+        let ground_moves = scene.excitation.moves_after(scene.options.t_end);
+        response.may_overturn &= !ground_moves;
+        response.truncated = response.status.stands() && (ground_moves || response.may_overturn);
         Ok(response)
     }
 

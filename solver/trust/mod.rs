@@ -176,7 +176,8 @@ pub fn follow_run_observed(
     let block = response.lost_block();
     let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| run.lost_block() == block));
     let certain_at = certain_at(scene, response, run)?;
-    let determined = same_verdict && horizon >= certain_at && verdict != Verdict::Undetermined;
+    let is_settled = verdict != Verdict::Undetermined && !response.may_overturn;
+    let determined = is_settled && same_verdict && horizon >= certain_at;
     let (amplification, grows_on) = companions::amplification(&companions);
     let all = || std::iter::once(&own).chain(runs.iter().filter_map(|(_, run)| run.as_ref()));
     let outcome = match (verdict, determined) {

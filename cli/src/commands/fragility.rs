@@ -117,7 +117,7 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
     let mut warnings: Vec<String> = pooled.collect();
     if cut > 0 {
-        warnings.push(format!("{cut} run(s) end before their ground motion (`{TRUNCATED}`), and count as standing"));
+        warnings.push(format!("{cut} run(s) end before their ground motion, or with the energy to overturn (`{TRUNCATED}`), and count as standing"));
     }
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
     Ok(Runs { measure, runs, first_error, warnings, peaks, has_slides })

@@ -107,6 +107,10 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
             format!("{fate} at t = {t:.4} s{block}")
         }
         StopReason::Falls => format!("{fate}, certain from t = {t:.4} s on"),
+        _ if response.may_overturn => format!(
+            "{fate}; not overturned up to t = {} s, where the run ends and the column has the energy to overturn",
+            scene.options.t_end
+        ),
         StopReason::AtRest | StopReason::EndOfTime if response.truncated => format!(
             "{fate}; not overturned up to t = {} s, where the run ends and the ground still moves",
             scene.options.t_end

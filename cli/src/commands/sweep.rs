@@ -152,7 +152,7 @@ pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
-/// The column of the table that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on.
+/// The column of the table that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on or they may overturn.
 pub const TRUNCATED: &str = "truncated";
 
 /// The columns of the table of a sweep.
@@ -288,7 +288,7 @@ struct Tally {
     collapses: usize,
     undetermined: usize,
     errors: usize,
-    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on. They are also counted by outcome.
+    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on or they may overturn. They are also counted by outcome.
     truncated: usize,
     /// Rows whose outcome is not determined, in sweeps that ask for trust. They are also counted by outcome.
     not_determined: usize,
@@ -341,7 +341,7 @@ impl std::fmt::Display for Tally {
         if self.truncated > 0 {
             writeln!(
                 f,
-                "the ground still moves at the end of {} run(s), where solver.t_end cuts them",
+                "{} run(s) are cut at solver.t_end: the ground still moves there, or the column has the energy to overturn",
                 self.truncated
             )?;
         }

@@ -24,6 +24,13 @@ pub fn sentence(results: &Results) -> String {
             });
             ("overturned", format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."))
         }
+        _ if response.may_overturn => (
+            "rocking",
+            format!(
+                "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends, but it is past its balance \
+                 or has the energy to get there: whether it stands is open."
+            ),
+        ),
         StopReason::AtRest | StopReason::EndOfTime if response.truncated => (
             "rocking",
             format!(

@@ -72,6 +72,18 @@ pub struct Barrier {
     pub mass: f64,
 }
 
+impl Barrier {
+    /// Whether blocks turned like this, base first `[rad]`, are out of the box.
+    pub(crate) fn is_left(&self, theta: &[f64]) -> bool {
+        theta.iter().zip(&self.angles).any(|(theta, most)| theta.abs() > *most)
+    }
+
+    /// Whether a column with these angles `[rad]` and this energy above rest `[J]` is out of the box, or has the energy to leave it.
+    pub(crate) fn may_be_passed(&self, theta: &[f64], energy: f64) -> bool {
+        self.is_left(theta) || energy >= self.energy
+    }
+}
+
 /// Bounds by which the outcome of a run is certain or not.
 #[derive(Clone, Debug)]
 pub(crate) struct OutcomeBounds {
@@ -87,8 +99,12 @@ pub(crate) struct OutcomeBounds {
 impl OutcomeBounds {
     /// The bounds for runs of this scene; `None` if more than the outcome is requested.
     pub fn new(scene: &Scene) -> Option<OutcomeBounds> {
-        let is_outcome_all = scene.options.wanted != Wanted::Everything;
-        let barrier = is_outcome_all.then(|| scene.column.barrier(scene.options.overturn_angle))?;
+        (scene.options.wanted != Wanted::Everything).then(|| OutcomeBounds::of(scene))
+    }
+
+    /// The bounds for this scene.
+    pub fn of(scene: &Scene) -> OutcomeBounds {
+        let barrier = scene.column.barrier(scene.options.overturn_angle);
         let (column, impulse) = (&scene.column, (2.0 * barrier.energy / barrier.mass).sqrt());
         let weights = column.blocks().iter().enumerate().map(|(i, block)| {
             let (whole, above) = (column.mass_above(i), column.mass_above(i) - block.mass);
@@ -99,7 +115,7 @@ impl OutcomeBounds {
             let moments = [whole * column.contact_half_width(i), lowered, whole * column.centroid_offset(i)];
             moments.map(|moment| column.gravity() * moment)
         });
-        Some(OutcomeBounds { weights: weights.collect(), barrier, impulse, growth: growth_rate(scene) })
+        OutcomeBounds { weights: weights.collect(), barrier, impulse, growth: growth_rate(scene) }
     }
 
     /// Bounds of the ground motion to come that the proofs read.

@@ -1,9 +1,13 @@
 //! Whether a proof of the outcome holds at the state of a run.
 
 use super::falls::Fall;
+use super::stands::OutcomeBounds;
+use crate::column::Column;
 use crate::mechanics::kinematics::{Posture, Turn};
 use crate::numerics::per_block::{PerBlock, for_size};
 use crate::run::problem::Problem;
+use crate::run::state::State;
+use crate::scene::Scene;
 use rocking_codegen::pattern::Pattern;
 
 /// Least share of the barrier that must be missing from the energy. Roundings are far less, and runs that pass closer to the top take many seconds
@@ -37,17 +41,28 @@ pub(crate) fn stands(
     let Some(outcome_bounds) = problem.outcome_bounds.filter(|_| problem.may_stand) else { return false };
     let Some(impulse) = problem.ground.impulse_from(segment, t, outcome_bounds.impulse) else { return false };
     let (theta, omega) = state();
-    if theta.iter().zip(&outcome_bounds.barrier.angles).any(|(theta, most)| theta.abs() > *most) {
+    if outcome_bounds.barrier.is_left(&theta) {
         return false;
     }
-    let column = &problem.scene.column;
-    let energy = for_size!(column.len(), size => {
-        let turns = Turn::all(size, &theta);
-        let posture = Posture::of(size, column, &pattern.0, &turns);
-        let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(&omega)), &omega);
-        kinetic + outcome_bounds.potential(&turns)
-    });
+    let energy = above_rest(outcome_bounds, &problem.scene.column, pattern, &theta, &omega);
     outcome_bounds.stays(energy, impulse, slack(problem))
+}
+
+/// Energy of a column above that at rest `[J]`.
+fn above_rest(bounds: &OutcomeBounds, column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> f64 {
+    for_size!(column.len(), size => {
+        let turns = Turn::all(size, theta);
+        let posture = Posture::of(size, column, &pattern.0, &turns);
+        let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
+        kinetic + bounds.potential(&turns)
+    })
+}
+
+/// Whether a column in this state, on a ground at rest, is past its balance or has the energy to get there.
+pub(crate) fn may_overturn(scene: &Scene, state: &State) -> bool {
+    let bounds = OutcomeBounds::of(scene);
+    let energy = above_rest(&bounds, &scene.column, &state.pattern, &state.theta, &state.omega);
+    bounds.barrier.may_be_passed(&state.theta, energy)
 }
 
 /// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, is certain to overturn before the run ends.

@@ -245,7 +245,9 @@ impl<'p> SlidingRecorder<'p> {
             self.events.push(event);
         }
         self.report.impact_losses += lost;
-        self.report.ground_work += lost + energy(column, &until.configuration) - energy(column, &from.configuration);
+        let work = lost + energy(column, &until.configuration) - energy(column, &from.configuration);
+        self.report.ground_work += work;
+        self.report.ground_exchange += work.abs();
         let raise = |all: &mut [f64], own: &[f64]| all.iter_mut().zip(own).for_each(|(all, own)| *all = all.max(*own));
         raise(&mut self.peak_theta, &response.peak_theta);
         raise(&mut self.friction_demand, &response.friction_demand);
@@ -357,7 +359,9 @@ impl<'p> SlidingRecorder<'p> {
     fn node(&mut self, segment: usize, joints: &[Joint], node: &Node) {
         let Node { t, weight, momentum: [px, py], contacts, slide_rates } = node;
         let [ax, ay] = self.problem.ground[segment].accelerations(*t);
-        self.report.ground_work -= weight * (ax * px + ay * py);
+        let work = -weight * (ax * px + ay * py);
+        self.report.ground_work += work;
+        self.report.ground_exchange += work.abs();
         for ((joint, contact), rate) in joints.iter().zip(contacts).zip(slide_rates) {
             if *joint != Joint::Free {
                 self.report.friction_work += weight * contact.tangential * rate;
@@ -409,6 +413,14 @@ impl<'p> SlidingRecorder<'p> {
         });
     }
 
+    /// Whether the column is past its balance, or has the energy to get there, with the blocks displaced as they are at the end. A block that is off
+    /// its support then has no balance.
+    fn may_overturn(&self, now: &Configuration) -> bool {
+        let Ok(column) = self.column().clone().displaced(self.report.residual_slide.clone()) else { return true };
+        let above_rest = energy(&column, now) - rest::energy(&column).potential;
+        column.barrier(self.problem.scene.options.overturn_angle).may_be_passed(&now.theta, above_rest)
+    }
+
     /// The response of a run that ends in a state.
     pub fn finish(mut self, end: SlidingState, stop: RunEnd, steps: Work) -> Response {
         self.work.add(&steps);
@@ -433,11 +445,13 @@ impl<'p> SlidingRecorder<'p> {
         if self.problem.is_recorded() {
             self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
         }
+        let may_overturn = status == StopReason::EndOfTime && self.may_overturn(now);
         let recorded = |list: Vec<f64>| if self.problem.is_recorded() { list } else { Vec::new() };
         Response {
             status,
             t_final: end.t,
             truncated: false,
+            may_overturn,
             overturned_block: if let RunEnd::Overturned(block) = stop { Some(block + 1) } else { None },
             collapsed_block: if let RunEnd::Collapsed(block) = stop { Some(block + 1) } else { None },
             samples: self.samples,
