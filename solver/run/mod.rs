@@ -9,6 +9,7 @@ mod expected_event;
 mod modes;
 mod multi_sample_step;
 mod needs;
+mod panel_forces;
 mod phase;
 mod phase_motion;
 mod problem;

@@ -2,7 +2,8 @@
 
 use super::certainty::verdict;
 use super::modes::Modes;
-use super::needs::{InPanel, Needs};
+use super::needs::Needs;
+use super::panel_forces::PanelForces;
 use super::problem::Problem;
 use super::state::State;
 use super::stretch::{Over, Panel, Stretch};
@@ -339,10 +340,10 @@ impl Recorder {
 fn raise_forces(
     panel: &Panel,
     (friction_demand, min_normal_force): (&mut [f64], &mut [f64]),
-    mut account: impl FnMut(usize, &InPanel),
+    mut account: impl FnMut(usize, &PanelForces),
 ) {
     for (interface, (largest, least)) in friction_demand.iter_mut().zip(min_normal_force).enumerate() {
-        let own = InPanel::of(panel.forces.map(|forces| forces[interface]));
+        let own = PanelForces::of(panel.forces.map(|forces| forces[interface]));
         (*least, *largest) = (least.min(own.least_normal), largest.max(own.largest_demand));
         account(interface, &own);
     }
