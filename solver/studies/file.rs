@@ -209,6 +209,7 @@ impl ComponentChoice<'_> {
     }
 }
 
+/// Records of a folder, each with the components that the study takes.
 fn of_folder(
     reader: &Reader,
     table: &Table,
@@ -216,55 +217,8 @@ fn of_folder(
     choice: &ComponentChoice,
     options: &TextOptions,
 ) -> Result<Vec<StudyRecord>, Fault> {
-    let refuse = |key: &str, problem: String, remedy: &str| Fault::from(table.wrong(key, problem, remedy));
-    let path = reader.file.parent().unwrap_or(Path::new("")).join(folder);
-    let failed = |error: std::io::Error| {
-        refuse("folder", format!("{}: {error}", path.display()), "give the folder relative to the study")
-    };
-    let records = records_of(&path).map_err(failed)?;
-    if records.is_empty() {
-        return Err(refuse("folder", format!("{} has no file", path.display()), "give a folder of record files"));
-    }
-    let component = |file: String| reader.component(table, "folder", Path::new(folder), &file, options);
-    let mut refused = Vec::new();
-    let mut groups = Vec::with_capacity(records.len());
-    for (group, files) in records {
-        let mut components: Vec<Component> = Vec::with_capacity(files.len());
-        for file in files {
-            match component(file) {
-                Ok(read) => components.push(read),
-                Err(Fault::Record { record, problem, .. }) => refused.push((record, problem)),
-                Err(other) => return Err(other),
-            }
-        }
-        groups.push((group, components));
-    }
-    if let Some((_, first)) = refused.first() {
-        let names = some_of(refused.iter().map(|(record, _)| record.display().to_string()).collect());
-        let problem = format!("{names}: no record that can be read (the first: {first})");
-        return Err(refuse("folder", problem, "take them out of the folder, or name the records with `files`"));
-    }
-    let lacking = |what: &str, is_there: &dyn Fn(&[Component]) -> bool| -> Vec<String> {
-        let without = groups.iter().filter(|(_, components)| !is_there(components));
-        without
-            .map(|(group, components)| {
-                let known: Vec<&str> = components.iter().map(|component| component.name.as_str()).collect();
-                format!("{group} ({}) has no component `{what}`", known.join(", "))
-            })
-            .collect()
-    };
-    let missing = lacking(choice.component, &|components| !choice.of(components).is_empty());
-    if !missing.is_empty() {
-        let key = if table.has("component") { "component" } else { "folder" };
-        return Err(refuse(key, missing.join("; "), "choose another component, or name the files with `files`"));
-    }
-    if choice.with_vertical {
-        let is_up = |component: &Component| component.direction == Direction::Vertical;
-        let missing = lacking("vertical", &|components| components.iter().any(is_up));
-        if !missing.is_empty() {
-            return Err(refuse("vertical", missing.join("; "), "leave it out, or add the files"));
-        }
-    }
+    let groups = components_of_folder(reader, table, folder, options)?;
+    check_components(table, choice, &groups)?;
     let mut found = Vec::new();
     for (_, components) in &groups {
         let up = components.iter().find(|component| component.direction == Direction::Vertical);
@@ -275,6 +229,62 @@ fn of_folder(
         }
     }
     Ok(found)
+}
+
+/// All files of a folder, read, by the names of their records. The error names all files that are no records.
+fn components_of_folder(
+    reader: &Reader,
+    table: &Table,
+    folder: &str,
+    options: &TextOptions,
+) -> Result<Vec<(String, Vec<Component>)>, Fault> {
+    let refuse = |problem: String, remedy: &str| Fault::from(table.wrong("folder", problem, remedy));
+    let path = reader.file.parent().unwrap_or(Path::new("")).join(folder);
+    let failed =
+        |error: std::io::Error| refuse(format!("{}: {error}", path.display()), "give the folder relative to the study");
+    let records = records_of(&path).map_err(failed)?;
+    if records.is_empty() {
+        return Err(refuse(format!("{} has no file", path.display()), "give a folder of record files"));
+    }
+    let mut refused = Vec::new();
+    let mut groups = Vec::with_capacity(records.len());
+    for (group, files) in records {
+        let mut components: Vec<Component> = Vec::with_capacity(files.len());
+        for file in files {
+            match reader.component(table, "folder", Path::new(folder), &file, options) {
+                Ok(read) => components.push(read),
+                Err(Fault::Record { record, problem, .. }) => refused.push((record, problem)),
+                Err(other) => return Err(other),
+            }
+        }
+        groups.push((group, components));
+    }
+    let Some((_, first)) = refused.first() else { return Ok(groups) };
+    let names = some_of(refused.iter().map(|(record, _)| record.display().to_string()).collect());
+    let problem = format!("{names}: no record that can be read (the first: {first})");
+    Err(refuse(problem, "take them out of the folder, or name the records with `files`"))
+}
+
+/// Refuses records of a folder that lack a component which the study takes.
+fn check_components(table: &Table, choice: &ComponentChoice, groups: &[(String, Vec<Component>)]) -> Result<(), Wrong> {
+    let lacking = |what: &str, is_there: &dyn Fn(&[Component]) -> bool| -> Option<String> {
+        let without = groups.iter().filter(|(_, components)| !is_there(components));
+        let named = without.map(|(group, components)| {
+            let known: Vec<&str> = components.iter().map(|component| component.name.as_str()).collect();
+            format!("{group} ({}) has no component `{what}`", known.join(", "))
+        });
+        let named: Vec<String> = named.collect();
+        (!named.is_empty()).then(|| named.join("; "))
+    };
+    if let Some(problem) = lacking(choice.component, &|components| !choice.of(components).is_empty()) {
+        let key = if table.has("component") { "component" } else { "folder" };
+        return Err(table.wrong(key, problem, "choose another component, or name the files with `files`"));
+    }
+    let is_up = |component: &Component| component.direction == Direction::Vertical;
+    match choice.with_vertical.then(|| lacking("vertical", &|components| components.iter().any(is_up))).flatten() {
+        Some(problem) => Err(table.wrong("vertical", problem, "leave it out, or add the files")),
+        None => Ok(()),
+    }
 }
 
 /// `[fragility]`.
