@@ -399,7 +399,11 @@ impl<'p> SlidingRecorder<'p> {
         let state = |block: usize| BlockState {
             place: chain.centroid(block),
             velocity: motion.linear[block],
-            force: answer.as_ref().map_or_else(Default::default, |answer| answer.contacts[block]),
+            // What the answer has for a free interface is the rounding of zero.
+            force: match answer {
+                Some(answer) if now.joints[block] != Joint::Free => answer.contacts[block],
+                _ => ContactForce::default(),
+            },
         };
         self.samples.push(Sample {
             t,
