@@ -49,7 +49,7 @@ pub const REFERENCE: Stroke = Stroke::dashed(GREY, 1.2, &[5.0, 4.0]);
 /// Ticks and thin marks.
 pub const THIN: Stroke = Stroke::solid(INK, 0.9);
 
-/// Lines of the blocks or interfaces, base first. The eighth block has the line of the first: a legend of so many is of little use anyway.
+/// Lines of the first seven blocks or interfaces, base first.
 const LINES: [Stroke; 7] = [
     Stroke::solid("#0072b2", 2.6),
     Stroke::dashed("#d55e00", 2.1, &[8.0, 5.0]),
@@ -60,9 +60,10 @@ const LINES: [Stroke; 7] = [
     Stroke::dashed("#56b4e9", 1.4, &[9.0, 4.0, 1.5, 4.0, 1.5, 4.0]),
 ];
 
-/// The line of a block or interface, from zero.
+/// The line of a block, interface or curve, from zero. Beyond the seventh, colours come again with the dashes of their neighbours: 49 lines are distinct.
 pub fn line(index: usize) -> Stroke {
-    LINES[index % LINES.len()].clone()
+    let dashes = LINES[(index + index / LINES.len()) % LINES.len()].dashes;
+    Stroke { dashes, ..LINES[index % LINES.len()].clone() }
 }
 
 /// Fills of modes, the mode that lasts longest first. Okabe and Ito's colours at 60 % on white, so that dark text on them is legible.
@@ -78,4 +79,17 @@ pub const NAMED_MODES: usize = FILLS.len();
 /// The fill of the mode with this rank by time.
 pub fn fill(rank: usize) -> &'static str {
     FILLS.get(rank).copied().unwrap_or(OTHER_FILL)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_of_49_lines_look_the_same() {
+        let lines: Vec<Stroke> = (0..49).map(line).collect();
+        for (place, line) in lines.iter().enumerate() {
+            assert!(!lines[..place].contains(line), "{place}: {line:?}");
+        }
+    }
 }

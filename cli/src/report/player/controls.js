@@ -23,10 +23,10 @@ function tell(state) {
   text(element("pattern"), state.pattern.text.replaceAll("-", "\u2212"));
   text(element("scale"), factor === 1 ? "angles as they are" : `angles drawn ×${factor}`);
   const index = eventAt(state.t), event = run.events[index];
-  const where = event && event.at.length ? `, interface\u00a0${event.at.map(one => one + 1).join(", ")}` : "";
+  const where = event && event.at.length ? `, interface${event.at.length > 1 ? "s" : ""}\u00a0${event.at.map(one => one + 1).join(", ")}` : "";
   text(element("event"), event
-    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}, then ${event.mode === "rest" ? "rest" : "mode\u00a0" + event.mode}`
-    : run.events.length ? `${run.events.length} events to come` : "No events in this run");
+    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}, then ${event.mode === "rest" ? run.rest : "mode\u00a0" + event.mode}`
+    : run.events.length ? `${run.events.length} event${run.events.length > 1 ? "s" : ""} to come` : "No events in this run");
   for (const output of readouts) {
     const angle = state.theta[output.dataset.block - 1];
     text(output, `${signed(angle, 5)} rad = ${signed(angle * 180 / Math.PI, 3)}°`);

@@ -6,10 +6,13 @@ function readColours() {
   for (const name of ["ink", "muted", "rule", "accent", "bad", "sky", "card"]) ink[name] = style.getPropertyValue("--" + name).trim();
 }
 // Curves per block as in the figures below (plot/style.rs), black as the ink of the page: Okabe and Ito's colours (2008), and
-// dashes for those who do not tell them apart.
+// dashes for those who do not tell them apart. Beyond the seventh, colours come again with the dashes of their neighbours.
 const CURVES = ["#0072b2", "#d55e00", null, "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 const DASHES = [[], [8, 5], [1.5, 5], [9, 4.5, 1.5, 4.5], [15, 5], [4.5, 4.5], [9, 4, 1.5, 4, 1.5, 4]];
-const curveOf = block => ({ colour: CURVES[block % CURVES.length] || ink.ink, dashes: DASHES[block % DASHES.length] });
+const curveOf = block => ({
+  colour: CURVES[block % CURVES.length] || ink.ink,
+  dashes: DASHES[(block + Math.floor(block / CURVES.length)) % DASHES.length],
+});
 
 let factor = 1, speed = 1, now = start, playing = false;
 // px per m; where the ground's origin is at first [px]; shares of its motion with which the view goes, [x, y].
@@ -120,7 +123,7 @@ function drawStage(state) {
   blocks.forEach((block, i) => drawBlock(c, block.corners.map(([u, v]) => [x(u), y(v)]), run.fills[link[i]], i + 1, run.round[i]));
   // Closed interfaces between blocks: the line between the two gives way to dashes.
   blocks.forEach((block, i) => {
-    if (block.pivot || i === 0) return;
+    if (block.state !== "closed" || i === 0) return;
     const [from, to] = block.contact.map(([u, v]) => [x(u), y(v)]);
     const line = (style, width, dash) => {
       c.strokeStyle = style;

@@ -3,7 +3,7 @@
 // What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
 //   blocks [[half-widths of base and top, half-height]] m; round [whether a drum]; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
 //   angles rad, the largest that the curves show, null for all
-//   patterns [{signs, text, mode, mirrored, link}]; events [{t, kind, at: interfaces from 0, mode after}]
+//   patterns [{signs, text, mode, mirrored, link}]; rest, the name of the mode without open interfaces; events [{t, kind, at: interfaces from 0, mode after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
 //   joints [N][3][F] m, null where nothing slides or flies: a, c, b; the middle of the face below to that of the block's base is (a, c) in the axes
 //   of the block below and then (b, 0) in its own
@@ -76,8 +76,8 @@ function stateAt(t) {
   };
 }
 
-// Corners of the blocks (bottom left, bottom right, top right, top left) and pivots, the origin at the centre of the base on the
-// ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below; where there are joints, at (a, c).
+// Corners of the blocks (bottom left, bottom right, top right, top left), and per interface its contact, its state (closed, on a pivot, or apart) and
+// its pivot, the origin at the centre of the base on the ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below; where there are joints, at (a, c).
 const FLIES = 5e-6; // m; joints are written to a tenth of it
 function outlines(theta, signs, joints) {
   const turn = (angle, u, v) => [u * Math.cos(angle) + v * Math.sin(angle), v * Math.cos(angle) - u * Math.sin(angle)];
@@ -100,7 +100,8 @@ function outlines(theta, signs, joints) {
     const corners = [[-bottom, 0], [bottom, 0], [top, 2 * h], [-top, 2 * h]].map(([u, v]) => from(base, u, v));
     face = from(base, 0, 2 * h);
     below = own;
-    return { corners, pivot: signs[i] === 0 || rise > FLIES ? null : pivot, contact };
+    const state = signs[i] === 0 ? "closed" : rise > FLIES ? "apart" : "pivot";
+    return { corners, pivot: state === "pivot" ? pivot : null, contact, state };
   });
 }
 
@@ -116,15 +117,15 @@ function enlarged(theta, factor) {
 }
 
 function nameOf(pattern) {
-  if (pattern.mode === null) return "at rest";
+  if (pattern.mode === null) return run.rest;
   return `mode ${pattern.mode}` + (pattern.mirrored ? ", mirrored" : "");
 }
 
 window.rocking = {
   at(t) {
-    const state = stateAt(t);
+    const state = stateAt(t), blocks = outlines(state.theta, state.pattern.signs, state.joints);
     return {
-      t, theta: state.theta, corners: outlines(state.theta, state.pattern.signs, state.joints).map(block => block.corners),
+      t, theta: state.theta, corners: blocks.map(block => block.corners), interfaces: blocks.map(block => block.state),
       pattern: state.pattern.text, mode: state.pattern.mode === null ? "rest" : state.pattern.mode,
       ground: state.ground,
     };
