@@ -380,6 +380,9 @@ impl Fragility {
             Fit::OneRecord => format!("{none}all runs are of one record, which says nothing of others"),
             Fit::Never { up_to } => format!("{none}no run reaches the state up to {}; go higher", brief(up_to)),
             Fit::Always { from } => format!("{none}every run reaches the state from {} on; begin lower", brief(from)),
+            Fit::Step { never_to, .. } if self.levels_with_runs() == 1 => {
+                format!("{none}all runs are at one level, {}; a curve needs two levels or more", brief(never_to))
+            }
             Fit::Step { never_to, always_from } if never_to == always_from => format!(
                 "{none}no run below {0} reaches the state and every run above does; put levels around {0}",
                 brief(never_to)
@@ -391,6 +394,11 @@ impl Fragility {
             ),
             Fit::Falling => format!("{none}the share of runs with the state falls with the level"),
         }
+    }
+
+    /// Number of levels with a run of which it is known whether it reached the state.
+    fn levels_with_runs(&self) -> usize {
+        self.counts.iter().filter(|count| count.runs > 0).count()
     }
 
     /// Number of runs of which it is not known whether they reached the state.
@@ -627,6 +635,10 @@ mod tests {
         assert_eq!(overturning(&all(|_, _| true, 3)).fit, Fit::Always { from: 0.2 });
         assert_eq!(overturning(&all(|_, level| level > 0.5, 3)).fit, Fit::Step { never_to: 0.4, always_from: 0.8 });
         assert_eq!(overturning(&all(|_, level| level > 0.5, 1)).fit, Fit::OneRecord);
+        // Of three records at one level one overturns: there is no level below, and none above.
+        let single: Vec<Observation> = (0..3).map(|record| run(record, 0.5, record == 0)).collect();
+        let told = overturning(&single).statements();
+        assert_eq!(told[0], "no curve: all runs are at one level, 0.5; a curve needs two levels or more");
         assert_eq!(overturning(&all(|_, _| false, 1)).fit, Fit::Never { up_to: 1.6 });
         // Runs without friction have no slides, and those of one block no second one: that some overturn says nothing of either.
         for state in ["slide > 0.05", "peak_2 > 0.3"] {

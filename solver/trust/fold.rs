@@ -88,6 +88,12 @@ impl Fold {
                 2 * self.tried.len()
             );
         }
+        if let [one, other] = &self.turns[..]
+            && one.verdict == other.verdict
+            && one.change == -other.change
+        {
+            return format!("{} with {} % more or less shaking", one.verdict, 100.0 * one.change.abs());
+        }
         let way = |change: f64| if change > 0.0 { "more" } else { "less" };
         let parts: Vec<String> = self
             .turns
@@ -95,5 +101,23 @@ impl Fold {
             .map(|Turn { change, verdict }| format!("{verdict} with {} % {}", 100.0 * change.abs(), way(*change)))
             .collect();
         format!("{} shaking", parts.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_turns_to_one_verdict_are_told_at_once() {
+        let turns = |verdicts: [Verdict; 2]| {
+            let turn = |(verdict, change)| Turn { change, verdict };
+            Fold { tried: vec![0.1], turns: verdicts.into_iter().zip([0.1, -0.1]).map(turn).collect() }.sentence()
+        };
+        assert_eq!(turns([Verdict::Overturns; 2]), "overturns with 10 % more or less shaking");
+        assert_eq!(
+            turns([Verdict::Overturns, Verdict::Collapses]),
+            "overturns with 10 % more, collapses with 10 % less shaking"
+        );
     }
 }
