@@ -40,6 +40,11 @@ pub fn degrees(angle: f64) -> String {
     format!("{}°", significant(angle.to_degrees(), 3))
 }
 
+/// A count with its noun, given in singular and plural.
+pub fn counted(count: usize, [one, many]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
 fn trimmed(text: &str) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text.into() }
 }

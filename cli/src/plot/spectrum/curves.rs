@@ -8,6 +8,7 @@ use super::family::{Family, Rows};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
 use super::points::Points;
 use super::scale::Scale;
+use crate::number::counted;
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::ida::{FRACTILE_LINES, RECORD};
 use crate::plot::paper::Paper;
@@ -181,8 +182,10 @@ fn caption(points: &Points, family: &Family, subject: &str) -> String {
         ));
     }
     if open > 0 {
-        text.push_str(&format!(" {open} run(s) have no answer and are left out."));
+        let (runs, are) = (counted(open, ["run has", "runs have"]), if open == 1 { "is" } else { "are" });
+        text.push_str(&format!(" {runs} no answer and {are} left out."));
     }
+    text.push_str(&points.truncation());
     text
 }
 

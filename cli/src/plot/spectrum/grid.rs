@@ -104,6 +104,8 @@ pub struct Grid {
     pub plane: Plane,
     /// Cells of each panel, row by row, the lowest row first.
     pub panels: Vec<Vec<Class>>,
+    /// [`Points::truncation`].
+    pub truncation: String,
 }
 
 impl Grid {
@@ -118,7 +120,7 @@ impl Grid {
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
         // There are as many rows as cells. A cell without a row therefore means that another cell has two.
         let panels = panels.ok_or_else(|| NoSpectrum::NoTable("points are missing".into()))?;
-        Ok(Grid { plane, panels })
+        Ok(Grid { plane, panels, truncation: points.truncation() })
     }
 
     /// Share of the cells of some panels whose class is `wanted`.

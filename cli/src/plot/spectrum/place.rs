@@ -50,6 +50,8 @@ impl Place<'_> {
             // The numbers of neighbours must not run together.
             let is_beside = numbers[1] || x - 0.5 * text_width(&text, style::NUMBER) > self.frame.left - BESIDE;
             if numbers[0] && is_beside {
+                // A long number at the right end stays on the paper.
+                let x = x.min(sheet.width - 0.5 * text_width(&text, style::NUMBER));
                 sheet.words([x, y + TICK + 14.0], &text, style::NUMBER, Anchor::Middle);
             }
         }

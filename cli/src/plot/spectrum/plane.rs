@@ -64,7 +64,11 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
 
     let share = |panel: usize| percent(Grid::share(&grid.panels[panel..=panel], Class::overturns));
     let parts = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
-    let caption = format!("{what}. Share of the plane that overturns: {}.", parts.collect::<Vec<_>>().join(", "));
+    let caption = format!(
+        "{what}. Share of the plane that overturns: {}.{}",
+        parts.collect::<Vec<_>>().join(", "),
+        grid.truncation
+    );
     Figure::new("overturning-spectrum", caption, sheet)
 }
 
@@ -88,7 +92,7 @@ fn staircase(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
 /// Figure of the least values that overturn: a curve for each panel of the spectrum, all in one panel.
 pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     let Plane { x, y, titles, .. } = &grid.plane;
-    let what = format!("Least {} that overturns against {}", y.label(), x.label());
+    let what = format!("Least values that overturn: {} against {}", y.label(), x.label());
     let mut sheet = Sheet::new(&what, paper);
     let frame = Frame { left: LEFT, top: GAP, width: sheet.width - LEFT - RIGHT, height: MINIMUM_HEIGHT };
     let place = Place { frame, x, y };
@@ -110,7 +114,7 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
         }
     }
     place.axes(&mut sheet, [true, true]);
-    place.label_upwards(&mut sheet, format!("Least {} that overturns", y.label()));
+    place.label_upwards(&mut sheet, format!("{}, least that overturns", y.label()));
     let below = [LEFT + 0.5 * frame.width, frame.bottom() + NUMBERS + 12.0];
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
     sheet.height = match entries.is_empty() {
@@ -119,7 +123,7 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     };
     let gaps = (0..titles.len()).any(|panel| grid.minimum(panel).contains(&None));
     let note = if gaps { " Where a curve is interrupted nothing overturns up to the end of the axis." } else { "" };
-    Figure::new("overturning-minimum", format!("{what}.{note}"), sheet)
+    Figure::new("overturning-minimum", format!("{what}.{note}{}", grid.truncation), sheet)
 }
 
 /// Lines through the values of the lowest cells that overturn, interrupted at columns without such a cell. A single cell gives a line

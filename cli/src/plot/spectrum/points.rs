@@ -2,6 +2,7 @@
 
 use super::class::Class;
 use super::refusal::NoSpectrum;
+use crate::number::counted;
 use crate::table::column::{NOT_DETERMINED, Rows, TRUST};
 use crate::table::open;
 use std::collections::HashMap;
@@ -23,6 +24,8 @@ pub struct Points {
     peaks: Vec<f64>,
     /// Number of columns of peaks; zero where none were asked for.
     pub blocks: usize,
+    /// Number of rows whose runs end while the ground still moves.
+    truncated: usize,
 }
 
 impl Points {
@@ -35,7 +38,7 @@ impl Points {
         let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
             return Err(broken("it has no columns index, outcome and impacts".into()));
         };
-        let trust = column(TRUST);
+        let (trust, truncated_at) = (column(TRUST), column("truncated"));
         let first_peak = column("peak_1");
         let blocks = first_peak.map_or(0, |first| {
             header
@@ -47,7 +50,7 @@ impl Points {
         });
         let mut axes: Vec<Axis> = header.iter().take(outcome).skip(1).map(|key| (key.into(), Vec::new())).collect();
         let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
-        let (mut numbers, mut classes, mut peaks) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut numbers, mut classes, mut peaks, mut truncated) = (Vec::new(), Vec::new(), Vec::new(), 0);
         for row in rows {
             let row = row.map_err(failed)?;
             for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
@@ -60,6 +63,7 @@ impl Points {
             }
             let class = Class::of(&row[outcome], &row[impacts]);
             let class = class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?;
+            truncated += usize::from(truncated_at.and_then(|at| row.get(at)) == Some("true"));
             let is_open = class == Class::Error || trust.is_some_and(|trust| row.get(trust) == Some(NOT_DETERMINED));
             peaks.extend((0..blocks).map(|block| {
                 let cell = first_peak.and_then(|first| row.get(first + block)).unwrap_or_default();
@@ -72,12 +76,23 @@ impl Points {
             }));
             classes.push(class);
         }
-        Ok(Points { axes, numbers, classes, peaks, blocks })
+        Ok(Points { axes, numbers, classes, peaks, blocks, truncated })
     }
 
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.classes.len()
+    }
+
+    /// A sentence for captions on the runs that end while the ground still moves; empty if there are none.
+    pub fn truncation(&self) -> String {
+        match self.truncated {
+            0 => String::new(),
+            count => format!(
+                " The ground still moves at the end of {count} of {}, where solver.t_end cuts them.",
+                counted(self.len(), ["run", "runs"])
+            ),
+        }
     }
 
     /// Index of the value of each axis in a row.

@@ -55,6 +55,6 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         .zip(&strips)
         .map(|(title, strip)| format!("{title} {}", share(strip)).trim_start().into())
         .collect();
-    let caption = format!("{what}. Share of the points that are lost: {}.", parts.join(", "));
+    let caption = format!("{what}. Share of the points that are lost: {}.{}", parts.join(", "), points.truncation());
     Figure::new("outcomes", caption, sheet)
 }
