@@ -403,6 +403,32 @@ fn what_no_curve_fits_is_told() {
     }
 }
 
+/// Where every column is lost there is no angle to draw, and two records have no fractiles.
+#[test]
+fn a_figure_shows_no_angle_and_no_fractile_that_is_not_there() {
+    let folder = folder();
+    let figure = |levels: &str, seeds: &str| {
+        let study = format!(
+            "{BLOCK}levels = {levels}\n[records.synthetic]\nseeds = {seeds}\n[fragility]\nstates = [\"overturned\"]\n"
+        );
+        std::fs::write(folder.path().join("study.toml"), study).expect("written");
+        let told = succeeds(folder.path(), &["ida", "study.toml", "--out", "t.csv", "--plot", "f.svg"]);
+        (told, std::fs::read_to_string(folder.path().join("f.svg")).expect("written"))
+    };
+    let (told, drawn) = figure("[20.0, 30.0]", "[1, 2, 3]");
+    assert!(told.contains("Lost: 6 of 6 runs, counted per level on the right.") && drawn.contains(">3/3<"), "{told}");
+    assert!(!told.contains("A curve reaches the right edge"), "{told}");
+    // Numbers upwards alone, and no curve.
+    assert!(!drawn.contains(">0.05<") && !drawn.contains(">0.1<"), "no scale of angles");
+    let curves = drawn.matches("stroke=\"#a9a9a9\"").count();
+    assert_eq!(curves, 1 + 3, "empty paths of three records, and the key of the legend");
+    let (told, drawn) = figure("[0.1, 0.2]", "[1, 2]");
+    assert!(told.contains("2 records at 2 levels of") && told.contains("(3 records or more have fractiles as well)"));
+    assert!(!drawn.contains(">50 %<"), "{told}");
+    let (told, drawn) = figure("[0.1, 0.2]", "[1, 2, 3]");
+    assert!(told.contains("with its 16, 50 and 84 % fractiles") && drawn.contains(">50 %<"), "{told}");
+}
+
 /// A sweep over records and a measure is a study as well; a cloud of runs, each at a level of its own, is recognised.
 #[test]
 fn sweeps_and_clouds_have_a_fragility() {
@@ -428,6 +454,10 @@ fn sweeps_and_clouds_have_a_fragility() {
     std::fs::write(folder.path().join("cloud.csv"), &cloud).expect("written");
     let told = succeeds(folder.path(), &["fragility", "cloud.csv", "--state", "overturned", "--plot", "c.svg"]);
     assert!(told.contains("overturned: lognormal, median") && told.contains("over groups"), "{told}");
+    assert!(told.contains(" Marks are raw shares of groups of neighbouring levels. Shaded are 90 % bands."), "{told}");
+    let arguments = ["fragility", "cloud.csv", "--state", "overturned", "--confidence", "0.57", "--plot", "c.svg"];
+    let told = succeeds(folder.path(), &arguments);
+    assert!(told.contains(" Shaded are 57 % bands."), "{told}");
     // What the table lacks is told.
     for (arguments, word) in [
         (vec!["fragility", "cloud.csv"], "ask = \"peaks\""),

@@ -4,7 +4,9 @@ use super::axis::Axis;
 use super::curve::Point;
 use super::paper::Paper;
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
+use super::spectrum::LEAST_RECORDS;
 use super::style::{self, Stroke};
+use crate::number::counted;
 use rocking::studies::{FRACTILES, Observation, Stripe};
 use std::collections::BTreeMap;
 
@@ -34,63 +36,84 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     let largest = demands.fold(0.0, f64::max);
     let top = stripes.iter().map(|stripe| stripe.level).fold(0.0, f64::max);
     let mut sheet = Sheet::new(&format!("Incremental dynamic analysis: {label} over the largest rotation"), paper);
-    let x = Axis::over("Largest |θ|/α of all blocks", [0.0, largest * (1.0 + ROOM)], 5);
+    let mut x = Axis::over("Largest |θ|/α of all blocks", [0.0, largest * (1.0 + ROOM)], 5);
+    // Where all columns are lost there is no angle, and the axis has no scale.
+    x.numbers = runs.iter().any(is_standing);
     let y = Axis::over(label, [0.0, top * (1.0 + ROOM)], 5);
     let mut panel = sheet.wide(TOP, HEIGHT, x, Some(y));
     panel.frame.width -= COUNTS;
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
 
+    // Without ground motion there is no response. If every column is lost at the lowest level, nothing is known of what lies between.
+    let lowest = stripes.first().map(|stripe| stripe.level);
+    let begins = runs.iter().any(|run| Some(run.level) == lowest && is_standing(run)).then_some((0.0, 0.0));
     let mut by_record: BTreeMap<&str, Vec<&Observation>> = BTreeMap::new();
     runs.iter().for_each(|run| by_record.entry(&run.record).or_default().push(run));
     for runs in by_record.values_mut() {
         runs.sort_by(|a, b| a.level.total_cmp(&b.level));
         let points: Vec<_> = runs.iter().map(|run| (run.demand(), run.level)).collect();
-        draw(&mut sheet, &panel, &points, &RECORD);
+        draw(&mut sheet, &panel, begins, &points, &RECORD);
     }
-    for (place, stroke) in FRACTILE_LINES.iter().enumerate() {
+    let has_fractiles = by_record.len() >= LEAST_RECORDS;
+    let fractile_lines = if has_fractiles { &FRACTILE_LINES[..] } else { &[] };
+    for (place, stroke) in fractile_lines.iter().enumerate() {
         let points = stripes.iter().map(|stripe| (stripe.fractiles.map(|values| values[place]), stripe.level));
-        draw(&mut sheet, &panel, &points.collect::<Vec<_>>(), stroke);
+        draw(&mut sheet, &panel, begins, &points.collect::<Vec<_>>(), stroke);
     }
     counts(&mut sheet, &panel, runs, stripes);
 
-    let mut entries = vec![(
-        Key::Line(RECORD),
-        match by_record.len() {
-            1 => "1 record".into(),
-            count => format!("{count} records"),
-        },
-    )];
+    let records = counted(by_record.len(), ["record", "records"]);
+    let mut entries = vec![(Key::Line(RECORD), records.clone())];
     let names = FRACTILES.map(|share| format!("{:.0} %", 100.0 * share));
-    entries.extend(FRACTILE_LINES.iter().zip(names).map(|(stroke, name)| (Key::Line(stroke.clone()), name)));
+    entries.extend(fractile_lines.iter().zip(names).map(|(stroke, name)| (Key::Line(stroke.clone()), name)));
     let undecided: usize = stripes.iter().map(Stripe::undecided).sum();
     if undecided > 0 {
         entries.push((Key::None, format!("{undecided} of {} runs undecided, left out", runs.len())));
     }
     let below = sheet.label_below(&panel);
     sheet.height = sheet.legend(below + 4.0, &entries) + 8.0;
-    let lost = runs.iter().filter(|run| run.is_lost()).count();
-    let left_out = match undecided {
-        0 => String::new(),
-        count => format!(" {count} of them are undecided and left out: failed, or their verdict is not determined."),
+    let fractiles = match has_fractiles {
+        true => " with its 16, 50 and 84 % fractiles per level.".into(),
+        false => format!(" ({LEAST_RECORDS} records or more have fractiles as well)."),
     };
     let caption = format!(
-        "{} records at {} levels of {label}: the largest |θ|/α of each run with its 16, 50 and 84 % fractiles per level. A curve \
-         reaches the right edge where the column is lost, and comes back where it stands again; {lost} of {} runs are lost, counted per level on the right.{left_out}",
-        by_record.len(),
-        stripes.len(),
-        runs.len()
+        "{records} at {} of {label}: the largest |θ|/α of each run{fractiles}{}",
+        counted(stripes.len(), ["level", "levels"]),
+        lost_and_undecided(runs, undecided)
     );
     Figure::new("ida", caption, sheet)
 }
 
-/// A curve through the responses, from the lowest level up. At a level at which the column is lost, the curve runs to the right edge. It comes back
+/// Whether the column of a run stands, and its response is known.
+fn is_standing(run: &Observation) -> bool {
+    run.demand().is_some_and(f64::is_finite)
+}
+
+/// Sentences on the columns that are lost, and on the runs without an answer.
+fn lost_and_undecided(runs: &[Observation], undecided: usize) -> String {
+    let lost = runs.iter().filter(|run| run.is_lost()).count();
+    let of = counted(runs.len(), ["run", "runs"]);
+    let mut text = format!(" Lost: {lost} of {of}, counted per level on the right.");
+    text.push_str(match (lost, runs.iter().any(is_standing)) {
+        (0, _) => "",
+        (_, true) => " A curve reaches the right edge where the column is lost, and comes back where it stands again.",
+        (_, false) => " No column is known to stand: there is no angle to draw.",
+    });
+    if undecided > 0 {
+        text.push_str(&format!(
+            " Undecided and left out: {undecided} of {of}, which failed or whose verdict is not determined."
+        ));
+    }
+    text
+}
+
+/// A curve through the responses, from `begins` and the lowest level up. At a level at which the column is lost, the curve runs to the right edge. It comes back
 /// where the column stands again. The curve is broken where a run has no answer.
-fn draw(sheet: &mut Sheet, panel: &Panel, points: &[(Option<f64>, f64)], stroke: &Stroke) {
+fn draw(sheet: &mut Sheet, panel: &Panel, begins: Option<(f64, f64)>, points: &[(Option<f64>, f64)], stroke: &Stroke) {
     let edge = panel.x.range[1];
     let mut runs: Vec<Vec<Point>> = Vec::new();
-    // Without ground motion there is no response.
-    let mut last: Option<(f64, f64)> = Some((0.0, 0.0));
+    let mut last = begins;
     for (demand, level) in points {
         let here = demand.map(|demand| (demand, *level));
         if let (Some(from), Some(to)) = (last, here)
@@ -116,7 +139,11 @@ fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Str
         let lost = runs.iter().filter(|run| run.level == stripe.level && run.is_lost()).count();
         let y = panel.place([0.0, stripe.level])[1] + 4.5;
         if last - y >= LINE {
-            sheet.words([x, y], &format!("{lost}/{}", stripe.runs - stripe.undecided()), style::NOTE, Anchor::Middle);
+            let count = match stripe.runs - stripe.undecided() {
+                0 => "–".into(),
+                known => format!("{lost}/{known}"),
+            };
+            sheet.words([x, y], &count, style::NOTE, Anchor::Middle);
             last = y;
         }
     }
