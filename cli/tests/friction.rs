@@ -23,6 +23,23 @@ omega = 6.0
 t_end = 3.0
 ";
 
+/// Three blocks that vertical motion throws up.
+const THROWN: &str = "friction = 0.6
+[column]
+blocks = 3
+half_width = 0.4
+half_height = 1.2
+[excitation.horizontal]
+kind = \"sine-pulse\"
+amplitude_g = 0.8
+frequency = 1.5
+[excitation.vertical]
+kind = \"harmonic\"
+amplitude_g = 1.6
+frequency = 3.0
+duration = 2.0
+";
+
 /// Runs a scene in `folder` into `out`. Returns what is printed.
 fn run(folder: &Path, scene: &str) -> String {
     std::fs::write(folder.join("scene.toml"), scene).expect("written");
@@ -39,7 +56,7 @@ fn page(folder: &Path) -> String {
 }
 
 #[test]
-fn a_run_says_where_each_drum_stayed() {
+fn a_run_says_where_each_block_stayed() {
     let folder = tempfile::tempdir().expect("a folder");
     let account = run(folder.path(), SLIDES);
     let sliding = summary(folder.path())["sliding"].clone();
@@ -48,14 +65,86 @@ fn a_run_says_where_each_drum_stayed() {
     assert!(residual.iter().all(|slide| slide.abs() > 1e-5), "{residual:?}");
     assert!(account.contains(&format!(", {:.3} cm; 0 flight(s)", 100.0 * residual[1])), "{account}");
     let page = page(folder.path());
-    let stayed = page.lines().find(|line| line.contains("Where the drums stayed")).expect("the sentence");
+    let stayed = page.lines().find(|line| line.contains("Where the blocks stayed")).expect("the sentence");
     for (block, slide) in residual.iter().enumerate() {
         let side = if *slide > 0.0 { "right" } else { "left" };
-        let place = stayed.find(&format!("block {} ", block + 1)).expect("it has slid");
+        let place = stayed.find(&format!("block {}: ", block + 1)).expect("it has slid");
         assert!(stayed[place..].split(" on ").next().is_some_and(|part| part.contains(side)), "{stayed}");
     }
-    assert!(stayed.contains(&format!("block 2 {:.2}&nbsp;cm", 100.0 * residual[1].abs())), "{stayed}");
-    assert!(!stayed.contains("flight"), "{stayed}");
+    assert!(stayed.contains(&format!("block 2: {:.2}&nbsp;cm", 100.0 * residual[1].abs())), "{stayed}");
+    assert!(!page.contains("flights at"), "nothing flew");
+}
+
+/// Drums with names, displaced at the start; and a column that is lost, which stays nowhere.
+#[test]
+fn a_page_tells_slides_at_the_start_and_none_of_a_column_that_is_lost() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drums = SLIDES
+        .replace("half_width = 1.0\nhalf_height = 0.4", "name = \"slab\"\ndiameter = 2.0\nheight = 0.8\ndensity = 2700")
+        .replace("[solver]", "[initial]\nslide = [0.0, -0.1]\n[solver]");
+    run(folder.path(), &drums);
+    let told = page(folder.path());
+    let stayed = told.lines().find(|line| line.contains("Where the drums stayed")).expect("the sentence");
+    assert!(stayed.contains("<li>block 1 (slab): ") && !stayed.contains("block 1: "), "{stayed}");
+    assert!(stayed.contains(" (10&nbsp;cm to the left at the start) on block 1</li>"), "{stayed}");
+    assert_eq!(stayed.matches("at the start").count(), 1, "{stayed}");
+    let far = SLIDES.replace("amplitude_g = 0.5", "amplitude_g = 1.0").replace("omega = 6.0", "omega = 0.8");
+    run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
+    let told = page(folder.path());
+    assert!(told.contains("<strong>collapses</strong>") && told.contains("Slid to and fro: "));
+    assert!(!told.contains("Where the blocks"), "where it was when it was lost");
+    let (_, length) = told.split_once("<dt>Longest run</dt><dd>12 s; this one ends at t = ").expect("its length");
+    assert!(length.split(' ').next().is_some_and(|t| t.parse::<f64>().is_ok_and(|t| t < 12.0)));
+}
+
+/// While a block flies there is no contact: no force, no friction demand, and no slide.
+#[test]
+fn free_interfaces_have_neither_force_nor_demand_nor_slide() {
+    let folder = tempfile::tempdir().expect("a folder");
+    run(folder.path(), THROWN);
+    let mut reader = csv::Reader::from_path(folder.path().join("out/response.csv")).expect("written");
+    let head = reader.headers().expect("a head").clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(|row| row.expect("as written")).collect();
+    let of = |row: &csv::StringRecord, name: String| -> f64 {
+        row[head.iter().position(|own| own == name).expect("a column")].parse().expect("a number")
+    };
+    let mut free = 0;
+    for (row, interface) in rows.iter().flat_map(|row| (1..=3).map(move |interface| (row, interface))) {
+        if of(row, format!("gap_{interface}")) > 0.0 {
+            free += 1;
+            let forces = ["normal", "tangential"].map(|name| of(row, format!("{name}_{interface}")));
+            assert_eq!(forces, [0.0; 2], "t = {}, interface {interface}", &row[0]);
+        }
+    }
+    assert!(free > 100, "{free}");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).expect("a figure");
+    let (forces, slides) = (read("forces.svg"), read("slides.svg"));
+    assert!(forces.contains(" Gaps: nothing presses there") && !forces.contains("Larger demands"), "in the caption");
+    assert!(forces.contains("interface 2: 0.6<") && slides.contains("interrupted while these are apart"));
+    // In the tables, forces of contacts that part are zero and not rounding.
+    let page = page(folder.path());
+    assert!(page.contains("<td>0 (0 % of the weight)</td>") && page.contains("no rocking"));
+    // Blocks that only slide have no gaps, and those with different coefficients have all of them.
+    run(folder.path(), SLIDES);
+    let forces = read("forces.svg");
+    assert!(!forces.contains("Gaps: nothing presses"), "in the caption");
+    assert!(forces.contains(">friction coefficients 0.3, 0.2, base first<"));
+    let lines = forces.lines().filter(|line| line.contains("stroke=\"#222222\" stroke-width=\"1.8\""));
+    assert_eq!(lines.count(), 3, "a line for each coefficient, and the key");
+}
+
+/// A block that is never closed has neither the largest demand nor the smallest force.
+#[test]
+fn a_contact_that_never_closed_has_no_extremes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let thrown = "friction = 0.6\n[column]\nblocks = 2\nhalf_width = 0.3\nhalf_height = 0.5\n[initial]\nx = [0.0, 0.1]\n\
+        y = [0.35, 1.4]\nvx = [0.3, 0.5]\nvy = [0.0, 3.0]\ntheta = [0.1, -0.05]\n[solver]\nt_end = 0.3\n";
+    run(folder.path(), thrown);
+    let page = page(folder.path());
+    assert!(page.contains("<th scope=\"row\">2</th><td>–</td><td>–</td>") && !page.contains("not finite"));
+    assert!(page.contains("<li>block 2: in flight above block 1</li>"), "at the end of the run");
+    let figure = std::fs::read_to_string(folder.path().join("out/forces.svg")).expect("a figure");
+    assert!(figure.contains(">interface 2: never closed<"));
 }
 
 #[test]

@@ -115,7 +115,8 @@ fn a_figure_has_every_mode_with_its_groups_and_pivots() {
         common::succeeds(folder.path(), &["modes", "--blocks", &blocks.to_string(), "--svg", "modes.svg"]);
         let figure = std::fs::read_to_string(folder.path().join("modes.svg")).expect("written");
         for (label, pattern) in rocking::pattern::modes(blocks) {
-            let title = format!("<title>mode {label} {pattern}, {} free angle(s)</title>", pattern.dof());
+            let angles = if pattern.dof() == 1 { "angle" } else { "angles" };
+            let title = format!("<title>mode {label} {pattern}, {} free {angles}</title>", pattern.dof());
             let (_, rest) = figure.split_once(&title).unwrap_or_else(|| panic!("no `{title}`"));
             let (mode, _) = rest.split_once("</g>").expect("closed");
             let on_the_ground = usize::from(pattern.lowest_open() != Some(0));

@@ -19,6 +19,12 @@ const ROOM: f64 = 0.06;
 /// Half the range of an axis around values that are all zero; the whole range of an empty axis. Numbers at its ticks are short.
 const STILL: f64 = 0.1;
 
+/// Values up to this are drawn as zeros, in the unit of the axis: angles over slenderness, forces over weights, J and cm that small are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Smallest reach of an axis from its middle, as a share of the middle: with less, numbers at ticks have more digits than there is room for.
+const LEAST_REACH: f64 = 1e-4;
+
 /// A range not above this counts as empty: the step between its ticks would leave the range of doubles.
 const SHORTEST: f64 = 1e-290;
 
@@ -31,13 +37,13 @@ impl Axis {
         Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
     }
 
-    /// Axis over all finite `values`, with a margin at both ends. Around zero if all values are zero or there are none.
+    /// Axis over all finite `values`, with a margin at both ends. Around zero if all values are zero but for rounding, or there are none.
     pub fn around(label: &str, values: impl IntoIterator<Item = f64>, ticks: usize) -> Axis {
         let [low, high] = span(values);
         let middle = 0.5 * (low + high);
-        // Values that are all equal have no range: a millionth of the value keeps both ends of the axis apart.
-        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(1e-6 * middle.abs());
-        let reach = if reach > 0.0 { reach } else { STILL };
+        let is_zero = low.abs().max(high.abs()) <= ROUNDING;
+        let reach = (0.5 * (high - low) * (1.0 + 2.0 * ROOM)).max(LEAST_REACH * middle.abs());
+        let reach = if is_zero { STILL } else { reach };
         Axis::over(label, [middle - reach, middle + reach], ticks)
     }
 
@@ -67,28 +73,36 @@ fn step(range: [f64; 2], ticks: usize) -> f64 {
     steps.into_iter().find(|step| inside(*step) >= ticks as f64).expect("steps grow smaller")
 }
 
-/// Smallest step whose numbers are written without a power of ten. From `100 / SMALL` on, numbers have a power of ten again.
+/// Smallest step whose numbers are all written without a power of ten. From `100 / SMALL` on, numbers have a power of ten again.
 const SMALL: f64 = 1e-4;
 
-/// The number at a tick: as many decimals as the step has, a true minus, no `-0`.
+/// Smallest number that is written without a power of ten whatever its step.
+const PLAIN: f64 = 1e-3;
+
+/// The number at a tick: as many decimals as the step has, a true minus, no `-0`; small and large numbers as a multiple of their own power of ten.
 pub fn number(value: f64, step: f64) -> String {
-    let power = step.log10().floor() as i32;
-    let (scaled, decimals, factor) = if (SMALL..100.0 / SMALL).contains(&step) {
-        (value, usize::try_from(-power).unwrap_or(0), String::new())
-    } else {
-        (value / 10f64.powi(power), 0, format!("×10{}", superscript(power)))
-    };
-    let text = format!("{:.decimals$}", scaled.abs());
-    if text.chars().all(|digit| "0.".contains(digit)) {
+    // Rounding beside a tick at zero is smaller than the step by far.
+    if value.abs() < 1e-6 * step {
         return "0".into();
     }
-    format!("{}{text}{factor}", if scaled < 0.0 { "−" } else { "" })
+    let power = step.log10().floor() as i32;
+    let is_plain = (SMALL..100.0 / SMALL).contains(&step) || step < SMALL && value.abs() >= PLAIN;
+    let text = if is_plain {
+        format!("{:.*}", usize::try_from(-power).unwrap_or(0), value.abs())
+    } else {
+        let digits = usize::try_from(value.abs().log10().floor() as i32 - power).unwrap_or(0);
+        let text = format!("{:.digits$e}", value.abs());
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
+        format!("{digits}×10{}", superscript(power))
+    };
+    format!("{}{text}", if value < 0.0 { "−" } else { "" })
 }
 
-fn superscript(power: i32) -> String {
+fn superscript(power: &str) -> String {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let raised = |sign: char| sign.to_digit(10).map_or('⁻', |digit| digits[digit as usize]);
-    power.to_string().chars().map(raised).collect()
+    power.chars().map(raised).collect()
 }
 
 /// A whole number below the line, as in θ₁.
@@ -144,13 +158,17 @@ mod tests {
             [0.7841977, -0.25, 12.0, 0.0, 58.42, 1e-6].map(brief),
             ["0.784", "−0.25", "12", "0", "58.4", "1×10⁻⁶"]
         );
+        // The value decides on the power of ten, not the step.
+        let cases = [(0.90001, 5e-6), (1e-4, 2e-5), (-1.2e-4, 2e-5), (8e-5, 2e-5), (3e6, 1e6), (0.0, 1e6)];
+        let texts = cases.map(|(value, step)| number(value, step));
+        assert_eq!(texts, ["0.900010", "1×10⁻⁴", "−1.2×10⁻⁴", "8×10⁻⁵", "3×10⁶", "0"]);
     }
 
     #[test]
     fn an_axis_without_values_has_a_range() {
-        for values in [&[][..], &[0.0, 0.0]] {
+        for values in [&[][..], &[0.0, 0.0], &[-7e-17, 7e-17]] {
             let axis = Axis::around("", values.iter().copied(), 3);
-            assert_eq!((axis.range, axis.share(0.0)), ([-0.1, 0.1], 0.5));
+            assert!((axis.range[1] - 0.1).abs() < 1e-9 && (axis.share(0.0) - 0.5).abs() < 1e-9);
         }
     }
 }

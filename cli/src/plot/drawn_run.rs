@@ -4,6 +4,7 @@
 
 use super::curve::Point;
 use super::paper::{Angles, Paper};
+use crate::number::significant;
 use rocking::Event;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
@@ -216,4 +217,17 @@ impl Knot<'_> {
 /// A quantity of the rows over time.
 pub fn over_time(samples: &[Sample], value: impl Fn(&Sample) -> f64) -> Vec<Point> {
     samples.iter().map(|sample| [sample.t, value(sample)]).collect()
+}
+
+/// How far apart rows are, and how many there are.
+pub fn output_times(rows: &[Sample]) -> String {
+    let [first, second, ..] = rows else { return "one row".into() };
+    let dt = second.t - first.t;
+    // Each time is rounded: an interval may differ by a few roundings of the later time.
+    let is_even = |pair: &[Sample]| ((pair[1].t - pair[0].t) - dt).abs() <= 4.0 * f64::EPSILON * pair[1].t;
+    if rows.windows(2).all(is_even) {
+        return format!("every {} s, {} rows", significant(dt, 6), rows.len());
+    }
+    let last = &rows[rows.len() - 1];
+    format!("at {} times from {} s to {} s", rows.len(), significant(first.t, 6), significant(last.t, 6))
 }

@@ -1,11 +1,13 @@
 //! Contact forces over time: normal force over the weight above, and the friction that each interface asks for.
 
 use super::axis::{Axis, brief, span};
-use super::curve::{self, Point};
+use super::curve::Point;
 use super::drawn_run::DrawnRun;
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
+use crate::number::coefficients;
+use rocking::Friction;
 
 /// Heights `[px]`.
 const NORMAL: f64 = 190.0;
@@ -18,7 +20,11 @@ const LARGEST_DEMAND: f64 = 2.0;
 /// Normal forces beyond this multiple of the weight do not extend their axis: a column that falls hits hard.
 const LARGEST_NORMAL: f64 = 5.0;
 
-/// Line of the scene's friction coefficient.
+/// Normal force of a contact, as a share of the weight above it, up to which it has no friction demand, as in the summary of a run: where blocks
+/// part, both forces are rounding. Larger, and contacts under little load are left out.
+const LIGHT_SHARE: f64 = 1e-9;
+
+/// Lines of the scene's friction coefficients.
 const AVAILABLE: Stroke = Stroke::dashed(style::INK, 1.8, &[10.0, 5.0]);
 
 /// Curves of one interface over time. Friction demand has gaps where nothing presses.
@@ -51,26 +57,31 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     mark_ending(&mut sheet, motion, &normal, Anchor::Start);
 
     let [_, needed] = span(response.counted_forces().0.into_iter().chain(demands(&contacts)));
-    let most = LARGEST_DEMAND.max(motion.results.available_friction().map_or(0.0, |friction| friction * 4.0 / 3.0));
-    let least = motion.results.available_friction().unwrap_or(0.05) * 1.15;
+    let available = available(motion);
+    let largest = available.last().copied();
+    let most = LARGEST_DEMAND.max(largest.map_or(0.0, |friction| friction * 4.0 / 3.0));
+    let least = largest.unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
     let friction = sheet.wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
     sheet.axes(&friction);
     sheet.label_upwards(&friction);
-    // The line is drawn first, below the curves, so that a peak that reaches it is seen.
-    if let Some(available) = motion.results.available_friction() {
-        sheet.level(&friction, available, &AVAILABLE);
-    }
+    // These lines are drawn first, below the curves, so that a peak that reaches one is seen.
+    available.iter().for_each(|coefficient| sheet.level(&friction, *coefficient, &AVAILABLE));
     for (interface, contact) in contacts.iter().enumerate() {
-        let runs = contact.demand.iter().map(|run| {
-            let placed: Vec<Point> = run.iter().map(|point| friction.place(*point)).collect();
-            curve::straighten(&curve::thin_along_x(&placed))
-        });
-        sheet.lines(&friction, &runs.collect::<Vec<_>>(), &style::line(interface));
+        sheet.interrupted_history(&friction, &contact.demand, &style::line(interface));
     }
     let below = sheet.label_below(&friction);
     sheet.height = largest_demands(&mut sheet, motion, &friction, below) + 8.0;
     Figure::new("forces", caption(motion, &contacts, &friction), sheet)
+}
+
+/// The scene's different coefficients of friction, static and kinetic, the smallest first.
+fn available(motion: &DrawnRun) -> Vec<f64> {
+    let friction = motion.results.friction.iter();
+    let mut coefficients: Vec<f64> = friction.flat_map(|one| one.fixed.iter().chain(&one.kinetic)).copied().collect();
+    coefficients.sort_by(f64::total_cmp);
+    coefficients.dedup();
+    coefficients
 }
 
 fn contacts(motion: &DrawnRun) -> Vec<Contact> {
@@ -87,7 +98,7 @@ fn contacts(motion: &DrawnRun) -> Vec<Contact> {
             if sample.t > until {
                 continue;
             }
-            if force.normal > 0.0 {
+            if force.normal > LIGHT_SHARE * weight {
                 let demand = force.tangential.abs() / force.normal;
                 contact.demand.last_mut().expect("there is a first").push([sample.t, demand]);
             } else {
@@ -112,27 +123,33 @@ fn demands(contacts: &[Contact]) -> impl Iterator<Item = f64> {
 /// times count as well. Returns the lower end of the legend `[px]`.
 fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64) -> f64 {
     let response = &motion.results.response;
-    let available = motion.results.friction.as_ref().map(|friction| {
-        let is_one = friction.fixed.len() == 1 && friction.kinetic == friction.fixed;
-        let which = if is_one { "" } else { "smallest static " };
-        format!("{which}friction coefficient {}", brief(friction.least()))
-    });
-    // The coefficient is named below the panel. A name along the line of the coefficient would lie on the curves.
-    let mut entries: Vec<_> = available.map(|name| (Key::Line(AVAILABLE), name)).into_iter().collect();
-    let (largest, _) = response.counted_forces();
+    // The coefficients are named below the panel. A name along the line of a coefficient would lie on the curves.
+    let mut entries: Vec<_> =
+        motion.results.friction.iter().map(|friction| (Key::Line(AVAILABLE), named(friction))).collect();
+    let (largest, least) = response.counted_forces();
     if !largest.is_empty() {
         let which = if counted_until(motion).is_some() { "up to the point of no return" } else { "of the whole run" };
-        entries.push((Key::None, format!("Largest demand {which} (◂):")));
+        entries.push((Key::None, format!("Largest friction demand {which} (◂):")));
     }
-    for (interface, demand) in largest.iter().enumerate() {
-        let what = if demand.is_finite() { brief(*demand) } else { "no friction is enough".into() };
-        entries.push((Key::Line(style::line(interface)), what));
-        if panel.reaches(*demand) {
+    for (interface, (demand, normal)) in largest.iter().zip(&least).enumerate() {
+        let what = match (normal.is_finite(), demand.is_finite()) {
+            (true, true) => brief(*demand),
+            (true, false) => "no friction is enough".into(),
+            (false, _) => "never closed".into(),
+        };
+        entries.push((Key::Line(style::line(interface)), format!("interface {}: {what}", interface + 1)));
+        if normal.is_finite() && panel.reaches(*demand) {
             let [x, y] = [panel.frame.right() + 2.0, panel.place([0.0, *demand])[1]];
             sheet.areas(vec![vec![[x, y], [x + 11.0, y - 5.0], [x + 11.0, y + 5.0]]], style::line(interface).color);
         }
     }
     if entries.is_empty() { top } else { sheet.legend(top, &entries) }
+}
+
+/// Coefficients of friction with their name.
+fn named(friction: &Friction) -> String {
+    let is_one = friction.fixed.len() == 1 && friction.kinetic == friction.fixed;
+    format!("friction coefficient{} {}", if is_one { "" } else { "s" }, coefficients(friction))
 }
 
 fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
@@ -141,10 +158,11 @@ fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
          coefficient it asks for",
     );
     let response = &motion.results.response;
-    match motion.results.available_friction() {
-        Some(friction) if response.motion_at_contacts().is_some() => caption
-            .push_str(&format!("; contacts slide where it reaches their coefficient, {} or above.", brief(friction))),
-        Some(friction) => caption.push_str(&format!("; the scene has {}.", brief(friction))),
+    match &motion.results.friction {
+        Some(friction) if response.motion_at_contacts().is_some() => {
+            caption.push_str(&format!("; contacts slide where it reaches theirs, dashed ({}).", named(friction)));
+        }
+        Some(friction) => caption.push_str(&format!("; the scene has {} (dashed).", coefficients(friction))),
         None => caption.push_str("; the scene names no friction coefficient."),
     }
     let beyond = demands(contacts).chain(response.counted_forces().0.into_iter().filter(|demand| demand.is_finite()));
@@ -154,7 +172,12 @@ fn caption(motion: &DrawnRun, contacts: &[Contact], panel: &Panel) -> String {
     if counted_until(motion).is_some() {
         caption.push_str(" Friction demand is shown up to the point of no return.");
     }
-    if contacts.iter().flat_map(|contact| &contact.normal).any(|point| point[1] <= 0.0) {
+    let until = counted_until(motion).unwrap_or(f64::INFINITY);
+    let has_gaps = |contact: &Contact| {
+        let rows = contact.normal.iter().take_while(|point| point[0] <= until).count();
+        contact.demand.iter().map(Vec::len).sum::<usize>() < rows
+    };
+    if contacts.iter().any(has_gaps) {
         caption.push_str(match &response.sliding {
             Some(_) => " Gaps: nothing presses there, the blocks are apart.",
             None => " Gaps: nothing presses there, and no friction is enough.",

@@ -6,10 +6,11 @@ use super::curve::{Frame, Point};
 use super::paper::Paper;
 use super::sheet::{Anchor, Figure, Sheet, corners};
 use super::style::{self, Stroke};
+use crate::number::counted;
 use crate::posture::{groups, posture};
 use rocking::kinematics::{Outline, outlines};
 use rocking::pattern::{ModeLabel, Pattern, modes};
-use rocking::{Column, DEFAULT_GRAVITY};
+use rocking::{Column, DEFAULT_GRAVITY, Response};
 
 /// The largest column of which all modes are drawn: 121 modes on fifteen lines can still be read on one page, 364 cannot.
 pub const LARGEST: usize = 5;
@@ -74,7 +75,11 @@ pub fn draw(blocks: usize) -> Figure {
     let height = SCALE * corners().map(|corner| corner[1]).fold(0.0, f64::max);
     let step = right - left + GAP;
 
-    let caption = format!("The {} independent rocking mode(s) of a column of {blocks} block(s)", drawings.len());
+    let (modes, column) = (
+        counted(drawings.len(), ["independent rocking mode", "independent rocking modes"]),
+        counted(blocks, ["block", "blocks"]),
+    );
+    let caption = format!("The {modes} of a column of {column}");
     let mut sheet = Sheet::new(&caption, &Paper::default());
     let (mut y, mut last_line) = (MARGIN, MARGIN);
     for row in drawings.chunk_by(|a, b| a.label.lowest == b.label.lowest) {
@@ -101,7 +106,7 @@ pub fn draw(blocks: usize) -> Figure {
 /// A mode whose base has its centre at `origin` on paper.
 fn mode(sheet: &mut Sheet, Drawing { label, pattern, blocks }: &Drawing, origin: Point) {
     let place = |point: Point| [origin[0] + SCALE * point[0], origin[1] - SCALE * point[1]];
-    sheet.begin_group(&format!("mode {label} {pattern}, {} free angle(s)", pattern.dof()));
+    sheet.begin_group(&format!("mode {label} {pattern}, {}", counted(pattern.dof(), ["free angle", "free angles"])));
     let [x, y] = origin;
     let stroke = |number: usize| {
         let top = x + GROUND - HATCH * number as f64;
@@ -147,6 +152,11 @@ fn legend(sheet: &mut Sheet, [x, top]: Point, blocks: usize, tilt_deg: f64) {
     }
     entry(sheet, 0.0, &format!("Open interfaces are drawn open by {tilt_deg}°."));
     entry(sheet, 0.0, "Mirror images are the same modes.");
+}
+
+/// The name of the mode `rest` for readers. Where blocks slide, the mode says only that none of them rocks.
+pub fn rest(response: &Response) -> &'static str {
+    if response.motion_at_contacts().is_some() { "no rocking" } else { "rest" }
 }
 
 /// Height of a column in a sketch `[px]`.

@@ -23,7 +23,10 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let blocks = motion.results.column.len();
     let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps", motion.paper);
     let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) }.min(sheet.most_columns());
-    let entries = [(Key::Line(CURVE), "smooth motion".into()), (Key::Line(JUMP), "jump at an impact".into())];
+    let mut entries = vec![(Key::Line(CURVE), "smooth motion".into())];
+    if has_jumps(motion) {
+        entries.push((Key::Line(JUMP), "jump at an impact".into()));
+    }
     let top = sheet.legend(0.0, &entries) + if blocks > 1 { NAME } else { 4.0 };
 
     let slenderness = motion.slenderness();
@@ -60,13 +63,19 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     }
     let whose = if blocks == 1 { "the block" } else { "each block" };
     let mut caption = format!(
-        "Rate of {whose} over its angle, at output times and events; dashed, the jumps of the rate at impacts.{}",
+        "Rate of {whose} over its angle, at output times and events{}.{}",
+        if has_jumps(motion) { "; dashed, the jumps of the rate at impacts" } else { "" },
         if blocks > 1 { " All panels have the same axes." } else { "" }
     );
     if motion.overturned() {
         caption.push_str(" Curves end where the column falls.");
     }
     Figure::new("phase-portrait", caption, sheet)
+}
+
+/// Whether the rate of a block jumps.
+fn has_jumps(motion: &DrawnRun) -> bool {
+    before_the_fall(motion).any(|knot| knot.after.as_ref().is_some_and(|(after, _)| *after != knot.before.0))
 }
 
 /// Unit of angles, and of rates per second: 1° or 1 rad `[rad]`.
@@ -110,7 +119,7 @@ fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
     }
     if motion.results.column.len() > 1 {
         let at = [panel.frame.left, panel.frame.top - 7.0];
-        let name = format!("block {}, θ{}", motion.block_name(block), subscript(block + 1));
+        let name = format!("θ{}, block {}", subscript(block + 1), motion.block_name(block));
         sheet.words(at, &shortened(&name, style::NOTE, panel.frame.width), style::NOTE, Anchor::Start);
     }
 }

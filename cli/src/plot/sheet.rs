@@ -209,8 +209,16 @@ impl Sheet {
 
     /// A history in a panel: values over time, thinned to what the width can show.
     pub fn history(&mut self, panel: &Panel, points: &[Point], stroke: &Stroke) {
-        let placed: Vec<Point> = points.iter().map(|point| panel.place(*point)).collect();
-        self.lines(panel, &[curve::straighten(&curve::thin_along_x(&placed))], stroke);
+        self.interrupted_history(panel, &[points], stroke);
+    }
+
+    /// A history with gaps between its parts.
+    pub fn interrupted_history(&mut self, panel: &Panel, parts: &[impl AsRef<[Point]>], stroke: &Stroke) {
+        let runs = parts.iter().map(|points| {
+            let placed: Vec<Point> = points.as_ref().iter().map(|point| panel.place(*point)).collect();
+            curve::straighten(&curve::thin_along_x(&placed))
+        });
+        self.lines(panel, &runs.collect::<Vec<_>>(), stroke);
     }
 
     /// A line across a panel at a value of the upward axis, if the axis reaches this value.
@@ -312,47 +320,48 @@ impl Sheet {
     pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
         let height = text_width(text, size) + 6.0;
         let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
-        let frame = Frame { left: at[0] - f64::from(size), top, width: f64::from(size) + 4.0, height };
+        // No letter rises by a whole size: the patch leaves a line free that the text stands close beside.
+        let frame = Frame { left: at[0] - f64::from(size) + 1.0, top, width: f64::from(size) + 3.0, height };
         self.areas(vec![corners(&frame)], style::REST_FILL);
         self.words_upwards(at, text, size, anchor);
     }
 
-    /// A legend from `top` down, over the width of the panels. Returns the lower end of the legend `[px]`.
+    /// A legend from `top` down, over the width of the panels. An entry wider than the panels is broken into lines, beside which no other entry
+    /// stands. Returns the lower end of the legend `[px]`.
     pub fn legend(&mut self, top: f64, entries: &[(Key, String)]) -> f64 {
         let (mut x, mut y) = (LEFT, top + 15.0);
         for (key, name) in entries {
-            let room = match key {
-                Key::Line(_) => KEY_WIDTH + KEY_GAP,
-                Key::Fill(_) => FILL_WIDTH + KEY_GAP,
-                Key::None => 0.0,
+            let (room, share) = match key {
+                Key::Line(_) => (KEY_WIDTH + KEY_GAP, 1.0),
+                Key::Fill(_) => (FILL_WIDTH + KEY_GAP, 1.0),
+                Key::None => (0.0, PROSE),
             };
-            // An entry of words only that is wider than the panels is broken into lines. No other entry stands beside these lines.
-            let available = (self.width - RIGHT - LEFT) / PROSE;
-            if matches!(key, Key::None) && text_width(name, style::NOTE) > available {
-                for line in broken(name, style::NOTE, available) {
-                    y += if x > LEFT { LEGEND_LINE } else { 0.0 };
-                    self.words([LEFT, y], &line, style::NOTE, Anchor::Start);
-                    x = self.width;
-                }
-                continue;
-            }
-            let width = room + text_width(name, style::NOTE);
-            if x > LEFT && x + width > self.width - RIGHT {
+            let lines = broken(name, style::NOTE, (self.width - RIGHT - LEFT - room) / share);
+            let width = room + lines.iter().map(|line| text_width(line, style::NOTE)).fold(0.0, f64::max);
+            if x > LEFT && (lines.len() > 1 || x + width > self.width - RIGHT) {
                 (x, y) = (LEFT, y + LEGEND_LINE);
             }
-            match key {
-                Key::Line(stroke) => self.line([x, y - 4.5], [x + KEY_WIDTH, y - 4.5], stroke),
-                Key::Fill(fill) => {
-                    let swatch = Frame { left: x, top: y - 11.0, width: FILL_WIDTH, height: 13.0 };
-                    self.areas(vec![corners(&swatch)], fill);
-                    self.outline(&swatch);
-                }
-                Key::None => {}
+            self.key([x, y], key);
+            for (place, line) in lines.iter().enumerate() {
+                y += if place > 0 { LEGEND_LINE } else { 0.0 };
+                self.words([x + room, y], line, style::NOTE, Anchor::Start);
             }
-            self.words([x + room, y], name, style::NOTE, Anchor::Start);
-            x += width + ENTRY_GAP;
+            x = if lines.len() > 1 { self.width } else { x + width + ENTRY_GAP };
         }
         y + 6.0
+    }
+
+    /// The key of a legend entry whose name has its base line at `y`.
+    fn key(&mut self, [x, y]: Point, key: &Key) {
+        match key {
+            Key::Line(stroke) => self.line([x, y - 4.5], [x + KEY_WIDTH, y - 4.5], stroke),
+            Key::Fill(fill) => {
+                let swatch = Frame { left: x, top: y - 11.0, width: FILL_WIDTH, height: 13.0 };
+                self.areas(vec![corners(&swatch)], fill);
+                self.outline(&swatch);
+            }
+            Key::None => {}
+        }
     }
 
     /// The edge of a frame.
@@ -472,7 +481,10 @@ fn behind(anchor: Anchor, width: f64) -> f64 {
 pub fn shortened(text: &str, size: u32, width: f64) -> String {
     let mut kept = text.to_string();
     while text_width(&kept, size) > width {
-        kept = kept.trim_end_matches('…').chars().rev().skip(1).collect::<Vec<_>>().into_iter().rev().collect();
+        // Before and after the sign that goes there may be an ellipsis: of the last cut, and of a name cut before.
+        kept.truncate(kept.trim_end_matches('…').len());
+        kept.pop();
+        kept.truncate(kept.trim_end_matches('…').len());
         kept.push('…');
     }
     kept
@@ -502,4 +514,34 @@ pub fn text_width(text: &str, size: u32) -> f64 {
         _ => 0.62,
     };
     f64::from(size) * text.chars().map(em).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_cut_with_one_ellipsis() {
+        let text = "θ₃, block 3 (the second drum…)";
+        let whole = text_width(text, style::NOTE);
+        assert_eq!(shortened(text, style::NOTE, whole), text);
+        assert_eq!(shortened(text, style::NOTE, whole - 1.0), "θ₃, block 3 (the second drum…");
+        assert_eq!(shortened(text, style::NOTE, whole - 20.0), "θ₃, block 3 (the second dru…");
+    }
+
+    #[test]
+    fn long_entries_of_legends_stay_on_the_paper() {
+        let names = (0..30).map(|place| format!("1.{place}00000")).collect::<Vec<_>>().join(", ");
+        for key in [Key::Fill(style::OTHER_FILL), Key::Line(style::THIN), Key::None] {
+            let mut sheet = Sheet::new("", &Paper::default());
+            let entries = [(Key::None, "before".to_string()), (key, names.clone()), (Key::None, "after".to_string())];
+            sheet.legend(0.0, &entries);
+            let ends = sheet.drawn.iter().filter_map(|drawn| match drawn {
+                Primitive::Text { x, content, size, .. } => Some(x + PROSE * text_width(content, *size)),
+                _ => None,
+            });
+            let ends: Vec<f64> = ends.collect();
+            assert!(ends.len() > 4 && ends.iter().all(|end| *end <= sheet.width - RIGHT), "{ends:?}");
+        }
+    }
 }

@@ -20,11 +20,12 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     if motion.samples.iter().any(|sample| sample.slide.len() != interfaces || sample.gap.len() != interfaces) {
         return None;
     }
-    let curves = |of: fn(&Sample) -> &[f64]| -> Vec<Vec<Point>> {
-        (0..interfaces).map(|interface| over_time(motion.samples, |sample| of(sample)[interface])).collect()
-    };
-    let (slides, gaps) = (curves(|sample| &sample.slide), curves(|sample| &sample.gap));
-    let has_gaps = gaps.iter().flatten().any(|point| point[1] > 0.0);
+    let (slides, gaps): (Vec<_>, Vec<_>) = (0..interfaces)
+        .map(|interface| {
+            (parts_in_contact(motion, interface), vec![over_time(motion.samples, |sample| sample.gap[interface])])
+        })
+        .unzip();
+    let has_gaps = gaps.iter().flatten().flatten().any(|point| point[1] > 0.0);
 
     let mut sheet = Sheet::new("Slides of the interfaces over time", motion.paper);
     let entries: Vec<(Key, String)> = (0..interfaces)
@@ -42,16 +43,25 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     Some(Figure::new("slides", caption(motion, report, has_gaps), sheet))
 }
 
-/// A panel at `top` with a `height` `[px]`. `curves` has one curve per interface `[m]`.
+/// Parts of the slide of an interface over time, interrupted where its blocks are apart: a slide leads to the place at which a flight ends, but nothing
+/// has slid to it.
+fn parts_in_contact(motion: &DrawnRun, interface: usize) -> Vec<Vec<Point>> {
+    let is_free = |sample: &Sample| sample.gap[interface] > 0.0;
+    let parts = motion.samples.chunk_by(|a, b| is_free(a) == is_free(b)).filter(|part| !is_free(&part[0]));
+    parts.map(|part| over_time(part, |sample| sample.slide[interface])).collect()
+}
+
+/// A panel at `top` with a `height` `[px]`. `curves` has the parts of one curve per interface `[m]`.
 fn curves_panel(
     sheet: &mut Sheet,
     motion: &DrawnRun,
     (top, height): (f64, f64),
     time: Axis,
-    (name, curves): (&str, &[Vec<Point>]),
+    (name, curves): (&str, &[Vec<Vec<Point>>]),
 ) -> Panel {
     // A block that falls slides far. The axis therefore covers the values before the fall only, unless all of these are zero.
-    let until = |t: f64| curves.iter().flatten().filter(move |point| point[0] <= t).map(|point| point[1]).chain([0.0]);
+    let points = || curves.iter().flatten().flatten();
+    let until = |t: f64| points().filter(move |point| point[0] <= t).map(|point| point[1]).chain([0.0]);
     let fall = motion.falls_at().filter(|fall| until(*fall).any(|value| value != 0.0)).unwrap_or(f64::INFINITY);
     let values: Vec<f64> = until(fall).collect();
     let (factor, unit) = match values.iter().fold(0.0, |most: f64, value| most.max(value.abs())) {
@@ -64,9 +74,10 @@ fn curves_panel(
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
-    for (interface, points) in curves.iter().enumerate() {
-        let scaled: Vec<Point> = points.iter().map(|[t, value]| [*t, value * factor]).collect();
-        sheet.history(&panel, &scaled, &style::line(interface));
+    for (interface, parts) in curves.iter().enumerate() {
+        let scaled = |part: &Vec<Point>| part.iter().map(|[t, value]| [*t, value * factor]).collect::<Vec<Point>>();
+        let parts: Vec<Vec<Point>> = parts.iter().map(scaled).collect();
+        sheet.interrupted_history(&panel, &parts, &style::line(interface));
     }
     panel
 }
@@ -75,12 +86,16 @@ fn caption(motion: &DrawnRun, report: &SlidingReport, has_gaps: bool) -> String 
     let mut caption = String::from(
         "Slides at output times: how far the middle of a block's base lies to the right of the middle of the face below, along that face",
     );
-    caption.push_str(if has_gaps { "; below, the gaps of blocks that have parted." } else { "." });
-    let ends: Vec<String> = report
-        .residual_slide
-        .iter()
-        .enumerate()
-        .map(|(interface, slide)| format!("{} cm at interface {}", brief(100.0 * slide), interface + 1))
+    caption.push_str(if has_gaps {
+        ", interrupted while these are apart; below, the gaps of blocks that are apart."
+    } else {
+        "."
+    });
+    let ends: Vec<String> = (0..report.residual_slide.len())
+        .filter(|&interface| report.has_moved(interface))
+        .map(|interface| {
+            format!("{} cm at interface {}", brief(100.0 * report.residual_slide[interface]), interface + 1)
+        })
         .collect();
     caption.push_str(&format!(" At the end: {}.", ends.join(", ")));
     if motion.falls_at().is_some() {

@@ -3,11 +3,12 @@
 use super::axis::{Axis, brief, span, subscript};
 use super::band;
 use super::curve::{Frame, Point};
-use super::drawn_run::{DrawnRun, FALL, Stretch, over_time};
+use super::drawn_run::{DrawnRun, FALL, Stretch, output_times, over_time};
+use super::modes::rest;
 use super::paper::Angles;
 use super::sheet::{self, Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
-use crate::number::percent;
+use crate::number::{counted, percent};
 use rocking::{Sample, StopReason};
 
 /// Heights `[px]`.
@@ -134,8 +135,10 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
     let Some((t, words)) = motion.ending() else { return };
     let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[2.0, 3.0]));
-    let (right, left) = (x + 15.0, x - 6.0);
-    let sides = if frame.right() - x > 20.0 { [right, left] } else { [left, right] };
+    // Right of the line, or of the frame if its edge is too close to the line.
+    let is_room = frame.right() - x > 20.0;
+    let (right, left) = (if is_room { x + 15.0 } else { frame.right() + 13.0 }, x - 6.0);
+    let sides = if is_room { [right, left] } else { [left, right] };
     // First free place in this order: beside the line on its first side, at the preferred end, the other end, or between them; then the other side.
     let height = sheet::text_width(&words, style::NOTE);
     let (top, bottom) = ((frame.top + 8.0, Anchor::End), (frame.bottom() - 8.0, Anchor::Start));
@@ -212,7 +215,7 @@ fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) 
     sheet.areas(moving.map(edge).collect(), style::INK);
     for same in drawn.chunk_by(|a, b| a.mode == b.mode) {
         let (from, to) = (same[0].from, same[same.len() - 1].to);
-        let label = &same[0].mode;
+        let label = if same[0].mode == "rest" { rest(&motion.results.response) } else { &same[0].mode };
         if to - from > sheet::text_width(label, style::NOTE) + 2.0 {
             let at = [0.5 * (from + to), band.top + 0.5 * BAND + 4.5];
             sheet.words(at, label, style::NOTE, Anchor::Middle);
@@ -274,18 +277,16 @@ fn modes_legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
         entries.push((Key::Fill(style::fill(rank)), format!("{mode}: {}", share(times[*mode]))));
     }
     if let Some(mode) = resting.first() {
-        entries.push((Key::Fill(style::REST_FILL), format!("rest: {}", share(times[*mode]))));
+        entries.push((
+            Key::Fill(style::REST_FILL),
+            format!("{}: {}", rest(&motion.results.response), share(times[*mode])),
+        ));
     }
     let others = &moving[moving.len().min(style::NAMED_MODES)..];
-    for (place, names) in others[..others.len().min(LISTED)].chunks(8).enumerate() {
-        let names = names.iter().map(|mode| mode.as_str()).collect::<Vec<_>>().join(", ");
-        entries.push(match place {
-            0 => (Key::Fill(style::OTHER_FILL), format!("others: {names}")),
-            _ => (Key::None, names),
-        });
-    }
-    if others.len() > LISTED {
-        entries.push((Key::None, format!("and {} more", others.len() - LISTED)));
+    if !others.is_empty() {
+        let names: Vec<&str> = others.iter().take(LISTED).map(|mode| mode.as_str()).collect();
+        let more = if others.len() > LISTED { format!(" and {} more", others.len() - LISTED) } else { String::new() };
+        entries.push((Key::Fill(style::OTHER_FILL), format!("others: {}{more}", names.join(", "))));
     }
     let end = sheet.legend(top, &entries);
     if moving.is_empty() {
@@ -311,7 +312,10 @@ fn caption(motion: &DrawnRun) -> String {
             "Angles of the blocks in degrees, base first; αᵢ: slenderness of the stack that stands on their interface"
         }
     });
-    caption.push_str("; above, the acceleration of the ground in parts of gravity; below, impacts and modes.");
+    let rows = output_times(&motion.results.response.samples);
+    caption.push_str(&format!(
+        "; above, the acceleration of the ground in parts of gravity at the rows alone ({rows}); below, impacts and modes."
+    ));
     let [low, high] = span(motion.knots.iter().flat_map(|knot| {
         motion.slenderness().into_iter().zip(knot.theta).map(|(alpha, theta)| theta / alpha).collect::<Vec<_>>()
     }));
@@ -332,7 +336,7 @@ fn caption(motion: &DrawnRun) -> String {
     if motion.results.response.events.is_empty() {
         caption.push_str(" Nothing sets the column in motion.");
     } else {
-        caption.push_str(&format!(" {} impact(s).", response.impacts));
+        caption.push_str(&format!(" {}.", counted(response.impacts, ["impact", "impacts"])));
     }
     caption
 }
