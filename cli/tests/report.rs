@@ -88,6 +88,29 @@ fn the_outcome_is_told_in_a_sentence() {
     }
 }
 
+/// Key figures are of the run: the largest of the peaks, each over its own slenderness, and the events that occurred.
+#[test]
+fn tiles_agree_with_the_tables_below_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let told = page(&run(folder.path(), "pulse"));
+    let shares: Vec<f64> = told
+        .split("<td class=\"share\">")
+        .skip(1)
+        .filter_map(|cell| cell.split_once("</i></span><span>")?.1.split_once(" %")?.0.parse().ok())
+        .collect();
+    assert_eq!(shares.len(), 3);
+    let largest = shares.iter().copied().fold(0.0, f64::max);
+    assert!(told.contains(&format!("; |θ|/α up to {largest} %</span>")), "{shares:?}");
+    let tile = told.split("<span class=\"name\">impacts</span>").nth(1).and_then(|rest| rest.split("</li>").next());
+    let tile = tile.expect("a tile");
+    assert!(tile.contains("besides ") && !tile.contains("(s)") && !tile.contains("slip"), "{tile}");
+    let told = page(&run(folder.path(), "quiet"));
+    assert!(told.contains("<span class=\"note\">no other events</span>") && told.contains("0 modes entered"));
+    // A scene without a title.
+    assert!(told.contains("<h1>quiet.toml</h1>") && told.contains("<title>quiet.toml</title>"));
+    assert!(!told.contains("jump at an impact"), "in the legend of the phase portrait");
+}
+
 /// A column with a coefficient that is enough, none, and one that is not.
 #[test]
 fn the_verdict_follows_the_friction_that_the_scene_has() {
@@ -355,6 +378,12 @@ mod in_chromium {
                     }
                 }
             }
+            let states = browser.evaluate("rocking.at(0).interfaces");
+            assert_eq!(
+                states,
+                if name == "dropped" { json!(["apart", "apart"]) } else { json!(["closed", "closed", "closed"]) },
+                "{name}"
+            );
             assert_eq!(browser.evaluate("document.documentElement.dataset.error || ''"), "", "{name}");
         }
     }

@@ -4,7 +4,7 @@ use crate::arguments::{Dynamics, Picture, Run};
 use crate::commands::trust::Followed;
 use crate::commands::{inputs, plot, report};
 use crate::error::Failure;
-use crate::number::fixed;
+use crate::number::{counted, fixed};
 use crate::output;
 use crate::plot::{NAMES, Paper};
 use crate::progress::Progress;
@@ -141,7 +141,7 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     let mut modes: Vec<String> = report.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
     if !others.is_empty() {
         let time: f64 = others.iter().map(|(_, time)| time).sum();
-        modes.push(format!("{} others {time:.3} s", others.len()));
+        modes.push(format!("{} {time:.3} s", counted(others.len(), ["other", "others"])));
     }
     let mut text = String::new();
     if !scene.title.is_empty() {

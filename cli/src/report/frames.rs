@@ -6,7 +6,7 @@
 
 use crate::number::{fixed, significant};
 use crate::plot;
-use crate::plot::modes::fill;
+use crate::plot::modes::{fill, rest};
 use crate::report::html::script;
 use crate::report::outcome::{changed, closed};
 use rocking::Event;
@@ -230,7 +230,7 @@ pub fn json(results: &Results) -> String {
         .collect();
     let head = json!({
         "blocks": sizes, "round": round, "contact": contact, "gravity": column.gravity(), "fills": fills,
-        "patterns": patterns, "events": events, "angles": largest_shown(results),
+        "patterns": patterns, "rest": rest(&results.response), "events": events, "angles": largest_shown(results),
     });
     let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {

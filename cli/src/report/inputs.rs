@@ -1,11 +1,12 @@
 //! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground_in_words;
-use crate::number::{coefficients, percent, significant, widths};
+use crate::number::{coefficients, widths};
 use crate::report::html::definitions;
+use crate::report::number::{percent, significant, with_minus};
 use crate::text::escape;
-use rocking::Restitution;
 use rocking::run_folder::Results;
+use rocking::{Restitution, StopReason};
 use serde_json::Value;
 use std::fmt::Write as _;
 
@@ -16,7 +17,7 @@ pub fn inputs(results: &Results) -> String {
     let peaks = results.peak_ground_acceleration;
     let component = |name: &str, axis: usize| {
         let motion = results.excitation.get(name).unwrap_or(&Value::Null);
-        escape(&ground_in_words::words(motion, column.gravity(), peaks[axis]))
+        escape(&with_minus(&ground_in_words::words(motion, column.gravity(), peaks[axis])))
     };
     let mut rows = vec![
         ("Slenderness", format!("α = {} rad, of the whole column", significant(column.slenderness(), 5))),
@@ -27,7 +28,13 @@ pub fn inputs(results: &Results) -> String {
         ("Ground, vertical", component("vertical", 1)),
     ];
     rows.extend(initial(results).map(|state| ("Initial state", state)));
-    rows.push(("Length of the run", format!("{} s", significant(results.options.t_end, 6))));
+    let (end, planned) = (results.response.t_final, format!("{} s", significant(results.options.t_end, 6)));
+    rows.push(match results.response.status {
+        StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined => {
+            ("Longest run", format!("{planned}; this one ends at t = {} s", significant(end, 4)))
+        }
+        _ => ("Length of the run", planned),
+    });
     text.push_str(&definitions(&rows));
     let _ = write!(
         text,

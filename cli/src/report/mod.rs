@@ -14,6 +14,7 @@ mod provenance;
 mod frames;
 
 mod html;
+mod number;
 
 use crate::plot;
 use crate::text::escape;
@@ -24,7 +25,9 @@ use std::fmt::Write as _;
 pub fn page(results: &Results) -> String {
     let figures = plot::figures(results, &plot::Paper::default());
     let figures: Vec<_> = figures.iter().map(|one| (one.name, one.caption.as_str(), one.svg.as_str())).collect();
-    let title = if results.title.is_empty() { "A run of rocking" } else { &results.title };
+    // A scene without a title has the name of its file.
+    let file = results.scene.file.file_name().map(|name| name.to_string_lossy());
+    let title = if results.title.is_empty() { file.as_deref().unwrap_or("A run of rocking") } else { &results.title };
     let parts = [
         ("title", escape(title)),
         ("version", escape(&results.version)),

@@ -1,14 +1,15 @@
 //! Outcome of a run: in a sentence, then key figures, peaks, impacts, time in each mode.
 
-use crate::number::{degrees, percent, significant};
-use crate::plot::modes::sketch;
+use crate::number::counted;
+use crate::plot::modes::{rest, sketch};
+use crate::report::number::{degrees, percent, significant};
 use crate::report::trust;
+use crate::report::validity::named;
 use crate::text::escape;
-use rocking::Event;
-use rocking::Fate;
+use rocking::column::Shape;
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::run_folder::Results;
-use rocking::{EventKind, StopReason};
+use rocking::{Event, EventKind, Fate, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
 /// HTML of the outcome.
@@ -52,7 +53,7 @@ pub fn sentence(results: &Results) -> String {
         }
         StopReason::Collapsed => {
             let who = match response.collapsed_block {
-                Some(block) => format!("block {block} loses its support"),
+                Some(block) => format!("block {} loses its support", escape(&results.block_name(block - 1))),
                 None => "a block loses its support".into(),
             };
             ("overturned", format!("The column <strong>collapses</strong> at t&nbsp;=&nbsp;{t}&nbsp;s: {who}."))
@@ -93,57 +94,67 @@ pub fn sentence(results: &Results) -> String {
 /// Slides below this are not worth a number `[m]`.
 const SMALLEST_SLIDE: f64 = 1e-6;
 
-/// Where each drum stayed, and what slid and flew. Empty for a scene without friction.
+/// Where the blocks stayed, and what slid and flew. Empty for a scene without friction.
 fn places(results: &Results) -> String {
-    let response = &results.response;
-    let Some(report) = &response.sliding else { return String::new() };
+    let Some(report) = &results.response.sliding else { return String::new() };
     if !report.is_any() {
         return "<p>Friction holds: no block slides or flies.</p>\n".into();
     }
-    let all = 0..results.column.len();
-    let moved: Vec<usize> = all.clone().filter(|&interface| report.has_moved(interface)).collect();
-    let below = |block: usize| if block == 0 { "the ground".into() } else { format!("block {block}") };
-    let place = |&block: &usize| {
-        let slide = report.residual_slide[block];
-        let where_to = match slide {
-            slide if slide.abs() < SMALLEST_SLIDE => "in the middle".to_string(),
-            slide => format!("{} to the {}", centimetres(slide), if slide > 0.0 { "right" } else { "left" }),
-        };
-        format!("block {} {where_to} on {}", block + 1, below(block))
-    };
-    let verb = match response.status {
-        StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined => "stood at the end of the run",
-        _ => "stayed",
-    };
-    let mut text = format!("<p>Where the drums {verb}: {}", moved.iter().map(place).collect::<Vec<_>>().join(", "));
-    text.push_str(match all.len() - moved.len() {
-        0 => ".",
-        1 => "; the other one has not slid.",
-        _ => "; the others have not slid.",
-    });
-    let way: Vec<String> = moved
-        .iter()
-        .filter(|&&interface| report.way_slid[interface] > 0.0)
+    let moved: Vec<usize> = (0..results.column.len()).filter(|&interface| report.has_moved(interface)).collect();
+    let slid = moved.iter().filter(|&&interface| report.way_slid[interface] > 0.0);
+    let way: Vec<String> = slid
         .map(|&interface| format!("interface {} by {}", interface + 1, centimetres(report.way_slid[interface])))
         .collect();
+    let mut parts = Vec::new();
     if !way.is_empty() {
-        let _ = write!(text, " Slid to and fro: {} in all.", way.join(", "));
+        parts.push(format!("Slid to and fro: {} in all.", way.join(", ")));
     }
     let flights: usize = report.flights.iter().sum();
     if flights > 0 {
-        let who: Vec<String> =
-            moved.iter().filter(|&&one| report.flights[one] > 0).map(|one| (one + 1).to_string()).collect();
-        let interfaces = if who.len() == 1 { "interface" } else { "interfaces" };
-        let times = if flights == 1 { "One flight".into() } else { format!("{flights} flights") };
-        let _ = write!(
-            text,
-            " {times} at {interfaces} {}, up to {} high.",
-            who.join(", "),
-            centimetres(report.highest_flight)
-        );
+        let who: Vec<usize> = moved.iter().copied().filter(|&one| report.flights[one] > 0).collect();
+        let times = counted(flights, ["flight", "flights"]);
+        parts.push(format!("{times} at {}, up to {} high.", named(&who), centimetres(report.highest_flight)));
     }
-    text.push_str("</p>\n");
-    text
+    format!("{}<p>{}</p>\n", stayed(results, report, &moved), parts.join(" "))
+}
+
+/// Where each of the `moved` blocks stayed on the block below. Empty for a column that is lost: where it was then says nothing of where it lies.
+fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String {
+    let response = &results.response;
+    if response.status.overturns() || response.status == StopReason::Collapsed {
+        return String::new();
+    }
+    let place = |&block: &usize| {
+        let below = if block == 0 { "the ground".into() } else { format!("block {block}") };
+        let where_to = match response.samples.last().and_then(|row| row.gap.get(block)) {
+            Some(gap) if *gap > 0.0 => format!("in flight above {below}"),
+            _ => format!("{}{} on {below}", sideways(report.residual_slide[block]), at_start(results, block)),
+        };
+        format!("<li>block {}: {where_to}</li>", escape(&results.block_name(block)))
+    };
+    let all = 0..results.column.len();
+    let bodies = if all.clone().all(|block| results.shape(block) == Shape::Drum) { "drums" } else { "blocks" };
+    let verb = if response.status == StopReason::Undetermined { "stood at the end of the run" } else { "stayed" };
+    let which = if moved.len() < all.len() { " that slid or flew" } else { "" };
+    let places: String = moved.iter().map(place).collect();
+    format!("<p>Where the {bodies}{which} {verb}:</p><ul class=\"plain\">{places}</ul>\n")
+}
+
+/// A slide at the start, in brackets; empty if there is none.
+fn at_start(results: &Results, block: usize) -> String {
+    let first = results.response.samples.first().filter(|row| row.t == 0.0);
+    match first.and_then(|row| row.slide.get(block)) {
+        Some(slide) if slide.abs() >= SMALLEST_SLIDE => format!(" ({} at the start)", sideways(*slide)),
+        _ => String::new(),
+    }
+}
+
+/// A slide, with its direction.
+fn sideways(slide: f64) -> String {
+    match slide {
+        slide if slide.abs() < SMALLEST_SLIDE => "in the middle".into(),
+        slide => format!("{} to the {}", centimetres(slide), if slide > 0.0 { "right" } else { "left" }),
+    }
 }
 
 /// A length, without its sign, in cm.
@@ -155,19 +166,14 @@ fn centimetres(length: f64) -> String {
 pub fn tiles(results: &Results) -> String {
     let response = &results.response;
     let mut tiles = Vec::new();
-    let largest = (0..results.column.len()).max_by(|a, b| response.peak_theta[*a].total_cmp(&response.peak_theta[*b]));
-    if let Some(block) = largest {
-        let peak = response.peak_theta[block];
-        let of =
-            format!("{} rad; {} of the column's α", significant(peak, 4), percent(peak / results.column.slenderness()));
-        tiles.push(("largest angle", degrees(peak), of));
-    }
-    let starts = results.response.events.iter().filter(|event| !event.kind.is_impact()).count();
-    let kinds = if response.sliding.is_some() { "starts, openings, slips, flights" } else { "starts, openings" };
-    tiles.push(("impacts", response.impacts.to_string(), format!("{starts} other event(s): {kinds}")));
+    let largest = response.peak_theta.iter().copied().fold(0.0, f64::max);
+    let shares = response.peaks(&results.column).into_iter().filter(|share| share.is_finite());
+    let share = percent(shares.fold(0.0, f64::max));
+    tiles.push(("largest angle", degrees(largest), format!("{} rad; |θ|/α up to {share}", significant(largest, 4))));
+    tiles.push(("impacts", response.impacts.to_string(), other_events(&response.events)));
     let total: f64 = response.time_in_mode.values().sum();
     if let Some((mode, time)) = response.modes_by_time().first().copied() {
-        let name = if mode == "rest" { "at rest".to_string() } else { format!("mode {}", escape(mode)) };
+        let name = if mode == "rest" { rest(response).to_string() } else { format!("mode {}", escape(mode)) };
         tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
     }
     let peaks = results.peak_ground_acceleration;
@@ -185,14 +191,34 @@ pub fn tiles(results: &Results) -> String {
     format!("<ul class=\"tiles\">\n{}</ul>\n", tiles.into_iter().map(tile).collect::<String>())
 }
 
+/// Kinds of events without impact, in singular and plural.
+const OTHER_EVENTS: [(EventKind, [&str; 2]); 8] = [
+    (EventKind::Start, ["start", "starts"]),
+    (EventKind::Opening, ["opening", "openings"]),
+    (EventKind::Jump, ["jump of the ground", "jumps of the ground"]),
+    (EventKind::Slip, ["slip", "slips"]),
+    (EventKind::Stick, ["end of a slip", "ends of slips"]),
+    (EventKind::Flight, ["flight", "flights"]),
+    (EventKind::Edge, ["corner past an edge", "corners past an edge"]),
+    (EventKind::Collapsed, ["loss of support", "losses of support"]),
+];
+
+/// Numbers of the events without impact, by their kinds.
+fn other_events(events: &[Event]) -> String {
+    let of_kind = |kind: EventKind| events.iter().filter(|event| event.kind == kind).count();
+    let found = OTHER_EVENTS.iter().map(|(kind, nouns)| (of_kind(*kind), *nouns)).filter(|(count, _)| *count > 0);
+    let found: Vec<String> = found.map(|(count, nouns)| counted(count, nouns)).collect();
+    if found.is_empty() { "no other events".into() } else { format!("besides {}", found.join(", ")) }
+}
+
 /// Peak angles, top block first.
 pub fn peaks(results: &Results) -> String {
     let column = &results.column;
     let mut rows = String::new();
+    let shares = results.response.peaks(column);
     for block in (0..column.len()).rev() {
-        let peak = results.response.peak_theta[block];
+        let (peak, share) = (results.response.peak_theta[block], shares[block]);
         let slenderness = column.stack(block).slenderness();
-        let share = peak / slenderness;
         let _ = writeln!(
             rows,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td class=\"share\">{}<span>{}</span></td></tr>",
@@ -201,7 +227,7 @@ pub fn peaks(results: &Results) -> String {
             degrees(peak),
             significant(slenderness, 4),
             bar(share),
-            percent(share)
+            if share.is_finite() { percent(share) } else { "–".into() }
         );
     }
     format!(
@@ -288,7 +314,7 @@ pub fn modes(results: &Results) -> String {
         };
         let (drawing, signs) = pattern
             .map_or((String::new(), String::new()), |pattern| (sketch(&results.column, &pattern), typeset(&pattern)));
-        let name = if *mode == "rest" { "rest".to_string() } else { escape(mode) };
+        let name = if *mode == "rest" { rest(&results.response).to_string() } else { escape(mode) };
         format!(
             "<li>{drawing}<span class=\"mode\"><strong>{name}</strong> <span class=\"note\">{signs}</span></span>{}\
              <span class=\"time\">{} s <span class=\"note\">{}</span></span></li>\n",

@@ -1,9 +1,10 @@
 //! Provenance of a run: version, method and tolerances, and the command that repeats it.
 
-use crate::number::{degrees, significant};
+use crate::number::counted;
+use crate::plot::output_times;
 use crate::report::html::definitions;
+use crate::report::number::{degrees, significant};
 use crate::text::{escape, shell_word};
-use rocking::Sample;
 use rocking::run_folder::Results;
 
 /// The provenance of a run.
@@ -19,7 +20,7 @@ pub fn provenance(results: &Results) -> String {
         _ => "supplied by the calling program".to_string(),
     };
     let modes = response.time_in_mode.keys().filter(|mode| *mode != "rest").count();
-    let interval = intervals(&results.response.samples);
+    let interval = output_times(&results.response.samples);
     let rows = [
         ("Version", format!("rocking {}", escape(&results.version))),
         ("Method", format!("<code>{}</code>", escape(&results.method))),
@@ -33,7 +34,7 @@ pub fn provenance(results: &Results) -> String {
             "Overturning angle",
             format!("{} rad = {}", significant(options.overturn_angle, 5), degrees(options.overturn_angle)),
         ),
-        ("Equations", format!("{dynamics}; {modes} mode(s) entered")),
+        ("Equations", format!("{dynamics}; {} entered", counted(modes, ["mode", "modes"]))),
         ("Output", interval),
     ];
     let file = shell_word(&results.scene.file.display().to_string());
@@ -43,17 +44,4 @@ pub fn provenance(results: &Results) -> String {
         definitions(&rows),
         escape(&file)
     )
-}
-
-/// How far apart rows are, and how many there are.
-fn intervals(rows: &[Sample]) -> String {
-    let [first, second, ..] = rows else { return "one row".into() };
-    let dt = second.t - first.t;
-    // Each time is rounded: an interval may differ by a few roundings of the later time.
-    let is_even = |pair: &[Sample]| ((pair[1].t - pair[0].t) - dt).abs() <= 4.0 * f64::EPSILON * pair[1].t;
-    if rows.windows(2).all(is_even) {
-        return format!("every {} s, {} rows", significant(dt, 6), rows.len());
-    }
-    let last = &rows[rows.len() - 1];
-    format!("at {} times from {} s to {} s", rows.len(), significant(first.t, 6), significant(last.t, 6))
 }

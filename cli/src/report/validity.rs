@@ -1,7 +1,8 @@
 //! Whether the model holds for a run, in plain words: friction demand, smallest normal force, separations; with friction, what slid and flew, and
 //! whether the energy balance closes.
 
-use crate::number::{coefficients, degrees, fixed, percent, significant};
+use crate::number::coefficients;
+use crate::report::number::{degrees, fixed, percent, significant, with_minus};
 use crate::text::escape;
 use rocking::run_folder::Results;
 use rocking::validity::{COEFFICIENTS, ContactNeeds, Extreme};
@@ -161,7 +162,7 @@ fn judge(results: &Results) -> Verdict {
 }
 
 /// Interfaces, given from 0, by their numbers.
-fn named(interfaces: &[usize]) -> String {
+pub fn named(interfaces: &[usize]) -> String {
     let numbers: Vec<String> = interfaces.iter().map(|interface| (interface + 1).to_string()).collect();
     match numbers.split_last() {
         Some((last, [])) => format!("interface {last}"),
@@ -202,13 +203,19 @@ pub fn verdict(results: &Results) -> String {
     )
 }
 
+/// Largest angle that is written as zero `[rad]`: smaller ones are rounding.
+const NO_ANGLE: f64 = 1e-12;
+
+/// Largest normal force that is written as zero, as a share of the weight above: where blocks part it is rounding.
+const NO_FORCE: f64 = 1e-9;
+
 /// An extreme with its time and angle, in a cell.
 fn at(value: String, extreme: Option<&Extreme>) -> String {
     match extreme {
         Some(extreme) => format!(
             "{value} <span class=\"note\">at {}&nbsp;s, θ&nbsp;=&nbsp;{}</span>",
             significant(extreme.t, 4),
-            degrees(extreme.theta).replace('-', "\u{2212}")
+            degrees(if extreme.theta.abs() < NO_ANGLE { 0.0 } else { extreme.theta })
         ),
         None => value,
     }
@@ -227,18 +234,20 @@ pub fn details(results: &Results) -> String {
         // Where friction is modelled, no demand counts as beyond the coefficient.
         let slides =
             response.sliding.is_none() && results.available_friction().is_some_and(|friction| demand > friction);
-        let known = |text: String| if force.is_finite() { text } else { "not finite".into() };
-        let share = known(format!("{} ({} of the weight)", significant(force, 4), percent(force / weight)));
+        let force = if force.abs() <= NO_FORCE * weight { 0.0 } else { force };
+        // A contact that has never been closed has neither.
+        let [demand, force] = if force.is_finite() {
+            let share = format!("{} ({} of the weight)", significant(force, 4), percent(force / weight));
+            let demand = if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() };
+            [at(demand, own.map(|own| &own.friction_demand)), at(share, own.map(|own| &own.min_normal_force))]
+        } else {
+            ["–"; 2].map(String::from)
+        };
         let _ = writeln!(
             rows,
-            "<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>",
+            "<tr{}><th scope=\"row\">{}</th><td>{demand}</td><td>{force}</td><td>{}</td></tr>",
             if slides { " class=\"beyond\"" } else { "" },
             interface + 1,
-            at(
-                if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() },
-                own.map(|own| &own.friction_demand)
-            ),
-            at(share, own.map(|own| &own.min_normal_force)),
             significant(weight, 4),
         );
     }
@@ -279,7 +288,8 @@ pub fn details(results: &Results) -> String {
         text.push_str(&separations(results));
     }
     if !results.warnings.is_empty() {
-        let list: String = results.warnings.iter().map(|warning| format!("<li>{}</li>", escape(warning))).collect();
+        let list: String =
+            results.warnings.iter().map(|warning| format!("<li>{}</li>", escape(&with_minus(warning)))).collect();
         let list = format!("<ul class=\"warnings\">{list}</ul>");
         let _ = match results.warnings.len() {
             0..=WARNINGS_SHOWN => writeln!(text, "<h3>Warnings of the run</h3>\n{list}"),
@@ -365,7 +375,7 @@ fn slides(report: &SlidingReport) -> String {
         let _ = writeln!(text, "<p>Largest gap of a flight: {} cm.</p>", significant(100.0 * report.highest_flight, 3));
     }
     if let Some(error) = report.balance() {
-        let joules = |work: f64| format!("{}&nbsp;J", significant(work, 5).replace('-', "\u{2212}"));
+        let joules = |work: f64| format!("{}&nbsp;J", significant(work, 5));
         let _ = writeln!(
             text,
             "<p>Energy balance: work of the ground {}, of friction {}, lost at impacts {}; change of energy {}. \
