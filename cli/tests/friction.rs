@@ -86,7 +86,7 @@ fn a_page_tells_slides_at_the_start_and_none_of_a_column_that_is_lost() {
     let told = page(folder.path());
     let stayed = told.lines().find(|line| line.contains("Where the drums stayed")).expect("the sentence");
     assert!(stayed.contains("<li>block 1 (slab): ") && !stayed.contains("block 1: "), "{stayed}");
-    assert!(stayed.contains(" (10&nbsp;cm to the left at the start) on block 1</li>"), "{stayed}");
+    assert!(stayed.contains(" on block 1 (10&nbsp;cm to the left at the start)</li>"), "{stayed}");
     assert_eq!(stayed.matches("at the start").count(), 1, "{stayed}");
     let far = SLIDES.replace("amplitude_g = 0.5", "amplitude_g = 1.0").replace("omega = 6.0", "omega = 0.8");
     run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));

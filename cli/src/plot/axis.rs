@@ -3,12 +3,14 @@
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit.
+    /// Quantity and unit, with the power of ten of its numbers.
     pub label: String,
     /// Values at both ends of the axis, the smaller first.
     pub range: [f64; 2],
     /// Distance between ticks: 1, 2 or 5 times a power of ten.
     pub step: f64,
+    /// Power of ten that the numbers are multiples of: zero unless they would be long.
+    pub power: i32,
     /// Whether the ticks have numbers. Of panels above one another that share this axis, only the lowest one has numbers.
     pub numbers: bool,
 }
@@ -34,7 +36,9 @@ impl Axis {
         let length = range[1] - range[0];
         let low = if range[0].is_finite() { range[0] } else { 0.0 };
         let range = if length > SHORTEST && length.is_finite() { range } else { [low, low + STILL] };
-        Axis { label: label.into(), range, step: step(range, ticks), numbers: true }
+        let (step, largest) = (step(range, ticks), range[0].abs().max(range[1].abs()));
+        let power = if is_plain(largest, step) { 0 } else { largest.log10().floor() as i32 };
+        Axis { label: in_powers(label, power), range, step, power, numbers: true }
     }
 
     /// Axis over all finite `values`, with a margin at both ends. Around zero if all values are zero but for rounding, or there are none.
@@ -50,6 +54,12 @@ impl Axis {
     /// The axis without numbers.
     pub fn unnumbered(&self) -> Axis {
         Axis { numbers: false, ..self.clone() }
+    }
+
+    /// The number at a tick.
+    pub fn number(&self, value: f64) -> String {
+        let unit = 10f64.powi(self.power);
+        number(value / unit, self.step / unit)
     }
 
     /// Position of a value along the axis, from 0 to 1.
@@ -86,8 +96,7 @@ pub fn number(value: f64, step: f64) -> String {
         return "0".into();
     }
     let power = step.log10().floor() as i32;
-    let is_plain = (SMALL..100.0 / SMALL).contains(&step) || step < SMALL && value.abs() >= PLAIN;
-    let text = if is_plain {
+    let text = if is_plain(value, step) {
         format!("{:.*}", usize::try_from(-power).unwrap_or(0), value.abs())
     } else {
         let digits = usize::try_from(value.abs().log10().floor() as i32 - power).unwrap_or(0);
@@ -97,6 +106,21 @@ pub fn number(value: f64, step: f64) -> String {
         format!("{digits}×10{}", superscript(power))
     };
     format!("{}{text}", if value < 0.0 { "−" } else { "" })
+}
+
+/// Whether a number is written without a power of ten.
+fn is_plain(value: f64, step: f64) -> bool {
+    (SMALL..100.0 / SMALL).contains(&step) || step < SMALL && value.abs() >= PLAIN
+}
+
+/// A label whose unit is so many times as large.
+fn in_powers(label: &str, power: i32) -> String {
+    let factor = format!("10{}", superscript(&power.to_string()));
+    match label.strip_suffix(']').and_then(|label| label.rsplit_once('[')) {
+        _ if power == 0 => label.into(),
+        Some((name, unit)) => format!("{name}[{factor} {unit}]"),
+        None => format!("{label} [{factor}]"),
+    }
 }
 
 fn superscript(power: &str) -> String {
@@ -162,6 +186,21 @@ mod tests {
         let cases = [(0.90001, 5e-6), (1e-4, 2e-5), (-1.2e-4, 2e-5), (8e-5, 2e-5), (3e6, 1e6), (0.0, 1e6)];
         let texts = cases.map(|(value, step)| number(value, step));
         assert_eq!(texts, ["0.900010", "1×10⁻⁴", "−1.2×10⁻⁴", "8×10⁻⁵", "3×10⁶", "0"]);
+    }
+
+    /// Numbers as long as −1.2×10⁻⁴ once lay on the label of their axis.
+    #[test]
+    fn small_and_large_axes_have_their_power_of_ten_in_the_label() {
+        let told = |label: &str, range: [f64; 2]| {
+            let axis = Axis::over(label, range, 4);
+            (axis.label.clone(), axis.number(range[0]), axis.number(3.0 * axis.step))
+        };
+        let expected =
+            |label: &str, first: &str, third: &str| (label.to_string(), first.to_string(), third.to_string());
+        assert_eq!(told("Angles θᵢ/αᵢ", [-1.2e-4, 0.0]), expected("Angles θᵢ/αᵢ [10⁻⁴]", "−1.2", "0.6"));
+        assert_eq!(told("Time [s]", [0.0, 1e-6]), expected("Time [10⁻⁶ s]", "0", "0.6"));
+        assert_eq!(told("Arc [m]", [0.0, 8e6]), expected("Arc [10⁶ m]", "0", "6"));
+        assert_eq!(told("Slide [mm]", [0.0, 0.3]), expected("Slide [mm]", "0", "0.3"));
     }
 
     #[test]

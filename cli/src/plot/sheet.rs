@@ -4,7 +4,7 @@
 //! `kuva` has a font of its own; SVGs name a font family. [`super::curve`] thins, clips and dashes curves before `kuva` gets them. SVGs
 //! therefore need no identifiers, which could clash where several SVGs stand on one page.
 
-use super::axis::{self, Axis};
+use super::axis::Axis;
 use super::curve::{self, Frame, Point};
 use super::paper::{Paper, Picture};
 use super::style::{self, Stroke};
@@ -434,8 +434,8 @@ impl Sheet {
 }
 
 fn numbers(axis: &Axis) -> TickFormat {
-    let (step, shown) = (axis.step, axis.numbers);
-    TickFormat::Custom(Arc::new(move |value| if shown { axis::number(value, step) } else { String::new() }))
+    let axis = axis.clone();
+    TickFormat::Custom(Arc::new(move |value| if axis.numbers { axis.number(value) } else { String::new() }))
 }
 
 /// The corners of a frame.

@@ -128,7 +128,7 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
         let below = if block == 0 { "the ground".into() } else { format!("block {block}") };
         let where_to = match response.samples.last().and_then(|row| row.gap.get(block)) {
             Some(gap) if *gap > 0.0 => format!("in flight above {below}"),
-            _ => format!("{}{} on {below}", sideways(report.residual_slide[block]), at_start(results, block)),
+            _ => format!("{} on {below}{}", sideways(report.residual_slide[block]), at_start(results, block)),
         };
         format!("<li>block {}: {where_to}</li>", escape(&results.block_name(block)))
     };
