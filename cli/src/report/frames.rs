@@ -8,6 +8,7 @@ use crate::number::{fixed, significant};
 use crate::plot;
 use crate::plot::modes::{fill, rest};
 use crate::report::html::script;
+use crate::report::number;
 use crate::report::outcome::{changed, closed};
 use rocking::Event;
 use rocking::column::Shape;
@@ -289,7 +290,7 @@ pub fn notes(results: &Results) -> String {
         let name = |axis: usize| ["horizontal", "vertical"][axis];
         let taken: Vec<String> = (0..2)
             .filter(|&axis| drift[axis] != 0.0)
-            .map(|axis| format!("{} m/s {}", significant(drift[axis], 3), name(axis)))
+            .map(|axis| format!("{} m/s {}", number::significant(drift[axis], 3), name(axis)))
             .collect();
         notes.push(if taken.is_empty() {
             "The ground's displacement is its acceleration, integrated twice over the output rows.".to_string()
