@@ -45,22 +45,11 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     sheet.axes(&panel);
     sheet.label_upwards(&panel);
 
-    // Without ground motion there is no response. If every column is lost at the lowest level, nothing is known of what lies between.
-    let lowest = stripes.first().map(|stripe| stripe.level);
-    let begins = runs.iter().any(|run| Some(run.level) == lowest && is_standing(run)).then_some((0.0, 0.0));
-    let mut by_record: BTreeMap<&str, Vec<&Observation>> = BTreeMap::new();
+    let mut by_record: Records = BTreeMap::new();
     runs.iter().for_each(|run| by_record.entry(&run.record).or_default().push(run));
-    for runs in by_record.values_mut() {
-        runs.sort_by(|a, b| a.level.total_cmp(&b.level));
-        let points: Vec<_> = runs.iter().map(|run| (run.demand(), run.level)).collect();
-        draw(&mut sheet, &panel, begins, &points, &RECORD);
-    }
-    let has_fractiles = by_record.len() >= LEAST_RECORDS;
-    let fractile_lines = if has_fractiles { &FRACTILE_LINES[..] } else { &[] };
-    for (place, stroke) in fractile_lines.iter().enumerate() {
-        let points = stripes.iter().map(|stripe| (stripe.fractiles.map(|values| values[place]), stripe.level));
-        draw(&mut sheet, &panel, begins, &points.collect::<Vec<_>>(), stroke);
-    }
+    by_record.values_mut().for_each(|runs| runs.sort_by(|a, b| a.level.total_cmp(&b.level)));
+    let fractile_lines = if by_record.len() >= LEAST_RECORDS { &FRACTILE_LINES[..] } else { &[] };
+    curves(&mut sheet, &panel, &by_record, stripes, fractile_lines);
     counts(&mut sheet, &panel, runs, stripes);
 
     let records = counted(by_record.len(), ["record", "records"]);
@@ -73,16 +62,35 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     }
     let below = sheet.label_below(&panel);
     sheet.height = sheet.legend(below + 4.0, &entries) + 8.0;
-    let fractiles = match has_fractiles {
-        true => " with its 16, 50 and 84 % fractiles per level.".into(),
-        false => format!(" ({LEAST_RECORDS} records or more have fractiles as well)."),
+    let levels = counted(stripes.len(), ["level", "levels"]);
+    let fractiles = match fractile_lines {
+        [] => format!(" ({LEAST_RECORDS} records or more have fractiles as well)"),
+        _ => " with its 16, 50 and 84 % fractiles per level".into(),
     };
     let caption = format!(
-        "{records} at {} of {label}: the largest |θ|/α of each run{fractiles}{}",
-        counted(stripes.len(), ["level", "levels"]),
+        "{records} at {levels} of {label}: the largest |θ|/α of each run{fractiles}.{}",
         lost_and_undecided(runs, undecided)
     );
     Figure::new("ida", caption, sheet)
+}
+
+/// Runs by record, each from the lowest level up.
+type Records<'r> = BTreeMap<&'r str, Vec<&'r Observation>>;
+
+/// The curves of the records, and those of the fractiles that have lines.
+fn curves(sheet: &mut Sheet, panel: &Panel, records: &Records, stripes: &[Stripe], fractile_lines: &[Stroke]) {
+    // Without ground motion there is no response. If no column stands at the lowest level, nothing is known of what lies between.
+    let lowest = stripes.first().map(|stripe| stripe.level);
+    let begins = |run: &&Observation| Some(run.level) == lowest && is_standing(run);
+    let begins = records.values().flatten().any(begins).then_some((0.0, 0.0));
+    for runs in records.values() {
+        let points: Vec<_> = runs.iter().map(|run| (run.demand(), run.level)).collect();
+        draw(sheet, panel, begins, &points, &RECORD);
+    }
+    for (place, stroke) in fractile_lines.iter().enumerate() {
+        let points = stripes.iter().map(|stripe| (stripe.fractiles.map(|values| values[place]), stripe.level));
+        draw(sheet, panel, begins, &points.collect::<Vec<_>>(), stroke);
+    }
 }
 
 /// Whether the column of a run stands, and its response is known.
