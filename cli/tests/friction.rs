@@ -133,6 +133,25 @@ fn free_interfaces_have_neither_force_nor_demand_nor_slide() {
     assert_eq!(lines.count(), 3, "a line for each coefficient, and the key");
 }
 
+/// On narrow paper the right edge of the frame is closer to the end of a run than a letter is high.
+#[test]
+fn the_name_of_an_ending_does_not_lie_on_the_frame() {
+    let folder = tempfile::tempdir().expect("a folder");
+    run(folder.path(), THROWN);
+    for (width, pixels) in [("80", 384.0), ("100", 480.0)] {
+        succeeds(folder.path(), &["plot", "out", "--width", width, "--out", "narrow"]);
+        let figure = std::fs::read_to_string(folder.path().join("narrow/slides.svg")).expect("a figure");
+        let document = roxmltree::Document::parse(&figure).expect("XML");
+        let mut texts = document.descendants().filter(|node| node.has_tag_name("text"));
+        let ending =
+            texts.find(|text| text.text().is_some_and(|text| text.starts_with("overturned"))).expect("its name");
+        let base: f64 = ending.attribute("x").and_then(|x| x.parse().ok()).expect("a number");
+        // The right margin has 18 px; letters of 13 px rise by about 10.
+        let frame = pixels - 18.0;
+        assert!(base + 4.0 < frame || base - 10.0 > frame && base + 4.0 <= pixels, "{base}, {frame}");
+    }
+}
+
 /// A block that is never closed has neither the largest demand nor the smallest force.
 #[test]
 fn a_contact_that_never_closed_has_no_extremes() {

@@ -135,6 +135,15 @@ fn endings_are_told() {
     assert!(told("five-drums-free").iter().any(|text| text == "at rest"));
 }
 
+/// Between rows the acceleration of the ground is not drawn.
+#[test]
+fn a_caption_gives_the_interval_of_the_rows() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("coarse.toml");
+    std::fs::write(&scene, format!("{STILL}[output]\ndt = 0.25\n")).expect("written");
+    assert!(figures_of_file(&scene).0[0].contains(" at the rows alone (every 0.25 s, 5 rows);"));
+}
+
 /// At an impact the total energy falls, straight down, by what the event says; and rates jump.
 #[test]
 fn impacts_are_drops_of_the_energy_and_jumps_of_the_rate() {

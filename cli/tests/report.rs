@@ -244,6 +244,7 @@ mod in_chromium {
     use rocking::pattern::Pattern;
     use rocking::{Block, Column};
     use serde_json::{Value, json};
+    use std::collections::HashSet;
     use std::path::Path;
 
     /// A run's rows: time, angles, pattern; base first.
@@ -403,6 +404,22 @@ mod in_chromium {
                 assert!((shown - expected).abs() < ANGLE, "{event}");
             }
         }
+    }
+
+    /// The eighth block once had the line of the first.
+    #[test]
+    #[cfg_attr(not(has_chromium), ignore = "needs Chromium")]
+    fn the_curves_of_many_blocks_are_distinct() {
+        let mut browser = Browser::start(1280);
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = "[column]\nblocks = 21\nhalf_width = 0.4\nhalf_height = 1.6\n[solver]\nt_end = 0.1\n";
+        let run = run_text(folder.path(), "tall", scene);
+        browser.open(&run.join("report.html"), "");
+        let lines = browser.evaluate(
+            "[...document.querySelectorAll('.readout path')].map(one => one.style.stroke + one.getAttribute('stroke-dasharray'))",
+        );
+        let lines: HashSet<&str> = lines.as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+        assert_eq!(lines.len(), 21, "{lines:?}");
     }
 
     /// A run with ten times as many rows is the reference. Cubics through angles and rates are off by h⁴/384 times a fourth

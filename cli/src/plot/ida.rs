@@ -156,3 +156,29 @@ fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Str
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking::Fate;
+    use rocking::studies::stripes;
+
+    #[test]
+    fn a_level_without_an_answer_counts_nothing() {
+        let run = |level: f64, fate: Option<Fate>| Observation {
+            record: "a".into(),
+            level,
+            fate,
+            has_uplift: true,
+            peaks: vec![0.5],
+            residual_slides: Vec::new(),
+        };
+        let runs = [run(1.0, Some(Fate::Rocks)), run(2.0, None)];
+        let figure = ida("PGV [m/s]", &runs, &stripes(&runs), &Paper::default());
+        assert!(figure.svg.contains(">0/1<") && figure.svg.contains(">–<") && !figure.svg.contains("0/0"));
+        assert!(figure.caption.starts_with("1 record at 2 levels of PGV [m/s]: "), "{}", figure.caption);
+        let told =
+            "Lost: 0 of 2 runs, counted per level on the right. Undecided and left out: 1 of 2 runs, which failed";
+        assert!(figure.caption.contains(told), "{}", figure.caption);
+    }
+}
