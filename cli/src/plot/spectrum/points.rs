@@ -24,7 +24,7 @@ pub struct Points {
     peaks: Vec<f64>,
     /// Number of columns of peaks; zero where none were asked for.
     pub blocks: usize,
-    /// Number of rows whose runs end while the ground still moves.
+    /// Number of rows whose runs `t_end` cuts.
     truncated: usize,
 }
 
@@ -84,12 +84,12 @@ impl Points {
         self.classes.len()
     }
 
-    /// A sentence for captions on the runs that end while the ground still moves; empty if there are none.
+    /// A sentence for captions on the runs that t_end cuts; empty if there are none.
     pub fn truncation(&self) -> String {
         match self.truncated {
             0 => String::new(),
             count => format!(
-                " The ground still moves at the end of {count} of {}, where solver.t_end cuts them.",
+                " {count} of {} are cut at solver.t_end: the ground still moves there, or the column has the energy to overturn.",
                 counted(self.len(), ["run", "runs"])
             ),
         }
