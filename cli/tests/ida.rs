@@ -583,3 +583,17 @@ fn largest_gaps_are_the_same_with_and_without_companions() {
     std::fs::remove_file(folder.path().join("ida.csv")).expect("it is there");
     assert_eq!(followed, gaps(false));
 }
+
+/// With a record of one push and no free swing, columns are cut while they fall.
+#[test]
+fn a_run_whose_column_may_be_falling_at_its_end_is_not_determined() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("push.csv"), "t [s], a [m/s2]\n0, 1\n0.1, 1\n0.2, 1\n0.3, 0\n").expect("written");
+    let study = "measure = \"pga_uplift\"\nlevels = [0.5, 1.2, 6.0]\ntrust = false\nfree_swing = 0\n[records]\nfiles = [\"push.csv\"]\n\
+        [scene.column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 0.8\n";
+    std::fs::write(folder.path().join("ida.toml"), study).expect("written");
+    succeeds(folder.path(), &["ida", "ida.toml", "--out", "t.csv", "--quiet"]);
+    let table = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
+    let outcomes: Vec<&str> = table.lines().skip(1).map(|line| line.split(',').nth(4).expect("a cell")).collect();
+    assert_eq!(outcomes, ["no-uplift", "rocks", "not-determined"], "{table}");
+}

@@ -366,7 +366,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
     let column = &scene.column;
     let slides = response.sliding.as_ref().map(|report| report.residual_slide.clone());
     IdaOutcome {
-        fate: Fate::of(response),
+        fate: if response.may_overturn { Fate::NotDetermined } else { Fate::of(response) },
         impacts: response.impacts,
         block: response.lost_block(),
         overturned_at: response.overturned_at(),
