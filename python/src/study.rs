@@ -3,7 +3,7 @@
 use crate::error;
 use crate::record::{Record, intensity};
 use crate::scene::{Origin, Scene};
-use crate::sweep::{ERROR, in_parts, per_block, range};
+use crate::sweep::{in_parts, per_block, range};
 use crate::table::{Column, Names, Values, into_python, whole};
 use numpy::PyReadonlyArray2;
 use numpy::ndarray::ArrayView1;
@@ -16,6 +16,7 @@ use rocking::studies::{
     self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES, NoLayout,
     Observation, RunError,
 };
+use rocking::sweep::ERROR;
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -8,17 +8,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rocking::Fate;
 use rocking::scene_file::{Setting, Template};
-use rocking::sweep::{Ask, Axis, Field, Needs, Outcome, PointError};
+use rocking::sweep::{Axis, Cell, CellKind, DETERMINED, ERROR, Field, NOT_DETERMINED, Outcome, PointError};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Outcome of a failed point, as in a table of the command line.
-pub const ERROR: &str = "error";
-
-/// The word of a verdict that is not determined.
-const NOT_DETERMINED: &str = "not-determined";
 
 /// A base scene and what varies.
 #[pyclass(frozen, module = "rocking._rocking")]
@@ -102,14 +96,7 @@ impl Sweep {
 
     #[getter]
     fn ask(&self) -> &'static str {
-        match self.sweep.ask {
-            Ask::Overturns => "overturns",
-            Ask::Peaks => "peaks",
-            Ask::Slides => "slides",
-            Ask::Validity => "validity",
-            Ask::Trust => "trust",
-            _ => "outcome",
-        }
+        self.sweep.ask.name()
     }
 
     /// Dotted keys of the axes, and their numbers of values.
@@ -137,41 +124,39 @@ impl Sweep {
 
 impl Sweep {
     fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], fields: &[Field]) -> Vec<Column> {
-        let ask = self.sweep.ask;
-        let found = || results.iter().map(|result| result.as_ref().ok());
-        let number = |of: &dyn Fn(&Outcome) -> Option<f64>| {
-            Values::Number(found().map(|found| found.and_then(of).unwrap_or(f64::NAN)).collect())
-        };
-        let needs = |found: &Outcome, of: fn(&Needs) -> f64| found.needs.as_ref().map(of);
-        let values = |field: Field| match field {
-            Field::Index => Values::Index(range.clone().map(|index| index as i64).collect()),
-            Field::Axis(place) => {
-                let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
-                axis_values(&self.sweep.axes[place], settings)
-            }
-            Field::Outcome => {
-                let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
-                fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))
-            }
-            Field::Impacts => whole(found().map(|found| found?.counted_impacts(ask))),
-            Field::Block => whole(found().map(|found| found.and_then(|found| found.block))),
-            Field::OverturnedAt => number(&|found| found.overturned_at),
-            Field::Peak(block) => number(&|found| found.peaks.get(block).copied()),
-            Field::LastMode => Values::Text(found().map(|found| found?.last_mode.clone()).collect()),
-            Field::ResidualSlide(interface) => number(&|found| found.residual_slides.get(interface).copied()),
-            Field::Valid => truth(found().map(|found| found?.needs.map(|needs| needs.valid))),
-            Field::MuDemand => number(&|found| needs(found, |needs| needs.mu_demand)),
-            Field::MinNormal => number(&|found| needs(found, |needs| needs.min_normal)),
-            Field::Separations => whole(found().map(|found| found?.needs.map(|needs| needs.separations))),
-            Field::Trust => {
-                let word = |determined| if determined { "determined" } else { NOT_DETERMINED };
-                let words = found().map(|found| found.and_then(|found| found.determined).map_or("", word));
-                Names::of(["determined", NOT_DETERMINED]).column(words)
-            }
-            Field::Truncated => truth(found().map(|found| found.map(|found| found.truncated))),
-            Field::Error => {
-                let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
-                Values::Text(errors.collect())
+        let values = |field: Field| {
+            let cells = || results.iter().map(|result| field.cell(result, self.sweep.ask));
+            match (field, field.kind()) {
+                (Field::Index, _) => Values::Index(range.clone().map(|index| index as i64).collect()),
+                (Field::Axis(place), _) => {
+                    let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
+                    axis_values(&self.sweep.axes[place], settings)
+                }
+                (_, CellKind::Whole) => {
+                    whole(cells().map(|cell| if let Cell::Whole(number) = cell { Some(number) } else { None }))
+                }
+                (_, CellKind::Number) => {
+                    let number = |cell| if let Cell::Number(number) = cell { number } else { f64::NAN };
+                    Values::Number(cells().map(number).collect())
+                }
+                (_, CellKind::Truth) => {
+                    truth(cells().map(|cell| if let Cell::Truth(truth) = cell { Some(truth) } else { None }))
+                }
+                (_, CellKind::Word) => {
+                    let words = match field {
+                        Field::Trust => vec![DETERMINED, NOT_DETERMINED],
+                        _ => Fate::ALL.map(Fate::name).into_iter().chain([ERROR]).collect(),
+                    };
+                    Names::of(words).column(cells().map(|cell| if let Cell::Word(word) = cell { word } else { "" }))
+                }
+                (_, CellKind::Text) => {
+                    let text = |cell| match cell {
+                        Cell::Word(word) => Some(word.to_string()),
+                        Cell::Error(error) => Some(error.to_string()),
+                        _ => None,
+                    };
+                    Values::Text(cells().map(text).collect())
+                }
             }
         };
         fields.iter().map(|field| Column::new(self.sweep.heading(*field), values(*field))).collect()

@@ -1,7 +1,7 @@
 //! What a study observes of a run, and the limit states that an observation reaches or not.
 
 use crate::response::Fate;
-use crate::sweep::is_of_records;
+use crate::sweep::{DETERMINED, ERROR, NOT_DETERMINED, is_of_records};
 use std::fmt;
 use std::str::FromStr;
 
@@ -87,12 +87,12 @@ impl TryFrom<Cells<'_>> for Observation {
         let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
         let named = |name: &str| Fate::ALL.into_iter().find(|fate| fate.name() == name);
         let fate = match outcome {
-            None | Some("error") => None,
+            None | Some(ERROR) => None,
             Some(name) => Some(named(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
         };
         let is_open = match trust {
-            None | Some("" | "determined") => false,
-            Some("not-determined") => true,
+            None | Some("" | DETERMINED) => false,
+            Some(NOT_DETERMINED) => true,
             Some(other) => return Err(WrongCell::Trust { found: other.into() }),
         };
         let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined));

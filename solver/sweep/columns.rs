@@ -1,8 +1,8 @@
 //! Columns of the table of a sweep: one list for all programs that write it.
 //!
-//! Order, contents and headings are defined here; each writer formats its cells itself.
+//! Order, headings, kinds and contents are defined here; each writer formats its cells itself.
 
-use super::points::{Ask, Sweep};
+use super::points::{Ask, Outcome, PointError, Sweep};
 use crate::column::MOST_BLOCKS;
 use crate::scene_file::SceneFileError;
 
@@ -37,10 +37,98 @@ pub enum Field {
     Separations,
     /// Whether the verdict is determined.
     Trust,
-    /// Whether the ground still moves at the end of a run in which the column neither overturns nor collapses.
+    /// Whether `t_end` cuts the run.
     Truncated,
     /// Why the scene failed.
     Error,
+}
+
+/// The word of the column `outcome` for a point without a result.
+pub const ERROR: &str = "error";
+
+/// The word of the column `trust` for a verdict that is determined.
+pub const DETERMINED: &str = "determined";
+
+/// The word of the column `trust` for a verdict that is not determined.
+pub const NOT_DETERMINED: &str = "not-determined";
+
+/// What the cells of a column hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellKind {
+    /// Whole numbers.
+    Whole,
+    /// Numbers.
+    Number,
+    /// True or false.
+    Truth,
+    /// One of a few words.
+    Word,
+    /// Any text.
+    Text,
+}
+
+/// The content of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'r> {
+    /// The run did not get so far, or its column has fewer blocks than the largest one of the sweep.
+    Blank,
+    /// A whole number.
+    Whole(usize),
+    /// A number.
+    Number(f64),
+    /// True or false.
+    Truth(bool),
+    /// A word, or a text.
+    Word(&'r str),
+    /// Why there is no result.
+    Error(&'r PointError),
+}
+
+impl Field {
+    /// What the cells of the column hold; of an axis, what its values are is known to the sweep alone ([`Sweep::axes`]).
+    pub fn kind(self) -> CellKind {
+        match self {
+            Field::Index | Field::Impacts | Field::Block | Field::Separations => CellKind::Whole,
+            Field::OverturnedAt | Field::Peak(_) | Field::ResidualSlide(_) | Field::MuDemand | Field::MinNormal => {
+                CellKind::Number
+            }
+            Field::Valid | Field::Truncated => CellKind::Truth,
+            Field::Outcome | Field::Trust => CellKind::Word,
+            Field::Axis(_) | Field::LastMode | Field::Error => CellKind::Text,
+        }
+    }
+
+    /// The cell of a result; blank for index and axes, which are those of the point.
+    pub fn cell(self, result: &Result<Outcome, PointError>, ask: Ask) -> Cell<'_> {
+        let found = match (result, self) {
+            (Ok(found), _) => found,
+            (Err(error), Field::Error) => return Cell::Error(error),
+            (Err(_), Field::Outcome) => return Cell::Word(ERROR),
+            (Err(_), _) => return Cell::Blank,
+        };
+        let number = |number: Option<f64>| number.map_or(Cell::Blank, Cell::Number);
+        let whole = |number: Option<usize>| number.map_or(Cell::Blank, Cell::Whole);
+        let needs = found.needs.as_ref();
+        match self {
+            Field::Index | Field::Axis(_) | Field::Error => Cell::Blank,
+            Field::Outcome => Cell::Word(found.fate.name()),
+            Field::Impacts => whole(found.counted_impacts(ask)),
+            Field::Block => whole(found.block),
+            Field::OverturnedAt => number(found.overturned_at),
+            Field::Peak(block) => number(found.peaks.get(block).copied()),
+            Field::LastMode => found.last_mode.as_deref().map_or(Cell::Blank, Cell::Word),
+            Field::ResidualSlide(interface) => number(found.residual_slides.get(interface).copied()),
+            Field::Valid => needs.map_or(Cell::Blank, |needs| Cell::Truth(needs.valid)),
+            Field::MuDemand => number(needs.map(|needs| needs.mu_demand)),
+            Field::MinNormal => number(needs.map(|needs| needs.min_normal)),
+            Field::Separations => whole(needs.map(|needs| needs.separations)),
+            Field::Trust => {
+                let word = |determined| Cell::Word(if determined { DETERMINED } else { NOT_DETERMINED });
+                found.determined.map_or(Cell::Blank, word)
+            }
+            Field::Truncated => Cell::Truth(found.truncated),
+        }
+    }
 }
 
 impl Sweep {

@@ -80,20 +80,20 @@ pub enum Ask {
 }
 
 impl Ask {
-    /// Names in sweep files.
+    /// All questions.
+    pub const ALL: [Ask; 6] = [Ask::Outcome, Ask::Overturns, Ask::Peaks, Ask::Slides, Ask::Validity, Ask::Trust];
+
+    /// Their names.
     pub const NAMES: [&str; 6] = ["outcome", "overturns", "peaks", "slides", "validity", "trust"];
+
+    /// The name in sweep files.
+    pub fn name(self) -> &'static str {
+        Ask::NAMES[self as usize]
+    }
 
     /// The question of this name.
     pub fn parse(name: &str) -> Option<Ask> {
-        match name {
-            "outcome" => Some(Ask::Outcome),
-            "overturns" => Some(Ask::Overturns),
-            "peaks" => Some(Ask::Peaks),
-            "slides" => Some(Ask::Slides),
-            "validity" => Some(Ask::Validity),
-            "trust" => Some(Ask::Trust),
-            _ => None,
-        }
+        Ask::ALL.into_iter().find(|ask| ask.name() == name)
     }
 
     /// Whether largest angles are asked for, so that no run ends early.
@@ -128,7 +128,7 @@ pub struct Outcome {
     pub block: Option<usize>,
     /// Time of overturning `[s]`; `None` for a column that did not overturn, and for [`Ask::Overturns`].
     pub overturned_at: Option<f64>,
-    /// Whether the ground still moves at `t_end` and the column neither overturned nor collapsed before: the outcome then holds up to `t_end` only.
+    /// Whether `t_end` cuts the run ([`Response::truncated`](crate::Response::truncated)): the outcome then holds up to `t_end` only.
     pub truncated: bool,
     /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, base first; only if peaks are asked for.
     pub peaks: Vec<f64>,

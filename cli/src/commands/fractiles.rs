@@ -4,12 +4,12 @@ use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::spectrum::LEAST_RECORDS;
-use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
+use crate::table::column::{OUTCOME, TRUST};
 use crate::table::open;
 use crate::text::{printable, shown};
 use rocking::Fate;
 use rocking::studies::{FRACTILES, fractile};
-use rocking::sweep::{Axis, Combine, Sweep, is_of_records};
+use rocking::sweep::{Axis, Combine, NOT_DETERMINED, Sweep, is_of_records};
 use std::path::{Path, PathBuf};
 
 /// The runs at one combination of the axes that are not of records.

@@ -12,6 +12,7 @@ use crate::{output, plot};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
+use rocking::sweep::ERROR;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -94,7 +95,7 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
         for (values, place) in values.iter_mut().zip(&columns.others) {
             values.insert(row[*place].to_string());
         }
-        if let ("error", Some(error)) = (&row[columns.outcome], columns.error) {
+        if let (ERROR, Some(error)) = (&row[columns.outcome], columns.error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
         cut += usize::from(columns.truncated.is_some_and(|truncated| &row[truncated] == "true"));

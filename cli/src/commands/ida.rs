@@ -21,6 +21,7 @@ use csv::StringRecord;
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
+use rocking::sweep::ERROR;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -166,7 +167,7 @@ fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
             cells.resize(columns, String::new());
         }
         Err(error) => {
-            cells.push("error".into());
+            cells.push(ERROR.into());
             cells.resize(columns - 1, String::new());
             cells.push(printable(&error.to_string()).into_owned());
         }

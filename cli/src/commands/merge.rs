@@ -17,7 +17,7 @@ use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, Sweep};
+use rocking::sweep::{Ask, ERROR, Sweep};
 use std::fs::File;
 #[cfg(feature = "parquet")]
 use std::io::{BufWriter, Write};
@@ -171,7 +171,7 @@ fn join(
 fn is_whole(row: &StringRecord, outcome: usize) -> bool {
     let is_fate = Fate::ALL.iter().any(|fate| fate.name() == &row[outcome]);
     let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
-    is_fate != has_error && (is_fate || &row[outcome] == "error")
+    is_fate != has_error && (is_fate || &row[outcome] == ERROR)
 }
 
 /// Writes the rows of tables below their header.

@@ -4,10 +4,11 @@
 use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::output;
-use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
+use crate::table::column::{OUTCOME, TRUST};
 use crate::table::open;
 use crate::text::shown;
 use rocking::studies::Proportion;
+use rocking::sweep::NOT_DETERMINED;
 use rocking::{Fate, Sweep};
 use serde::Serialize;
 use std::fmt::Write as _;

@@ -20,7 +20,7 @@ use rocking::Fate;
 use rocking::SceneFileError;
 use rocking::run_folder::Digest;
 use rocking::scene_file::{Cause, Setting};
-use rocking::sweep::{Ask, Field, Row, Sweep};
+use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -147,7 +147,7 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     sweep.template.records().into_iter().chain(of_axes).chain(components).collect()
 }
 
-pub use crate::table::column::{NOT_DETERMINED, OUTCOME, TRUST};
+pub use crate::table::column::{OUTCOME, TRUST};
 
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
@@ -158,18 +158,13 @@ pub const TRUNCATED: &str = "truncated";
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     let column = |field: Field| {
-        let (full, kind) = match field {
-            Field::Index => (true, Kind::Whole),
-            Field::Axis(place) => {
-                let is_number = sweep.axes[place].values.iter().all(|value| matches!(value, Setting::Number(_)));
-                (true, if is_number { Kind::Number } else { Kind::Text })
-            }
-            Field::Outcome => (true, Kind::Text),
-            Field::Impacts | Field::Block | Field::Separations => (false, Kind::Whole),
-            Field::OverturnedAt | Field::Peak(_) | Field::ResidualSlide(_) | Field::MuDemand | Field::MinNormal => {
-                (false, Kind::Number)
-            }
-            Field::LastMode | Field::Valid | Field::Trust | Field::Truncated | Field::Error => (false, Kind::Text),
+        let full = matches!(field, Field::Index | Field::Axis(_) | Field::Outcome);
+        let is_number = |place: usize| sweep.axes[place].values.iter().all(|value| matches!(value, Setting::Number(_)));
+        let kind = match (field, field.kind()) {
+            (Field::Axis(place), _) if is_number(place) => Kind::Number,
+            (_, CellKind::Whole) => Kind::Whole,
+            (_, CellKind::Number) => Kind::Number,
+            (_, CellKind::Truth | CellKind::Word | CellKind::Text) => Kind::Text,
         };
         let make = if full { Column::full } else { Column::sparse };
         make(sweep.heading(field), kind)
@@ -177,41 +172,20 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     Ok(sweep.fields().map_err(Failure::scene)?.into_iter().map(column).collect())
 }
 
-/// A cell of a row; blank where the run did not get so far, or the scene has fewer blocks than the largest scene of the sweep.
+/// A cell of a row as text.
 fn cell(row: &Row, field: Field, ask: Ask) -> String {
-    fn number(value: Option<f64>) -> String {
-        value.map_or(String::new(), |value| format!("{value:?}"))
-    }
-    fn word(value: Option<impl ToString>) -> String {
-        value.map_or(String::new(), |value| value.to_string())
-    }
-    let outcome = row.result.as_ref().ok();
-    let needs = outcome.and_then(|outcome| outcome.needs.as_ref());
-    match field {
-        Field::Index => row.index.to_string(),
-        Field::Axis(place) => match &row.settings[place] {
+    match (field, field.cell(&row.result, ask)) {
+        (Field::Index, _) => row.index.to_string(),
+        (Field::Axis(place), _) => match &row.settings[place] {
             Setting::Text(text) => printable(text).into_owned(),
             setting => setting.to_string(),
         },
-        Field::Outcome => outcome.map_or("error", |outcome| outcome.fate.name()).into(),
-        Field::Impacts => word(outcome.and_then(|outcome| outcome.counted_impacts(ask))),
-        Field::Block => word(outcome.and_then(|outcome| outcome.block)),
-        Field::OverturnedAt => number(outcome.and_then(|outcome| outcome.overturned_at)),
-        Field::Peak(block) => number(outcome.and_then(|outcome| outcome.peaks.get(block).copied())),
-        Field::LastMode => word(outcome.and_then(|outcome| outcome.last_mode.as_ref())),
-        Field::ResidualSlide(interface) => {
-            number(outcome.and_then(|outcome| outcome.residual_slides.get(interface).copied()))
-        }
-        Field::Valid => word(needs.map(|needs| needs.valid)),
-        Field::MuDemand => number(needs.map(|needs| needs.mu_demand)),
-        Field::MinNormal => number(needs.map(|needs| needs.min_normal)),
-        Field::Separations => word(needs.map(|needs| needs.separations)),
-        Field::Trust => {
-            let determined = outcome.and_then(|outcome| outcome.determined);
-            word(determined.map(|determined| if determined { "determined" } else { NOT_DETERMINED }))
-        }
-        Field::Truncated => word(outcome.map(|outcome| outcome.truncated)),
-        Field::Error => word(row.result.as_ref().err().map(|error| printable(&error.to_string()).into_owned())),
+        (_, Cell::Blank) => String::new(),
+        (_, Cell::Whole(number)) => number.to_string(),
+        (_, Cell::Number(number)) => format!("{number:?}"),
+        (_, Cell::Truth(truth)) => truth.to_string(),
+        (_, Cell::Word(word)) => word.into(),
+        (_, Cell::Error(error)) => printable(&error.to_string()).into_owned(),
     }
 }
 

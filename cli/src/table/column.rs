@@ -7,8 +7,6 @@ pub const OUTCOME: &str = "outcome";
 
 /// Heading of the column that says whether the verdict of a run is determined.
 pub const TRUST: &str = "trust";
-/// Text in the column [`TRUST`] for a verdict that is not determined.
-pub const NOT_DETERMINED: &str = "not-determined";
 
 /// The type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,9 @@
 use super::class::Class;
 use super::refusal::NoSpectrum;
 use crate::number::counted;
-use crate::table::column::{NOT_DETERMINED, Rows, TRUST};
+use crate::table::column::{Rows, TRUST};
 use crate::table::open;
+use rocking::sweep::NOT_DETERMINED;
 use std::collections::HashMap;
 use std::path::Path;
 
