@@ -3,7 +3,7 @@
 use super::decision::Decision;
 use super::search::ContactProblem;
 use super::state_at_event::{
-    Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_open, project, sizes,
+    Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_choose, project, sizes,
 };
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
@@ -42,51 +42,56 @@ pub fn impact(
 }
 
 fn impact_at<S: Size>(
-    instant: &StateAtEvent<S>,
+    at_event: &StateAtEvent<S>,
     pattern: &Pattern,
     omega: &[f64],
     closing: &[usize],
     ground: Ground,
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
-    let states = instant.states(pattern);
-    let posture = instant.posture(&states);
-    let before = instant.motion(&posture, omega);
+    let states = at_event.states(pattern);
+    let posture = at_event.posture(&states);
+    let before = at_event.velocities(&posture, omega);
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
 
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
     let mut guess = states.clone();
     closing.iter().for_each(|&interface| guess[interface] = states[interface].mirror());
-    let mut mechanism = instant.mechanism(guess)?;
+    let mut mechanism = at_event.mechanism(guess)?;
     // Interfaces without gap: closed, closing, or just opened by an earlier impact of the same instant.
-    let free = instant.size.list_of(|interface| instant.gaps.is_rounding(interface));
+    let free = at_event.size.list_of(|interface| at_event.gaps.is_rounding(interface));
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
     let mut plastic = project(&mechanism, &before);
     let projected = |candidate: &Mechanism<S>| project(candidate, &before);
-    let problem =
-        ContactProblem { instant, free: &free, least_parting, answer: projected, given: |block| sizes(&before, block) };
+    let problem = ContactProblem {
+        at_event,
+        free: &free,
+        least_parting,
+        answer: projected,
+        given: |block| sizes(&before, block),
+    };
     let mut separation = problem.solve(&mut mechanism, &mut plastic)?;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
     let rebound = restitute(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
-    let mut rates = rebound.unwrap_or(plastic.motion);
-    let mut forced = settle(instant, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
+    let mut rates = rebound.unwrap_or(plastic.angular);
+    let mut forced = settle(at_event, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
     let (mut energy_lost, mut impulses) = (0.0, None);
     if law.is_recorded {
         let posture = &mechanism.posture;
-        let after = instant.motion(posture, &rates);
+        let after = at_event.velocities(posture, &rates);
         let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
         energy_lost = share_lost(energy_before, energy_after);
         let change = after.less(&before);
         impulses = Some(posture.resultants(&change.linear, &change.angular));
     }
 
-    let free = instant.size.list_of(may_open(instant, &mechanism.states, &rates));
+    let free = at_event.size.list_of(may_choose(at_event, &mechanism.states, &rates));
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, &rates, ground);
     let problem = ContactProblem {
-        instant,
+        at_event,
         free: &free,
         least_parting: 0.0,
         answer: forces,
@@ -115,20 +120,20 @@ pub(crate) fn stick(
     omega: &[f64],
     closing: &[usize],
 ) -> Result<Decision, SingularMass> {
-    let instant = StateAtEvent::new(Any(column.len()), column, theta);
-    let mut states = instant.states(pattern);
-    let posture = instant.posture(&states);
-    let before = instant.motion(&posture, omega);
+    let at_event = StateAtEvent::new(Any(column.len()), column, theta);
+    let mut states = at_event.states(pattern);
+    let posture = at_event.posture(&states);
+    let before = at_event.velocities(&posture, omega);
     let energy_before = posture.kinetic_energy(&before.linear, &before.angular);
     closing.iter().for_each(|&interface| states[interface] = Interface::Closed);
-    let mechanism = instant.mechanism(states)?;
+    let mechanism = at_event.mechanism(states)?;
     let answer = project(&mechanism, &before);
     let posture = &mechanism.posture;
-    let after = instant.motion(posture, &answer.motion);
+    let after = at_event.velocities(posture, &answer.angular);
     let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
     Ok(Decision {
         pattern: Pattern::from_states(&mechanism.states),
-        omega: PerBlock::from_slice(&answer.motion),
+        omega: PerBlock::from_slice(&answer.angular),
         separation: true,
         energy_lost: share_lost(energy_before, energy_after),
         impulses: PerBlock::from_slice(&answer.resultants),
@@ -169,7 +174,7 @@ fn restitute<S: Size>(
             row[link] = -1.0;
         }
         mass.solve(row);
-        gain[index] = (kappa[interface] - 1.0) * relative(&plastic.motion, interface);
+        gain[index] = (kappa[interface] - 1.0) * relative(&plastic.angular, interface);
     }
     let row_of = |index: usize| &spread[index * width..][..width];
     if count == 1 {
@@ -188,20 +193,20 @@ fn restitute<S: Size>(
         }
         Factorised::<S>::new(compliance, count)?.solve(&mut gain);
     }
-    let mut rates = posture.link_rates(&plastic.motion);
+    let mut rates = posture.link_rates(&plastic.angular);
     for (index, impulse) in gain[..count].iter().enumerate() {
         rates.iter_mut().zip(row_of(index)).for_each(|(rate, share)| *rate += share * impulse);
     }
     // Sets the relative rates exactly, base first: with a factor of zero, the rounding of the sum would be a hop.
     for interface in (0..states.len()).filter(|interface| rebounding.contains(interface)) {
-        let rebound_rate = kappa[interface] * relative(&plastic.motion, interface);
+        let rebound_rate = kappa[interface] * relative(&plastic.angular, interface);
         rates[above(interface)] = rate_below(&rates, interface) + rebound_rate;
     }
     let rebound = posture.angular(&rates);
 
     let flips = |i: usize| {
         let sign = f64::from(states[i].sign());
-        states[i].is_open() && sign * relative(&plastic.motion, i) > 0.0 && sign * relative(&rebound, i) < 0.0
+        states[i].is_open() && sign * relative(&plastic.angular, i) > 0.0 && sign * relative(&rebound, i) < 0.0
     };
     let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
     let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
@@ -220,7 +225,7 @@ const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 /// closed as well. Mechanism and rates become those with the interfaces closed; returns the accelerations and forces.
 #[inline(always)]
 fn settle<'a, S: Size>(
-    instant: &StateAtEvent<'a, S>,
+    at_event: &StateAtEvent<'a, S>,
     mechanism: &mut Mechanism<'a, S>,
     rates: &mut S::List<f64>,
     free: &[bool],
@@ -233,7 +238,7 @@ fn settle<'a, S: Size>(
         let states = &mechanism.states;
         let hops_short = |interface: usize| {
             let sign = f64::from(states[interface].sign());
-            let (rate, back) = (relative(rates, interface), -sign * relative(&forced.motion, interface));
+            let (rate, back) = (relative(rates, interface), -sign * relative(&forced.angular, interface));
             states[interface].is_open() && back > 0.0 && rate * rate < 2.0 * back * height
         };
         if !chosen(free).any(hops_short) {
@@ -241,9 +246,9 @@ fn settle<'a, S: Size>(
         }
         let mut closed = states.clone();
         chosen(free).filter(|i| hops_short(*i)).for_each(|interface| closed[interface] = Interface::Closed);
-        let before = instant.motion(&mechanism.posture, rates);
-        *mechanism = instant.mechanism(closed)?;
-        *rates = project(mechanism, &before).motion;
+        let before = at_event.velocities(&mechanism.posture, rates);
+        *mechanism = at_event.mechanism(closed)?;
+        *rates = project(mechanism, &before).angular;
         height = height.min(UNRESOLVED_HOP);
     }
 }

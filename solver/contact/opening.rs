@@ -2,7 +2,7 @@
 
 use super::decision::Decision;
 use super::search::ContactProblem;
-use super::state_at_event::{Mechanism, SingularMass, StateAtEvent, accelerate, critical_acceleration, may_open};
+use super::state_at_event::{Mechanism, SingularMass, StateAtEvent, accelerate, critical_acceleration, may_choose};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::kinematics::relative;
@@ -10,8 +10,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Finds the pattern that forces require (docs/book/model.md, section 4) at angles `theta` and rates `omega`. Every interface that is closed, or
-/// open with zero gap and zero gap rate, may change its state. `released` are interfaces whose resultants have just reached a corner, with the
-/// side of that corner. They open; those that accelerate shut by more than a tolerance are searched like the others.
+/// open with zero gap and zero gap rate, may change its state. `released` are interfaces whose resultants have just reached a corner, with the side of
+/// that corner: they open, unless they accelerate shut by more than a tolerance; then they are searched like the rest.
 ///
 /// # Errors
 /// [`SingularMass`]
@@ -27,32 +27,32 @@ pub fn open(
 }
 
 fn open_at<S: Size>(
-    instant: &StateAtEvent<S>,
+    at_event: &StateAtEvent<S>,
     pattern: &Pattern,
     omega: &[f64],
     ground: Ground,
     released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
-    let mut guess = instant.states(pattern);
-    let mut free = instant.size.list_of(may_open(instant, &guess, omega));
+    let mut guess = at_event.states(pattern);
+    let mut free = at_event.size.list_of(may_choose(at_event, &guess, omega));
     for &(interface, side) in released {
         guess[interface] = side;
         free[interface] = false;
     }
-    let mut mechanism = instant.mechanism(guess)?;
+    let mut mechanism = at_event.mechanism(guess)?;
     let mut answer = accelerate(&mechanism, omega, ground);
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
     let given = |_: usize| [ground.x.abs() + ground.gravity.abs(), 0.0];
-    let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces, given };
+    let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
     let mut separation = problem.solve(&mut mechanism, &mut answer)?;
-    let tolerance = critical_acceleration(instant.column, &answer.motion, ground);
+    let tolerance = critical_acceleration(at_event.column, &answer.angular, ground);
     let is_driven_back =
-        |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.motion, *i) < -tolerance;
+        |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.angular, *i) < -tolerance;
     let driven_back: PerBlock<usize> =
         released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
         driven_back.iter().for_each(|&interface| free[interface] = true);
-        let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer: &forces, given };
+        let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
         separation = problem.solve(&mut mechanism, &mut answer)?;
     }
     let (pattern, omega) = (Pattern::from_states(&mechanism.states), PerBlock::from_slice(omega));

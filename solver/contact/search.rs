@@ -17,7 +17,7 @@ const CRITICAL_SHARE: f64 = 1e-12;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
 pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
-    pub(super) instant: &'i StateAtEvent<'a, S>,
+    pub(super) at_event: &'i StateAtEvent<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
     pub(super) free: &'i [bool],
     /// Least relative motion with which an open interface parts: zero for accelerations, above rounding for rates.
@@ -30,7 +30,7 @@ pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
 impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2]> ContactProblem<'_, 'a, S, F, T> {
     #[inline(always)]
     fn parts(&self, state: Interface, answer: &Answer<S>, interface: usize) -> bool {
-        f64::from(state.sign()) * relative(&answer.motion, interface) >= self.least_parting
+        f64::from(state.sign()) * relative(&answer.angular, interface) >= self.least_parting
     }
 
     /// The state that a violated condition of an interface requires; `None` if the present state is admissible.
@@ -39,7 +39,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
         let contact = answer.resultants[interface];
         match state {
             Interface::Closed => {
-                let half_width = self.instant.column.contact_half_width(interface);
+                let half_width = self.at_event.column.contact_half_width(interface);
                 let excess = contact.moment.abs() - half_width * contact.normal;
                 let is_outside = excess > CRITICAL_SHARE * half_width * contact.normal.abs()
                     && excess > CRITICAL_SHARE * self.cancelling(answer, interface)[1];
@@ -57,7 +57,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
     /// Bounds of the terms that cancel in the force at an interface, and in its moment about a corner of the contact.
     #[inline(never)]
     fn cancelling(&self, answer: &Answer<S>, interface: usize) -> [f64; 2] {
-        let column = self.instant.column;
+        let column = self.at_event.column;
         let (mut reach, mut force, mut moment) = (column.contact_half_width(interface), 0.0, 0.0);
         for (index, block) in column.blocks().iter().enumerate().skip(interface) {
             reach += 2.0 * (block.half_height + block.half_width());
@@ -132,7 +132,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
         mechanism: &mut Mechanism<'a, S>,
         answer: &mut Answer<S>,
     ) -> Result<(), SingularMass> {
-        *mechanism = self.instant.mechanism(states)?;
+        *mechanism = self.at_event.mechanism(states)?;
         *answer = (self.answer)(mechanism);
         Ok(())
     }
@@ -259,7 +259,7 @@ mod tests {
         states: &PerBlock<Interface>,
     ) -> usize {
         let answered = |candidate: &PerBlock<Interface>| {
-            let mechanism = problem.instant.mechanism(candidate.clone()).expect("solvable");
+            let mechanism = problem.at_event.mechanism(candidate.clone()).expect("solvable");
             let answer = (problem.answer)(&mechanism);
             (mechanism, answer)
         };
@@ -273,7 +273,7 @@ mod tests {
             }
         }
         let (_, best) = answered(&nearest.1);
-        let scale = 1.0 + largest(&best.motion);
+        let scale = 1.0 + largest(&best.angular);
         for is_over_all in [false, true] {
             let (mut mechanism, mut found) = answered(states);
             let separation = match is_over_all {
@@ -281,9 +281,9 @@ mod tests {
                 true => problem.search_all(&mut mechanism, &mut found),
             };
             assert_eq!(separation.expect("solvable"), admissible == 0);
-            for (a, b) in found.motion.iter().zip(&*best.motion) {
+            for (a, b) in found.angular.iter().zip(&*best.angular) {
                 // Both are solves of systems with a condition number of some thousands.
-                assert!((a - b).abs() < 1e-10 * scale, "{:?} and {:?}", found.motion, best.motion);
+                assert!((a - b).abs() < 1e-10 * scale, "{:?} and {:?}", found.angular, best.angular);
             }
         }
         admissible
@@ -328,13 +328,13 @@ mod tests {
             if closing.is_empty() {
                 return;
             }
-            let instant = &StateAtEvent::new(Any(column.len()), &column, &theta);
-            let states = instant.states(&pattern);
-            let before = instant.motion(&instant.posture(&states), &omega);
-            let free = instant.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
+            let at_event = &StateAtEvent::new(Any(column.len()), &column, &theta);
+            let states = at_event.states(&pattern);
+            let before = at_event.velocities(&at_event.posture(&states), &omega);
+            let free = at_event.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
             let answer = |candidate: &Mechanism<Any>| project(candidate, &before);
             let given = |block: usize| sizes(&before, block);
-            let problem = ContactProblem { instant, free: &free, least_parting: f64::MIN_POSITIVE, answer, given };
+            let problem = ContactProblem { at_event, free: &free, least_parting: f64::MIN_POSITIVE, answer, given };
             total.set(total.get() + 1);
             unique.set(unique.get() + usize::from(compared(&problem, &states) == 1));
         });
@@ -352,12 +352,12 @@ mod tests {
         for_random(500, &stack, |(blocks, x, gravity)| {
             let column = Column::new(blocks, 9.81).expect("valid");
             let (ground, zero) = (Ground { x, gravity }, vec![0.0; column.len()]);
-            let instant = &StateAtEvent::new(Any(column.len()), &column, &zero);
-            let free = instant.size.list_of(|_| true);
+            let at_event = &StateAtEvent::new(Any(column.len()), &column, &zero);
+            let free = at_event.size.list_of(|_| true);
             let answer = |candidate: &Mechanism<Any>| accelerate(candidate, &zero, ground);
             let given = |_: usize| [x.abs() + gravity.abs(), 0.0];
-            let problem = ContactProblem { instant, free: &free, least_parting: 0.0, answer, given };
-            let mut first = instant.size.list(Interface::Closed);
+            let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer, given };
+            let mut first = at_event.size.list(Interface::Closed);
             first[0] = Interface::Right;
             total.set(total.get() + 1);
             separations.set(separations.get() + usize::from(compared(&problem, &first) == 0));

@@ -22,7 +22,7 @@ pub(super) const RELEASE_TOLERANCE: f64 = 1e-6;
 /// How one candidate pattern answers a contact problem.
 pub(super) struct Answer<S: Size> {
     /// Rates after an impact, or accelerations, per block.
-    pub(super) motion: S::List<f64>,
+    pub(super) angular: S::List<f64>,
     pub(super) resultants: S::List<ContactForce>,
     /// Difference between the motion and the motion without contacts.
     pub(super) change: Velocities<S>,
@@ -73,7 +73,7 @@ impl<'a, S: Size> StateAtEvent<'a, S> {
 
     /// Velocities in a posture at the blocks' rates.
     #[inline(always)]
-    pub(super) fn motion(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Velocities<S> {
+    pub(super) fn velocities(&self, posture: &Posture<'a, S>, omega: &[f64]) -> Velocities<S> {
         Velocities { linear: posture.linear(&posture.link_rates(omega)), angular: self.size.copied(omega) }
     }
 }
@@ -155,7 +155,7 @@ pub(super) fn project<S: Size>(mechanism: &Mechanism<S>, before: &Velocities<S>)
     let motion = posture.angular(&rates);
     let change = Velocities { linear: posture.linear(&rates), angular: motion.clone() }.less(before);
     let resultants = posture.resultants(&change.linear, &change.angular);
-    Answer { motion, resultants, change }
+    Answer { angular: motion, resultants, change }
 }
 
 /// The accelerations of a pattern at the blocks' rates, and what its contacts carry (docs/book/model.md, section 4).
@@ -167,16 +167,16 @@ pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], groun
     total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
     let motion = posture.angular(&alpha);
     let resultants = posture.resultants(&total, &motion);
-    Answer { change: Velocities { linear: total, angular: motion.clone() }, motion, resultants }
+    Answer { change: Velocities { linear: total, angular: motion.clone() }, angular: motion, resultants }
 }
 
 /// Whether an interface may choose its state anew: it is closed, or open without gap and rate.
 #[inline(always)]
-pub(super) fn may_open<'f, S: Size>(
-    instant: &'f StateAtEvent<S>,
+pub(super) fn may_choose<'f, S: Size>(
+    at_event: &'f StateAtEvent<S>,
     states: &'f [Interface],
     omega: &'f [f64],
 ) -> impl Fn(usize) -> bool + 'f {
-    let rates = Gaps::of(&omega[..instant.size.blocks()]);
-    move |i: usize| !states[i].is_open() || (instant.gaps.is_rounding(i) && rates.is_rounding(i))
+    let rates = Gaps::of(&omega[..at_event.size.blocks()]);
+    move |i: usize| !states[i].is_open() || (at_event.gaps.is_rounding(i) && rates.is_rounding(i))
 }

@@ -19,18 +19,18 @@ use std::ops::Range;
 
 /// Velocities, or accelerations, of the blocks.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Motion {
+pub struct BlockMotion {
     /// Of the centroids `[m/s]`.
     pub linear: PerBlock<Vec2>,
     /// Angular `[rad/s]`.
     pub angular: PerBlock<f64>,
 }
 
-impl Motion {
+impl BlockMotion {
     /// This motion minus another one.
-    pub fn less(&self, other: &Motion) -> Motion {
+    pub fn less(&self, other: &BlockMotion) -> BlockMotion {
         let linear = self.linear.iter().zip(&other.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
-        Motion { linear, angular: self.angular.iter().zip(&other.angular).map(|(a, b)| a - b).collect() }
+        BlockMotion { linear, angular: self.angular.iter().zip(&other.angular).map(|(a, b)| a - b).collect() }
     }
 
     /// `½ Σ (m v² + I ω²)`, the kinetic energy `[J]`.
@@ -40,7 +40,7 @@ impl Motion {
     }
 }
 
-/// Rates of all coordinates, by block and interface.
+/// Rates of all coordinates, by block and interface; in an answer, their accelerations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
     /// Of the angles of the blocks `[rad/s]`.
@@ -91,19 +91,19 @@ impl Rates {
 
 /// Sine and cosine of an angle.
 #[derive(Clone, Copy, Debug)]
-pub struct Turn {
+pub struct Rotation {
     sin: f64,
     cos: f64,
 }
 
-impl Turn {
+impl Rotation {
     /// No rotation.
-    const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
+    const NONE: Rotation = Rotation { sin: 0.0, cos: 1.0 };
 
     /// Rotation by an angle `[rad]`, clockwise positive.
-    fn by(angle: f64) -> Turn {
+    fn by(angle: f64) -> Rotation {
         let (sin, cos) = libm::sincos(angle);
-        Turn { sin, cos }
+        Rotation { sin, cos }
     }
 
     /// `R(θ) (u, v)`
@@ -123,16 +123,16 @@ pub struct Pose {
     /// From the middle of the lower face to the middle of the upper one, in the axes of the ground `[m]`.
     pub apart: Vec2,
     /// Rotation of the lower block, or of the ground.
-    pub lower: Turn,
+    pub lower: Rotation,
     /// Rotation of the upper block.
-    pub upper: Turn,
+    pub upper: Rotation,
 }
 
 impl Pose {
     /// Pose at a free interface (from zero).
     pub fn of_free(configuration: &Configuration, interface: usize) -> Pose {
-        let lower = interface.checked_sub(1).map_or(Turn::NONE, |below| Turn::by(configuration.theta[below]));
-        Pose { apart: configuration.apart[interface], lower, upper: Turn::by(configuration.theta[interface]) }
+        let lower = interface.checked_sub(1).map_or(Rotation::NONE, |below| Rotation::by(configuration.theta[below]));
+        Pose { apart: configuration.apart[interface], lower, upper: Rotation::by(configuration.theta[interface]) }
     }
 }
 
@@ -167,7 +167,7 @@ struct Link {
 #[derive(Clone, Copy, Debug)]
 struct Placed {
     link: Link,
-    turn: Turn,
+    turn: Rotation,
     /// From the middle of the base to the centroid and to the middle of the top.
     to_centroid: Vec2,
     to_top: Vec2,
@@ -188,13 +188,13 @@ pub struct Chain<'a> {
 impl<'a> Chain<'a> {
     /// The geometry of a configuration.
     pub fn new(column: &'a Column, configuration: &Configuration) -> Chain<'a> {
-        let (blocks, ground) = (column.blocks(), Turn::NONE);
+        let (blocks, ground) = (column.blocks(), Rotation::NONE);
         let mut chain = Chain { column, blocks: Vec::with_capacity(blocks.len()) };
         let (mut below, mut lower, mut angle_below) = ([0.0, 0.0], ground, 0.0);
         for (i, block) in blocks.iter().enumerate() {
             let (joint, slide, angle) = (configuration.joints[i], configuration.slide[i], configuration.theta[i]);
             // Blocks that are joined turn together.
-            let upper = if angle == angle_below { lower } else { Turn::by(angle) };
+            let upper = if angle == angle_below { lower } else { Rotation::by(angle) };
             let (a, b, face) = match joint {
                 Joint::Closed(_) => (slide, 0.0, i.checked_sub(1)),
                 Joint::Corner(side, Face::Upper, _) => {
@@ -266,7 +266,7 @@ impl<'a> Chain<'a> {
 
     /// Velocities of the blocks for these rates of the coordinates. For second derivatives in place of rates, the part of the accelerations that is
     /// linear in them.
-    pub fn motion(&self, rates: &Rates) -> Motion {
+    pub fn motion(&self, rates: &Rates) -> BlockMotion {
         let mut linear = PerBlock::filled([0.0; 2], self.len());
         let mut below = [0.0, 0.0];
         for (i, linear) in linear.iter_mut().enumerate() {
@@ -274,7 +274,7 @@ impl<'a> Chain<'a> {
             *linear = plus(foot, swept(rates.omega[i], self.blocks[i].to_centroid));
             below = plus(foot, swept(rates.omega[i], self.blocks[i].to_top));
         }
-        Motion { linear, angular: rates.omega.clone() }
+        BlockMotion { linear, angular: rates.omega.clone() }
     }
 
     /// Writes the motion of each block, `[x, y, angle]`, for a unit rate of the common angle of the blocks in `range`. Entries below `range` stay as they are.
@@ -315,12 +315,12 @@ impl<'a> Chain<'a> {
     }
 
     /// Velocity of the middle of a block's base in a motion of the blocks `[m/s]`.
-    pub fn foot_rate(&self, block: usize, motion: &Motion) -> Vec2 {
+    pub fn foot_rate(&self, block: usize, motion: &BlockMotion) -> Vec2 {
         plus(motion.linear[block], swept(-motion.angular[block], self.blocks[block].to_centroid))
     }
 
     /// Velocity of the middle of a block's top face in a motion of the blocks `[m/s]`.
-    pub fn top_rate(&self, block: usize, motion: &Motion) -> Vec2 {
+    pub fn top_rate(&self, block: usize, motion: &BlockMotion) -> Vec2 {
         plus(motion.linear[block], swept(motion.angular[block], self.centroid_to_top(block)))
     }
 
@@ -350,8 +350,8 @@ impl<'a> Chain<'a> {
     }
 
     /// Rotation of a block; `None` is the ground, which does not turn.
-    fn turn(&self, block: Option<usize>) -> Turn {
-        block.map_or(Turn::NONE, |block| self.blocks[block].turn)
+    fn turn(&self, block: Option<usize>) -> Rotation {
+        block.map_or(Rotation::NONE, |block| self.blocks[block].turn)
     }
 
     /// Pose at an interface (from zero).

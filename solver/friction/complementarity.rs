@@ -10,7 +10,7 @@
 //! Where the direction `ε` of a slip is given, the force is `λ (across - ε μ along)`. Impacts always have a solution, which Lemke's method finds;
 //! accelerations may have none. The solution is only a guess for the search, which examines it like any other: rounding decides critical contacts.
 
-use super::chain::{Chain, Motion, Rates, plus, scaled};
+use super::chain::{BlockMotion, Chain, Rates, plus, scaled};
 use super::contact_problem::{Question, Touch};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
@@ -120,9 +120,9 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
     // Forces are in units of the mean mass, so that entries of the matrix are of the order of one.
     let blocks = chain.column().blocks();
     let unit = blocks.iter().map(|block| block.mass).sum::<f64>() / blocks.len() as f64;
-    let jacobians: Vec<[Motion; 2]> =
+    let jacobians: Vec<[BlockMotion; 2]> =
         contacts.iter().map(|own| own.axes.map(|axis| jacobian(chain, own, axis))).collect();
-    let response = |a: &Motion, b: &Motion| {
+    let response = |a: &BlockMotion, b: &BlockMotion| {
         let parts = blocks.iter().enumerate().map(|(j, block)| {
             let linear = a.linear[j][0] * b.linear[j][0] + a.linear[j][1] * b.linear[j][1];
             unit * (linear / block.mass + a.angular[j] * b.angular[j] / block.inertia)
@@ -196,9 +196,9 @@ enum Row {
 }
 
 /// Forces and moments on the blocks of a unit force of a contact along an axis: with the axis on the upper block, against it on the lower one.
-fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> Motion {
+fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> BlockMotion {
     let mut motion =
-        Motion { linear: PerBlock::filled([0.0; 2], chain.len()), angular: PerBlock::filled(0.0, chain.len()) };
+        BlockMotion { linear: PerBlock::filled([0.0; 2], chain.len()), angular: PerBlock::filled(0.0, chain.len()) };
     let interface = contact.corner.interface;
     for (block, sign) in [(Some(interface), 1.0), (interface.checked_sub(1), -1.0)] {
         let Some(block) = block else { continue };

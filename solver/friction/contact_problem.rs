@@ -1,6 +1,6 @@
 //! A contact problem with friction: what touches, the coefficients, and the question. Also the ends of a contact, and margins of the friction cone.
 
-use super::chain::Motion;
+use super::chain::BlockMotion;
 use super::joint::{Face, Joint, Sign};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
@@ -31,7 +31,7 @@ pub enum Question {
     /// Accelerations under this motion of the ground.
     Accelerations(Ground),
     /// Velocities after an impact; the blocks move like this before it.
-    Impact(Motion),
+    Impact(BlockMotion),
 }
 
 /// How far the force at a sticking contact is inside the friction cone `[N]`: margins against a slide to the left and against a slide to the right.

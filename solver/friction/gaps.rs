@@ -1,6 +1,6 @@
 //! Gaps: a corner of one block seen from the face of the other that it may stand on (docs/book/model.md, section 15).
 
-use super::chain::{Chain, Pose, Rates, Turn, plus, scaled, swept};
+use super::chain::{Chain, Pose, Rates, Rotation, plus, scaled, swept};
 use super::joint::{Face, Sign};
 use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
@@ -29,7 +29,7 @@ struct View {
     /// Block that has the face; `None` for the ground.
     frame: Option<usize>,
     /// Rotation of the face.
-    turn: Turn,
+    turn: Rotation,
     /// +1 if the upper block has the corner, -1 if the lower block has it.
     sign: f64,
     /// From the middle of the corner's own face to the corner `[m]`.

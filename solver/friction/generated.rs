@@ -91,14 +91,14 @@ impl Generated {
 }
 
 impl Generated {
-    /// Second derivatives of all coordinates of a configuration in these states; `None` where the rows do not determine them.
-    pub fn rates(&mut self, configuration: &Configuration, ground: Ground) -> Option<Rates> {
+    /// Accelerations of all coordinates of a configuration in these states; `None` where the rows do not determine them.
+    pub fn accelerations_of(&mut self, configuration: &Configuration, ground: Ground) -> Option<Rates> {
         let both: Vec<[f64; 2]> = self.coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
         let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
         let mut accelerations = vec![0.0; both.len()];
         self.accelerations(&values, &rates, ground, &mut accelerations);
         let is_determined = accelerations.iter().all(|value| value.is_finite());
-        is_determined.then(|| rows::rates(&self.coordinates, &accelerations, configuration.joints.len()))
+        is_determined.then(|| rows::by_block(&self.coordinates, &accelerations, configuration.joints.len()))
     }
 }
 

@@ -109,9 +109,9 @@ fn compare(random: &mut Random, column: &Column, configuration: &Configuration) 
     let rows = Rows::new(&chain, joints, &kinetic, &vec![0.0; joints.len()]);
     let answer = rows.accelerations(&Rates::of(configuration), ground).expect("moderate friction");
     let theirs = coordinates.iter().map(|coordinate| match coordinate {
-        Coordinate::Angle(blocks) => answer.rates.omega[blocks.start],
-        Coordinate::Slide(i) => answer.rates.slide[*i],
-        Coordinate::Apart(i, axis) => answer.rates.apart[*i][*axis],
+        Coordinate::Angle(blocks) => answer.motion.omega[blocks.start],
+        Coordinate::Slide(i) => answer.motion.slide[*i],
+        Coordinate::Apart(i, axis) => answer.motion.apart[*i][*axis],
     });
     let theirs: Vec<f64> = theirs.collect();
     let scale = theirs.iter().fold(ground.gravity, |most, a| most.max(a.abs()));

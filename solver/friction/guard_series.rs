@@ -20,7 +20,7 @@ pub struct SeriesSpan<'s> {
     /// Length `[s]`.
     pub h: f64,
     column: &'s Column,
-    limits: Limits<'s>,
+    limits: GuardLimits<'s>,
     /// Powers of the length, from the zeroth on.
     powers: [f64; COEFFICIENTS],
     /// Poses that have been asked for, by interface.
@@ -28,7 +28,7 @@ pub struct SeriesSpan<'s> {
 }
 
 /// What guards compare with.
-pub struct Limits<'s> {
+pub struct GuardLimits<'s> {
     /// Static coefficients of friction.
     pub fixed: &'s [f64],
     /// Violation of a condition on forces that counts as rounding `[N]`.
@@ -44,7 +44,7 @@ impl<'s> SeriesSpan<'s> {
         column: &'s Column,
         joints: &'s [Joint],
         h: f64,
-        limits: Limits<'s>,
+        limits: GuardLimits<'s>,
     ) -> SeriesSpan<'s> {
         let mut powers = [1.0; COEFFICIENTS];
         for k in 1..powers.len() {

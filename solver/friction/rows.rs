@@ -10,7 +10,7 @@
 //! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations less gravity. In an impact `A` are the
 //! jumps of velocity, and forces are impulses.
 
-use super::chain::{Chain, Motion, Rates};
+use super::chain::{BlockMotion, Chain, Rates};
 use super::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
@@ -78,8 +78,8 @@ pub fn coordinates(joints: &[Joint]) -> Vec<Coordinate> {
     coordinates
 }
 
-/// Rates by block and interface from the rates of the free coordinates.
-pub fn rates(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Rates {
+/// Rates, or accelerations, by block and interface from those of the free coordinates.
+pub fn by_block(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Rates {
     let mut rates = Rates::zero(blocks);
     coordinates.iter().zip(values).for_each(|(coordinate, value)| coordinate.give(*value, &mut rates));
     rates
@@ -88,10 +88,10 @@ pub fn rates(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Rates
 /// Result for given states of all interfaces: accelerations and forces, or velocities after an impact and impulses.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// Second derivatives of the coordinates, or their rates after an impact.
-    pub rates: Rates,
+    /// Accelerations of the coordinates, or their rates after an impact.
+    pub motion: Rates,
     /// Accelerations of the blocks less gravity, or jumps of the blocks' velocities.
-    pub change: Motion,
+    pub change: BlockMotion,
     /// Forces, or impulses, of the contacts on the stacks above, in the axes of the face that carries the contact. Moments are about the centre of a
     /// closed contact, and about the point of a corner.
     pub contacts: PerBlock<ContactForce>,
@@ -101,8 +101,8 @@ impl Answer {
     /// No accelerations and no forces.
     pub fn none(blocks: usize) -> Answer {
         Answer {
-            rates: Rates::zero(blocks),
-            change: Motion::default(),
+            motion: Rates::zero(blocks),
+            change: BlockMotion::default(),
             contacts: PerBlock::filled(ContactForce::default(), blocks),
         }
     }
@@ -177,18 +177,18 @@ impl<'c, 'a> Rows<'c, 'a> {
         }
         factors.factorise()?;
         factors.solve(&mut values);
-        values.iter().all(|x| x.is_finite()).then(|| rates(&self.coordinates, &values, blocks))
+        values.iter().all(|x| x.is_finite()).then(|| by_block(&self.coordinates, &values, blocks))
     }
 
     /// The accelerations at these rates on a moving ground.
-    pub fn accelerations(&self, rates_now: &Rates, ground: Ground) -> Option<Answer> {
-        let imposed = imposed(self.chain, rates_now, ground);
-        let rates = self.solve(|block| [-imposed[block][0], -imposed[block][1], 0.0])?;
-        Some(accelerated(self.chain, &self.points, rates, &imposed))
+    pub fn accelerations(&self, velocities: &Rates, ground: Ground) -> Option<Answer> {
+        let imposed = imposed(self.chain, velocities, ground);
+        let accelerations = self.solve(|block| [-imposed[block][0], -imposed[block][1], 0.0])?;
+        Some(accelerated(self.chain, &self.points, accelerations, &imposed))
     }
 
     /// The velocities after an impact; `before` is the motion of the blocks before it.
-    pub fn impact(&self, before: &Motion) -> Option<Answer> {
+    pub fn impact(&self, before: &BlockMotion) -> Option<Answer> {
         let rates = self.solve(|block| {
             let [x, y] = before.linear[block];
             [x, y, before.angular[block]]
@@ -207,22 +207,22 @@ impl<'c, 'a> Rows<'c, 'a> {
     }
 
     /// Result of an impact after which the coordinates have these rates.
-    pub fn given(&self, rates: Rates, before: &Motion) -> Answer {
+    pub fn given(&self, rates: Rates, before: &BlockMotion) -> Answer {
         let change = self.chain.motion(&rates).less(before);
         answer(self.chain, &self.points, rates, change)
     }
 }
 
 /// Accelerations and forces for given second derivatives of the coordinates; `centres` as in [`Rows::new`].
-pub fn answer_to(
+pub fn with_accelerations(
     chain: &Chain,
     joints: &[Joint],
     centres: &[f64],
-    rates: Rates,
-    rates_now: &Rates,
+    accelerations: Rates,
+    velocities: &Rates,
     ground: Ground,
 ) -> Answer {
-    accelerated(chain, &points(chain, joints, centres), rates, &imposed(chain, rates_now, ground))
+    accelerated(chain, &points(chain, joints, centres), accelerations, &imposed(chain, velocities, ground))
 }
 
 /// Centre or point of each contact `[m]`.
@@ -234,20 +234,20 @@ fn points(chain: &Chain, joints: &[Joint], centres: &[f64]) -> PerBlock<Vec2> {
     joints.iter().enumerate().map(point).collect()
 }
 
-/// Accelerations of the centroids less gravity that rates and ground cause `[m/s²]`.
-fn imposed(chain: &Chain, rates_now: &Rates, ground: Ground) -> PerBlock<Vec2> {
-    let mut imposed = chain.imposed(rates_now);
+/// Accelerations of the centroids less gravity that velocities and ground cause `[m/s²]`.
+fn imposed(chain: &Chain, velocities: &Rates, ground: Ground) -> PerBlock<Vec2> {
+    let mut imposed = chain.imposed(velocities);
     imposed.iter_mut().for_each(|a| *a = [a[0] + ground.x, a[1] + ground.gravity]);
     imposed
 }
 
-fn accelerated(chain: &Chain, points: &[Vec2], rates: Rates, imposed: &[Vec2]) -> Answer {
-    let own = chain.motion(&rates);
+fn accelerated(chain: &Chain, points: &[Vec2], accelerations: Rates, imposed: &[Vec2]) -> Answer {
+    let own = chain.motion(&accelerations);
     let linear = own.linear.iter().zip(imposed).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect();
-    answer(chain, points, rates, Motion { linear, angular: own.angular })
+    answer(chain, points, accelerations, BlockMotion { linear, angular: own.angular })
 }
 
-fn answer(chain: &Chain, points: &[Vec2], rates: Rates, change: Motion) -> Answer {
+fn answer(chain: &Chain, points: &[Vec2], motion: Rates, change: BlockMotion) -> Answer {
     let blocks = chain.column().blocks();
     let contact = |interface: usize| {
         let ([along, across], point) = (chain.axes(interface), points[interface]);
@@ -262,5 +262,5 @@ fn answer(chain: &Chain, points: &[Vec2], rates: Rates, change: Motion) -> Answe
         ContactForce { normal: dot(across), tangential: dot(along), moment }
     };
     let contacts = (0..blocks.len()).map(contact).collect();
-    Answer { rates, change, contacts }
+    Answer { motion, change, contacts }
 }

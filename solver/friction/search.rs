@@ -9,7 +9,7 @@
 //!
 //! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
 //! state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
-//! well, all combinations are tried: the admissible one with the fewest changes holds, in an impact the one with the least energy of the change.
+//! well, and where a few blocks of large coefficients may have several answers, all combinations are tried: the admissible one with the fewest changes holds, in an impact the one with the least energy of the change.
 
 use super::chain::{Chain, Rates};
 use super::complementarity;
@@ -69,8 +69,8 @@ pub struct Search<'a> {
     now_rates: Rates,
     /// Centres of closed contacts on their lower faces `[m]`.
     centres: PerBlock<f64>,
-    /// Geometry of the present states, computed when a contact first parts.
-    held: OnceCell<Chain<'a>>,
+    /// Geometry of the present states, computed when it is first asked for.
+    chain: OnceCell<Chain<'a>>,
     /// Scale of the accelerations `[m/s²]`, or of the velocities `[m/s]`.
     linear: f64,
     slack: Slack,
@@ -85,7 +85,7 @@ struct Slack {
 }
 
 impl Slack {
-    /// By so much conditions hold that hold beyond rounding.
+    /// The same tolerances, negated: a condition that is tested with them must hold by more than rounding.
     fn margin(self) -> Slack {
         Slack { force: -self.force, linear: -self.linear, angular: -self.angular }
     }
@@ -128,7 +128,7 @@ impl<'a> Search<'a> {
         let slack = Slack { force: column.mass() * slack, linear: slack, angular: slack / size };
         let now_rates = Rates::of(now);
         let centres = now.slide.iter().enumerate().map(|(i, slide)| centre(column, i, *slide)).collect();
-        Search { column, now, touch, friction, question, now_rates, centres, held: OnceCell::new(), linear, slack }
+        Search { column, now, touch, friction, question, now_rates, centres, chain: OnceCell::new(), linear, slack }
     }
 
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
@@ -236,15 +236,15 @@ impl<'a> Search<'a> {
 
     /// The states an instant later: coinciding corners that slide continue along the face that carries them by then, or part where that state does
     /// not hold. Other interfaces whose conditions no longer hold then change as well.
-    pub fn carried(&self, solution: &Solution) -> PerBlock<Joint> {
+    pub fn joints_an_instant_later(&self, solution: &Solution) -> PerBlock<Joint> {
         let mut joints = solution.joints.clone();
         let mut is_carried = PerBlock::filled(false, joints.len());
         for interface in 0..joints.len() {
-            let later = self.an_instant_later(interface, joints[interface]);
+            let later = self.joint_an_instant_later(interface, joints[interface]);
             let Some((joint, direction)) = later else { continue };
             (joints[interface], is_carried[interface]) = (joint, true);
             let holds = self.answer(&joints).is_some_and(|answer| {
-                let along = f64::from(direction) * answer.rates.slide[interface];
+                let along = f64::from(direction) * answer.motion.slide[interface];
                 let is_given = self.given_slip(interface).is_some();
                 answer.contacts[interface].normal >= -self.slack.force && (is_given || along >= -self.slack.linear)
             });
@@ -262,13 +262,13 @@ impl<'a> Search<'a> {
             else {
                 break;
             };
-            joints[interface] = self.an_instant_later(interface, joint).map_or(joint, |(later, _)| later);
+            joints[interface] = self.joint_an_instant_later(interface, joint).map_or(joint, |(later, _)| later);
         }
         joints
     }
 
     /// The state of coinciding corners that slide, once they coincide no more, and the direction of the slide; `None` for all others.
-    fn an_instant_later(&self, interface: usize, joint: Joint) -> Option<(Joint, Sign)> {
+    fn joint_an_instant_later(&self, interface: usize, joint: Joint) -> Option<(Joint, Sign)> {
         let Joint::Corner(side, _, Slip::Slides(direction)) = joint else { return None };
         if face(self.column, interface, side, self.now.slide[interface]) != Face::Both {
             return None;
@@ -340,13 +340,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The configuration with these states; blocks at free interfaces are where, and move as, they are held now.
+    /// Geometry of the present states.
+    fn chain(&self) -> &Chain<'a> {
+        self.chain.get_or_init(|| Chain::new(self.column, self.now))
+    }
+
+    /// The present configuration with these states. A free interface keeps its present position and velocity, from the chain.
     fn configuration(&self, joints: &[Joint]) -> Configuration {
         let mut configuration = self.now.clone();
         configuration.joints = PerBlock::from_slice(joints);
         for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free {
-                let held = self.held.get_or_init(|| Chain::new(self.column, self.now));
+                let held = self.chain();
                 configuration.apart[interface] = held.apart(interface);
                 configuration.apart_rate[interface] = held.apart_rate(interface, &self.now_rates);
             }
@@ -363,7 +368,7 @@ impl<'a> Search<'a> {
         let configuration = self.configuration(joints);
         let chain = Chain::new(self.column, &configuration);
         let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
-        let plastic = &plastic.answer.rates;
+        let plastic = &plastic.answer.motion;
         let spread = rows.turned_by_moment(interface)?;
         let (rate, compliance) = (relative(&plastic.omega, interface), relative(&spread.omega, interface));
         if compliance.is_nan() || compliance <= 0.0 {
@@ -375,7 +380,7 @@ impl<'a> Search<'a> {
         rates.omega[joined_above(joints, interface)].fill(rebound);
         let answer = rows.given(rates, before);
         let gains =
-            chain.motion(&answer.rates).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
+            chain.motion(&answer.motion).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
         let holds = |i: usize| match joints[i] {
             // Where the resultant acts in a closed contact is no condition of restitution.
             Joint::Closed(_) => {
@@ -482,7 +487,7 @@ impl<'a> Search<'a> {
                 if contact.normal < -slack {
                     return Some(Joint::Free);
                 }
-                let opening = f64::from(side) * relative(&answer.rates.omega, interface);
+                let opening = f64::from(side) * relative(&answer.motion.omega, interface);
                 if self.touch[interface] == Touch::Faces && opening < -violation.angular {
                     return Some(Joint::Closed(slip));
                 }
@@ -512,7 +517,7 @@ impl<'a> Search<'a> {
                 }
             }
             Slip::Slides(direction) => {
-                let along = f64::from(direction) * answer.rates.slide[interface];
+                let along = f64::from(direction) * answer.motion.slide[interface];
                 match self.given_slip(interface) {
                     // A slide that goes on against its rate would lose that rate at once.
                     Some(given) => (Some(given) != joint.slip()).then_some(given),
@@ -558,13 +563,13 @@ impl<'a> Search<'a> {
 
     /// Acceleration, or velocity, with which a corner leaves the other face.
     fn leaving(&self, answer: &Answer, corner: Corner) -> f64 {
-        let chain = Chain::new(self.column, self.now);
-        let change = answer.rates.apart[corner.interface];
+        let chain = self.chain();
+        let change = answer.motion.apart[corner.interface];
         match self.question {
-            Question::Impact(_) => gaps::gap_velocity(&chain, change, &answer.rates.omega, corner)[1],
+            Question::Impact(_) => gaps::gap_velocity(chain, change, &answer.motion.omega, corner)[1],
             Question::Accelerations(_) => {
                 let rate = chain.apart_rate(corner.interface, &self.now_rates);
-                gaps::gap_acceleration(&chain, [rate, change], [&self.now.omega, &answer.rates.omega], corner)[1]
+                gaps::gap_acceleration(chain, [rate, change], [&self.now.omega, &answer.motion.omega], corner)[1]
             }
         }
     }

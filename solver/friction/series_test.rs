@@ -79,9 +79,9 @@ fn series_satisfy_the_rows_at_the_start_of_a_step_and_inside_it() {
             let scale = second.iter().fold(GROUND[1][0], |most, a| most.max(a.abs()));
             for (coordinate, value) in coordinates.iter().zip(&second) {
                 let expected = match coordinate {
-                    Coordinate::Angle(blocks) => answer.rates.omega[blocks.start],
-                    Coordinate::Slide(i) => answer.rates.slide[*i],
-                    Coordinate::Apart(i, axis) => answer.rates.apart[*i][*axis],
+                    Coordinate::Angle(blocks) => answer.motion.omega[blocks.start],
+                    Coordinate::Slide(i) => answer.motion.slide[*i],
+                    Coordinate::Apart(i, axis) => answer.motion.apart[*i][*axis],
                 };
                 *worst = worst.max((value - expected).abs() / scale);
             }

@@ -5,7 +5,7 @@
 
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces};
 use super::kinematics::{Posture, Vec2};
-use super::links::{carried, imposed_acceleration, link_acceleration};
+use super::links::{imposed_acceleration, link_acceleration, moments_and_levers};
 use super::mode::Mode;
 use crate::column::Column;
 use crate::numerics::per_block::PerBlock;
@@ -27,7 +27,7 @@ pub struct GenericMode {
 impl GenericMode {
     /// The mode of a pattern.
     pub fn new(column: &Column, pattern: &Pattern) -> GenericMode {
-        let (moment, lever) = carried(column, pattern);
+        let (moment, lever) = moments_and_levers(column, pattern);
         GenericMode {
             column: column.clone(),
             pattern: pattern.clone(),

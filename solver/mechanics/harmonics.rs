@@ -20,7 +20,7 @@ const LONGEST_WAY: f64 = 0.6;
 
 /// A margin is critical up to this share of its terms, where rounding of the terms decides: in very slender columns, and in any column about
 /// to open. Lower, and openings are found in the wrong place; higher, and more is searched for that could be computed.
-const VERGE: f64 = 1e-9;
+const SHARE_OF_ROUNDING: f64 = 1e-9;
 
 impl Harmonics {
     /// Adds `share` times a wave to the margins.
@@ -59,12 +59,12 @@ impl Harmonics {
     }
 
     /// First place on a path of this angle where a margin falls to zero, 0 to 1, and the margin's slope there, per path; `None` if neither falls
-    /// to zero. The error [`OnTheVerge`] if rounding decides whether a margin is above zero at the start.
-    pub fn opening(&self, way: f64) -> Result<Option<[f64; 2]>, OnTheVerge> {
+    /// to zero. The error [`Critical`] if rounding decides whether a margin is above zero at the start.
+    pub fn opening(&self, way: f64) -> Result<Option<[f64; 2]>, Critical> {
         let scale = [self.first, self.second].as_flattened().iter().fold(self.mean.abs(), |sum, part| sum + part.abs());
-        let clear = self.start() - f64x2::splat(VERGE) * scale;
+        let clear = self.start() - f64x2::splat(SHARE_OF_ROUNDING) * scale;
         if clear.to_array().iter().any(|start| *start <= 0.0) {
-            return Err(OnTheVerge);
+            return Err(Critical);
         }
         let pieces = (way.abs() / LONGEST_WAY).ceil();
         let (own, mut piece) = (way / pieces, 0.0);
@@ -104,7 +104,7 @@ impl Harmonics {
 
 /// A margin is zero at the start, to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct OnTheVerge;
+pub(crate) struct Critical;
 
 #[cfg(test)]
 mod tests {
@@ -147,6 +147,6 @@ mod tests {
         }
         assert_eq!(harmonics().opening(0.9 * above), Ok(None));
         assert_eq!(harmonics().opening(-0.5), Ok(None), "the other way it stays closed");
-        assert_eq!(harmonics().from(libm::sincos(above)).opening(0.1), Err(OnTheVerge));
+        assert_eq!(harmonics().from(libm::sincos(above)).opening(0.1), Err(Critical));
     }
 }

@@ -28,7 +28,7 @@ pub(crate) trait Steps {
     fn start_slope(&mut self, t: f64, slope: &mut [f64]);
     /// A first step length for the state at the start `[s]`.
     fn first_step(&self, tolerance: Tolerance) -> f64;
-    /// Whether a shorter step costs less. If so, a step ends soon after the event that is expected in it.
+    /// Whether a shorter step costs less. If so, the next step is kept short enough to end soon after the event that is expected in it.
     fn cost_follows_length(&self) -> bool {
         false
     }

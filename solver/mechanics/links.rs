@@ -7,7 +7,7 @@ use crate::numerics::per_block::Size;
 use rocking_codegen::pattern::Pattern;
 
 /// Links, base first, in their axes: first moment of all that a link carries about its pivot `[kg m]`, and lever to the next pivot `[m]`.
-pub(crate) fn carried(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
+pub(crate) fn moments_and_levers(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
     let link = pattern.linkage().link_of_block();
     let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
     let (mut moments, mut levers) = (Vec::new(), Vec::new());

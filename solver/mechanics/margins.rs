@@ -14,7 +14,7 @@
 
 use super::harmonics::Harmonics;
 use super::kinematics::Vec2;
-use super::links::carried;
+use super::links::moments_and_levers;
 use super::pendulum::Waves;
 use crate::column::Column;
 use crate::numerics::ode::taylor::{MAX_ORDER, Taylor};
@@ -61,7 +61,7 @@ pub(crate) struct Margins {
 
 impl Margins {
     pub fn new(column: &Column, pattern: &Pattern) -> Margins {
-        let (moments, levers) = carried(column, pattern);
+        let (moments, levers) = moments_and_levers(column, pattern);
         let closed = (0..column.len()).filter(|i| !pattern.0[*i].is_open());
         Margins {
             corners: closed.map(|interface| Corners::new(column, pattern, interface)).collect(),
@@ -82,8 +82,8 @@ impl Margins {
         let stays_closed = |k: usize, term: f64x2| {
             least += if k == 0 { term } else { term.fast_min(f64x2::ZERO) };
             lasts = [lasts[1], lasts[2], term.abs()];
-            let rest = f64x2::splat(REST) * (lasts[0] + lasts[1] + lasts[2]);
-            k >= SETTLED && (least - rest).to_array().iter().all(|margin| *margin > 0.0)
+            let rest = f64x2::splat(REMAINDER_PER_LAST_TERMS) * (lasts[0] + lasts[1] + lasts[2]);
+            k >= FIRST_BOUNDING_ORDER && (least - rest).to_array().iter().all(|margin| *margin > 0.0)
         };
         match self.terms(index, series, ground, reach, stays_closed) {
             Some(terms) => opening_of(&terms[..series.order()]),
@@ -222,15 +222,15 @@ impl Corners {
 
 /// Order from which on the last three terms bound all that follow. Lower, and a term whose parts cancel by chance is taken for a series that
 /// has settled; higher, and terms are computed for nothing.
-const SETTLED: usize = 5;
+const FIRST_BOUNDING_ORDER: usize = 5;
 
 /// Bound of the sum of all later terms, relative to the sum of the last three. The value 2 holds if each term is at most 0.87 of the term before;
 /// the terms of an accepted step fall faster. With a smaller bound, an opening late in a long step could be missed.
-const REST: f64 = 2.0;
+const REMAINDER_PER_LAST_TERMS: f64 = 2.0;
 
 /// Largest fall of a margin, relative to its error (the doubt), from the earliest place where it may be zero to the place where its
 /// polynomial is zero. A larger fall means that the margin stays close to zero, or comes there twice.
-const CLOSE: f64 = 4.0;
+const LARGEST_FALL_IN_ERRORS: f64 = 4.0;
 
 /// Opening of a closed interface, from its two margins as polynomials `Σ terms[k] s^k`, truncated at the order of the integrator's series.
 fn opening_of(terms: &[f64x2]) -> Opening {
@@ -246,7 +246,7 @@ fn opening_of(terms: &[f64x2]) -> Opening {
         // A margin without a root may still touch zero, and a touch may come before a root.
         let Some(s) = Track::Powers(margin).first_root(0) else { return Opening::Unclear };
         let [_, slope] = margin.with_slope(s);
-        if of(&terms[0]) <= doubt || (s - earliest) * -slope > CLOSE * doubt || slope >= -doubt {
+        if of(&terms[0]) <= doubt || (s - earliest) * -slope > LARGEST_FALL_IN_ERRORS * doubt || slope >= -doubt {
             return Opening::Unclear;
         }
         if first.is_none_or(|(earlier, _)| s < earlier) {

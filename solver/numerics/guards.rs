@@ -80,10 +80,10 @@ const LAST_WEIGHT: f64 = 1.0 / 2048.0;
 /// Parts into which each interval between two nodes is divided in the search for a low place of the polynomial.
 const PLACES_BETWEEN: usize = 8;
 
-/// A guard that changes by less than this share of its smallest value, over start, middle and end, is taken to have no zero in
-/// between: it would have to fall more than twice as far and rise again within half a step. Larger, and more dips go unseen; smaller,
+/// If the values of a guard at start, middle and end spread by less than this share of the smallest of them, it is taken to have no zero in between: it
+/// would have to fall more than twice as far and rise again within half a step. Larger, and more dips go unseen; smaller,
 /// and most steps are sampled for nothing.
-const FAR: f64 = 0.5;
+const LARGEST_SPREAD: f64 = 0.5;
 
 /// First `s` in `(0, limit]` at which `guard` is not above zero; `start` is its value at zero. Zero if neither `start` nor the first sample
 /// after it is above zero.
@@ -93,7 +93,7 @@ const FAR: f64 = 0.5;
 pub fn first_crossing(mut guard: impl FnMut(f64) -> f64, start: f64, limit: f64) -> Option<f64> {
     let (end, middle) = (guard(limit), guard(0.5 * limit));
     let (low, high) = (start.min(middle).min(end), start.max(middle).max(end));
-    if high - low < FAR * low {
+    if high - low < LARGEST_SPREAD * low {
         return None;
     }
     let mut samples = [0.0; DEGREE + 1];
@@ -264,7 +264,7 @@ fn crossing_between(guard: &mut impl FnMut(f64) -> f64, above: (f64, f64), below
 const POLISHING_ROUNDS: usize = 8;
 
 /// Largest change of a root that counts as rounding, where a guard is flat and the changes no longer shrink.
-const FLAT: f64 = 1e-11;
+const ROUNDING_OF_ROOT: f64 = 1e-11;
 
 /// Zero of a falling guard in `(0, reach]`, from an approximate zero `s` and the slope there; `None` if Newton's rule does not converge there.
 pub fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach: f64) -> Option<f64> {
@@ -277,7 +277,7 @@ pub fn polished(mut guard: impl FnMut(f64) -> f64, mut s: f64, slope: f64, reach
         let is_better = change.abs() < 0.25 * last;
         let next = s + change;
         if !(is_better && next > 0.0 && next <= reach) {
-            return (change.abs() <= FLAT).then_some(s);
+            return (change.abs() <= ROUNDING_OF_ROOT).then_some(s);
         }
         (s, last) = (next, change.abs());
     }

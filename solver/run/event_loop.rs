@@ -136,7 +136,7 @@ pub(crate) fn event_loop<L: Limits>(
     }
 }
 
-/// Decides the pattern in which a run begins; `after` is a copy of the state before that.
+/// Decides the pattern in which a run begins. `after` holds a copy of `before` at first, and then the decided state.
 fn begin(problem: &Problem, before: &State, after: &mut State, recorder: &mut Recorder) -> Result<(), SolveError> {
     // By reference: a transition is large, and `?` would copy it.
     match &transition::start(problem, before) {
@@ -150,7 +150,7 @@ fn begin(problem: &Problem, before: &State, after: &mut State, recorder: &mut Re
     Ok(())
 }
 
-/// The present phase. What it can be undone to is kept with limits only.
+/// The phase under way, and what is needed to undo it: `event` and `reached` are filled with limits only.
 struct PresentPhase {
     /// The event that began the phase; `None` at the start of the run.
     event: Option<Event>,

@@ -11,7 +11,7 @@ use super::stretch::{Ended, Found, Stretch};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::control::{Part, Tolerance};
 use crate::numerics::ode::one_angle::{HIGHEST_ORDER, LEAST_ORDER, OneAngle, Turning};
-use crate::numerics::ode::taylor::MARGIN;
+use crate::numerics::ode::taylor::TERMS_BELOW_TOLERANCE;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
@@ -21,7 +21,7 @@ use wide::f64x2;
 
 /// The next stretch tries a lower order if all errors of this one are below this share of the tolerance: an order is worth a factor of about a
 /// hundred in the error of a step from sample to sample. If the share were larger, orders would go down and up again.
-const FINE_ENOUGH: f64 = 1e-3;
+const ERROR_FOR_LOWER_ORDER: f64 = 1e-3;
 
 /// A walk from sample to sample.
 struct Walk<'p> {
@@ -205,7 +205,10 @@ impl Walk<'_> {
             let (end, per_second) = (step.end, 1.0 / h);
             let omega_end = end.rate * per_second;
             let allowed = [tolerance.scale(omega, omega_end), tolerance.scale(angle.theta, end.theta)];
-            let errors = [MARGIN * step.last * per_second, MARGIN * step.last / (ORDER + 1) as f64];
+            let errors = [
+                TERMS_BELOW_TOLERANCE * step.last * per_second,
+                TERMS_BELOW_TOLERANCE * step.last / (ORDER + 1) as f64,
+            ];
             let is_good = errors[0] <= allowed[0] && errors[1] <= allowed[1];
             if !is_good {
                 break End::Coarse;
@@ -216,7 +219,8 @@ impl Walk<'_> {
             if may_overturn {
                 break End::Over;
             }
-            needs_order |= errors[0] > FINE_ENOUGH * allowed[0] || errors[1] > FINE_ENOUGH * allowed[1];
+            needs_order |=
+                errors[0] > ERROR_FOR_LOWER_ORDER * allowed[0] || errors[1] > ERROR_FOR_LOWER_ORDER * allowed[1];
             // If the rate keeps its sign, the angle is monotonic in the step.
             let is_simple = angle.rate.abs() > step.change && out > 0.0 && out_end > 0.0;
             let mut landing = None;

@@ -85,7 +85,8 @@ pub(super) struct Gap {
     end: usize,
     /// The gap `s (θ_i - θ_{i-1})`: sign and indices of both angles.
     pub across: Difference,
-    /// KnownPart roots of the gap at the start of the step: one if the gap is zero, two if its rate is zero as well, three if its acceleration is, too.
+    /// Number of roots that the gap is known to have at the start of the step: one if the gap is zero, two if its rate is zero too, three if its
+    /// acceleration is as well.
     pub start_roots: usize,
 }
 
@@ -123,7 +124,7 @@ pub(super) struct Course {
 
 /// A swing as far as it is taken.
 #[derive(Clone, Copy)]
-pub(super) struct Swing {
+pub(super) struct SwingStretch {
     pub course: Course,
     /// Angle beyond the balance, and its rate, at the end `[rad]`, `[rad/s]`.
     pub end: [f64; 2],
@@ -170,7 +171,7 @@ pub(super) enum Kind {
     /// A step of the method.
     Step(StepEnd),
     /// A swing in closed form.
-    Swing(Swing),
+    Swing(SwingStretch),
     /// Steps over several samples.
     Samples(Samples),
 }

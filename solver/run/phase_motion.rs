@@ -5,7 +5,7 @@
 
 use super::certainty::verdict;
 use super::error::SolveError;
-use super::phase::{Gap, Kind, Phase, StepEnd, Swing};
+use super::phase::{Gap, Kind, Phase, StepEnd, SwingStretch};
 use super::problem::Problem;
 use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
@@ -51,7 +51,7 @@ impl Phase {
                 self.integrator.advance();
                 (end, self.segment)
             }
-            Kind::Swing(Swing { until, x, .. }) => {
+            Kind::Swing(SwingStretch { until, x, .. }) => {
                 self.integrator.begin(until, &x);
                 (until, self.segment)
             }
@@ -273,7 +273,7 @@ impl Inside for Phase {
     }
 }
 
-/// Raises the peaks of one link's blocks, which share an angle, to the result of `peak`. Its argument is the least of them: less does not matter.
+/// Raises the peaks so far of one link's blocks, which share an angle, to `peak(known)`. `known` is the least of them; a result below it need not be right.
 #[inline(always)]
 fn raise(peaks: &mut [f64], peak: impl FnOnce(f64) -> f64) {
     let known = peaks.iter().fold(f64::INFINITY, |known, own| if *own < known { *own } else { known });

@@ -13,11 +13,11 @@ use crate::response::Work;
 use rocking_ground::Segment;
 
 /// Number of places per radian of the ground motion at which contact forces at rest are recorded, their crests beside these places apart. A crest is
-/// missed only where [`PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
+/// missed only where [`LEAST_AND_MOST_PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
 const PLACES_PER_RADIAN: f64 = 8.0;
 
 /// Least and most places per segment.
-const PLACES: (f64, f64) = (16.0, 65_536.0);
+const LEAST_AND_MOST_PLACES: (f64, f64) = (16.0, 65_536.0);
 
 /// The column at rest, waiting for the ground to start it.
 #[derive(Default)]
@@ -120,7 +120,7 @@ pub(crate) fn visit_forces(
     note: &mut dyn FnMut(&[ContactForce], [f64; 2]),
 ) {
     let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - from);
-    let count = (PLACES_PER_RADIAN * radians).clamp(PLACES.0, PLACES.1) as usize;
+    let count = (PLACES_PER_RADIAN * radians).clamp(LEAST_AND_MOST_PLACES.0, LEAST_AND_MOST_PLACES.1) as usize;
     let gravity = column.gravity();
     let mut last = from;
     let mut visit = |t: f64| {

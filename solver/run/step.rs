@@ -287,7 +287,8 @@ impl Phase {
         self.integrator.state_inside(Part::Attempt, s, &mut self.inside);
     }
 
-    /// Largest magnitude of an angle, or of the difference of two, in the step `[rad]`; only right if it exceeds `known`.
+    /// Largest magnitude of an angle, or of the difference of two, in the step `[rad]`. Where that does not exceed `known`, the result is only some
+    /// number up to `known`.
     pub(super) fn peak_of_step(&mut self, step: StepEnd, angle: Difference, known: f64) -> f64 {
         let Excursion { start, end, reach } = self.integrator.excursion(angle);
         if start.abs() + reach <= known {

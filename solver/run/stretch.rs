@@ -54,7 +54,7 @@ pub(crate) struct Stretch<'m> {
     pub end: f64,
     /// Why it ended; `None` if the motion continues.
     pub ended: Option<Ended>,
-    /// Whether contact forces are read from finer stretches instead ([`Inside::refine`]): true for steps over several samples.
+    /// True for a step over several samples: contact forces are then read at the shorter steps of [`Inside::refine`].
     pub is_coarse: bool,
     /// The motion between start and end.
     pub inside: &'m mut dyn Inside,

@@ -3,11 +3,11 @@
 //! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back: the
 //! margins of closed interfaces are polynomials of sine and cosine of the angle ([`crate::mechanics::harmonics`]).
 
-use super::phase::{Course, Kind, Phase, Swing};
+use super::phase::{Course, Kind, Phase, SwingStretch};
 use super::problem::Problem;
 use super::step::PANELS_PER_TURN;
 use super::stretch::{Ended, Found, Over, Panel};
-use crate::mechanics::harmonics::OnTheVerge;
+use crate::mechanics::harmonics::Critical;
 use crate::mechanics::pendulum::Pendulum;
 use crate::numerics::guards::{first_crossing, polished};
 use crate::numerics::per_block::PerBlock;
@@ -79,7 +79,7 @@ impl Phase {
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
         let until = if is_cut { segment.end } else { self.t + end.time };
-        self.stretch = Kind::Swing(Swing { course, end: [psi, v], until, x: course.state([psi, v]) });
+        self.stretch = Kind::Swing(SwingStretch { course, end: [psi, v], until, x: course.state([psi, v]) });
         let ended = (!is_cut).then_some(end.ended);
         if ended == Some(Ended::Closing) {
             self.closing = PerBlock::filled(self.gaps[0].interface, 1);
@@ -142,7 +142,7 @@ impl Phase {
             let known = match self.over_swing[index].opening(to - from) {
                 Ok(None) => continue,
                 Ok(Some([s, slope])) => polished(|s| margin(self, s), s, slope, 1.0),
-                Err(OnTheVerge) => None,
+                Err(Critical) => None,
             };
             let crossing = match known {
                 Some(s) => Some(s).filter(|s| *s < reach),
@@ -171,13 +171,13 @@ impl Phase {
     }
 
     /// Writes the state at a time of the swing into `inside`.
-    pub(super) fn state_in_swing(&mut self, swing: &Swing, t: f64) {
+    pub(super) fn state_in_swing(&mut self, swing: &SwingStretch, t: f64) {
         let course = &swing.course;
         self.inside.copy_from_slice(&course.state(course.swing.after(t - self.t)));
     }
 
     /// Forces from the start of the swing to its crest, if it has turned, and to its end.
-    pub(super) fn forces_in_swing(&mut self, problem: &Problem, swing: &Swing, note: &mut dyn FnMut(&Panel)) {
+    pub(super) fn forces_in_swing(&mut self, problem: &Problem, swing: &SwingStretch, note: &mut dyn FnMut(&Panel)) {
         let turn = if swing.has_turned() { swing.course.swing.turning_point() } else { None };
         let (start, end) = (swing.course.start, swing.end[0]);
         let Some(turn) = turn else {
@@ -224,7 +224,7 @@ impl Phase {
     }
 }
 
-impl Swing {
+impl SwingStretch {
     /// Whether the swing has turned.
     fn has_turned(&self) -> bool {
         self.course.swing.turns() && self.end[1] * self.course.swing.start_rate() < 0.0

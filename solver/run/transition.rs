@@ -203,9 +203,8 @@ fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
-/// The forced transition that breaks a cycle of events in one instant: it closes open interfaces without a gap, momentum conserved, and counts as a
-/// separation. `None`
-/// unless the number of events is one of two at which this is due.
+/// The transition that breaks a cycle of events in one instant: open interfaces without a gap close, momentum conserved. It counts as a separation.
+/// `None` unless the number of events is just one of the two at which this is tried: first for interfaces at rest, then for all without a gap.
 #[cold]
 pub(crate) fn break_cycle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
     let (events, most) = (state.contact.events_at_once, most_at_once(state));

@@ -30,23 +30,23 @@ pub const BEFORE_LAST: f64 = 0.1;
 
 /// Factor by which terms are kept below the tolerance. Without it, errors reach the tolerance at best, and several times the tolerance where
 /// the motion lingers at an unstable balance. It shortens the step by an eighth.
-pub const MARGIN: f64 = 8.0;
+pub const TERMS_BELOW_TOLERANCE: f64 = 8.0;
 
 /// Error of a step of the largest order below which a lower order is sought. Above it, a lower order saves less than the search costs.
-const SHORT: f64 = 1e-3;
+const ERROR_FOR_LOWER_ORDER: f64 = 1e-3;
 
 /// Length that a step aims at, as a share of the length that just meets the tolerance.
 pub const SAFETY: f64 = 0.9;
 
 /// Error of a step above which no longer step is sought: it would save less than the search costs.
-const LONG_ENOUGH: f64 = 0.1;
+const ERROR_OF_LONG_STEP: f64 = 0.1;
 
 /// Largest ratio of a step to the suggested length, and of the next suggested length to the step. The last terms of a series say little about a
 /// step far beyond the length for which they were examined, least of all where the motion lingers at an unstable balance.
 pub const LARGEST_GROWTH: f64 = 8.0;
 
 /// Largest number of trial lengths of a step. The search seeks the longest step whose last terms are within the tolerance.
-const GUESSES: usize = 3;
+const MOST_TRIAL_LENGTHS: usize = 3;
 
 /// Steps on the series at a state.
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
                 // The error of a cut step says nothing about a longer step.
                 break (h, order, error, target);
             }
-            if error <= 1.0 && error > LONG_ENOUGH || guesses == GUESSES {
+            if error <= 1.0 && error > ERROR_OF_LONG_STEP || guesses == MOST_TRIAL_LENGTHS {
                 break (h, order, error, h * self.factor_wanted(error, order));
             }
             let (factor, is_sure) = fitting(error, order);
@@ -153,7 +153,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     ) -> (usize, f64) {
         let (scale, order) = (self.scale(h, tolerance), self.series.largest_order);
         let error = if self.series.known == order { self.error_at(order, h, &scale) } else { 0.0 };
-        if is_cut && error < SHORT { self.least_order(system, h, &scale) } else { (order, error) }
+        if is_cut && error < ERROR_FOR_LOWER_ORDER { self.least_order(system, h, &scale) } else { (order, error) }
     }
 
     /// The least order with which a step is good, and the error with this order; the largest order if none is good.
@@ -164,7 +164,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         h: f64,
         scale: &L::Of<f64>,
     ) -> (usize, f64) {
-        let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, MARGIN * h * h * h);
+        let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, TERMS_BELOW_TOLERANCE * h * h * h);
         let mut last = self.term(order, power, scale);
         while order < self.series.largest_order {
             if order == self.series.known {
@@ -185,7 +185,7 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// Error of a step with the series up to this order, relative to the tolerance.
     #[inline(always)]
     fn error_at(&self, order: usize, h: f64, scale: &L::Of<f64>) -> f64 {
-        let (mut power, mut square, mut left) = (MARGIN, h, order - 1);
+        let (mut power, mut square, mut left) = (TERMS_BELOW_TOLERANCE, h, order - 1);
         while left > 0 {
             power *= if left % 2 == 1 { square } else { 1.0 };
             square *= square;

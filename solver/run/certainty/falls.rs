@@ -47,7 +47,7 @@ impl Fall {
     }
 
     /// How far the block, leaning to the side `sign` in the state `[θ, θ̇]`, is beyond the point of no return on a ground at rest. `None` if it is
-    /// beyond that by no more than the share `slack` of its angle and rate.
+    /// not beyond, or by so little that errors of the share `slack` in its angle and rate could decide.
     pub fn excess(&self, [theta, omega]: [f64; 2], sign: f64, slack: f64) -> Option<Excess> {
         let (p, psi, rate) = (self.pendulum.rate(), self.pendulum.beyond(theta, sign), sign * omega);
         let z = rate + p * 2.0 * sines::sin_cos(0.5 * psi).0;

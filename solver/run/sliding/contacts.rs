@@ -70,8 +70,8 @@ pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) 
     (0..now.joints.len()).map(touch).collect()
 }
 
-/// Whether a free interface touches at a side, and its corners there neither leave nor strike the faces. A bounce too low to be followed does not
-/// count as leaving. Coinciding corners touch both faces, or neither.
+/// Whether a free interface stays in contact at a side: its corners there are within `resolution` of the face, and move away no faster than a bounce
+/// that is too low to be followed. Coinciding corners touch both faces, or neither.
 fn stays_at(
     problem: &Problem,
     resolution: Resolution,

@@ -103,7 +103,7 @@ impl PendingTransition<'_> {
             }
         }
         self.now.joints.clone_from(&solution.joints);
-        answer.rates.give(&mut self.now);
+        answer.motion.give(&mut self.now);
         self.stop_slides_without_direction();
         self.part_coinciding_corners();
         let energy = motion.energy(self.column());

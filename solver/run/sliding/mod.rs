@@ -33,7 +33,7 @@ use crate::scene::Scene;
 use mover::Mover;
 use recorder::SlidingRecorder;
 use state::{RunEnd, SlidingEnded, SlidingState};
-use sticking::{Part, Progress, Sticking, StickingSpan};
+use sticking::{Progress, Sticking, StickingPart, StickingSpan};
 use transition::{start, transition};
 
 /// Share of the time, or of a second if that is longer, within which events count as one instant.
@@ -43,7 +43,7 @@ const AT_ONCE: f64 = 1e-12;
 const HOPS_AT_ONCE: f64 = 3.0;
 
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
-const EVENTS_AT_ONCE: usize = 16;
+const MOST_EVENTS_AT_ONCE: usize = 16;
 
 /// Events in one instant, per block and one more, after which contact laws are applied with the ground's acceleration of a little later. Where all
 /// forces vanish, as where vertical motion lifts a column off, rounding decides between states, and none of them lasts.
@@ -73,7 +73,7 @@ pub(super) fn run(
         StickingSpan::Throughout(response) => return Ok(*response),
         StickingSpan::Nowhere => start(problem, friction, &at),
         StickingSpan::Part(part) => {
-            let Part { response, column, until, ended } = *part;
+            let StickingPart { response, column, until, ended } = *part;
             recorder.append(&column, [&at, &until], response);
             at = until;
             transition(problem, friction, &at, ended, 0.0)
@@ -91,7 +91,7 @@ pub(super) fn run(
         }
         let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
             Some(part) => {
-                let Part { response, column, until, ended } = *part;
+                let StickingPart { response, column, until, ended } = *part;
                 recorder.append(&column, [&at, &until], response);
                 (until, ended)
             }
@@ -146,7 +146,7 @@ impl SimultaneousEvents {
         } else {
             SimultaneousEvents { first: at.t, count: 1 }
         };
-        self.count > EVENTS_AT_ONCE * (at.configuration.joints.len() + 1)
+        self.count > MOST_EVENTS_AT_ONCE * (at.configuration.joints.len() + 1)
     }
 
     /// Time by which the ground's acceleration is ahead for the next event `[s]`: it doubles with each event of the instant.

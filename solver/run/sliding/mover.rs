@@ -22,7 +22,7 @@ use crate::scene::DynamicsSource;
 const FIRST_STEP: f64 = 1e-3;
 
 /// Factor by which a step is shortened to resolve a guard that starts from zero.
-pub(super) const RESOLVING: f64 = 0.125;
+pub(super) const SHORTER_FOR_UNRESOLVED: f64 = 0.125;
 /// Share of the longest step down to which steps are shortened for this.
 pub(super) const SHORTEST_SHARE: f64 = 1e-4;
 
@@ -239,7 +239,7 @@ impl<'p> Mover<'p> {
             let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && guard.may_start_from_zero());
             if is_unresolved && h > SHORTEST_SHARE * suggested {
                 // A gap that has just opened, or a slide that has just begun, is less than the error of so long a step.
-                longest = RESOLVING * h;
+                longest = SHORTER_FOR_UNRESOLVED * h;
                 continue;
             }
             longest = f64::INFINITY;

@@ -5,7 +5,7 @@ use super::smooth::{Moment, Smooth};
 use super::state::{RunEnd, SlidingState};
 use super::transition::{Change, SlidingTransition};
 use crate::column::Column;
-use crate::friction::chain::{Chain, Motion, Rates};
+use crate::friction::chain::{BlockMotion, Chain, Rates};
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Face, Joint, Slip};
 use crate::mechanics::dynamics::ContactForce;
@@ -535,7 +535,7 @@ fn energy(column: &Column, configuration: &Configuration) -> f64 {
 }
 
 /// Kinetic and potential energy relative to the moving ground, from geometry and motion `[J]`.
-fn energy_of(chain: &Chain, motion: &Motion) -> f64 {
+fn energy_of(chain: &Chain, motion: &BlockMotion) -> f64 {
     let column = chain.column();
     let lifted = column.blocks().iter().enumerate();
     let potential: f64 = lifted.map(|(index, block)| block.mass * column.gravity() * chain.centroid(index)[1]).sum();

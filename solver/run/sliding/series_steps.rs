@@ -1,17 +1,17 @@
 //! Steps on Taylor series: as many orders as the step needs, and a step as long as its last terms allow (Jorba & Zou, 2005).
 
-use super::mover::{Mover, RESOLVING, SHORTEST_SHARE};
+use super::mover::{Mover, SHORTER_FOR_UNRESOLVED, SHORTEST_SHARE};
 use super::recorder::SlidingRecorder;
 use super::state::{SlidingEnded, SlidingState};
 use super::step::Step;
-use crate::friction::guard_series::{Limits, SeriesSpan};
+use crate::friction::guard_series::{GuardLimits, SeriesSpan};
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::Joint;
 use crate::friction::search::force_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
-use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, MARGIN, SAFETY};
+use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, SAFETY, TERMS_BELOW_TOLERANCE};
 use crate::run::error::SolveError;
 use crate::run::expected_event;
 
@@ -65,14 +65,14 @@ impl<'p> Mover<'p> {
             self.work.steps += 1;
             let now = smooth.configuration(&x);
             let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
-            let limits = Limits { fixed: &self.friction.fixed, slack, overturn_angle: options.overturn_angle };
+            let limits = GuardLimits { fixed: &self.friction.fixed, slack, overturn_angle: options.overturn_angle };
             let span = SeriesSpan::new(&series, smooth.column, joints, h, limits);
             let mut step = Step::new(&mut smooth, &span, [t, h], options);
             let first = step.first_of(&list);
             let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
             if is_unresolved && h > SHORTEST_SHARE * suggested {
                 // A landing may be sampled: a gap that has just opened may be less than the rounding of so long a step.
-                longest = RESOLVING * h;
+                longest = SHORTER_FOR_UNRESOLVED * h;
                 continue;
             }
             longest = f64::INFINITY;
@@ -138,7 +138,7 @@ fn length(series: &mut Series, most: f64, most_orders: usize, tolerance: Toleran
 /// Size of the last terms of all rates and values in a step, relative to the tolerance.
 fn error(series: &Series, h: f64, tolerance: Tolerance) -> f64 {
     let last = series.orders();
-    let power = (1..last).fold(MARGIN, |power, _| power * h);
+    let power = (1..last).fold(TERMS_BELOW_TOLERANCE, |power, _| power * h);
     let mut error = 0.0f64;
     for values in series.values() {
         let rate = |order: usize| (order + 1) as f64 * values.of(order + 1);

@@ -6,7 +6,7 @@ use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, centre};
 use crate::friction::generated::Generated;
 use crate::friction::joint::Configuration;
-use crate::friction::rows::{Answer, Coordinate, Rows, answer_to, coordinates};
+use crate::friction::rows::{Answer, Coordinate, Rows, coordinates, with_accelerations};
 use crate::friction::search::acceleration_scale;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::explicit::System;
@@ -18,7 +18,7 @@ use rocking_ground::Segment;
 use std::cell::OnceCell;
 
 /// Forces beyond which a motion jams, as multiples of what weight, ground and rates account for.
-const JAMMING: f64 = 1e6;
+const FORCE_OF_JAM: f64 = 1e6;
 
 /// Generated equations of a set of states.
 enum Programs {
@@ -119,13 +119,14 @@ impl<'p> Smooth<'p> {
     /// Why no step can be taken from a state at a time `[s]`; `step` is the last one that was tried `[s]`.
     ///
     /// # Errors
-    /// [`SolveError::StepTooSmall`], unless the motion jams: some normal force exceeds `JAMMING` times the forces at work, and the rows hardly
+    /// [`SolveError::StepTooSmall`], unless the motion jams: some normal force exceeds `FORCE_OF_JAM` times the forces at work, and the rows hardly
     /// determine it any more (Painlevé).
     pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<SlidingEnded, SolveError> {
         let ground = Ground::at(self.segment, t, self.gravity);
         let mut moment = self.moment(self.configuration(x));
         let largest = self.answer(t, &mut moment).contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
-        if largest > JAMMING * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground) {
+        if largest > FORCE_OF_JAM * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground)
+        {
             return Ok(SlidingEnded::Jam);
         }
         let mode = format!("{} with friction", self.base.pattern());
@@ -137,8 +138,8 @@ impl<'p> Smooth<'p> {
         let centres: PerBlock<f64> = (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect();
         let (rates, ground) = (Rates::of(now), Ground::at(self.segment, t, self.gravity));
         if let Some(generated) = self.generated() {
-            let second = generated.rates(now, ground)?;
-            return Some(answer_to(chain, &now.joints, &centres, second, &rates, ground));
+            let second = generated.accelerations_of(now, ground)?;
+            return Some(with_accelerations(chain, &now.joints, &centres, second, &rates, ground));
         }
         Rows::new(chain, &now.joints, &self.friction.kinetic, &centres).accelerations(&rates, ground)
     }
@@ -178,9 +179,9 @@ impl System for Smooth<'_> {
             Some(answer) => {
                 for (coordinate, value) in self.coordinates.iter().zip(&mut slope[dof..]) {
                     *value = match coordinate {
-                        Coordinate::Angle(range) => answer.rates.omega[range.start],
-                        Coordinate::Slide(i) => answer.rates.slide[*i],
-                        Coordinate::Apart(i, axis) => answer.rates.apart[*i][*axis],
+                        Coordinate::Angle(range) => answer.motion.omega[range.start],
+                        Coordinate::Slide(i) => answer.motion.slide[*i],
+                        Coordinate::Apart(i, axis) => answer.motion.apart[*i][*axis],
                     };
                 }
             }

@@ -26,13 +26,13 @@ pub enum StickingSpan {
     /// From the start of the run to its end.
     Throughout(Box<Response>),
     /// Up to the end of this part.
-    Part(Box<Part>),
+    Part(Box<StickingPart>),
     /// Nowhere: something slides or flies at once.
     Nowhere,
 }
 
 /// A part of a run in which everything sticks.
-pub struct Part {
+pub struct StickingPart {
     /// Rows, events, peaks, forces and times.
     pub response: Response,
     /// The column with its slides in this part.
@@ -84,7 +84,7 @@ impl<'p> Sticking<'p> {
         from: &SlidingState,
         rows: usize,
         progress: &mut Progress,
-    ) -> Result<Option<Box<Part>>, SolveError> {
+    ) -> Result<Option<Box<StickingPart>>, SolveError> {
         let Configuration { joints, theta, omega, slide, .. } = &from.configuration;
         // A column that stands still is left to `Mover`, which waits for the start of a slide as well.
         if from.configuration.is_at_rest() {
@@ -162,7 +162,7 @@ impl<'p> Sticking<'p> {
         let configuration = Configuration::sticking(&self.scene.column, &last.pattern, &last.theta, &last.omega);
         let until = SlidingState { t: last.t, segment: last.segment, configuration };
         let response = recorder.so_far(&problem, &last, status, modes);
-        Ok(StickingSpan::Part(Box::new(Part { response, column: self.scene.column.clone(), until, ended })))
+        Ok(StickingSpan::Part(Box::new(StickingPart { response, column: self.scene.column.clone(), until, ended })))
     }
 }
 

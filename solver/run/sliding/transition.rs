@@ -196,8 +196,8 @@ impl<'p> PendingTransition<'p> {
     /// The states with which the column moves on from here.
     fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<PerBlock<Joint>, RunEnd> {
         let touch = self.joined();
-        // States whose guard has just fallen to zero do not follow themselves, even if they are admissible up to rounding. Only a slide that has
-        // come to rest may begin anew.
+        // A guard has just fallen to zero: the states before do not simply go on, even if they are admissible up to rounding. Only a slide that has come
+        // to rest may begin anew.
         let is_new = |joint: Joint, interface: usize| joint.sticks() && !before.joints[interface].sticks();
         let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
         let is_stale = |solution: &Solution| !may_repeat && solution.joints == before.joints;
@@ -234,7 +234,7 @@ impl<'p> PendingTransition<'p> {
             solution = without;
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
-        Ok(self.search(&self.touching()).carried(&solution))
+        Ok(self.search(&self.touching()).joints_an_instant_later(&solution))
     }
 
     /// Gives faces that stay on each other one angle and one rate, to the last bit. Momentum is conserved where their rates differ.
@@ -413,13 +413,13 @@ impl<'p> PendingTransition<'p> {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
         };
         let hops = |interface: usize| {
-            let turn = relative(&solution.answer.rates.omega, interface);
+            let turn = relative(&solution.answer.motion.omega, interface);
             self.now.gap_angle(interface).abs() <= self.resolution.angle
                 && returns(self.now.gap_rate(interface), turn, least)
         };
         let stops = |interface: usize| {
             let length = half_length(self.column(), interface, self.now.slide[interface]);
-            returns(self.now.slide_rate[interface], solution.answer.rates.slide[interface], least * length)
+            returns(self.now.slide_rate[interface], solution.answer.motion.slide[interface], least * length)
         };
         let mut is_new = false;
         for (interface, joint) in solution.joints.iter().enumerate() {
@@ -463,14 +463,14 @@ impl<'p> PendingTransition<'p> {
             let closes = |interface: usize| match held.joints[interface] {
                 Joint::Corner(side, _, slip) => {
                     let has_no_gap = held.gap_angle(interface).abs() <= self.resolution.angle;
-                    let rate = f64::from(side) * relative(&answer.rates.omega, interface);
+                    let rate = f64::from(side) * relative(&answer.motion.omega, interface);
                     let was_closing = f64::from(side) * self.now.gap_rate(interface) < -self.resolution.rate;
                     (has_no_gap && rate < 0.0 && !was_closing).then_some(slip)
                 }
                 Joint::Closed(_) | Joint::Free => None,
             };
             let Some((interface, slip)) = (0..joints.len()).find_map(|i| closes(i).map(|slip| (i, slip))) else {
-                answer.rates.give(&mut held);
+                answer.motion.give(&mut held);
                 break;
             };
             held.joints[interface] = Joint::Closed(slip);

@@ -14,13 +14,13 @@ use crate::numerics::polynomial::powers::Powers;
 const START_ROUNDING: f64 = 1e-15;
 
 /// Share of the resolution of hops, bounces and slides below which a guard that starts from zero has not left zero.
-const LOW_SHARE: f64 = 1e-3;
+const SHARE_OF_RESOLUTION: f64 = 1e-3;
 
 /// Place at which a guard that starts from zero is first examined, as a share of the step up to the earliest zero of the guards before it.
 const NEAR_START: f64 = 1e-4;
 
 /// Place in a step at which a guard that is not above zero at the start must be above zero; otherwise its zero is at the start.
-const RISEN_BY: f64 = 0.03;
+const RISEN_AT: f64 = 0.03;
 
 /// Rounds in which a root of a polynomial is refined on the forces themselves: each squares the error.
 const REFINEMENTS: usize = 6;
@@ -29,10 +29,10 @@ const REFINEMENTS: usize = 6;
 const NEAR_ROOT: f64 = 1e-9;
 
 /// Multiple of the noise of a guard beyond which the guard has certainly left zero, upwards or downwards.
-const CLEARLY: f64 = 8.0;
+const CLEAR_MULTIPLE: f64 = 8.0;
 
 /// Share of the step up to which the place is searched for at which a guard has left zero.
-const FAR: f64 = 0.1;
+const LARGEST_START: f64 = 0.1;
 
 impl<O: Output> Step<'_, '_, O> {
     /// The first guard that falls to zero, and where.
@@ -83,12 +83,12 @@ impl<O: Output> Step<'_, '_, O> {
         limit: f64,
     ) -> Option<f64> {
         let ([beside, above], noise) = (gap(self, 0.0), self.noise(guard));
-        if beside.abs() <= noise && above < -CLEARLY * noise {
+        if beside.abs() <= noise && above < -CLEAR_MULTIPLE * noise {
             // Flush with the end of the face and inside: the larger of both stays at zero.
             return Some(0.0);
         }
         let depth = beside.max(above);
-        if depth < -CLEARLY * noise && self.leaves(gap, depth) {
+        if depth < -CLEAR_MULTIPLE * noise && self.leaves(gap, depth) {
             // Less deep than is followed, and on its way out: it lands when it comes back to where it is.
             let value = |step: &mut Self, s: f64| {
                 let [beside, above] = gap(step, s);
@@ -109,7 +109,7 @@ impl<O: Output> Step<'_, '_, O> {
         self.crossing(guard, &value, limit)
     }
 
-    /// Whether a gap of this depth at the start opens, by more than its noise within the place at which guards that start from zero are examined.
+    /// Whether a corner that starts inside by less than is followed, at `depth` (negative), is on its way out: at [`NEAR_START`] it is higher.
     fn leaves(&mut self, gap: &dyn Fn(&mut Self, f64) -> [f64; 2], depth: f64) -> bool {
         let [beside, above] = gap(self, NEAR_START);
         beside.max(above) > depth
@@ -121,7 +121,7 @@ impl<O: Output> Step<'_, '_, O> {
         let start = track.coefficient(0);
         let s = if guard.may_start_from_zero() {
             let rounding = self.rounding_at_start(guard);
-            let below = CLEARLY * rounding[0];
+            let below = CLEAR_MULTIPLE * rounding[0];
             if start < -below {
                 return Some(0.0);
             }
@@ -136,7 +136,7 @@ impl<O: Output> Step<'_, '_, O> {
             }
         } else if start > 0.0 {
             track.root(0)
-        } else if track.evaluate(RISEN_BY) <= 0.0 {
+        } else if track.evaluate(RISEN_AT) <= 0.0 {
             return Some(0.0);
         } else {
             track.root(1)
@@ -178,19 +178,19 @@ impl<O: Output> Step<'_, '_, O> {
         if !guard.may_start_from_zero() || start > noise {
             return first_crossing(|s| value(self, s), start, limit);
         }
-        if start < -CLEARLY * noise {
+        if start < -CLEAR_MULTIPLE * noise {
             return Some(0.0);
         }
         // A place at which the guard has left its start, before it comes back.
         let (mut near, mut end) = (NEAR_START * limit, limit);
-        while near < FAR * limit && value(self, near).abs() <= CLEARLY * noise {
+        while near < LARGEST_START * limit && value(self, near).abs() <= CLEAR_MULTIPLE * noise {
             near *= 4.0;
         }
-        while value(self, near) < -CLEARLY * noise {
+        while value(self, near) < -CLEAR_MULTIPLE * noise {
             (near, end) = (0.1 * near, near);
         }
         let one = value(self, near);
-        if one <= CLEARLY * noise {
+        if one <= CLEAR_MULTIPLE * noise {
             // The guard does not leave zero, or (`end < limit`) comes back before that can be resolved.
             return (end < limit).then_some(0.0);
         }
@@ -200,8 +200,8 @@ impl<O: Output> Step<'_, '_, O> {
         first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
     }
 
-    /// Rounding of a guard that starts from zero: of its value, its slope and half its bend, with the step as the unit of time. An acceleration that
-    /// the search for states takes for rounding is a bend of a guard, but a slope of a slide's rate.
+    /// Rounding of a guard that starts from zero, of its value, its slope and half its bend, with the step as the unit of time. An acceleration that
+    /// counts as rounding bends a gap, but tilts the rate of a slide.
     fn rounding_at_start(&mut self, guard: Guard) -> [f64; 3] {
         let (column, h) = (self.smooth.column, self.h);
         let ground = Ground::at(self.smooth.segment, self.t, self.smooth.gravity);
@@ -221,12 +221,12 @@ impl<O: Output> Step<'_, '_, O> {
     /// be followed, whichever is larger.
     fn noise(&self, guard: Guard) -> f64 {
         let size = self.smooth.column.size();
-        let least = LOW_SHARE * self.stick_angle;
+        let least = SHARE_OF_RESOLUTION * self.stick_angle;
         match guard {
             Guard::Close(_) => START_ROUNDING.max(least),
             Guard::Stop(_) => {
                 let speed = (size * self.smooth.gravity).sqrt();
-                speed * START_ROUNDING.max(LOW_SHARE * self.stick_angle.sqrt())
+                speed * START_ROUNDING.max(SHARE_OF_RESOLUTION * self.stick_angle.sqrt())
             }
             _ => size * START_ROUNDING.max(least),
         }
