@@ -24,6 +24,12 @@ pub enum RecordError {
     /// The file is binary, an archive or a spreadsheet; `kind` says which.
     #[error("the file is no text: it is {kind}; unpack it, or save it as text or CSV")]
     NoText { kind: &'static str },
+    /// The file is of a format that has no reader.
+    #[error(
+        "the file is {format}, a format that is not read; give the record as a table of time and acceleration (CSV), or as PEER \
+         AT2, ESM, K-NET, CSMIP V2 or COSMOS V2"
+    )]
+    UnknownFormat { format: &'static str },
     /// The sampling interval is out of range.
     #[error(
         "dt = {dt:e}: the sampling interval must be a number from {SHORTEST_INTERVAL:e} to {LONGEST_INTERVAL:e} (s)"
@@ -46,6 +52,12 @@ pub enum RecordError {
          Fetch it again, correct {key}, or use what is there with `lenient`"
     )]
     Fewer { line: usize, key: &'static str, declared: usize, found: usize },
+    /// The file has at least twice as many numbers as samples that its header declares.
+    #[error(
+        "line {line}: the header declares {declared} samples and the file has {found} numbers: there are columns beside the \
+         acceleration, or several records; leave one record of acceleration, or correct {key}"
+    )]
+    More { line: usize, key: &'static str, declared: usize, found: usize },
     /// An entry of the header is missing or wrong.
     #[error("line {line}: {problem}; {remedy}")]
     Header { line: usize, problem: String, remedy: &'static str },
@@ -59,7 +71,7 @@ pub enum RecordError {
     #[error("channel {channel} is not in the file; it has {known}")]
     NoChannel { channel: usize, known: String },
     /// Several columns may be the acceleration, or the requested one does not exist.
-    #[error("{}; choose one of {known} with `column`", no_column(column))]
+    #[error("{}; choose one of {known} with `column`{}", no_column(column), wrapped(known))]
     NoColumn { column: String, known: String },
     /// Several columns have the requested name.
     #[error("several columns are called `{column}`; choose one by its number with `column`: {numbers}")]
@@ -72,7 +84,8 @@ pub enum RecordError {
     NoTable { line: usize, column: usize, text: String },
     /// A row has another number of columns than the first row.
     #[error(
-        "line {line}: {found} column(s) where the first row has {expected}; use one column, or time and acceleration"
+        "line {line}: {found} column(s) where the first row has {expected}; use one column, or time and acceleration{}",
+        if *expected > 2 { WRAPPED } else { "" }
     )]
     Columns { line: usize, found: usize, expected: usize },
     /// The times of a table are not equally spaced.
@@ -83,6 +96,14 @@ pub enum RecordError {
         microseconds(usual)
     )]
     Uneven { line: usize, time: f64, step: f64, usual: f64 },
+    /// The steps of the times of a table are usual ones, but add up to a drift.
+    #[error(
+        "line {line}: time {time} s is {} s off a constant interval of {} s, though no step is odd; give `dt` if the times are \
+         sums with few digits, or resample the record to a constant interval",
+        microseconds(off),
+        microseconds(interval)
+    )]
+    Drift { line: usize, time: f64, off: f64, interval: f64 },
     /// The file lacks a quantity that the user must give.
     #[error("the file does not say its {quantity}; give it with `{key}`{}", example(key))]
     Missing { quantity: &'static str, key: &'static str },
@@ -106,6 +127,14 @@ pub enum RecordError {
 /// Seconds without the rounding beyond the microsecond.
 fn microseconds(seconds: &f64) -> f64 {
     (seconds * 1e6).round() / 1e6
+}
+
+/// What to do with a record that has no columns: its samples fill row after row.
+const WRAPPED: &str = "; samples that fill row after row need one value per line, or the header of an AT2 file (`NPTS= 4000, DT= .01 SEC`)";
+
+/// The same for columns that have no names, but numbers.
+fn wrapped(known: &str) -> &'static str {
+    if known.starts_with("1 to ") { WRAPPED } else { "" }
 }
 
 fn no_column(column: &str) -> String {

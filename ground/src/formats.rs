@@ -5,11 +5,13 @@ mod cosmos;
 mod csmip;
 mod dyna;
 mod header;
+mod heading;
 mod knet;
 mod numbers;
 mod peer;
 mod recognition;
 mod record_file;
+mod statement;
 mod table;
 
 pub use record_file::{Format, RecordFile};

@@ -19,7 +19,7 @@
 
 use super::header::{ChannelName, Entry, after, brief, choose, leading_number, number_after, tidy};
 use super::numbers::{Block, FixedWidth, number, words};
-use super::record_file::{Format, RecordFile};
+use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -41,8 +41,8 @@ const PEAK: usize = 63;
 /// Value that stands for an unknown one.
 const UNKNOWN: f64 = -999.0;
 
-/// Largest allowed relative difference between the peak of the samples and the stated one: headers round to three digits.
-const PEAK_ROUNDING: f64 = 5e-3;
+/// Headers round the peak to three digits.
+const PEAK_BOUNDS: PeakBounds = PeakBounds { rounding: 5e-3, damage: 0.1 };
 
 /// Columns of the samples if the line before the samples does not state them.
 const COLUMNS: FixedWidth = FixedWidth(10);
@@ -121,10 +121,9 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let scale = unit.in_si(options.gravity);
     let mut file = RecordFile::of(Format::Cosmos, unit, scale, dt, samples);
     let peak = reals.get(PEAK).filter(|peak| **peak != UNKNOWN);
-    file.compare_peak(
-        channel.find("real-header").map(|index| index + 1).zip(peak.map(|peak| peak * scale)),
-        PEAK_ROUNDING,
-    );
+    let peak = channel.find("real-header").zip(peak);
+    let peak = peak.map(|(index, peak)| StatedPeak { line: index + 1, size: peak * scale, rounding: 0.0 });
+    file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = match (names[chosen].1.as_str(), integers.get(AZIMUTH)) {
         ("", Some(400.0)) => "Up".into(),
         ("", Some(401.0)) => "Down".into(),
@@ -208,8 +207,8 @@ impl<'t> Channel<'t> {
         tidy(after(line, "code:").unwrap_or(line))
     }
 
-    /// The unit: the first candidate of the integer header that agrees with the line before the samples, else the candidate at the format's
-    /// own place. Without either, it is the unit that this line states, else that of `options`.
+    /// The unit: the first candidate of the integer header that agrees with the line before the samples. If there is none, the candidate at the format's
+    /// own place contradicts that line: an error unless `lenient`. Without candidates, it is the unit that this line states, else that of `options`.
     fn unit(
         &self,
         integers: &[f64],
@@ -235,9 +234,12 @@ impl<'t> Channel<'t> {
                     .push(format!("the unit {unit} is value {place} (from 0) of the integer header, not {}", UNITS[0]));
             }
             if let Some(stated) = stated.filter(|_| !goes(unit)) {
-                warnings.push(format!(
-                    "the integer header gives the unit {unit}, which is taken, and line {line} {stated}"
-                ));
+                let problem = format!("the integer header gives the unit {unit}, and line {line} {stated}");
+                if !options.lenient {
+                    let remedy = "mend the wrong one, or take that of the integer header with `lenient`";
+                    return Err(Entry { remedy, ..entry(index + 1) }.wrong(problem));
+                }
+                warnings.push(format!("{problem}; {unit} is taken"));
             }
             return Ok(unit);
         }

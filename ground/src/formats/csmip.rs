@@ -14,7 +14,7 @@
 
 use super::header::{ChannelName, Entry, after, choose, leading_number, number_after, tidy};
 use super::numbers::{Block, FixedWidth, number};
-use super::record_file::{Format, RecordFile};
+use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -25,8 +25,11 @@ const REAL_LINES: usize = 13;
 /// Columns of the reals, and of the samples if the line before the samples does not state them.
 const COLUMNS: FixedWidth = FixedWidth(10);
 
-/// Largest allowed relative difference between the peak of the samples and the stated one: headers round to three digits.
-const PEAK_ROUNDING: f64 = 5e-3;
+/// Headers round the peak to three digits.
+const PEAK: PeakBounds = PeakBounds { rounding: 5e-3, damage: 0.1 };
+
+/// Sampling intervals of accelerographs `[s]`. Other values at the place of the interval among the reals are of headers with another layout.
+const INTERVALS: std::ops::RangeInclusive<f64> = 1e-3..=0.1;
 
 /// Place of the sampling interval among the reals, from 0.
 const REAL_DT: usize = 60;
@@ -171,7 +174,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let remedy = "write it as `4000 points of accel data equally spaced at .005 sec, in cm/sec2. (8f10.6)`";
     let entry = Entry { line: channel.announced + 1, text: announced, remedy };
     let declared = Some(entry.count(announced.split_whitespace().next().and_then(number))?);
-    let dt = entry.interval(number_after(announced, "SPACED AT").or_else(|| channel.header_dt()), options)?;
+    let dt = interval(channel, &entry, options, &mut warnings)?;
     let unit = match unit_name(announced) {
         None => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
         Some(name) => Entry { remedy: "convert the samples to cm/sec2 or g", ..entry }.unit(name, options)?,
@@ -186,11 +189,33 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let peak = channel.text.iter().enumerate().find_map(|(index, line)| {
         let rest = after(line, "peak acceleration")?.trim_start().trim_start_matches('=');
         let unit = rest.split_whitespace().nth(1).and_then(AccelerationUnit::parse)?;
-        Some((header + index + 1, leading_number(rest)? * unit.in_si(options.gravity)))
+        let size = leading_number(rest)? * unit.in_si(options.gravity);
+        Some(StatedPeak { line: header + index + 1, size, rounding: 0.0 })
     });
-    file.compare_peak(peak, PEAK_ROUNDING);
+    file.compare_peak(peak, PEAK, options.lenient)?;
     let (station, component) = (channel.station(), names[chosen].1.clone());
     Ok(RecordFile { title: channel.event(), station, component, declared, channels: labels, ..file })
+}
+
+/// The sampling interval `[s]` of the line before the samples, else that of the real header. Two that differ are an error unless `lenient`.
+fn interval(
+    channel: &Channel,
+    announced: &Entry,
+    options: &TextOptions,
+    warnings: &mut Vec<String>,
+) -> Result<f64, RecordError> {
+    let (stated, real) = (number_after(announced.text, "SPACED AT"), channel.header_dt());
+    let dt = announced.interval(stated.or(real), options)?;
+    if let Some(other) = real.filter(|real| INTERVALS.contains(real) && (real - dt).abs() > 1e-3 * dt) {
+        let problem = format!("the sampling interval is {dt} s here and {other} s in the real header");
+        if !options.lenient {
+            return Err(
+                Entry { remedy: "mend the wrong one, or take this one with `lenient`", ..*announced }.wrong(problem)
+            );
+        }
+        warnings.push(format!("line {}: {problem}; {dt} s is taken", announced.line));
+    }
+    Ok(dt)
 }
 
 /// The unit after the last `in`: `.005 sec, in cm/sec2. (8f10.6)`.

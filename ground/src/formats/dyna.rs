@@ -14,7 +14,7 @@
 
 use super::header::{Entry, leading_number, tidy};
 use super::numbers::{Block, is_text, words};
-use super::record_file::{Format, RecordFile};
+use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -22,12 +22,8 @@ use crate::unit::AccelerationUnit;
 /// Lines among which the keys are sought.
 const HEADER_LINES: usize = 200;
 
-/// Relative difference between the peak of the samples and the stated one up to which it counts as rounding.
-const PEAK_ROUNDING: f64 = 1e-3;
-
-/// Relative difference beyond which the file is damaged or its unit is not the stated one. A smaller one above `PEAK_ROUNDING` is a sign of
-/// slight processing.
-const PEAK_DAMAGE: f64 = 1e-2;
+/// Headers state the peak with all digits of the samples.
+const PEAK: PeakBounds = PeakBounds { rounding: 1e-3, damage: 1e-2 };
 
 /// Whether these are the lines of a DYNA file.
 pub fn is_one(lines: &[&str]) -> bool {
@@ -106,19 +102,9 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let mut file = RecordFile::of(Format::Dyna, unit, unit.in_si(options.gravity), dt, block.read()?);
     let stated = header.entries.iter().find(|(_, key, _)| key.starts_with("PGA_")).and_then(|(line, key, value)| {
         let scale = AccelerationUnit::parse(&key["PGA_".len()..])?.in_si(options.gravity);
-        Some((*line, leading_number(value)?.abs() * scale, rounding(value) * scale))
+        Some(StatedPeak { line: *line, size: leading_number(value)? * scale, rounding: rounding(value) * scale })
     });
-    if let Some((line, stated, rounding)) = stated.filter(|(_, stated, _)| *stated > 0.0 && stated.is_finite()) {
-        let found = file.peak();
-        let difference = ((found - stated).abs() - rounding) / found.max(stated);
-        if difference > PEAK_DAMAGE && !options.lenient {
-            return Err(RecordError::Peak { line, stated, found });
-        }
-        if difference > PEAK_ROUNDING {
-            file.warnings.push(format!("the samples' peak is {found:.6} m/s² and line {line} states {stated:.6} m/s²"));
-        }
-        file.stated_peak = Some(stated);
-    }
+    file.compare_peak(stated, PEAK, options.lenient)?;
     let code = header.find("STATION_CODE").or_else(|| header.find("STATION_ID")).map_or("", |(_, code)| code);
     let (network, name) = (header.text("NETWORK"), header.text("STATION_NAME"));
     let code = if network.is_empty() || code.is_empty() { tidy(code) } else { tidy(&format!("{network}.{code}")) };

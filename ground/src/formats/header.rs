@@ -87,10 +87,14 @@ pub fn after<'t>(line: &'t str, word: &str) -> Option<&'t str> {
 
 /// The number after `key`, which is given in capitals, with `=`, `:` or blanks between. A unit may touch the number (`.01SEC`, `100Hz`).
 pub fn number_after(line: &str, key: &str) -> Option<f64> {
+    leading_number(place_after(line, key)?)
+}
+
+/// The text after `key`, which is given in capitals, and after `=`, `:` or blanks. The key is not the end of a longer word.
+pub fn place_after<'t>(line: &'t str, key: &str) -> Option<&'t str> {
     let upper = line.to_ascii_uppercase();
     let at = upper.match_indices(key).find(|(at, _)| !upper[..*at].ends_with(|c: char| c.is_ascii_alphanumeric()))?.0;
-    let rest = upper[at + key.len()..].trim_start().trim_start_matches(['=', ':']).trim_start();
-    leading_number(rest)
+    Some(line[at + key.len()..].trim_start().trim_start_matches(['=', ':']).trim_start())
 }
 
 /// The number that a text begins with; a unit may touch it.

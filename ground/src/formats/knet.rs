@@ -19,7 +19,7 @@
 
 use super::header::{Entry, leading_number, tidy};
 use super::numbers::{Block, FixedWidth, is_text, number, split};
-use super::record_file::{Format, RecordFile};
+use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -30,8 +30,8 @@ const HEADER_LINES: usize = 17;
 /// Characters before the value.
 const VALUE: usize = 18;
 
-/// Largest allowed relative difference between the peak of the samples and the stated one, whose zero may be the mean of another stretch.
-const PEAK_DIFFERENCE: f64 = 0.05;
+/// The zero of the stated peak may be the mean of another stretch.
+const PEAK_BOUNDS: PeakBounds = PeakBounds { rounding: 0.05, damage: 0.5 };
 
 /// Rows of eight integers of nine characters.
 const COLUMNS: FixedWidth = FixedWidth(9);
@@ -153,8 +153,10 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let mean = samples.values.iter().sum::<f64>() / count.max(1) as f64;
     samples.values.iter_mut().for_each(|value| *value -= mean);
     let mut file = RecordFile::of(Format::KNet, unit, scale * unit.in_si(options.gravity), dt, samples);
-    let peak = header.find(PEAK).and_then(|(line, value)| Some((line, leading_number(value)?)));
-    file.compare_peak(peak.map(|(line, peak)| (line, peak * unit.in_si(options.gravity))), PEAK_DIFFERENCE);
+    let peak = header.find(PEAK).and_then(|(line, value)| {
+        Some(StatedPeak { line, size: leading_number(value)? * unit.in_si(options.gravity), rounding: 0.0 })
+    });
+    file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
     Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, ..file })
 }

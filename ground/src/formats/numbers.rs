@@ -264,11 +264,11 @@ impl Block<'_> {
     /// Reads the block: at blanks, else by columns.
     ///
     /// # Errors
-    /// [`RecordError::NotANumber`], [`RecordError::Fewer`]
+    /// [`RecordError::NotANumber`], [`RecordError::Fewer`], [`RecordError::More`]
     pub fn read(&self) -> Result<Samples, RecordError> {
         let enough = |found: &Samples| found.values.len() >= self.declared.unwrap_or(0);
         let at_blanks = self.rows(split);
-        if at_blanks.as_ref().is_ok_and(enough) {
+        if at_blanks.as_ref().is_ok_and(enough) || matches!(at_blanks, Err(RecordError::More { .. })) {
             return at_blanks;
         }
         let by_columns = self.columns.map(|columns| self.rows(|row, line| columns.row(row, line)));
@@ -276,6 +276,7 @@ impl Block<'_> {
             (_, Some(Ok(columns))) if enough(&columns) => return Ok(columns),
             (Ok(blanks), _) => blanks,
             (Err(_), Some(Ok(columns))) => columns,
+            (Err(_), Some(Err(error @ RecordError::More { .. }))) => return Err(error),
             (Err(error), _) => return Err(error),
         };
         let (Some(declared), (line, key), count) = (self.declared, self.header, found.values.len()) else {
@@ -289,7 +290,7 @@ impl Block<'_> {
         Ok(found)
     }
 
-    /// All rows; samples beyond the declared number are dropped with a warning.
+    /// All rows; samples beyond the declared number are dropped with a warning. Twice as many are columns that are not of the record.
     fn rows(&self, read: impl Fn(&str, usize) -> Result<Vec<f64>, RecordError>) -> Result<Samples, RecordError> {
         let declared = self.declared.unwrap_or(usize::MAX);
         let mut values = Vec::new();
@@ -318,6 +319,9 @@ impl Block<'_> {
         }
         if values.len() > declared {
             let ((line, key), count) = (self.header, values.len());
+            if count / 2 >= declared {
+                return Err(RecordError::More { line, key, declared, found: count });
+            }
             warnings.push(format!(
                 "{count} samples where line {line} ({key}) declares {declared}; the first {declared} are used"
             ));
@@ -453,8 +457,10 @@ mod tests {
         assert!(lenient.values.len() == 4 && lenient.warnings[0].contains("declares 9"), "{lenient:?}");
         let all = Block { declared: None, ..block }.read().expect("four");
         assert_eq!(all.values.len(), 4);
-        let shorter = Block { declared: Some(2), ..block }.read().expect("two");
-        assert_eq!(shorter.values, [12.34, 45.67]);
+        let half = Block { declared: Some(2), ..block }.read();
+        assert_eq!(half, Err(RecordError::More { line: 1, key: "NPTS", declared: 2, found: 4 }));
+        let shorter = Block { declared: Some(3), ..block }.read().expect("three");
+        assert_eq!(shorter.values, [12.34, 45.67, -8.9]);
         assert!(shorter.warnings[0].contains("4 samples"), "{shorter:?}");
     }
 

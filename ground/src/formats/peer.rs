@@ -9,33 +9,43 @@
 //! ```
 //!
 //! Records processed for the Nuclear Regulatory Commission have seven lines: the old headers, then one with the count. Therefore
-//! the line with the count is the last one, among the first ten lines, that names NPTS. The unit is sought in the lines above it.
+//! the line with the count is the last one, among the first ten lines, that names NPTS. The unit is sought in the lines above it, and then in
+//! all lines above the numbers.
 
 use super::header::{Entry, number_after, tidy};
+use super::heading::Quantity;
 use super::numbers::{Block, FixedWidth, is_text, number, words};
 use super::record_file::{Format, RecordFile};
+use super::statement::{self, HEADER_LINES, names_count};
+use super::table;
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
 
-/// Lines among which the count and the interval are sought.
-const HEADER_LINES: usize = 10;
-
 /// Columns of a row, used if blanks do not separate the numbers.
 const COLUMNS: FixedWidth = FixedWidth(15);
 
-/// Whether these are the lines of a PEER file.
+/// Whether these are the lines of a PEER file. A line with the number of samples stands above tables too: there it is a remark, or the line above the
+/// numbers has the headings of their columns.
 pub fn is_one(lines: &[&str]) -> bool {
-    header(lines).is_some()
+    let Some(header) = header(lines) else { return false };
+    let first = first_row(lines, header);
+    let is_remark = lines[header].trim_start().starts_with(['#', '%']);
+    let row = lines.get(first).copied().unwrap_or("");
+    !is_remark && !lines[header + 1..first].iter().any(|line| table::heads(line, row))
 }
 
 /// The line with the count: the last one that names NPTS, since headers of older versions of the record come first.
 fn header(lines: &[&str]) -> Option<usize> {
-    let names = |line: &&str| {
-        line.to_ascii_uppercase().split(|c: char| !c.is_ascii_alphanumeric()).any(|word| word == "NPTS")
-            || number_after(line, "NPTS").is_some()
-    };
-    lines[..lines.len().min(HEADER_LINES)].iter().rposition(names)
+    lines[..lines.len().min(HEADER_LINES)].iter().rposition(|line| names_count(line))
+}
+
+/// The first line of numbers. Remarks may stand between the header and the numbers.
+fn first_row(lines: &[&str], header: usize) -> usize {
+    let is_remark = |line: &str| line.trim().is_empty() || is_text(line);
+    (header + 1..lines.len().min(HEADER_LINES + 1))
+        .find(|index| !is_remark(lines[*index]))
+        .unwrap_or(lines.len().min(HEADER_LINES + 1).max(header + 1))
 }
 
 /// Reads a PEER file.
@@ -48,34 +58,43 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let dt = dt.ok_or_else(|| entry.quoted("no sampling interval (DT) in"))?;
     let declared = Some(entry.count(Some(count))?);
     let dt = entry.interval(Some(dt), options)?;
-    let unit = unit(&lines[..header], options)?;
-    let unit = unit.unwrap_or(options.units.unwrap_or(AccelerationUnit::G));
-    // Remarks may stand between the header and the numbers.
-    let mut first = header + 1;
-    while first < lines.len().min(HEADER_LINES + 1) && (lines[first].trim().is_empty() || is_text(lines[first])) {
-        first += 1;
-    }
+    let first = first_row(lines, header);
+    let mut warnings = Vec::new();
+    let unit = match unit(&lines[..header], options)? {
+        Some(unit) => unit,
+        None => unit_in_text(&lines[..first], options, &mut warnings)?,
+    };
     let (span, header_entry) = ((first, lines.len()), (entry.line, "NPTS"));
     let block = Block { lines, span, declared, header: header_entry, columns: Some(COLUMNS), lenient: options.lenient };
-    let file = RecordFile::of(Format::PeerAt2, unit, unit.in_si(options.gravity), dt, block.read()?);
-    let mut warnings = file.warnings.clone();
-    if unit == AccelerationUnit::G && file.peak() > LARGEST_PEAK_IN_G * options.gravity {
-        warnings.push(format!(
-            "a peak of {:.1} g is hardly one; are the samples in another unit than the header says?",
-            file.peak() / options.gravity
-        ));
-    }
+    let mut samples = block.read()?;
+    samples.warnings.append(&mut warnings);
+    let file = RecordFile::of(Format::PeerAt2, unit, unit.in_si(options.gravity), dt, samples);
     let [title, station, component] = event(&lines[..header]);
-    Ok(RecordFile { title, station, component, declared, warnings, ..file })
+    Ok(RecordFile { title, station, component, declared, ..file })
 }
 
-/// Largest plausible peak in g: no instrument has recorded it on the ground. A file with a larger one is likely to be in another unit.
-const LARGEST_PEAK_IN_G: f64 = 20.0;
+/// The unit that a header states in other places than its own, else that of `options`, else g.
+fn unit_in_text(
+    header: &[&str],
+    options: &TextOptions,
+    warnings: &mut Vec<String>,
+) -> Result<AccelerationUnit, RecordError> {
+    let text = header.iter().enumerate().map(|(index, line)| (index + 1, *line));
+    let remedy = "write `ACCELERATION TIME SERIES IN UNITS OF G` above the line with NPTS";
+    match (statement::unit(text), options.units) {
+        (Some((line, unit)), _) => Entry { line, text: header[line - 1], remedy }.agreed(unit, options),
+        (None, Some(own)) => Ok(own),
+        (None, None) => {
+            warnings.push("the header states no unit: g is taken (give another one with `units`)".into());
+            Ok(AccelerationUnit::G)
+        }
+    }
+}
 
 /// Count and interval of a line. The numbers follow their names (`NPTS= 4000, DT= .01 SEC`), or two numbers stand in the order of the names
 /// (`4000 .01 NPTS, DT`).
 fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
-    let (count, dt) = (number_after(line, "NPTS"), number_after(line, "DT"));
+    let (count, dt) = (number_after(line, "NPTS"), statement::interval(line));
     let mut numbers = words(line).filter_map(|word| number(word.text));
     let (None, Some(first), Some(second)) = (count, numbers.next(), numbers.next()) else { return (count, dt) };
     let upper = line.to_ascii_uppercase();
@@ -94,11 +113,15 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<AccelerationUnit
         let after_units =
             ["UNITS OF", "UNITS IN", "UNITS:", "UNITS ="].iter().find_map(|words| upper.split_once(words));
         let series = ["TIME SERIES", "TIME HISTORY", "TIME-SERIES", "TIME-HISTORY", "TIME HISTORIES"];
-        let quantity = ["ACCEL", "VELOC", "DISPL"].iter().any(|begin| upper.trim_start().starts_with(begin));
+        let quantity = ["ACCEL", "VEL", "DISP", "PSEUDO"].iter().any(|begin| upper.trim_start().starts_with(begin));
         if !(quantity || after_units.is_some() || series.iter().any(|words| upper.contains(words))) {
             continue;
         }
-        if upper.contains("VELOCITY") || upper.contains("DISPLACEMENT") {
+        // The first word for a quantity decides: `VELOC. TIME SERIES`, `PSEUDO-VELOCITY`.
+        let mut quantities = upper.split(|c: char| !c.is_alphabetic()).filter_map(Quantity::of);
+        if quantities.find(|quantity| [Quantity::Acceleration, Quantity::Other].contains(quantity))
+            == Some(Quantity::Other)
+        {
             let remedy = "use the acceleration file (.AT2) of the same record";
             return Err(entry(remedy).quoted("this is no acceleration:"));
         }

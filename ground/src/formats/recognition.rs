@@ -1,5 +1,6 @@
 //! From the bytes of a file to its format's reader. A format is recognised by content, never by the file's name.
 
+use super::numbers::number;
 use super::record_file::{Format, RecordFile};
 use super::{cosmos, csmip, dyna, knet, peer, table};
 use crate::error::RecordError;
@@ -25,6 +26,9 @@ impl RecordFile {
         // Old files end with Ctrl-Z, files that are cut off may end with zeros.
         let text = text.trim_end_matches(['\u{1a}', '\0']);
         let lines = lines(text);
+        if let Some(format) = unknown_format(&lines) {
+            return Err(RecordError::UnknownFormat { format });
+        }
         let mut file = match recognise(&lines) {
             Format::PeerAt2 => peer::read(&lines, options),
             Format::Dyna => dyna::read(&lines, options),
@@ -35,6 +39,7 @@ impl RecordFile {
             Format::Table => table::read(&lines, options),
         }?;
         check_range(&file.accel)?;
+        file.check_plausibility(options.gravity);
         let of_table = [("column", options.column.is_some()), ("skip_rows", options.skip_rows > 0)];
         if let Some((key, _)) = of_table.into_iter().find(|(_, is_given)| *is_given && file.format != Format::Table) {
             return Err(RecordError::NotOfTable { key, format: file.format.to_string() });
@@ -85,6 +90,27 @@ fn recognise(lines: &[&str]) -> Format {
         Format::Table
     }
 }
+
+/// A format that has no reader, but looks like one that has.
+fn unknown_format(lines: &[&str]) -> Option<&'static str> {
+    let line = |index: usize| lines.get(index).copied().unwrap_or("").trim();
+    let first = line(0).to_ascii_lowercase();
+    let values: Vec<f64> = line(0).split_whitespace().filter_map(number).collect();
+    // Five numbers a row, -12345 for each unknown one.
+    let is_sac = values.len() == 5 && (1..SAC_REALS).any(|index| line(index).starts_with("-12345.0"));
+    if first.contains("accelerogram") && first.contains("gns science") {
+        Some("GeoNet V1A or V2A")
+    } else if first.starts_with(|c: char| c.is_ascii_digit()) && line(1) == "*" {
+        Some("SMC (USGS)")
+    } else if is_sac {
+        Some("alphanumeric SAC")
+    } else {
+        None
+    }
+}
+
+/// Lines of real numbers at the beginning of an alphanumeric SAC file.
+const SAC_REALS: usize = 14;
 
 /// The text of a file: UTF-8, UTF-16, or else Latin-1, in which every byte is a character.
 fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {

@@ -46,6 +46,30 @@ impl Format {
     }
 }
 
+/// Largest plausible peak in g: no instrument has recorded it on the ground. A file with a larger one is likely to be in another unit.
+const LARGEST_PEAK_IN_G: f64 = 20.0;
+
+/// Longest plausible sampling interval `[s]`: strong motion is sampled at 20 Hz or more.
+const LONGEST_PLAUSIBLE_INTERVAL: f64 = 0.1;
+
+/// The peak acceleration that a header states.
+pub(super) struct StatedPeak {
+    /// Line of the header, from 1.
+    pub line: usize,
+    /// `[m/s²]`, of either sign.
+    pub size: f64,
+    /// Half a unit of the last printed digit `[m/s²]`; zero where `PeakBounds` allow for rounding.
+    pub rounding: f64,
+}
+
+/// Relative differences between the peak of the samples and the stated one, beyond `rounding`.
+pub(super) struct PeakBounds {
+    /// Up to here it counts as rounding or slight processing, without a warning.
+    pub rounding: f64,
+    /// Beyond this the file is damaged, or in another unit than it says.
+    pub damage: f64,
+}
+
 /// Content of a record file. A text that the file does not give is empty.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -97,18 +121,49 @@ impl RecordFile {
         self.accel.iter().fold(0.0, |peak, a| peak.max(a.abs()))
     }
 
-    /// Stores the magnitude of the peak `[m/s²]` that a line of the header states. Warns if it differs from the peak of the samples by more than
-    /// the share `allowed` of the larger one. A stated peak that is zero or not finite is ignored.
-    pub(super) fn compare_peak(&mut self, stated: Option<(usize, f64)>, allowed: f64) {
-        let stated = stated.map(|(line, peak)| (line, peak.abs()));
-        let Some((line, stated)) = stated.filter(|(_, peak)| *peak > 0.0 && peak.is_finite()) else { return };
+    /// Stores the magnitude of the peak that the header states, and compares it with that of the samples. A stated peak that is zero or not
+    /// finite is ignored.
+    ///
+    /// # Errors
+    /// [`RecordError::Peak`] beyond the larger of `bounds`, unless `lenient`: a warning, as beyond the smaller one.
+    pub(super) fn compare_peak(
+        &mut self,
+        stated: Option<StatedPeak>,
+        bounds: PeakBounds,
+        lenient: bool,
+    ) -> Result<(), RecordError> {
+        let stated = stated.map(|stated| StatedPeak { size: stated.size.abs(), ..stated });
+        let Some(StatedPeak { line, size, rounding }) = stated.filter(|s| s.size > 0.0 && s.size.is_finite()) else {
+            return Ok(());
+        };
         let found = self.peak();
-        if (found - stated).abs() > allowed * found.max(stated) {
+        let difference = ((found - size).abs() - rounding) / found.max(size);
+        if difference > bounds.damage && !lenient {
+            return Err(RecordError::Peak { line, stated: size, found });
+        }
+        if difference > bounds.rounding {
             self.warnings.push(format!(
-                "the samples' peak is {found:.6} m/s² and line {line} states {stated:.6} m/s²; is the file whole?"
+                "the samples' peak is {found:.6} m/s² and line {line} states {size:.6} m/s²; is the file whole?"
             ));
         }
-        self.stated_peak = Some(stated);
+        self.stated_peak = Some(size);
+        Ok(())
+    }
+
+    /// Adds a warning for what is possible but hardly a record of an earthquake. One g is `gravity [m/s²]`.
+    pub(super) fn check_plausibility(&mut self, gravity: f64) {
+        let (peak, dt) = (self.peak() / gravity, self.dt);
+        if peak > LARGEST_PEAK_IN_G {
+            self.warnings.push(format!(
+                "a peak of {peak:.1} g is hardly one; are the samples in another unit than {}?",
+                self.unit
+            ));
+        }
+        if dt > LONGEST_PLAUSIBLE_INTERVAL {
+            self.warnings.push(format!(
+                "a sampling interval of {dt} s is hardly one; are the times in another unit than s, or numbers of rows?"
+            ));
+        }
     }
 
     /// The record of these samples, with its origin.

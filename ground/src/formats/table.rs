@@ -12,8 +12,10 @@
 //! first column. Equal intervals are required: nothing is resampled here.
 
 use super::header::{Entry, brief, listed, tidy};
-use super::numbers::{Samples, Word, is_text, refused, split, words};
+use super::heading::{Heading, Quantity, headings};
+use super::numbers::{Samples, Word, is_text, number, refused, split, words};
 use super::record_file::{Format, RecordFile};
+use super::statement::{self, HEADER_LINES, names_count};
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -24,50 +26,11 @@ const GRID_TOLERANCE: f64 = 0.05;
 /// The same where the interval is given as well: times may be rounded to fewer digits.
 const ROUNDED_TOLERANCE: f64 = 0.5;
 
+/// Largest relative difference between the usual step of times that drift and the given interval.
+const DRIFT_TOLERANCE: f64 = 1e-4;
+
 /// Relative accuracy of times that were computed as multiples of the first interval.
 const EXACT_TOLERANCE: f64 = 1e-12;
-
-/// Name of a column: `a [m/s2]`.
-#[derive(Clone, Debug, PartialEq)]
-struct Heading {
-    name: String,
-    unit: String,
-}
-
-impl Heading {
-    fn parse(text: &str) -> Heading {
-        let text = text.trim().trim_matches('"').trim();
-        let open = text.find(['[', '(']).unwrap_or(text.len());
-        let unit = text[open..].trim_start_matches(['[', '(']).split([']', ')']).next().unwrap_or("");
-        Heading { name: text[..open].trim().trim_end_matches([',', '_']).to_string(), unit: unit.trim().to_string() }
-    }
-
-    fn is_time(&self) -> bool {
-        let name = self.name.to_lowercase();
-        ["t", "s", "sec", "secs", "seconds", "zeit", "temps", "tempo", "tiempo"].contains(&name.as_str())
-            || name.starts_with("time")
-            || self.second().is_some()
-    }
-
-    /// The size of the unit `[s]` if it is a unit of time.
-    fn second(&self) -> Option<f64> {
-        match self.unit.to_lowercase().as_str() {
-            "s" | "sec" | "secs" | "seconds" => Some(1.0),
-            "ms" | "msec" | "milliseconds" => Some(1e-3),
-            "min" | "minutes" => Some(60.0),
-            _ => None,
-        }
-    }
-
-    fn acceleration(&self) -> Option<AccelerationUnit> {
-        AccelerationUnit::parse(&self.unit)
-    }
-
-    fn is_acceleration(&self) -> bool {
-        let name = self.name.to_lowercase();
-        self.acceleration().is_some() || name == "a" || name.starts_with("acc") || name == "ag"
-    }
-}
 
 /// The rows of a table.
 struct Rows {
@@ -79,9 +42,24 @@ struct Rows {
     values: Vec<f64>,
     /// Number of columns.
     columns: usize,
+    /// Line, from 1, and unit that the text above the numbers states, the headings excepted.
+    stated_unit: Option<(usize, AccelerationUnit)>,
+    /// Line, from 1, and sampling interval `[s]` that the text above the numbers states.
+    stated_interval: Option<(usize, f64)>,
 }
 
 impl Rows {
+    /// The line of the headings, for an error.
+    fn entry(&self, remedy: &'static str) -> Entry<'static> {
+        Entry { line: self.headings.0, text: "", remedy }
+    }
+
+    /// Whether a column never falls, or never rises.
+    fn is_monotonic(&self, column: usize) -> bool {
+        let mut steps = (1..self.lines.len()).map(|row| self.at(row, column) - self.at(row - 1, column));
+        steps.clone().all(|step| step >= 0.0) || steps.all(|step| step <= 0.0)
+    }
+
     fn at(&self, row: usize, column: usize) -> f64 {
         self.values[row * self.columns + column]
     }
@@ -93,6 +71,15 @@ impl Rows {
             let off = (at(*row) - at(0) - *row as f64 * step).abs();
             off.is_nan() || off > tolerance
         })
+    }
+
+    /// Whether all steps of a column are `step`, though their sum drifts: times that were summed with few digits. `scale` is the size of the column's unit.
+    fn steps_are(&self, step: f64, column: usize, scale: f64) -> bool {
+        let mut steps: Vec<f64> =
+            (1..self.lines.len()).map(|row| (self.at(row, column) - self.at(row - 1, column)) * scale).collect();
+        steps.sort_by(f64::total_cmp);
+        let off = |place: usize| (steps[place] - step).abs() / step;
+        off(0).max(off(steps.len() - 1)) <= GRID_TOLERANCE && off(steps.len() / 2) <= DRIFT_TOLERANCE
     }
 
     /// The mean step of a column; `scale` is the size of the column's unit.
@@ -108,46 +95,119 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     if rows.lines.len() < 2 {
         return Err(RecordError::TooShort { count: rows.lines.len() });
     }
-    let (line, headings) = (rows.headings.0, &rows.headings.1);
-    let entry = |remedy: &'static str| Entry { line, text: "", remedy };
+    let headings = &rows.headings.1;
     if !headings.is_empty() && headings.len() != rows.columns {
         let problem = format!("{} name(s) above {} column(s)", headings.len(), rows.columns);
-        return Err(entry("name every column, or skip the line (`skip_rows`)").wrong(problem));
+        return Err(rows.entry("name every column, or skip the line (`skip_rows`)").wrong(problem));
     }
+    refuse_spectrum(&rows)?;
     let chosen = acceleration_column(&rows, options)?;
-    let unit = match headings.get(chosen).filter(|heading| !heading.unit.is_empty()) {
-        Some(heading) => {
-            let entry = entry("choose another column, or write [g], [m/s2] or [cm/s2]");
-            let unknown = || {
-                let Heading { name, unit } = heading;
-                let (unit, name) = (brief(unit), brief(name));
-                entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
-            };
-            entry.agreed(heading.acceleration().ok_or_else(unknown)?, options)?
-        }
-        None => options.units.ok_or(RecordError::Missing { quantity: "unit", key: "units" })?,
+    refuse_other_quantity(&rows, chosen)?;
+    let mut warnings = Vec::new();
+    let unit = unit(&rows, chosen, options, &mut warnings)?;
+    let (begins, dt) = begin_and_interval(&rows, chosen, options, &mut warnings)?;
+    warnings.extend(late_start(begins, dt));
+    let values: Vec<f64> = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
+    warnings.extend(missing_values(&rows, &values));
+    let samples = Samples { values, cut: false, warnings };
+    let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
+    let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
+    Ok(RecordFile { title: title(lines), component, ..file })
+}
+
+/// Refuses a table of a spectrum: a column has a period, a frequency or a spectral ordinate, and no column is surely a time.
+fn refuse_spectrum(rows: &Rows) -> Result<(), RecordError> {
+    let headings = &rows.headings.1;
+    let spectral = headings.iter().find(|heading| heading.quantity() == Some(Quantity::Spectrum));
+    let Some(spectral) = spectral.filter(|_| !headings.iter().any(Heading::is_surely_time)) else { return Ok(()) };
+    let remedy = "give the history of the acceleration, with its times in a column called `time`";
+    let problem = format!("column `{}` is one of a spectrum, which is no ground motion", brief(&spectral.name));
+    Err(rows.entry(remedy).wrong(problem))
+}
+
+/// Refuses a column whose name says another quantity than acceleration.
+fn refuse_other_quantity(rows: &Rows, chosen: usize) -> Result<(), RecordError> {
+    let heading = rows.headings.1.get(chosen);
+    let Some((name, quantity)) = heading.and_then(|heading| Some((&heading.name, heading.quantity()?))) else {
+        return Ok(());
     };
-    let mut begins = 0.0;
-    let dt = match time_column(&rows, chosen) {
-        None => options.dt.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?,
+    match quantity {
+        Quantity::Acceleration => Ok(()),
+        Quantity::Time | Quantity::Spectrum | Quantity::Other => {
+            let remedy = "choose another column with `column`, or give the acceleration of the same record";
+            Err(rows.entry(remedy).wrong(format!("column `{}` is no acceleration of the ground", brief(name))))
+        }
+    }
+}
+
+/// The unit of the chosen column: that of its heading, else that of `options`, else the one that the text above the numbers states.
+fn unit(
+    rows: &Rows,
+    chosen: usize,
+    options: &TextOptions,
+    warnings: &mut Vec<String>,
+) -> Result<AccelerationUnit, RecordError> {
+    if let Some(heading) = rows.headings.1.get(chosen).filter(|heading| !heading.unit.is_empty()) {
+        let entry = rows.entry("choose another column, or write [g], [m/s2] or [cm/s2]");
+        let unknown = || {
+            let Heading { name, unit } = heading;
+            let (unit, name) = (brief(unit), brief(name));
+            entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
+        };
+        return entry.agreed(heading.acceleration().ok_or_else(unknown)?, options);
+    }
+    match (options.units, rows.stated_unit) {
+        (Some(own), Some((line, stated))) if own != stated => {
+            warnings
+                .push(format!("line {line} states the unit {stated}, and `units` is given as {own}, which is taken"));
+            Ok(own)
+        }
+        (own, stated) => {
+            own.or(stated.map(|(_, unit)| unit)).ok_or(RecordError::Missing { quantity: "unit", key: "units" })
+        }
+    }
+}
+
+/// The first time `[s]`, zero without a column of times, and the sampling interval `[s]`: that of the column of times, else that of `options`, else the one that
+/// the text above the numbers states.
+fn begin_and_interval(
+    rows: &Rows,
+    chosen: usize,
+    options: &TextOptions,
+    warnings: &mut Vec<String>,
+) -> Result<(f64, f64), RecordError> {
+    let stated = rows.stated_interval;
+    let (begins, dt) = match time_column(rows, chosen, options) {
+        None => {
+            let given = options.dt.or(stated.map(|(_, dt)| dt));
+            (0.0, given.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?)
+        }
         Some(time) => {
-            let second = match headings.get(time).filter(|heading| !heading.unit.is_empty()) {
+            let second = match rows.headings.1.get(time).filter(|heading| !heading.unit.is_empty()) {
                 Some(heading) => heading.second().ok_or_else(|| {
                     let (unit, name) = (brief(&heading.unit), brief(&heading.name));
-                    entry("write [s], [ms] or [min]")
+                    rows.entry("write [s], [ms], [us] or [min]")
                         .wrong(format!("`{unit}` of column `{name}` is no unit of time that is known"))
                 })?,
                 None => 1.0,
             };
-            begins = rows.at(0, time) * second;
-            interval(&rows, time, second, options)?
+            (rows.at(0, time) * second, interval(rows, time, second, options)?)
         }
     };
-    let values = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
-    let samples = Samples { values, cut: false, warnings: late_start(begins, dt).into_iter().collect() };
-    let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
-    let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
-    Ok(RecordFile { title: title(lines), component, ..file })
+    if let Some((line, stated)) = stated.filter(|(_, stated)| (stated - dt).abs() > GRID_TOLERANCE * dt) {
+        warnings.push(format!("line {line} states a sampling interval of {stated} s, and {dt} s is taken"));
+    }
+    Ok((begins, dt))
+}
+
+/// Numbers that stand for missing samples in the files of many programs.
+const MISSING: [f64; 3] = [-999.0, -9999.0, -99999.0];
+
+/// Warning that a sample is a number that often stands for a missing one.
+fn missing_values(rows: &Rows, values: &[f64]) -> Option<String> {
+    let row = values.iter().position(|value| MISSING.contains(value))?;
+    let (line, value) = (rows.lines[row], values[row]);
+    Some(format!("line {line}: {value} often stands for a missing sample, and is read as an acceleration"))
 }
 
 /// Number of intervals before the first time up to which a record counts as beginning at zero: some files begin with the time of one interval.
@@ -161,33 +221,42 @@ fn late_start(begins: f64, dt: f64) -> Option<String> {
 
 /// The title: the first line, if it is a remark with letters.
 fn title(lines: &[&str]) -> String {
-    let first = lines.first().and_then(|line| line.trim_start().strip_prefix(['#', '%']));
+    let first = lines.first().and_then(|line| line.trim_start().strip_prefix(REMARK));
     first
-        .map(|line| tidy(line.trim_start_matches(['#', '%'])))
+        .map(|line| tidy(line.trim_start_matches(REMARK)))
         .filter(|line| line.contains(char::is_alphabetic))
         .unwrap_or_default()
 }
 
 fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
-    let remark = |line: &str| line.trim_start().starts_with(['#', '%']);
-    let content = |line: &'_ str| line.find(['#', '%']).unwrap_or(line.len());
     let body: Vec<(usize, &str)> = lines
         .iter()
         .enumerate()
         .skip(options.skip_rows)
-        .map(|(index, line)| (index + 1, &line[..content(line)]))
+        .map(|(index, line)| (index + 1, without_remark(line)))
         .filter(|(_, line)| words(line).next().is_some())
         .collect();
     let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
-    // The last line of text above the numbers has the headings; the lines before it are titles.
-    let first = body.iter().take_while(|(_, text)| is_header(text)).count();
+    // The last line of text above the numbers has the headings; the lines before it are titles. A line with the number of samples is a title, as are
+    // all lines above it.
+    let counted = body.iter().take(HEADER_LINES).rposition(|(_, text)| names_count(text)).map_or(0, |place| place + 1);
+    let first = counted + body[counted..].iter().take_while(|(_, text)| is_header(text)).count();
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
         return Err(unreadable(refused(*first_line, word)));
     }
-    let headings = first.checked_sub(1).map(|last| (body[last].0, headings(body[last].1)));
+    let above = first.checked_sub(2).map(|place| body[place].1);
+    let headings = first.checked_sub(1).map(|last| (body[last].0, headings(body[last].1, above)));
+    refuse_count(&body[first..])?;
     let decimal_comma = has_decimal_commas(&body[first..]);
-    let mut rows = Rows { headings: headings.unwrap_or_default(), lines: Vec::new(), values: Vec::new(), columns: 0 };
+    let mut rows = Rows {
+        headings: headings.unwrap_or_default(),
+        lines: Vec::new(),
+        values: Vec::new(),
+        columns: 0,
+        stated_unit: None,
+        stated_interval: None,
+    };
     for (line, text) in &body[first..] {
         // Spreadsheets may put every cell between quotes.
         let text = text.replace('"', " ");
@@ -201,18 +270,65 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         rows.lines.push(*line);
         rows.values.extend(row);
     }
+    let header = options.skip_rows..rows.lines[0] - 1;
     if rows.headings.1.is_empty() {
-        // Some programs put the names into the last remark before the numbers.
-        let before = rows.lines.first().map_or(0, |line| line - 1);
-        let last = (options.skip_rows..before).rev().map(|index| (index, lines[index])).find(|(_, line)| remark(line));
-        if let Some((index, line)) = last {
-            let names = self::headings(line.trim_start().trim_start_matches(['#', '%']));
-            if names.len() == rows.columns && names.iter().any(|heading| heading.acceleration().is_some()) {
-                rows.headings = (index + 1, names);
-            }
-        }
+        rows.headings = remark_with_headings(lines, header.clone(), rows.columns).unwrap_or_default();
     }
+    let text = || header.clone().map(|index| (index + 1, lines[index]));
+    rows.stated_unit = statement::unit(text().filter(|(line, _)| *line != rows.headings.0));
+    rows.stated_interval = text().find_map(|(line, text)| Some((line, statement::interval(text)?)));
     Ok(rows)
+}
+
+/// Signs that begin a remark.
+const REMARK: [char; 2] = ['#', '%'];
+
+/// A line without its remark. After names a remark begins with a sign between blanks only: `Sample #` and `Acc (%g)` are names.
+fn without_remark(line: &str) -> &str {
+    match line.find(REMARK) {
+        Some(at) if is_header(&line[..at]) => line.split(" # ").next().unwrap_or(line),
+        Some(at) => &line[..at],
+        None => line,
+    }
+}
+
+/// The headings in the last remark of the header, where some programs put them, with the number of the line. The remark must have as many words as there are
+/// columns, and begin with a time, or have a unit, or else nothing but names of quantities: it may be a sentence.
+fn remark_with_headings(
+    lines: &[&str],
+    mut header: std::ops::Range<usize>,
+    columns: usize,
+) -> Option<(usize, Vec<Heading>)> {
+    let index = header.rfind(|index| lines[*index].trim_start().starts_with(REMARK))?;
+    let names = headings(lines[index].trim_start().trim_start_matches(REMARK), None);
+    let has_unit = |heading: &Heading| heading.quantity().is_some() && !heading.unit.is_empty();
+    let is_named = names.first().is_some_and(Heading::is_surely_time)
+        || names.iter().any(has_unit)
+        || names.iter().all(|heading| heading.quantity().is_some());
+    (names.len() == columns && is_named).then_some((index + 1, names))
+}
+
+/// Whether a line names all columns of the `row` of numbers below it, each with the name or the unit of a quantity.
+pub fn heads(line: &str, row: &str) -> bool {
+    let names = headings(line.trim_start().trim_start_matches(REMARK), None);
+    names.len() == words(row).count() && names.iter().all(|heading| heading.quantity().is_some())
+}
+
+/// Fewest numbers below a count: a shorter table may begin with any number.
+const FEWEST_COUNTED: usize = 10;
+
+/// Refuses a table whose first number is the number of the rows below it, or of those below the next row, which may have the interval.
+fn refuse_count(body: &[(usize, &str)]) -> Result<(), RecordError> {
+    let (line, text) = body[0];
+    let below = (body.len() - 1) as f64;
+    let first = words(text).next().and_then(|word| number(word.text));
+    match first {
+        Some(count) if body.len() > FEWEST_COUNTED && [below, below - 1.0].contains(&count) => {
+            let remedy = "skip the lines above the samples with `skip_rows`, and give `dt` if the file has no times";
+            Err(Entry { line, text, remedy }.wrong(format!("{count} is the number of the rows below it, no sample")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The error for a first line that is neither numbers nor names: the file may be of no known format.
@@ -226,29 +342,6 @@ fn unreadable(error: RecordError) -> RecordError {
 /// Whether a line has headings: no cell is a number, nor a printed `nan` or `inf`.
 fn is_header(text: &str) -> bool {
     is_text(text) && text.contains(char::is_alphabetic)
-}
-
-/// The headings of a line, separated by semicolons, else by commas, else by tabs, else by blanks. Blanks within brackets, and before them,
-/// belong to the heading.
-fn headings(text: &str) -> Vec<Heading> {
-    for delimiter in [';', ',', '\t'] {
-        if text.contains(delimiter) {
-            return text.trim().trim_end_matches(delimiter).split(delimiter).map(Heading::parse).collect();
-        }
-    }
-    let mut cells: Vec<String> = Vec::new();
-    let mut open = false;
-    for word in text.split_whitespace() {
-        match cells.last_mut() {
-            Some(cell) if open || word.starts_with(['[', '(']) => {
-                cell.push(' ');
-                cell.push_str(word);
-            }
-            _ => cells.push(word.into()),
-        }
-        open = (open || word.contains(['[', '('])) && !word.ends_with([']', ')']);
-    }
-    cells.iter().map(|cell| Heading::parse(cell)).collect()
 }
 
 /// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and
@@ -304,32 +397,42 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
         return named.or_else(numbered).ok_or_else(|| unclear(name));
     }
     match headings {
-        _ if columns == 1 => return Ok(0),
-        [] if columns == 2 => return Ok(1),
-        [first, second] if second.is_time() && !first.is_time() => return Ok(0),
-        [first, _] if first.is_time() => return Ok(1),
-        _ => {}
-    }
-    let is_sure = |place: &usize| headings.get(*place).is_some_and(|name| !name.is_time() && name.is_acceleration());
-    let sure: Vec<usize> = (0..columns).filter(is_sure).collect();
-    match (sure.as_slice(), columns) {
-        ([only], _) => Ok(*only),
-        ([], 2) => Ok(1),
-        _ => Err(unclear("")),
+        _ if columns == 1 => Ok(0),
+        [] if columns == 2 && rows.is_monotonic(0) => Ok(1),
+        [] => Err(unclear("")),
+        _ => {
+            let with = |quantity: Option<Quantity>| -> Vec<usize> {
+                (0..columns).filter(|place| headings[*place].quantity() == quantity).collect()
+            };
+            let (times, others) = (with(Some(Quantity::Time)), with(Some(Quantity::Other)));
+            match (with(Some(Quantity::Acceleration)).as_slice(), with(None).as_slice()) {
+                ([only], _) => Ok(*only),
+                // The only column beside the time.
+                ([], [only]) if columns == 2 && times.len() == 1 => Ok(*only),
+                // No column can be the acceleration: the refusal names one.
+                ([], []) => Ok(*others.first().unwrap_or(&0)),
+                _ => Err(unclear("")),
+            }
+        }
     }
 }
 
-/// The column of the times: the one with such a name. In a table without names, the nearest column before the accelerations that has equal steps,
-/// since numbers of rows or other components may stand there too, else the first column. `None` if that is the chosen column.
-fn time_column(rows: &Rows, chosen: usize) -> Option<usize> {
+/// The column of the times: the first one with such a name. In a table without names, the nearest column before the accelerations that has equal
+/// steps, since numbers of rows or other components may stand there too, else the first column if it rises or falls throughout. If `dt` is given, numbers of
+/// rows are no times. `None` if there is no such column, or if it is the chosen one.
+fn time_column(rows: &Rows, chosen: usize, options: &TextOptions) -> Option<usize> {
     let headings = &rows.headings.1;
-    let named = headings.iter().position(Heading::is_time);
+    if !headings.is_empty() {
+        let named = headings.iter().position(|heading| heading.quantity() == Some(Quantity::Time));
+        return named.filter(|time| *time != chosen);
+    }
     let runs_evenly = |column: &usize| {
         let step = rows.mean_step(*column, 1.0);
         step > 0.0 && rows.off_grid(*column, 1.0, step, GRID_TOLERANCE * step).is_none()
     };
-    let nearest = || (1..chosen).rev().find(runs_evenly).unwrap_or(0);
-    named.or_else(|| (headings.is_empty() && chosen != 0).then(nearest)).filter(|time| *time != chosen)
+    let counts_rows = |column: usize| options.dt.is_some() && rows.off_grid(column, 1.0, 1.0, 0.0).is_none();
+    let nearest = (1..chosen).rev().find(runs_evenly).unwrap_or(0);
+    Some(nearest).filter(|time| *time < chosen && rows.is_monotonic(*time) && !counts_rows(*time))
 }
 
 /// The sampling interval `[s]` of a column of times; `second` is the size of the column's unit `[s]`.
@@ -342,7 +445,10 @@ fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Res
     let is_exact = off_grid(first, EXACT_TOLERANCE * at(last).abs()).is_none();
     let dt = if is_exact { first } else { rows.mean_step(time, second) };
     if let Some(own) = options.dt {
-        if off_grid(own, ROUNDED_TOLERANCE * own).is_some() && (own - dt).abs() > 1e-6 * dt.abs() {
+        let agrees = off_grid(own, ROUNDED_TOLERANCE * own).is_none()
+            || (own - dt).abs() <= 1e-6 * dt.abs()
+            || rows.steps_are(own, time, second);
+        if !agrees {
             let (given, file) = (format!("{own} s"), format!("{dt} s"));
             return Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file });
         }
@@ -358,13 +464,19 @@ fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Res
 }
 
 /// The refusal of uneven times `at` the rows `[s]`: names the first row whose distance from the row before is not the usual one, such as the row after a missing
-/// one; where all distances are usual, and add up to a drift, `row`.
+/// one. Where all distances are usual, and add up to a drift, it names `row`.
 fn uneven(rows: &Rows, row: usize, at: impl Fn(usize) -> f64) -> RecordError {
     let step = |row: usize| at(row) - at(row - 1);
     let mut steps: Vec<f64> = (1..rows.lines.len()).map(step).collect();
     steps.sort_by(f64::total_cmp);
     let usual = steps[steps.len() / 2];
     let is_odd = |row: &usize| (step(*row) - usual).abs() > GRID_TOLERANCE * usual.abs();
-    let row = (1..rows.lines.len()).find(is_odd).unwrap_or(row);
+    let odd = (1..rows.lines.len()).find(is_odd);
+    if odd.is_none() && usual > 0.0 {
+        let interval = (at(rows.lines.len() - 1) - at(0)) / (rows.lines.len() - 1) as f64;
+        let off = (at(row) - at(0) - row as f64 * interval).abs();
+        return RecordError::Drift { line: rows.lines[row], time: at(row), off, interval };
+    }
+    let row = odd.unwrap_or(row);
     RecordError::Uneven { line: rows.lines[row], time: at(row), step: step(row), usual }
 }

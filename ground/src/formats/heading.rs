@@ -1,0 +1,219 @@
+//! Headings of columns: the quantity that a name says, and the unit.
+//!
+//! A unit stands in brackets (`a [m/s2]`), at the end of a name (`time_ms`, `Acc in g`), or in a row of units below the names. A name that
+//! says no quantity (`h1`, `NS`, `n`) may be anything: only its unit tells.
+
+use crate::unit::AccelerationUnit;
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    Time,
+    Acceleration,
+    /// Period, frequency or spectral ordinate: the column of a spectrum.
+    Spectrum,
+    /// Velocity, displacement or force.
+    Other,
+}
+
+/// Beginnings of words that only spectra have.
+const SPECTRAL: [&str; 11] =
+    ["period", "périod", "períod", "frequ", "fréqu", "frecu", "spectr", "spektr", "espectr", "pseudo", "fourier"];
+/// Words that only spectra have: frequencies and ordinates.
+const ORDINATES: [&str; 7] = ["freq", "sa", "sv", "sd", "psa", "psv", "psd"];
+/// Words that make a time a number of rows, or a point in time of the clock: `Time step`, `Time index`.
+const COUNTS: [&str; 8] = ["index", "step", "stamp", "sample", "no", "nr", "number", "count"];
+/// Words for time.
+const TIMES: [&str; 7] = ["time", "times", "zeit", "uhrzeit", "temps", "tempo", "tiempo"];
+/// Whole names for time. Within longer names these words have other meanings.
+const SHORT_TIMES: [&str; 6] = ["t", "s", "sec", "secs", "second", "seconds"];
+/// Beginnings of words for acceleration.
+const ACCELERATIONS: [&str; 3] = ["acc", "acel", "beschl"];
+/// Whole names for acceleration.
+const SHORT_ACCELERATIONS: [&str; 2] = ["a", "ag"];
+/// Beginnings of words for velocity, displacement and force.
+const OTHERS: [&str; 10] = ["vel", "disp", "force", "geschw", "versch", "kraft", "vitesse", "dépl", "despl", "spost"];
+
+impl Quantity {
+    /// The quantity that a name says. The first word that names a quantity decides; words of spectra go before all others.
+    pub fn of(name: &str) -> Option<Quantity> {
+        let lower = name.trim().to_lowercase();
+        let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let begins = |word: &str, beginnings: &[&str]| beginnings.iter().any(|begin| word.starts_with(begin));
+        if words().any(|word| begins(word, &SPECTRAL) || ORDINATES.contains(&word)) {
+            return Some(Quantity::Spectrum);
+        }
+        let is_count = words().any(|word| COUNTS.contains(&word));
+        let said = words().find_map(|word| match word {
+            _ if TIMES.contains(&word) => Some(Quantity::Time).filter(|_| !is_count),
+            _ if begins(word, &ACCELERATIONS) => Some(Quantity::Acceleration),
+            _ if begins(word, &OTHERS) => Some(Quantity::Other),
+            _ => None,
+        });
+        match lower.as_str() {
+            short if SHORT_TIMES.contains(&short) => Some(Quantity::Time),
+            short if SHORT_ACCELERATIONS.contains(&short) => Some(Quantity::Acceleration),
+            _ => said,
+        }
+    }
+}
+
+/// Size of a unit of time `[s]`.
+pub fn second(unit: &str) -> Option<f64> {
+    match unit.to_lowercase().trim_end_matches('.') {
+        "s" | "sec" | "secs" | "second" | "seconds" => Some(1.0),
+        "ms" | "msec" | "msecs" | "millisecond" | "milliseconds" => Some(1e-3),
+        // The micro sign and the Greek letter.
+        "us" | "\u{b5}s" | "\u{3bc}s" | "usec" | "microsecond" | "microseconds" => Some(1e-6),
+        "min" | "minutes" => Some(60.0),
+        _ => None,
+    }
+}
+
+/// Name and unit of a column; the unit is empty if none is given.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Heading {
+    pub name: String,
+    pub unit: String,
+}
+
+impl Heading {
+    pub fn parse(text: &str) -> Heading {
+        let text = text.trim().trim_matches(['"', '\'']).trim();
+        let (name, unit) = match text.find(['[', '(']) {
+            Some(open) => (&text[..open], bare(&text[open..])),
+            None => unit_at_end(text).unwrap_or((text, "")),
+        };
+        Heading { name: name.trim().trim_end_matches([',', '_']).to_string(), unit: unit.to_string() }
+    }
+
+    /// The quantity of the column: by its name, else by its unit.
+    pub fn quantity(&self) -> Option<Quantity> {
+        let by_time = || self.second().map(|_| Quantity::Time);
+        let by_acceleration = || self.acceleration().map(|_| Quantity::Acceleration);
+        Quantity::of(&self.name).or_else(by_time).or_else(by_acceleration)
+    }
+
+    /// Whether the column holds times beyond doubt: `T` may be the period of a spectrum.
+    pub fn is_surely_time(&self) -> bool {
+        self.quantity() == Some(Quantity::Time) && !self.name.eq_ignore_ascii_case("t")
+    }
+
+    /// The size of the unit `[s]` if it is a unit of time.
+    pub fn second(&self) -> Option<f64> {
+        second(&self.unit)
+    }
+
+    pub fn acceleration(&self) -> Option<AccelerationUnit> {
+        AccelerationUnit::parse(&self.unit)
+    }
+}
+
+/// The text in the first brackets, or all of a text without brackets.
+fn bare(text: &str) -> &str {
+    text.trim().trim_start_matches(['[', '(']).split([']', ')']).next().unwrap_or("").trim()
+}
+
+/// `time_ms`, `Acc in g`: name and last word, where that word is a unit of the quantity that the name says. `a_g` is no such name, but the
+/// usual symbol of the acceleration of the ground.
+fn unit_at_end(text: &str) -> Option<(&str, &str)> {
+    let (name, unit) = text.rsplit_once([' ', '_', ','])?;
+    let fits = match Quantity::of(name.trim_end_matches(" in"))? {
+        Quantity::Time => second(unit).is_some(),
+        Quantity::Acceleration => name.len() > 2 && AccelerationUnit::parse(unit).is_some(),
+        Quantity::Spectrum | Quantity::Other => false,
+    };
+    fits.then_some((name.trim_end_matches(" in"), unit))
+}
+
+/// Units of columns beside times and accelerations.
+const OTHER_UNITS: [&str; 9] = ["m/s", "cm/s", "mm/s", "in/s", "m", "cm", "mm", "in", "-"];
+
+/// The headings of a line. If all cells of the line are units, the names are those of the line `above`, if it has as many.
+pub fn headings(text: &str, above: Option<&str>) -> Vec<Heading> {
+    let is_unit = |unit: &str| {
+        second(unit).is_some()
+            || AccelerationUnit::parse(unit).is_some()
+            || OTHER_UNITS.contains(&unit.to_lowercase().as_str())
+    };
+    let own = cells(text);
+    let units: Vec<&str> = own.iter().map(|cell| bare(cell.trim_matches('"'))).collect();
+    if !units.iter().all(|unit| is_unit(unit)) {
+        return own.iter().map(|cell| Heading::parse(cell)).collect();
+    }
+    let names = above.map(cells).filter(|names| names.len() == units.len());
+    let names = names.unwrap_or_else(|| vec![String::new(); units.len()]);
+    let with_unit = |(name, unit): (&String, &&str)| Heading { unit: unit.to_string(), ..Heading::parse(name) };
+    names.iter().zip(&units).map(with_unit).collect()
+}
+
+/// The cells of a line of headings, separated by semicolons, else by commas, else by tabs, else by blanks. Blanks within brackets, and before
+/// them, belong to the cell.
+fn cells(text: &str) -> Vec<String> {
+    for delimiter in [';', ',', '\t'] {
+        if text.contains(delimiter) {
+            return text.trim().trim_end_matches(delimiter).split(delimiter).map(str::to_string).collect();
+        }
+    }
+    let mut cells: Vec<String> = Vec::new();
+    let mut open = false;
+    for word in text.split_whitespace() {
+        match cells.last_mut() {
+            Some(cell) if open || (word.starts_with(['[', '(']) && !cell.starts_with(['[', '('])) => {
+                cell.push(' ');
+                cell.push_str(word);
+            }
+            _ => cells.push(word.into()),
+        }
+        open = (open || word.contains(['[', '('])) && !word.ends_with([']', ')']);
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_units_say_the_quantity() {
+        use Quantity::*;
+        for (text, quantity, unit) in [
+            ("t [s]", Some(Time), "s"),
+            ("time_ms", Some(Time), "ms"),
+            ("Time ms", Some(Time), "ms"),
+            ("Time in µs", Some(Time), "µs"),
+            ("elapsed (s)", Some(Time), "s"),
+            ("Time", Some(Time), ""),
+            ("timestep", None, ""),
+            ("Time step", None, ""),
+            ("timestamp", None, ""),
+            ("Time Index", None, ""),
+            ("Sample #", None, ""),
+            ("Acc in g", Some(Acceleration), "g"),
+            ("acc_g", Some(Acceleration), "g"),
+            ("a_g", None, ""),
+            ("acc_NS (g)", Some(Acceleration), "g"),
+            ("NS (g)", Some(Acceleration), "g"),
+            ("NS", None, ""),
+            ("Velocity (g)", Some(Other), "g"),
+            ("Period (s)", Some(Spectrum), "s"),
+            ("Spectral acceleration (g)", Some(Spectrum), "g"),
+            ("PSa (m/s2)", Some(Spectrum), "m/s2"),
+            ("Acc (%g)", Some(Acceleration), "%g"),
+        ] {
+            let heading = Heading::parse(text);
+            assert_eq!((heading.quantity(), heading.unit.as_str()), (quantity, unit), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_row_of_units_belongs_to_the_names_above() {
+        let own = |name: &str, unit: &str| Heading { name: name.into(), unit: unit.into() };
+        let expected = [own("Time", "s"), own("Acc", "g")];
+        for (units, names) in [("s,g", "Time,Acc"), ("(s) (g)", "Time Acc"), ("[s];[g]", "Time;Acc")] {
+            assert_eq!(headings(units, Some(names)), expected, "{units}");
+        }
+        assert_eq!(headings("s,g", Some("A long title")), [own("", "s"), own("", "g")]);
+        assert_eq!(headings("t a [g]", None), [own("t", ""), own("a", "g")]);
+    }
+}

@@ -1,0 +1,98 @@
+//! What the free text of a header states: the number of samples, their interval and their unit.
+
+use super::header::{leading_number, place_after};
+use super::heading::second;
+use super::numbers::number;
+use crate::unit::AccelerationUnit;
+
+/// Lines among which the line with the number of samples is sought.
+pub const HEADER_LINES: usize = 10;
+
+/// Whether a line states the number of samples: `NPTS= 4000, DT= .01 SEC`.
+pub fn names_count(line: &str) -> bool {
+    line.to_ascii_uppercase().split(|c: char| !c.is_ascii_alphanumeric()).any(|word| word == "NPTS")
+        || place_after(line, "NPTS").and_then(leading_number).is_some()
+}
+
+/// The sampling interval that follows `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one.
+pub fn interval(line: &str) -> Option<f64> {
+    let rest = place_after(line, "DT")?;
+    let end = rest.find(|c: char| c.is_whitespace() || ",;/".contains(c)).unwrap_or(rest.len());
+    let value = leading_number(rest)?;
+    if rest[end..].starts_with('/') {
+        return None;
+    }
+    // A unit touches the number, or may be the next word. The E of an exponent is no unit.
+    let touching = if number(&rest[..end]).is_some() { "" } else { &rest[..end] };
+    let unit = touching.trim_matches(|c: char| !c.is_alphabetic());
+    let next = || rest[end..].split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty());
+    let second = if unit.is_empty() { next().and_then(second).unwrap_or(1.0) } else { second(unit)? };
+    Some(value * second)
+}
+
+/// The units of acceleration that a line states: in brackets, after `in` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
+/// a number belongs to that number: `peak 350 cm/s2`.
+fn units(line: &str) -> Vec<AccelerationUnit> {
+    let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
+    let words: Vec<&str> = line.split(is_end).filter(|word| !word.is_empty()).collect();
+    let is_number = |place: usize| words.get(place).is_some_and(|word| number(word).is_some());
+    let stated = |place: usize| {
+        let word = words[place];
+        let in_brackets = word.starts_with(['[', '(']);
+        let before = place.checked_sub(1).map_or("", |place| words[place]).to_ascii_lowercase();
+        let named = in_brackets || ["in", "unit", "units", "of"].contains(&before.as_str()) || word.contains('/');
+        let of_number = is_number(place + 1) || (!in_brackets && place > 0 && is_number(place - 1));
+        let name = word.trim_matches(['[', '(', ']', ')', '.']);
+        AccelerationUnit::parse(name).filter(|_| named && !of_number)
+    };
+    (0..words.len()).filter_map(stated).collect()
+}
+
+/// The unit that the lines state, with the number of the line, from 1. `None` if they state several.
+pub fn unit<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Option<(usize, AccelerationUnit)> {
+    let mut stated = lines.flat_map(|(line, text)| units(text).into_iter().map(move |unit| (line, unit)));
+    let (line, unit) = stated.next()?;
+    stated.all(|(_, other)| other == unit).then_some((line, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_have_units() {
+        for (text, dt) in [
+            ("NPTS=1991, DT= .01000 SEC", Some(0.01)),
+            ("DT=.01SEC", Some(0.01)),
+            ("dt = 10 ms", Some(0.01)),
+            ("DT= 10MSEC", Some(0.01)),
+            ("DT= 1.0E-02 sec", Some(0.01)),
+            ("DT=1E-2", Some(0.01)),
+            ("DT= .01, NPTS= 4", Some(0.01)),
+            ("DT= 1/100 SEC", None),
+            ("DT=1E-2SEC", None),
+            ("WIDTH= 3", None),
+        ] {
+            assert_eq!(interval(text), dt, "{text}");
+        }
+    }
+
+    #[test]
+    fn units_are_those_of_the_samples() {
+        let of = |text: &'static str| unit([(1, text)].into_iter()).map(|(_, unit)| unit.to_string());
+        for (text, unit) in [
+            ("units m/s2", "m/s²"),
+            ("Acceleration in m/s2", "m/s²"),
+            ("acc [m/s^2]", "m/s²"),
+            ("m/s^2", "m/s²"),
+            ("NPTS=1991 DT=0.01 UNITS=M/S2", "m/s²"),
+            ("NPTS=1991 DT=0.01 (cm/s/s)", "cm/s²"),
+            ("IN UNITS OF G", "g"),
+        ] {
+            assert_eq!(of(text).as_deref(), Some(unit), "{text}");
+        }
+        for text in ["station G", "peak 350 cm/s2", "PGA (g): 0.3", "from cm/s2 in g", "velocity in m/s", ""] {
+            assert_eq!(of(text), None, "{text}");
+        }
+    }
+}

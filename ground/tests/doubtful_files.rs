@@ -1,0 +1,306 @@
+//! A file that is not surely what it seems is refused with a remedy, and what is plausible but odd is read with a warning.
+
+use rocking_ground::{AccelerationUnit, Format, RecordFile, TextOptions};
+use std::fmt::Write as _;
+
+const G: f64 = 9.81;
+
+fn options() -> TextOptions {
+    TextOptions::default()
+}
+
+fn in_g() -> TextOptions {
+    TextOptions { units: Some(AccelerationUnit::G), ..options() }
+}
+
+fn read(text: &str, options: &TextOptions) -> RecordFile {
+    RecordFile::read(text.as_bytes(), options).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+fn refused(text: &str, options: &TextOptions) -> String {
+    RecordFile::read(text.as_bytes(), options).expect_err(text).to_string()
+}
+
+/// Twenty samples between -0.3 and 0.3.
+fn samples() -> Vec<f64> {
+    (0..20).map(|k| (0.3 * (0.9 * f64::from(k)).sin() * 1e4).round() / 1e4).collect()
+}
+
+/// A header, and a row for each sample: its number and its value.
+fn table(header: &str, row: impl Fn(usize, f64) -> String) -> String {
+    let rows = samples().into_iter().enumerate().map(|(k, a)| row(k, a) + "\n");
+    format!("{header}\n{}", rows.collect::<String>())
+}
+
+fn seconds(k: usize, a: f64) -> String {
+    format!("{:.2},{a}", k as f64 / 100.0)
+}
+
+fn value(_: usize, a: f64) -> String {
+    a.to_string()
+}
+
+fn agrees(file: &RecordFile, size: f64, dt: f64) -> bool {
+    let near = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
+    file.accel.len() == 20
+        && near(file.dt, dt)
+        && file.accel.iter().zip(samples()).all(|(found, a)| near(*found, a * size))
+}
+
+#[test]
+fn spectra_are_no_ground_motion() {
+    for header in [
+        "Period (s),Sa (g)",
+        "Period [sec],Acceleration [g]",
+        "T (s),PSa (m/s2)",
+        "T,Sa",
+        "Sa,T",
+        "Periodo [s],PSA [g]",
+        "Frequency (Hz),PSA (g)",
+        "freq (Hz),a [m/s2]",
+        "T,Spectral acceleration (g)",
+        "# Period(s),Sa(g)",
+    ] {
+        for options in [options(), in_g(), TextOptions { column: Some("2".into()), ..in_g() }] {
+            let error = refused(&table(header, seconds), &options);
+            assert!(error.starts_with("line 1: column") && error.contains("spectrum"), "{header}: {error}");
+        }
+    }
+    // Beside a history, a spectrum is left alone.
+    let both = table("Time (s),Acc (g),Period (s),Sa (g)", |k, a| format!("{},1,2", seconds(k, a)));
+    assert!(agrees(&read(&both, &options()), G, 0.01));
+}
+
+#[test]
+fn a_line_with_the_number_of_samples_stands_above_tables_too() {
+    for (header, size) in [
+        ("# RSN1, NPTS= 20, DT= 0.0100 SEC\nTime (s),Acc (g)", G),
+        ("Northridge Rinaldi 228\nNPTS=20, DT=0.01\nTime(s),Acc(m/s2)", 1.0),
+        ("# NPTS=20 DT=0.01\n# units m/s2", 1.0),
+    ] {
+        let file = read(&table(header, seconds), &options());
+        assert!(file.format == Format::Table && agrees(&file, size, 0.01), "{header}: {file:?}");
+        assert_eq!(file.warnings, [""; 0], "{header}");
+    }
+    for (header, size) in [
+        ("# NPTS=20 DT=0.01\nacc (cm/s2)", 0.01),
+        ("# NPTS=20 DT=0.01\n# units m/s2", 1.0),
+        ("# Acceleration in m/s2\n# NPTS=20 DT=0.01", 1.0),
+        ("# acc [m/s^2]\n# NPTS=20 DT=10 ms", 1.0),
+        ("# m/s^2\n# NPTS=20 DT=0.01", 1.0),
+        ("Station X\nNPTS=20 DT=0.01 UNITS=M/S2", 1.0),
+        ("Station X\nNPTS=20 DT=0.01 (cm/s/s)", 0.01),
+    ] {
+        let file = read(&table(header, value), &options());
+        assert!(agrees(&file, size, 0.01), "{header}: {file:?}");
+        assert_eq!(file.warnings, [""; 0], "{header}");
+    }
+    let silent = read(&table("Station X\nNPTS=20 DT=0.01", value), &options());
+    assert!(agrees(&silent, G, 0.01) && silent.warnings[0].contains("states no unit: g is taken"), "{silent:?}");
+    assert_eq!(read(&table("Station X\nNPTS=20 DT=0.01", value), &in_g()).warnings, [""; 0]);
+}
+
+#[test]
+fn an_at2_header_declares_one_column_of_accelerations() {
+    let header = "PEER\nA, B, C, 228\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 20, DT= .01 SEC";
+    assert_eq!(read(&table(header, value), &options()).format, Format::PeerAt2);
+    for columns in [2, 3] {
+        let error = refused(&table(header, |_, a| format!("{a} ").repeat(columns)), &options());
+        let counts = format!("line 4: the header declares 20 samples and the file has {} numbers", 20 * columns);
+        assert!(error.starts_with(&counts) && error.contains("columns beside"), "{error}");
+    }
+    for line in ["VELOC. TIME SERIES", "PSEUDO-VELOCITY", "TIME HISTORY OF VELOCITY", "DISPL. TIME SERIES IN G"] {
+        let error = refused(&table(&header.replace("ACCELERATION TIME SERIES IN UNITS OF G", line), value), &options());
+        assert!(error.starts_with("line 3: this is no acceleration"), "{line}: {error}");
+    }
+    let with = |dt: &str| table(&header.replace(".01 SEC", dt), value);
+    assert!(agrees(&read(&with("10 MSEC"), &options()), G, 0.01));
+    assert!(refused(&with("1/100 SEC"), &options()).starts_with("line 4: no sampling interval"));
+}
+
+#[test]
+fn times_have_units_and_numbers_of_rows_are_none() {
+    let step = |size: usize| move |k: usize, a: f64| format!("{},{a}", k * size);
+    for (header, size) in [
+        ("time_ms,acc (g)", 10),
+        ("Time ms,Acc [g]", 10),
+        ("time_ms,acc_g", 10),
+        ("# Time_ms,Acc (g)", 10),
+        ("Time_us,acc (g)", 10_000),
+        ("Time (µs),acc (g)", 10_000),
+    ] {
+        let file = read(&table(header, step(size)), &options());
+        assert!(agrees(&file, G, 0.01), "{header}: {file:?}");
+        assert_eq!(file.warnings, [""; 0], "{header}");
+    }
+    for header in ["timestep,acc (g)", "Time step,Acc (g)", "timestamp,acc (g)", "Time Index,acc (g)"] {
+        let error = refused(&table(header, step(1)), &options());
+        assert!(error.contains("sampling interval; give it with `dt`"), "{header}: {error}");
+    }
+    for header in ["Time Index,Time (s),acc (g)", "Timestep,Time,acc [g]", "Sample #,Time (s),Acc (g)"] {
+        let file = read(&table(header, |k, a| format!("{k},{}", seconds(k, a))), &options());
+        assert!(agrees(&file, G, 0.01), "{header}: {file:?}");
+    }
+    // Without names, whole numbers may be seconds, unless `dt` says that they are none.
+    let whole = table("", step(1));
+    let warned = read(&whole, &in_g());
+    assert!(warned.dt == 1.0 && warned.warnings[0].contains("1 s is hardly one"), "{warned:?}");
+    assert!(agrees(&read(&whole, &TextOptions { dt: Some(0.01), ..in_g() }), G, 0.01));
+    let at2 = read(&table("A\nB\nACCELERATION IN UNITS OF G\nNPTS= 20, DT= 1.", value), &options());
+    assert!(at2.warnings[0].contains("1 s is hardly one"), "{at2:?}");
+}
+
+#[test]
+fn two_columns_need_a_time_or_a_choice() {
+    let both = |_: usize, a: f64| format!("{a},{}", -a);
+    let given = TextOptions { dt: Some(0.01), ..in_g() };
+    for (header, known) in [("NS,EW", "NS, EW"), ("H1,V", "H1, V"), ("acc_x,acc_y", "acc_x, acc_y"), ("", "1 to 2")] {
+        let text = table(header, both);
+        let error = refused(&text, &given);
+        assert!(error.contains(&format!("choose one of {known} with `column`")), "{header}: {error}");
+        assert!(agrees(&read(&text, &TextOptions { column: Some("2".into()), ..given.clone() }), -G, 0.01));
+    }
+    for header in
+        ["vel,disp", "Time,Velocity", "Time,Displacement", "Time,Force", "Time,Velocity (g)", "% time velocity"]
+    {
+        let error = refused(&table(header, seconds), &in_g());
+        assert!(error.starts_with("line 1: column") && error.contains("no acceleration"), "{header}: {error}");
+    }
+    for header in ["# time(sec) N-S(cm/s)", "Time (s),Acc (%g)"] {
+        assert!(refused(&table(header, seconds), &options()).contains("no unit of acceleration"), "{header}");
+    }
+}
+
+#[test]
+fn a_row_of_units_gives_the_units_of_the_names_above() {
+    for (header, size) in [("Time,Acc\ns,g", G), ("Time,Acc\n[s],[m/s2]", 1.0), ("Time Acc\n(ms) (g)", G)] {
+        let row = |k: usize, a: f64| if header.contains("ms") { format!("{} {a}", 10 * k) } else { seconds(k, a) };
+        let file = read(&table(header, row), &options());
+        assert!(agrees(&file, size, 0.01) && file.component == "Acc", "{header}: {file:?}");
+    }
+    let three = table("t;a;v\ns;m/s2;m/s", |k, a| format!("{};{a};{a}", k as f64 / 100.0));
+    assert!(agrees(&read(&three, &options()), 1.0, 0.01));
+    let error =
+        refused(&table("Time,Acc\ns,g", seconds), &TextOptions { units: AccelerationUnit::parse("gal"), ..options() });
+    assert!(error.contains("line 2 of the file says g"), "{error}");
+}
+
+#[test]
+fn a_count_above_the_samples_is_no_sample() {
+    let given = TextOptions { dt: Some(0.01), ..in_g() };
+    for header in ["20", "20\n0.01", "20 0.01"] {
+        let text = table(header, value);
+        let error = refused(&text, &given);
+        assert!(error.starts_with("line 1: 20 is the number of the rows") && error.contains("`skip_rows`"), "{error}");
+        let skip_rows = header.lines().count();
+        assert!(agrees(&read(&text, &TextOptions { skip_rows, ..given.clone() }), G, 0.01), "{header}");
+    }
+}
+
+#[test]
+fn what_is_hardly_an_acceleration_has_a_warning() {
+    let gap = |k: usize, a: f64| seconds(k, if k == 7 { -999.0 } else { a });
+    let gal = read(&table("time (s),a (cm/s2)", gap), &options());
+    assert!(
+        gal.warnings.len() == 1 && gal.warnings[0].starts_with("line 9: -999 often stands for a missing"),
+        "{gal:?}"
+    );
+    let large = read(&table("time (s),a (g)", |k, a| seconds(k, 100.0 * a)), &options());
+    assert!(large.warnings[0].contains("g is hardly one; are the samples in another unit than g?"), "{large:?}");
+}
+
+#[test]
+fn wrapped_rows_are_named_where_columns_are_unclear() {
+    let rows = |columns: usize| {
+        "0.1 -0.2 0.3 0.2 -0.1 ".repeat(4).split_whitespace().collect::<Vec<_>>().chunks(columns).fold(
+            String::new(),
+            |mut text, row| {
+                let _ = writeln!(text, "{}", row.join(" "));
+                text
+            },
+        )
+    };
+    for columns in [2, 5, 8] {
+        let error = refused(&rows(columns), &in_g());
+        assert!(error.contains("one value per line, or the header of an AT2 file"), "{columns}: {error}");
+    }
+    assert_eq!(read(&format!("A\nB\nIN UNITS OF G\nNPTS= 20, DT= .01\n{}", rows(8)), &options()).accel.len(), 20);
+}
+
+#[test]
+fn text_that_contradicts_the_options_of_a_table_has_a_warning() {
+    let text = table("# dt = 0.005 s, units cm/s2", value);
+    assert!(agrees(&read(&text, &options()), 0.01, 0.005));
+    let file = read(&text, &TextOptions { dt: Some(0.01), ..in_g() });
+    assert!(agrees(&file, G, 0.01));
+    assert!(file.warnings[0].contains("line 1 states the unit cm/s²"), "{file:?}");
+    assert!(file.warnings[1].contains("line 1 states a sampling interval of 0.005 s"), "{file:?}");
+    // The unit of a number is not that of the samples.
+    assert!(refused(&table("# peak 350 cm/s2", value), &options()).contains("give it with `units`"));
+}
+
+#[test]
+fn times_that_drift_are_read_if_dt_is_given() {
+    // Summed in single precision: 5000 s have a resolution of half a millisecond.
+    let mut t = 0.0f32;
+    let rows: String = (0..40_000).fold("time (s),acc (g)\n".into(), |mut text, k| {
+        let _ = writeln!(text, "{t},{}", f64::from(k % 7) * 0.01);
+        t += 0.005;
+        text
+    });
+    let error = refused(&rows, &options());
+    assert!(error.contains("s off a constant interval of 0.005") && error.contains("give `dt`"), "{error}");
+    assert_eq!(read(&rows, &TextOptions { dt: Some(0.005), ..options() }).dt, 0.005);
+    let other = refused(&rows, &TextOptions { dt: Some(0.00501), ..options() });
+    assert!(other.contains("`dt` is given as 0.00501 s"), "{other}");
+}
+
+#[test]
+fn formats_without_a_reader_are_named() {
+    let sac = format!(
+        "   0.01  -857.0  857.0  1.0  -12345.0\n{}",
+        "  -12345.0  -12345.0  -12345.0  -12345.0  -12345.0\n".repeat(13)
+    );
+    for (text, format) in [
+        ("Corrected accelerogram 2016_WTMC_20 GNS Science\nSite WTMC\n", "GeoNet"),
+        ("Uncorrected accelerogram 2016_WTMC_20 GNS Science\nSite WTMC\n", "GeoNet"),
+        ("2 CORRECTED ACCELEROGRAM\n*\nSAF0A\n", "SMC"),
+        (sac.as_str(), "SAC"),
+    ] {
+        let error = refused(text, &options());
+        assert!(error.starts_with("the file is ") && error.contains(format), "{error}");
+        assert!(error.contains("a format that is not read; give the record as a table"), "{error}");
+    }
+}
+
+/// Files whose headers contradict themselves: name, a part of the header, and what it becomes.
+const CONTRADICTIONS: [(&str, &str, &str, &str); 4] = [
+    ("cosmos/cm.V2", "-239.335550", " -23.933555", "line 25 states a peak of 0.239336 m/s²"),
+    (
+        "cosmos/cm.V2",
+        "       2       1       4",
+        "       2       1       2",
+        "line 14: the integer header gives the unit g",
+    ),
+    ("csmip/one-channel.v2", "in cm/sec2.", "in mm/sec2.", "states a peak of 2.39336"),
+    (
+        "csmip/one-channel.v2",
+        "spaced at  .010 sec",
+        "spaced at  .020 sec",
+        "line 46: the sampling interval is 0.02 s here and 0.01 s",
+    ),
+];
+
+#[test]
+fn headers_that_contradict_themselves_are_refused_unless_lenient() {
+    for (name, from, to, part) in CONTRADICTIONS {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/records").join(name);
+        let text: String = std::fs::read(path).expect(name).into_iter().map(char::from).collect();
+        assert!(text.contains(from), "{name}: {from}");
+        let text = text.replacen(from, to, 1);
+        let error = refused(&text, &options());
+        assert!(error.contains(part) && error.contains("`lenient`"), "{name}: {error}");
+        let file = read(&text, &TextOptions { lenient: true, ..options() });
+        assert!(!file.warnings.is_empty(), "{name}");
+    }
+}
