@@ -29,6 +29,17 @@ impl Direction {
     }
 }
 
+/// Whether the ending of a file's name, or the component that the file states, says that positive values point down.
+pub(crate) fn points_down(ending: &str, component: &str) -> bool {
+    let is_down = |name: &str| {
+        let first = name.trim().split([' ', '(']).next().unwrap_or("").to_ascii_uppercase();
+        DOWN.contains(&first.as_str())
+    };
+    is_down(ending) || is_down(component)
+}
+
+/// Names of a component downwards.
+const DOWN: [&str; 3] = ["DWN", "DOWN", "DN"];
 /// Endings of file names that name a vertical component.
 const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
 /// Endings of file names that name a horizontal component.
@@ -90,20 +101,23 @@ fn component_of_stem(stem: &str) -> (&str, &str) {
         let start = stem.len() - code.len();
         return (common(start), &stem[start..]);
     }
+    // PEER gives endings to all its files. They need no separator there: `RSN77_SFERN_PULDWN`.
+    let of_peer = upper.strip_prefix("RSN").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     let named = VERTICAL.into_iter().chain(HORIZONTAL).find_map(|ending| {
         let start = upper.strip_suffix(ending)?.len();
-        // Without a separator before it, an ending of one or two letters (`UP` excepted) may be part of a longer name.
-        let sure = parted(start) || (ending.len() > 2 || ending == "UP");
+        // In other names an ending without a separator or a digit before it may be part of a word: RIVER, Group.
+        let is_long = ending.len() > 2 || ending == "UP";
+        let sure = parted(start)
+            || (of_peer && is_long)
+            || ending == "DWN"
+            || upper[..start].ends_with(|c: char| c.is_ascii_digit());
         (sure && start > 0 && stem.is_char_boundary(start)).then(|| (common(start), &stem[start..]))
     });
     named.unwrap_or_else(|| {
+        // Three digits are an azimuth; fewer are the number of a record: GM_1.
         let digits = stem.bytes().rev().take_while(u8::is_ascii_digit).count();
-        let start = stem.len() - digits.min(3);
-        if digits > 0 && start > 0 && (digits == 3 || parted(start)) {
-            (common(start), &stem[start..])
-        } else {
-            (stem, "")
-        }
+        let start = stem.len() - digits;
+        if digits == 3 && start > 0 { (common(start), &stem[start..]) } else { (stem, "") }
     })
 }
 
@@ -130,6 +144,13 @@ mod tests {
             ("XX.MIB..HNZ.D.64.ASC", "XX.MIB..D.64", "HNZ", true),
             ("XX.MIB..HNE.D.64.ASC", "XX.MIB..D.64", "HNE", false),
             ("motion.csv", "motion", "", false),
+            ("RIVER.csv", "RIVER", "", false),
+            ("Group.csv", "Group", "", false),
+            ("DENVER_UP.csv", "DENVER", "UP", true),
+            ("C12DWN.AT2", "C12", "DWN", true),
+            ("GM_1.csv", "GM_1", "", false),
+            ("GM_1V.csv", "GM_1", "V", true),
+            ("GM_2.csv", "GM_2", "", false),
         ] {
             let (found, ending) = record_and_component(file);
             assert_eq!((&*found, ending), (record, component), "{file}");
@@ -141,5 +162,6 @@ mod tests {
         assert_eq!(Direction::of("", "Up"), Direction::Vertical);
         assert_eq!(Direction::of("", "U-D surface (6)"), Direction::Vertical);
         assert_eq!(Direction::of("", "90 Deg"), Direction::Horizontal);
+        assert!(points_down("DWN", "") && points_down("", "Down (3)") && !points_down("UP", "U-D"));
     }
 }

@@ -1,13 +1,18 @@
 //! Both components of a ground motion, and their division into smooth segments.
 
+use crate::component::{Direction, points_down};
 use crate::motion::Motion;
 use crate::piece::Piece;
+use crate::record::Record;
 use crate::segment::Segment;
 use crate::spans::{divide, overlay};
 use serde::{Deserialize, Serialize};
 
 /// Bound of the relative rounding error of a time that is computed as a start plus a number of intervals.
 const ROUNDING_OF_TIME: f64 = 1e-12;
+
+/// Longest time `[s]` between the first samples of two components of one record. More apart, the records are of different earthquakes.
+const LONGEST_RECORDING: f64 = 600.0;
 
 /// Ground motion in both directions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,21 +25,43 @@ pub struct Excitation {
 }
 
 impl Excitation {
-    /// Warnings, a sentence each: about the files of its records, and about what lies before `t = 0`.
+    /// Warnings, a sentence each: about the files of its records, what they are used for, and what lies before `t = 0`.
     pub fn warnings(&self) -> Vec<String> {
-        fn of(motion: &Motion) -> Vec<String> {
-            match motion {
-                Motion::Record(record) => {
-                    let file = &record.source().file;
-                    record.warnings().iter().map(|warning| format!("record {file}: {warning}")).collect()
-                }
-                Motion::Sum { terms } => terms.iter().flat_map(of).collect(),
-                _ => Vec::new(),
+        let motions = [
+            ("horizontal", Direction::Horizontal, &self.horizontal),
+            ("vertical", Direction::Vertical, &self.vertical),
+        ];
+        let mut warnings = Vec::new();
+        for (name, direction, motion) in motions {
+            let Some(motion) = motion else { continue };
+            for record in records(motion) {
+                let own = record.warnings().iter().cloned().chain(misused(record, direction));
+                warnings.extend(own.map(|warning| format!("record {}: {warning}", record.source().file)));
             }
+            warnings.extend(cut_at_start(name, motion));
         }
-        let motions = [("horizontal", &self.horizontal), ("vertical", &self.vertical)];
-        let given = motions.into_iter().filter_map(|(name, motion)| Some((name, motion.as_ref()?)));
-        given.flat_map(|(name, motion)| of(motion).into_iter().chain(cut_at_start(name, motion))).collect()
+        warnings.extend(self.misaligned());
+        warnings
+    }
+
+    /// The warning of components whose first samples are not simultaneous by the clock of the station.
+    fn misaligned(&self) -> Option<String> {
+        let (Motion::Record(horizontal), Motion::Record(vertical)) =
+            (self.horizontal.as_ref()?, self.vertical.as_ref()?)
+        else {
+            return None;
+        };
+        let apart = vertical.clock()? - horizontal.clock()?;
+        let is_odd = apart.abs() > horizontal.dt().max(vertical.dt()) && apart.abs() < LONGEST_RECORDING;
+        is_odd.then(|| {
+            format!(
+                "record {}: by the times in the files it is {:.3} s {} than here beside the horizontal record {}; give each a `start` of its own, or trim one",
+                vertical.source().file,
+                apart.abs(),
+                if apart > 0.0 { "later" } else { "earlier" },
+                horizontal.source().file
+            )
+        })
     }
 
     /// Time from which on both accelerations are zero `[s]`; zero without any motion. It is `None` if a motion has no end.
@@ -84,6 +111,30 @@ impl Excitation {
                 })
             }
         }
+    }
+}
+
+/// The records of a motion.
+fn records(motion: &Motion) -> Vec<&Record> {
+    match motion {
+        Motion::Record(record) => vec![record],
+        Motion::Sum { terms } => terms.iter().flat_map(records).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The warning of a vertical component along the ground, or of one that may point down. A negative scale is taken as the answer to the latter.
+fn misused(record: &Record, direction: Direction) -> Option<String> {
+    let component = record.source().component.trim();
+    match direction {
+        Direction::Horizontal if record.direction() == Direction::Vertical => {
+            Some("by its name it is a vertical component, and it is used as the horizontal one".into())
+        }
+        Direction::Vertical if points_down(record.ending(), component) && record.scale() > 0.0 => Some(
+            "it is named down: positive values may point down, and positive vertical acceleration points up here (a scale of -1 turns it)"
+                .into(),
+        ),
+        _ => None,
     }
 }
 
@@ -145,5 +196,25 @@ mod tests {
         let record =
             |start: f64| says(Motion::Record(Record::new(vec![0.0, 0.0, 1.0, 0.0], 1.0, start).expect("valid")));
         assert!(record(-1.0).is_empty() && record(-1.5).contains("begins at t = -0.5000 s"));
+    }
+
+    #[test]
+    fn components_that_are_used_for_another_direction_or_time_are_said() {
+        let of = |file: &str| Record::new(vec![0.0, 1.0, 0.0], 0.01, 0.0).expect("valid").named(file);
+        let at = |file: &str, second: f64| of(file).with_first_sample(Some(second));
+        let says = |horizontal: Record, vertical: Record| {
+            let [horizontal, vertical] = [horizontal, vertical].map(|record| Some(Motion::Record(record)));
+            Excitation { horizontal, vertical }.warnings().join("\n")
+        };
+        assert_eq!(says(of("a/RSN1_X_A090.AT2"), of("a/RSN1_X_A-UP.AT2")), "");
+        let down = || of("a/RSN1_X_ADWN.AT2");
+        assert!(says(of("x.AT2"), down()).starts_with("record a/RSN1_X_ADWN.AT2: it is named down"));
+        assert_eq!(says(of("x.AT2"), down().scaled(-1.0).expect("finite")), "");
+        assert!(says(down(), of("y.csv")).contains("it is a vertical component, and it is used as the horizontal one"));
+        let apart = says(at("E.asc", 10.0), at("Z.asc", 12.5));
+        assert!(apart.contains("Z.asc") && apart.contains("2.500 s later"), "{apart}");
+        assert_eq!(says(at("E.asc", 10.0), at("Z.asc", 12.5).starting_at(2.5)), "");
+        let trimmed = at("E.asc", 10.0).trimmed(0.01, 0.02).expect("two samples");
+        assert_eq!(says(trimmed, at("Z.asc", 10.01)), "");
     }
 }

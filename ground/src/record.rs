@@ -1,6 +1,7 @@
 //! Sampled ground motion: a validated series, linear between samples.
 
 use crate::bounds::{LARGEST_ACCELERATION, LONGEST_INTERVAL, SHORTEST_INTERVAL};
+use crate::component::{Direction, record_and_component};
 use crate::error::RecordError;
 use crate::piece::Piece;
 use crate::spans::Span;
@@ -24,6 +25,8 @@ pub struct Record {
     /// Factor by which the samples have been multiplied since they were read, dimensionless.
     scale: f64,
     source: Source,
+    /// Time of the first sample by the clock of the station, from an epoch `[s]`.
+    first_sample: Option<f64>,
     warnings: Vec<String>,
 }
 
@@ -74,8 +77,12 @@ pub struct Source {
 
 impl Serialize for Record {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = serializer.serialize_struct("Record", 12)?;
+        let mut fields = serializer.serialize_struct("Record", 13)?;
         self.describe(&mut fields)?;
+        match self.first_sample {
+            Some(time) => fields.serialize_field("first_sample", &time)?,
+            None => fields.skip_field("first_sample")?,
+        }
         fields.serialize_field("warnings", &self.warnings)?;
         fields.serialize_field("accel", &*self.accel)?;
         fields.end()
@@ -92,6 +99,8 @@ struct Unchecked {
     #[serde(flatten)]
     source: Source,
     #[serde(default)]
+    first_sample: Option<f64>,
+    #[serde(default)]
     warnings: Vec<String>,
 }
 
@@ -103,7 +112,8 @@ impl TryFrom<Unchecked> for Record {
             return Err(RecordError::OutOfRange { name: "scale", value: read.scale, wanted: "a finite number" });
         }
         let record = Record::new(read.accel, read.dt, read.start)?;
-        Ok(Record { scale: read.scale, ..record.with_source(read.source, read.warnings) })
+        let record = record.with_source(read.source, read.warnings).with_first_sample(read.first_sample);
+        Ok(Record { scale: read.scale, ..record })
     }
 }
 
@@ -124,7 +134,8 @@ impl Record {
             return Err(RecordError::OutOfRange { name: "start", value: start, wanted: "a finite number" });
         }
         check_range(&accel)?;
-        Ok(Record { accel: accel.into(), dt, start, scale: 1.0, source: Source::default(), warnings: Vec::new() })
+        let (source, warnings) = (Source::default(), Vec::new());
+        Ok(Record { accel: accel.into(), dt, start, scale: 1.0, source, first_sample: None, warnings })
     }
 
     /// Serialises all but samples and warnings.
@@ -147,6 +158,12 @@ impl Record {
         Record { source, warnings, ..self }
     }
 
+    /// The record with the time of its first sample by the clock of the station, from an epoch `[s]`.
+    #[must_use]
+    pub(crate) fn with_first_sample(self, first_sample: Option<f64>) -> Record {
+        Record { first_sample, ..self }
+    }
+
     /// The record with the name of its file.
     #[must_use]
     pub fn named(mut self, file: impl Into<String>) -> Record {
@@ -162,6 +179,22 @@ impl Record {
     /// Warnings about the file of the record, a sentence each.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// Part of the file's name that names the component; empty if none does.
+    pub(crate) fn ending(&self) -> &str {
+        let name = self.source.file.rsplit(['/', '\\']).next().unwrap_or("");
+        record_and_component(name).1
+    }
+
+    /// Direction of the component, by the name of the file and by the file.
+    pub fn direction(&self) -> Direction {
+        Direction::of(self.ending(), &self.source.component)
+    }
+
+    /// Time of the motion's `t = 0` by the clock of the station, from an epoch `[s]`.
+    pub(crate) fn clock(&self) -> Option<f64> {
+        Some(self.first_sample? - self.start)
     }
 
     /// Factor by which the samples have been multiplied since they were read, dimensionless.
@@ -212,7 +245,8 @@ impl Record {
     /// [`RecordError::Acceleration`] for a product out of range.
     pub fn scaled(self, factor: f64) -> Result<Record, RecordError> {
         let scaled = Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)?;
-        Ok(Record { scale: self.scale * factor, source: self.source, warnings: self.warnings, ..scaled })
+        let Record { source, first_sample, warnings, .. } = self;
+        Ok(Record { scale: self.scale * factor, source, first_sample, warnings, ..scaled })
     }
 
     /// The record scaled to this peak `[m/s²]`.
@@ -240,12 +274,13 @@ impl Record {
             let (time, rounding) = (sample as f64 * self.dt, SAME_SAMPLE * self.dt);
             time >= from - rounding && time <= to + rounding
         };
-        let accel: Vec<f64> =
-            (0..self.accel.len()).filter(|sample| inside(*sample)).map(|sample| self.accel[sample]).collect();
+        let kept = || (0..self.accel.len()).filter(|sample| inside(*sample));
+        let accel: Vec<f64> = kept().map(|sample| self.accel[sample]).collect();
         if accel.len() < 2 {
             return Err(RecordError::Trimmed { from, to, count: accel.len(), duration: self.duration() });
         }
-        Ok(Record { accel: accel.into(), ..self })
+        let first_sample = self.first_sample.zip(kept().next()).map(|(time, first)| time + first as f64 * self.dt);
+        Ok(Record { accel: accel.into(), first_sample, ..self })
     }
 
     /// The record as CSV with headings: time from the first sample `[s]`, acceleration `[m/s²]`. Read back, the text gives the same samples and

@@ -12,7 +12,7 @@
 //! Versions have 43, 55 or 64 lines of `KEY: value`; keys are read in any order, up to the first row of numbers. Only the first
 //! colon separates key and value.
 
-use super::header::{Entry, leading_number, tidy};
+use super::header::{Entry, leading_number, seconds_of, tidy};
 use super::numbers::{Block, is_text, words};
 use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
@@ -110,7 +110,8 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let code = if network.is_empty() || code.is_empty() { tidy(code) } else { tidy(&format!("{network}.{code}")) };
     let station = if name.is_empty() || code.is_empty() { format!("{code}{name}") } else { format!("{code} ({name})") };
     let title = ["EVENT_NAME", "EVENT_ID", "EVENT_DATE_YYYYMMDD"].map(|key| header.text(key)).join(" ");
-    Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, ..file })
+    let first_sample = header.find("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS").and_then(|(_, date)| seconds_of(date));
+    Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, first_sample, ..file })
 }
 
 /// Half a unit of the last printed digit.

@@ -106,6 +106,19 @@ pub fn leading_number(text: &str) -> Option<f64> {
     })
 }
 
+/// Seconds from an epoch to a date and time whose digits are in the order of `20010304_050610.120` or `2001/03/04 05:06:10`. Only differences
+/// between such times have a meaning.
+pub fn seconds_of(date: &str) -> Option<f64> {
+    let digits: String = date.chars().filter(|c| c.is_ascii_digit() || *c == '.').collect();
+    let whole = |from: usize, to: usize| digits.get(from..to)?.parse::<i64>().ok();
+    let (year, month, day) = (whole(0, 4)?, whole(4, 6)?, whole(6, 8)?);
+    let (hour, minute, second) = (whole(8, 10)?, whole(10, 12)?, digits.get(12..)?.parse::<f64>().ok()?);
+    // Days of the calendar, with years that begin in March so that the leap day is the last one.
+    let (year, month) = if month < 3 { (year - 1, month + 9) } else { (year, month - 3) };
+    let days = 365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + day;
+    Some(((days * 24 + hour) * 60 + minute) as f64 * 60.0 + second)
+}
+
 /// Number, where the file gives one, and direction of a channel.
 pub type ChannelName = (Option<usize>, String);
 
@@ -155,6 +168,17 @@ const MOST_LISTED: usize = 40;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_of_first_samples_differ_by_seconds() {
+        let between = |from: &str, to: &str| Some(seconds_of(to)? - seconds_of(from)?);
+        assert_eq!(between("20010304_050610.000", "20010304_050610.125"), Some(0.125));
+        assert_eq!(between("2001/03/04 05:06:10", "20010304_060610.000"), Some(3600.0));
+        assert_eq!(between("20000228_235959.5", "20000229_000000.5"), Some(1.0));
+        assert_eq!(between("20000229_235959.5", "20000301_000000.5"), Some(1.0));
+        assert_eq!(between("20011231_235959.5", "20020101_000000.5"), Some(1.0));
+        assert_eq!(seconds_of("no time"), None);
+    }
 
     #[test]
     fn numbers_after_their_keys() {

@@ -17,7 +17,7 @@
 //! The duration is nominal and no count of samples: all samples are read, with a warning if their duration differs from it. A file
 //! is cut off if it is too short and ends within a number.
 
-use super::header::{Entry, leading_number, tidy};
+use super::header::{Entry, leading_number, seconds_of, tidy};
 use super::numbers::{Block, FixedWidth, is_text, number, split};
 use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
@@ -41,6 +41,7 @@ type Place = (usize, &'static [&'static str]);
 
 const ORIGIN: Place = (1, &["origin time"]);
 const STATION: Place = (6, &["station code"]);
+const FIRST_SAMPLE: Place = (10, &["record time"]);
 const FREQUENCY: Place = (11, &["sampling freq", "sampling"]);
 const DURATION: Place = (12, &["duration time", "duration"]);
 const DIRECTION: Place = (13, &["dir"]);
@@ -158,7 +159,8 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     });
     file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
-    Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, ..file })
+    let first_sample = header.find(FIRST_SAMPLE).and_then(|(_, date)| seconds_of(date));
+    Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, first_sample, ..file })
 }
 
 /// A line without samples.

@@ -88,6 +88,8 @@ pub struct RecordFile {
     pub declared: Option<usize>,
     /// Sampling interval `[s]`.
     pub dt: f64,
+    /// Time of the first sample by the clock of the station, from an epoch `[s]`: it aligns components with each other.
+    pub first_sample: Option<f64>,
     /// Accelerations `[m/s²]`.
     pub accel: Vec<f64>,
     /// Magnitude of the peak acceleration that the header states `[m/s²]`.
@@ -109,6 +111,7 @@ impl RecordFile {
             unit,
             declared: None,
             dt,
+            first_sample: None,
             accel: samples.values.iter().map(|value| value * scale).collect(),
             stated_peak: None,
             channels: Vec::new(),
@@ -173,6 +176,7 @@ impl RecordFile {
     pub fn into_record(self) -> Result<Record, RecordError> {
         let source =
             Source { file: String::new(), title: self.title, station: self.station, component: self.component };
-        Ok(Record::new(self.accel, self.dt, 0.0)?.with_source(source, self.warnings))
+        let record = Record::new(self.accel, self.dt, 0.0)?;
+        Ok(record.with_source(source, self.warnings).with_first_sample(self.first_sample))
     }
 }
