@@ -25,7 +25,8 @@ impl Motion {
     }
 
     /// Largest magnitudes of acceleration, velocity and displacement up to `until [s]`: PGA, PGV, PGD. They are exact for records and other
-    /// linear pieces, and accurate to some millionths for formulas (less for a piece of more than 390 rad).
+    /// linear pieces, and accurate to some millionths for formulas: for a harmonic motion of any duration, for other formulas of up to 390 rad, beyond which they
+    /// may be a little too small.
     pub fn peaks(&self, until: f64) -> [f64; 3] {
         let (mut state, mut peaks) = (Travel::default(), [0.0f64; 3]);
         let mut note = |values: [f64; 3]| peaks.iter_mut().zip(values).for_each(|(peak, v)| *peak = peak.max(v.abs()));
@@ -38,9 +39,7 @@ impl Motion {
                 let [velocity, displacement] = interval.peaks();
                 note([a, velocity, displacement]);
             }
-            let count = (PLACES_PER_RADIAN * span.piece.omega() * (end - span.start)).clamp(1.0, MOST_PLACES) as usize;
-            for place in 0..=count {
-                let t = span.start + (end - span.start) * place as f64 / count as f64;
+            for t in places(span.start, end, span.piece.omega()) {
                 state.move_with(&span.piece, t);
                 note([span.piece.value(t), state.velocity, state.displacement]);
             }
@@ -56,7 +55,25 @@ impl Motion {
 const PLACES_PER_RADIAN: f64 = 256.0;
 
 /// Largest number of such times per piece. It bounds the cost of a harmonic motion without end.
-const MOST_PLACES: f64 = 1e5;
+const MOST_PLACES: usize = 100_000;
+
+/// The times from `start` to `end` `[s]` at which a formula of the angular frequency `omega [rad/s]` is evaluated. If there would be too many, a third of them is
+/// as dense as it should be after the start, a third before the end, and the last third is spread over the time between. Each dense stretch has 20 periods. A harmonic
+/// motion repeats its acceleration and velocity in each, and the displacement, which drifts, is largest in the first or the last one.
+fn places(start: f64, end: f64, omega: f64) -> impl Iterator<Item = f64> {
+    let needed = PLACES_PER_RADIAN * omega * (end - start);
+    let third = MOST_PLACES / 3;
+    let dense = third as f64 / (PLACES_PER_RADIAN * omega);
+    let stretches = if needed <= MOST_PLACES as f64 {
+        let count = needed.max(1.0) as usize;
+        [(start, end, count), (end, end, 0), (end, end, 0)]
+    } else {
+        [(start, start + dense, third), (start + dense, end - dense, third), (end - dense, end, third)]
+    };
+    stretches.into_iter().flat_map(|(from, to, count)| {
+        (0..=count).map(move |place| from + (to - from) * place as f64 / count.max(1) as f64)
+    })
+}
 
 /// State of the ground.
 #[derive(Default)]
@@ -151,6 +168,35 @@ mod tests {
         );
         let wavelet = Motion::AntisymmetricRicker { amplitude: 2.0, omega: 4.0, start: 0.0 };
         assert!((wavelet.peaks(100.0)[0] - 2.0).abs() < 2e-5);
+    }
+
+    /// A sine from rest moves the ground with the velocity `a/ω (1 - cos ωt)`; a cosine brings it back in every period.
+    #[test]
+    fn peaks_of_a_harmonic_motion_do_not_depend_on_its_duration() {
+        let amplitude = 3.0;
+        for frequency in [0.5, 10.0, 25.0, 50.0] {
+            let omega = TAU * frequency;
+            for until in [20.0, 100.0, 2000.0, 2000.013, 1e5] {
+                let peaks = |phase: f64| Motion::Harmonic { amplitude, omega, start: 0.0, phase }.peaks(until);
+                let whole = (until * frequency).fract().min(1.0 - (until * frequency).fract()) < 1e-6;
+                let [pga, pgv, pgd] = peaks(0.0);
+                assert!((pga / amplitude - 1.0).abs() < 2e-6, "{frequency} Hz, {until} s: {pga}");
+                assert!((pgv / (2.0 * amplitude / omega) - 1.0).abs() < 2e-6, "{frequency} Hz, {until} s: {pgv}");
+                if whole {
+                    let drift = amplitude / omega * until;
+                    assert!((pgd / drift - 1.0).abs() < 1e-6, "{frequency} Hz, {until} s: {pgd} {drift}");
+                }
+                let [pga, pgv, pgd] = peaks(PI / 2.0);
+                assert!((pga / amplitude - 1.0).abs() < 2e-6, "{frequency} Hz, {until} s: {pga}");
+                assert!((pgv / (amplitude / omega) - 1.0).abs() < 2e-6, "{frequency} Hz, {until} s: {pgv}");
+                let swing = 2.0 * amplitude / (omega * omega);
+                // The velocity is integrated from rounded phases of up to ωt: that drift is 1e-16 ωt a/ω.
+                assert!(
+                    (pgd / swing - 1.0).abs() < 2e-6 + 1e-15 * (omega * until).powi(2),
+                    "{frequency} Hz, {until} s: {pgd}"
+                );
+            }
+        }
     }
 
     #[test]
