@@ -240,7 +240,7 @@ pub struct Record {
     /// Leading lines of a table that are skipped.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub skip_rows: usize,
-    /// Warn rather than fail where samples are missing or the header states another peak.
+    /// Warn rather than fail where samples are missing, or the header states another peak or contradicts itself.
     #[arg(long)]
     pub lenient: bool,
     /// Multiply the accelerations.

@@ -33,3 +33,15 @@ pub fn warn(warnings: &[String]) {
         eprintln!("warning: {}", printable(warning));
     }
 }
+
+/// Largest number of warnings that [`warn_of_some`] prints.
+const MOST_WARNINGS: usize = 10;
+
+/// Prints the first warnings of many as lines on standard error, and how many others there are.
+pub fn warn_of_some(warnings: &[String]) {
+    let (first, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
+    warn(first);
+    if !others.is_empty() {
+        eprintln!("warning: and {} more", others.len());
+    }
+}

@@ -11,8 +11,8 @@ pub struct TextOptions {
     pub dt: Option<f64>,
     /// Unit of the accelerations.
     pub units: Option<AccelerationUnit>,
-    /// Whether a file with fewer samples than it declares, or with another peak than it states, is read with a warning instead of an
-    /// error; default false.
+    /// Whether a file with fewer samples than it declares, with another peak than it states, or with two units or sampling intervals, is read
+    /// with a warning instead of an error; default false.
     pub lenient: bool,
     /// Channel to read from a file with several: the number that the file gives it, else its place from 1. Default: the first channel.
     pub channel: Option<usize>,

@@ -14,14 +14,16 @@ use crate::progress::Progress;
 use crate::table::column::{Column, Kind, Rows};
 use crate::table::growing::Growing;
 use crate::table::{Format, open};
-use crate::terminal::{json, print};
-use crate::text::{printable, shown};
+use crate::terminal::{json, print, warn_of_some};
+use crate::text::{distinct, printable, shown};
 use crate::{files, output};
 use csv::StringRecord;
-use rocking::Fate;
 use rocking::intensity::Intensity;
-use rocking::studies::{DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, stripes};
+use rocking::studies::{
+    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, StudyRecord, stripes,
+};
 use rocking::sweep::ERROR;
+use rocking::{Excitation, Fate, Motion};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -44,6 +46,9 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     output::check(&outputs, inputs)?;
     let target = output::target(out)?;
     let threads = threads(request.threads)?;
+    if !request.quiet {
+        warn_of_some(&warnings(ida));
+    }
     let columns = columns(ida);
     let mut table = Growing::open(&target, &columns, digest(inputs)?.number(), 0..ida.len())?;
     let resumed = table.next;
@@ -90,6 +95,16 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
         return Err(Failure::NoResult(out.clone(), failed, first));
     }
     Ok(())
+}
+
+/// The warnings of the records of a study, each once.
+pub fn warnings(ida: &Ida) -> Vec<String> {
+    let of = |record: &StudyRecord| {
+        let [horizontal, vertical] =
+            [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.cloned().map(Motion::Record));
+        Excitation { horizontal, vertical }.warnings()
+    };
+    distinct(ida.records().iter().flat_map(of))
 }
 
 /// Draws the curves of a finished table into `picture`, and the fragility of the usual limit states into a file beside `picture`.

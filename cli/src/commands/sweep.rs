@@ -13,8 +13,8 @@ use crate::progress::Progress;
 use crate::table::Format;
 use crate::table::column::{Column, Kind};
 use crate::table::growing::Growing;
-use crate::terminal::{json, print};
-use crate::text::{printable, shown};
+use crate::terminal::{json, print, warn_of_some};
+use crate::text::{distinct, printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::SceneFileError;
@@ -48,6 +48,9 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let range = request.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
     let (fields, columns) = (sweep.fields().map_err(Failure::scene)?, columns(&sweep)?);
     let threads = threads(request.threads)?;
+    if !request.quiet {
+        warn_of_some(&warnings(&sweep));
+    }
     let mut digest = TableDigest::of(&sweep, &request.file)?;
     let of_sweep = digest.to_string();
     digest.add(format!("{range:?}").as_bytes());
@@ -87,6 +90,15 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
         _ => Ok(()),
     }
+}
+
+/// Largest number of points whose scenes are read before a sweep runs: a scene takes some 10 µs, and each record is read once.
+pub const POINTS_READ: usize = 1000;
+
+/// The warnings of the ground motions of a sweep, each once. They are those of all points, or of [`POINTS_READ`] evenly spread ones.
+fn warnings(sweep: &Sweep) -> Vec<String> {
+    let scenes = evenly_spread(sweep.len(), POINTS_READ).filter_map(|point| sweep.scene(point).ok());
+    distinct(scenes.flat_map(|scene| scene.excitation.warnings()))
 }
 
 /// A pool of `count` threads; without a count, as many as the machine has.

@@ -9,7 +9,8 @@
 //!
 //! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Lines of text
 //! above the names are titles. Without names the time is the nearest column before the accelerations that has equal steps, else the
-//! first column. Equal intervals are required: nothing is resampled here.
+//! first column if it never falls. Equal intervals are required: nothing is resampled here. What the names mean is the matter of
+//! [`heading`](super::heading), what remarks and titles state that of [`statement`].
 
 use super::header::{Entry, brief, listed, tidy};
 use super::heading::{Heading, Quantity, headings};

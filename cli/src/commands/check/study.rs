@@ -1,8 +1,9 @@
 //! `rocking check` of a study: its records with their factors, its levels and limit states.
 
+use crate::commands::ida;
 use crate::error::Failure;
 use crate::number::significant;
-use crate::terminal::{json, print};
+use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
 use rocking::studies::{IdaFile, StudyRecord};
 use serde::Serialize;
@@ -17,6 +18,8 @@ struct Findings {
     records: Vec<StudiedRecord>,
     runs: usize,
     states: Vec<String>,
+    /// Warnings about the records, each once.
+    warnings: Vec<String>,
 }
 
 /// A record of a study.
@@ -42,7 +45,9 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         records: ida.records().iter().enumerate().map(record).collect(),
         runs: ida.len(),
         states: states.iter().map(ToString::to_string).collect(),
+        warnings: ida::warnings(&ida),
     };
+    warn_of_some(&findings.warnings);
     if as_json {
         return json(&findings);
     }

@@ -2,8 +2,8 @@
 
 use crate::commands::sweep;
 use crate::error::Failure;
-use crate::terminal::{json, print};
-use crate::text::{printable, shown};
+use crate::terminal::{json, print, warn_of_some};
+use crate::text::{distinct, printable, shown};
 use rocking::scene_file::Setting;
 use rocking::sweep::{Axis, Combine, Sweep};
 use serde::Serialize;
@@ -23,9 +23,6 @@ struct Findings {
     scenes: ScenesRead,
 }
 
-/// Largest number of points whose scenes are read by `rocking check`: a scene takes some 10 µs, and each record is read once.
-const POINTS_READ: usize = 1000;
-
 /// Scenes of a sweep that were read without running them.
 #[derive(Debug, Default, Serialize)]
 struct ScenesRead {
@@ -37,21 +34,28 @@ struct ScenesRead {
     first_refusal: Option<String>,
     /// Number of the scenes read whose ground motion continues after `solver.t_end`.
     cut: usize,
+    /// Warnings about their ground motions, each once.
+    warnings: Vec<String>,
 }
 
 impl ScenesRead {
     fn of(sweep: &Sweep) -> ScenesRead {
         let mut found = ScenesRead::default();
-        for index in sweep::evenly_spread(sweep.len(), POINTS_READ) {
+        let mut warnings = Vec::new();
+        for index in sweep::evenly_spread(sweep.len(), sweep::POINTS_READ) {
             found.read += 1;
             match sweep.scene(index) {
-                Ok(scene) => found.cut += usize::from(scene.excitation.moves_after(scene.options.t_end)),
+                Ok(scene) => {
+                    found.cut += usize::from(scene.excitation.moves_after(scene.options.t_end));
+                    warnings.extend(scene.excitation.warnings());
+                }
                 Err(error) => {
                     found.refused += 1;
                     found.first_refusal.get_or_insert_with(|| format!("point {index}: {error}"));
                 }
             }
         }
+        found.warnings = distinct(warnings);
         found
     }
 }
@@ -91,11 +95,12 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         columns: sweep::columns(&sweep)?.into_iter().map(|column| column.name).collect(),
         scenes: ScenesRead::of(&sweep),
     };
+    warn_of_some(&findings.scenes.warnings);
     if as_json {
         return json(&findings);
     }
     let Findings { scene, combine, points, axes, columns, scenes } = findings;
-    let ScenesRead { read, refused, first_refusal, cut } = scenes;
+    let ScenesRead { read, refused, first_refusal, cut, .. } = scenes;
     let mut text = format!("{}: a valid sweep of {points} point(s), {combine}\n", shown(path));
     for AxisFindings { key, values, from, to } in axes {
         let _ = writeln!(text, "  {key}: {values} value(s), from {} to {}", printable(&from), printable(&to));
