@@ -7,8 +7,8 @@ use tempfile::NamedTempFile;
 
 /// Largest scene or sweep that is read [bytes].
 pub const LARGEST_SCENE: u64 = 64 << 20;
-/// Largest record that is read [bytes].
-pub const LARGEST_RECORD: u64 = 256 << 20;
+/// Largest record that is read [bytes]: as many as its reader takes.
+pub const LARGEST_RECORD: u64 = 64 << 20;
 /// Largest table of a sweep that is read, row by row [bytes].
 pub const LARGEST_TABLE: u64 = 1 << 40;
 

@@ -96,7 +96,12 @@ fn a_record_is_trimmed_scaled_and_written_and_reads_back() {
 fn what_the_file_lacks_is_asked_for_by_its_option() {
     let here = tempfile::tempdir().expect("a folder");
     let one = fixture("table/one-column.txt");
-    refused(here.path(), &["record", &one], &["one-column.txt", "unit", "`--units`"]);
+    // Its first line states the unit; without that line nothing does.
+    let text = std::fs::read_to_string(&one).expect("it ships");
+    let (_, samples) = text.split_once('\n').expect("lines");
+    std::fs::write(here.path().join("silent.txt"), samples).expect("written");
+    refused(here.path(), &["record", "silent.txt"], &["silent.txt", "unit", "`--units`"]);
+    refused(here.path(), &["record", &one], &["sampling interval", "`--dt`"]);
     refused(here.path(), &["record", &one, "--units", "gal"], &["sampling interval", "`--dt`"]);
     assert_eq!(json(here.path(), &["record", &one, "--units", "gal", "--dt", "0.01"])["samples"], 42);
     let titled = fixture("table/skip-rows.txt");
@@ -204,7 +209,7 @@ fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
     let (summary, _) = run(&format!("file = '{file}'\nchannel = 2"));
     assert_eq!(summary["excitation"]["horizontal"]["component"], "UP");
     assert_eq!(
-        summary["warnings"].as_array().map(|warnings| warnings.iter().any(|w| w.to_string().contains("channels"))),
+        summary["warnings"].as_array().map(|warnings| warnings.iter().any(|w| w.to_string().contains("3 channels"))),
         Some(false)
     );
     let table = fixture("table/three-columns.csv");

@@ -25,8 +25,8 @@ impl Motion {
     }
 
     /// Largest magnitudes of acceleration, velocity and displacement up to `until [s]`: PGA, PGV, PGD. They are exact for records and other
-    /// linear pieces, and accurate to some millionths for formulas: for a harmonic motion of any duration, for other formulas of up to 390 rad, beyond which they
-    /// may be a little too small.
+    /// linear pieces, and accurate to some millionths for formulas: for a harmonic motion of any duration, for other formulas of up to
+    /// 390 rad. Of longer ones they may be a little too small.
     pub fn peaks(&self, until: f64) -> [f64; 3] {
         let (mut state, mut peaks) = (Travel::default(), [0.0f64; 3]);
         let mut note = |values: [f64; 3]| peaks.iter_mut().zip(values).for_each(|(peak, v)| *peak = peak.max(v.abs()));
@@ -57,9 +57,10 @@ const PLACES_PER_RADIAN: f64 = 256.0;
 /// Largest number of such times per piece. It bounds the cost of a harmonic motion without end.
 const MOST_PLACES: usize = 100_000;
 
-/// The times from `start` to `end` `[s]` at which a formula of the angular frequency `omega [rad/s]` is evaluated. If there would be too many, a third of them is
-/// as dense as it should be after the start, a third before the end, and the last third is spread over the time between. Each dense stretch has 20 periods. A harmonic
-/// motion repeats its acceleration and velocity in each, and the displacement, which drifts, is largest in the first or the last one.
+/// The times from `start` to `end` `[s]` at which a formula of the angular frequency `omega [rad/s]` is evaluated. If there would be too
+/// many, a third of them is as dense as it should be after the start, a third before the end, and the last third is spread over the time
+/// between. Each dense stretch has 20 periods. A harmonic motion repeats its acceleration and velocity in each, and the displacement,
+/// which drifts, is largest in the first or the last one.
 fn places(start: f64, end: f64, omega: f64) -> impl Iterator<Item = f64> {
     let needed = PLACES_PER_RADIAN * omega * (end - start);
     let third = MOST_PLACES / 3;

@@ -88,7 +88,7 @@ pub struct RecordFile {
     pub declared: Option<usize>,
     /// Sampling interval `[s]`.
     pub dt: f64,
-    /// Time of the first sample by the clock of the station, from an epoch `[s]`: it aligns components with each other.
+    /// Time of the first sample by the clock of the station, or as a table has it, from an epoch `[s]`: it aligns components with each other.
     pub first_sample: Option<f64>,
     /// Accelerations `[m/s²]`.
     pub accel: Vec<f64>,

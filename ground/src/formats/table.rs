@@ -107,13 +107,13 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let mut warnings = Vec::new();
     let unit = unit(&rows, chosen, options, &mut warnings)?;
     let (begins, dt) = begin_and_interval(&rows, chosen, options, &mut warnings)?;
-    warnings.extend(late_start(begins, dt));
+    warnings.extend(begins.and_then(|begins| late_start(begins, dt)));
     let values: Vec<f64> = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
     warnings.extend(missing_values(&rows, &values));
     let samples = Samples { values, cut: false, warnings };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
     let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
-    Ok(RecordFile { title: title(lines), component, ..file })
+    Ok(RecordFile { title: title(lines), component, first_sample: begins, ..file })
 }
 
 /// Refuses a table of a spectrum: a column has a period, a frequency or a spectral ordinate, and no column is surely a time.
@@ -169,19 +169,19 @@ fn unit(
     }
 }
 
-/// The first time `[s]`, zero without a column of times, and the sampling interval `[s]`: that of the column of times, else that of `options`, else the one that
+/// The first time `[s]`, if there is a column of times, and the sampling interval `[s]`: that of the column of times, else that of `options`, else the one that
 /// the text above the numbers states.
 fn begin_and_interval(
     rows: &Rows,
     chosen: usize,
     options: &TextOptions,
     warnings: &mut Vec<String>,
-) -> Result<(f64, f64), RecordError> {
+) -> Result<(Option<f64>, f64), RecordError> {
     let stated = rows.stated_interval;
     let (begins, dt) = match time_column(rows, chosen, options) {
         None => {
             let given = options.dt.or(stated.map(|(_, dt)| dt));
-            (0.0, given.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?)
+            (None, given.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?)
         }
         Some(time) => {
             let second = match rows.headings.1.get(time).filter(|heading| !heading.unit.is_empty()) {
@@ -192,7 +192,7 @@ fn begin_and_interval(
                 })?,
                 None => 1.0,
             };
-            (rows.at(0, time) * second, interval(rows, time, second, options)?)
+            (Some(rows.at(0, time) * second), interval(rows, time, second, options)?)
         }
     };
     if let Some((line, stated)) = stated.filter(|(_, stated)| (stated - dt).abs() > GRID_TOLERANCE * dt) {
