@@ -388,6 +388,7 @@ fn folders_of_files_hold_components_of_one_direction() {
     let put = |name: &str, text: &str| std::fs::write(folder.path().join("records").join(name), text).expect("written");
     put("A_UP.csv", "t [s],a [m/s2]\n0,0\n0.1,1\n0.2,0\n");
     put("README.md", "where the records are from");
+    put("_SearchResults.csv", "the list of the database");
     put("readme.txt", "the same");
     let text = table(folder.path(), &[]);
     assert!(text.lines().count() == 2 && text.contains("A_UP.csv"), "{text}");

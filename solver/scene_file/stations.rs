@@ -35,7 +35,8 @@ impl Component {
 /// Extensions of files without accelerations: velocity and displacement, which PEER gives beside them, and documents.
 const NO_ACCELERATION: [&str; 6] = ["vt2", "dt2", "md", "pdf", "html", "htm"];
 
-/// Names of the files of a folder, sorted. Hidden files, files with velocity or displacement, documents and `README` files are left out.
+/// Names of the files of a folder, sorted. Hidden files, files whose names begin with `_` (lists and readmes of PEER), files with velocity or
+/// displacement, documents and `README` files are left out.
 pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -44,7 +45,7 @@ pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
         let extension = file.rsplit_once('.').map_or("", |(_, extension)| extension);
         let is_other = NO_ACCELERATION.iter().any(|other| extension.eq_ignore_ascii_case(other))
             || file.to_ascii_lowercase().starts_with("readme")
-            || file.starts_with('.');
+            || file.starts_with(['.', '_']);
         if entry.path().is_file() && !is_other {
             files.push(file);
         }
