@@ -91,6 +91,11 @@ const PLAIN: f64 = 1e-3;
 
 /// The number at a tick: as many decimals as the step has, a true minus, no `-0`; small and large numbers as a multiple of their own power of ten.
 pub fn number(value: f64, step: f64) -> String {
+    // Numbers of a damaged folder may be at the ends of the range of doubles.
+    let step = step.max(f64::MIN_POSITIVE);
+    if !value.is_finite() {
+        return value.to_string();
+    }
     // Rounding beside a tick at zero is smaller than the step by far.
     if value.abs() < 1e-6 * step {
         return "0".into();
@@ -183,6 +188,7 @@ mod tests {
             ["0.784", "−0.25", "12", "0", "58.4", "1×10⁻⁶"]
         );
         // The value decides on the power of ten, not the step.
+        assert_eq!([5e-324, f64::INFINITY, 1e308].map(brief), ["0", "inf", "1×10³⁰⁸"]);
         let cases = [(0.90001, 5e-6), (1e-4, 2e-5), (-1.2e-4, 2e-5), (8e-5, 2e-5), (3e6, 1e6), (0.0, 1e6)];
         let texts = cases.map(|(value, step)| number(value, step));
         assert_eq!(texts, ["0.900010", "1×10⁻⁴", "−1.2×10⁻⁴", "8×10⁻⁵", "3×10⁶", "0"]);
