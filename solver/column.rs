@@ -1,5 +1,6 @@
 //! The column: rigid blocks on one axis, base first, validated, in SI units.
 
+use rocking_codegen::pattern::Interface;
 use serde::{Deserialize, Serialize};
 
 /// One rigid block, symmetric about its axis. SI; masses may be per unit thickness.
@@ -378,6 +379,18 @@ impl Column {
     /// `c_i = min(b_{i-1}, b_i)`.
     pub fn contact_half_width(&self, interface: usize) -> f64 {
         self.seats[interface].half_width
+    }
+
+    /// Place of the corner about which an interface in this state opens, to the right of the contact's centre `[m]`; zero for a closed one.
+    #[inline]
+    pub(crate) fn pivot_offset(&self, interface: usize, state: Interface) -> f64 {
+        f64::from(state.sign()) * self.contact_half_width(interface)
+    }
+
+    /// Half-width of the face below an interface `[m]`; infinite on the ground.
+    #[inline]
+    pub(crate) fn lower_half_width(&self, interface: usize) -> f64 {
+        interface.checked_sub(1).map_or(f64::INFINITY, |below| self.blocks[below].top_half_width)
     }
 
     /// Ends `[x⁻, x⁺] [m]` of the contact at an interface (from zero), from the middle of the face below.

@@ -98,7 +98,7 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
         Question::Impact(before) => {
             let foot = chain.foot_rate(interface, before);
             let top = below.map_or([0.0, 0.0], |below| chain.top_rate(below, before));
-            gaps::gap_velocity(chain, plus(foot, scaled(top, -1.0)), &before.angular, corner)
+            gaps::slide_and_gap_rates_of(chain, plus(foot, scaled(top, -1.0)), &before.angular, corner)
         }
         Question::Accelerations(ground) => {
             let rates = Rates::of(now);
@@ -109,7 +109,12 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
             let top =
                 below.map_or([ground.x, ground.gravity], |below| scaled(chain.centroid_to_top(below), -lower * lower));
             let apart = [foot[0] - top[0], foot[1] - top[1]];
-            gaps::gap_acceleration(chain, [chain.apart_rate(interface, &rates), apart], [&now.omega, &still], corner)
+            gaps::slide_and_gap_accelerations(
+                chain,
+                [chain.apart_rate(interface, &rates), apart],
+                [&now.omega, &still],
+                corner,
+            )
         }
     }
 }

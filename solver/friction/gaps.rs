@@ -46,7 +46,7 @@ impl View {
         let below = interface.checked_sub(1);
         let blocks = column.blocks();
         let upper = blocks[interface].bottom_half_width;
-        let lower = below.map_or(f64::INFINITY, |below| blocks[below].top_half_width);
+        let lower = column.lower_half_width(interface);
         let (carrier, frame, sign, own, reach) = match face {
             Face::Upper => (below, Some(interface), -1.0, lower, upper),
             Face::Lower | Face::Both => (Some(interface), below, 1.0, upper, lower),
@@ -81,30 +81,30 @@ fn of(block: Option<usize>, values: &[f64]) -> f64 {
 }
 
 /// How far a corner is beyond the end of the face, negative over the face, and its gap to the face, negative inside the block `[m]`.
-pub fn gap(chain: &Chain, corner: Corner) -> [f64; 2] {
-    gap_of_pose(chain.column(), &chain.pose(corner.interface), corner)
+pub fn corner_position(chain: &Chain, corner: Corner) -> [f64; 2] {
+    corner_position_of_pose(chain.column(), &chain.pose(corner.interface), corner)
 }
 
-/// [`gap`] from the pose of the two blocks.
-pub fn gap_of_pose(column: &Column, pose: &Pose, corner: Corner) -> [f64; 2] {
+/// [`corner_position`] from the pose of the two blocks.
+pub fn corner_position_of_pose(column: &Column, pose: &Pose, corner: Corner) -> [f64; 2] {
     let view = View::new(column, pose, corner);
     let [u, v] = view.position();
     [u.abs() - view.reach, view.sign * v]
 }
 
 /// Rates of the slide and of the gap of a corner `[m/s]`. `rates` are those of all blocks and of the translation at the interface, whose blocks are apart.
-pub fn gap_rate(chain: &Chain, rates: &Rates, corner: Corner) -> [f64; 2] {
-    gap_velocity(chain, rates.apart[corner.interface], &rates.omega, corner)
+pub fn slide_and_gap_rates(chain: &Chain, rates: &Rates, corner: Corner) -> [f64; 2] {
+    slide_and_gap_rates_of(chain, rates.apart[corner.interface], &rates.omega, corner)
 }
 
-/// [`gap_rate`] from the rate of the free interface's translations `[m/s]` and the rates of the blocks `[rad/s]`.
-pub fn gap_velocity(chain: &Chain, apart_rate: Vec2, omega: &[f64], corner: Corner) -> [f64; 2] {
+/// [`slide_and_gap_rates`] from the rate of the free interface's translations `[m/s]` and the rates of the blocks `[rad/s]`.
+pub fn slide_and_gap_rates_of(chain: &Chain, apart_rate: Vec2, omega: &[f64], corner: Corner) -> [f64; 2] {
     let view = View::of(chain, corner);
     view.velocity(apart_rate, omega).map(|v| view.sign * v)
 }
 
 /// Second derivatives of slide and gap `[m/s²]`, from first and second derivatives of the free interface's translations and of the blocks' angles.
-pub fn gap_acceleration(
+pub fn slide_and_gap_accelerations(
     chain: &Chain,
     [apart_rate, apart_acceleration]: [Vec2; 2],
     [omega, alpha]: [&[f64]; 2],
@@ -153,7 +153,7 @@ pub fn slide_of_landing(chain: &Chain, corner: Corner) -> f64 {
 pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize, flush: f64) -> f64 {
     let are_over_each_other = overlap(column, pose, interface) > flush;
     let depth = |corner: Corner| {
-        let [beside, above] = gap_of_pose(column, pose, corner);
+        let [beside, above] = corner_position_of_pose(column, pose, corner);
         if beside < 0.0 || (beside <= flush && are_over_each_other) { -above } else { 0.0 }
     };
     let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
@@ -163,7 +163,7 @@ pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize, flush: 
 /// How far the faces of a free interface reach over each other, along the lower one, as if they were parallel `[m]`.
 pub fn overlap(column: &Column, pose: &Pose, interface: usize) -> f64 {
     let blocks = column.blocks();
-    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| blocks[below].top_half_width);
+    let lower = column.lower_half_width(interface);
     let [u, _] = pose.lower.rotate_back(pose.apart);
     blocks[interface].bottom_half_width + lower - u.abs()
 }

@@ -228,8 +228,8 @@ impl Moving {
         }
         let lever = [if end < self.joints.len() { base[0] + self.contact(end)[0] } else { base[0] }, base[1]];
         let moment = [0, 1].map(|axis| moment[axis] + above * lever[axis]);
-        // The axis of the programs points to the left.
-        let lateral = |[x, y]: [f64; 2]| [-x, y];
+        // Here x is to the right; the lateral axis of `Carried` points to the left.
+        let to_the_left = |[x, y]: [f64; 2]| [-x, y];
         for (each, translation) in self.translations.iter().enumerate() {
             let carried = &mut self.lists.carried[each * self.angles.len() + link];
             let of_mass = if translation.interface <= start {
@@ -239,10 +239,10 @@ impl Moving {
             } else {
                 [moment[0] - carried[0], moment[1] - carried[1]]
             };
-            *carried = lateral(of_mass);
+            *carried = to_the_left(of_mass);
         }
         self.lists.inertia[link] = inertia + above * (lever[0] * lever[0] + lever[1] * lever[1]);
-        self.lists.moment[link] = lateral(moment);
-        self.lists.lever[link] = lateral(lever);
+        self.lists.moment[link] = to_the_left(moment);
+        self.lists.lever[link] = to_the_left(lever);
     }
 }

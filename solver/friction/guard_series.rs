@@ -176,7 +176,7 @@ impl<'s> SeriesSpan<'s> {
         let [in_lower, in_upper, turn] = self.pose(interface);
         let blocks = self.column.blocks();
         let upper = f64::from(side) * blocks[interface].bottom_half_width;
-        let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| blocks[below].top_half_width);
+        let lower = self.column.lower_half_width(interface);
         let of = |axis: usize| match face {
             Face::Upper => {
                 let arm = [1.0, -1.0][axis] * f64::from(side) * lower;

@@ -90,7 +90,7 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
         Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
         Guard::Close(i) => {
             let side = if let Joint::Corner(side, ..) = now.joints[i] { f64::from(side) } else { 1.0 };
-            side * now.gap_angle(i)
+            side * now.relative_angle(i)
         }
         Guard::Edge(i) => match now.joints[i] {
             Joint::Corner(side, face, _) => {
@@ -102,7 +102,7 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
         Guard::Collapse(i) if now.joints[i] == Joint::Free => gaps::overlap(column, &Pose::of_free(now, i), i),
         Guard::Collapse(i) => half_length(column, i, now.slide[i]),
         Guard::Land(corner) => {
-            let [beside, above] = gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner);
+            let [beside, above] = gaps::corner_position_of_pose(column, &Pose::of_free(now, corner.interface), corner);
             beside.max(above)
         }
         Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..) => f64::INFINITY,
@@ -120,7 +120,7 @@ pub fn value_of_forces(
 ) -> f64 {
     match guard {
         Guard::Cone(i, side) => {
-            let [to_left, to_right] = cone_margins(now.joints[i], now.gap_angle(i), answer.contacts[i], fixed[i]);
+            let [to_left, to_right] = cone_margins(now.joints[i], now.relative_angle(i), answer.contacts[i], fixed[i]);
             slack + if side < 0 { to_left } else { to_right }
         }
         Guard::Press(i) => answer.contacts[i].normal + slack,

@@ -155,7 +155,7 @@ impl Configuration {
             Joint::Closed(_) => Interface::Closed,
             Joint::Corner(side, ..) => Interface::from_sign(side),
             Joint::Free => {
-                let phi = self.gap_angle(interface);
+                let phi = self.relative_angle(interface);
                 if phi < 0.0 { Interface::Left } else { Interface::Right }
             }
         };
@@ -173,7 +173,7 @@ impl Configuration {
     }
 
     /// Relative angle of an interface (from zero) `[rad]`.
-    pub fn gap_angle(&self, interface: usize) -> f64 {
+    pub fn relative_angle(&self, interface: usize) -> f64 {
         relative(&self.theta, interface)
     }
 
@@ -189,7 +189,7 @@ impl Configuration {
     }
 
     /// Relative rate of an interface (from zero) `[rad/s]`.
-    pub fn gap_rate(&self, interface: usize) -> f64 {
+    pub fn relative_rate(&self, interface: usize) -> f64 {
         relative(&self.omega, interface)
     }
 }
@@ -214,7 +214,7 @@ pub fn face(column: &Column, interface: usize, side: Sign, slide: f64) -> Face {
 
 /// How far the upper corner of a side is outside the lower face `[m]`; minus infinity on the ground.
 pub fn overhang(column: &Column, interface: usize, side: Sign, slide: f64) -> f64 {
-    let lower = interface.checked_sub(1).map_or(f64::INFINITY, |below| column.blocks()[below].top_half_width);
+    let lower = column.lower_half_width(interface);
     f64::from(side) * slide + column.blocks()[interface].bottom_half_width - lower
 }
 

@@ -509,7 +509,7 @@ impl<'a> Search<'a> {
                     Question::Impact(_) => self.friction.kinetic[interface],
                 };
                 let [to_left, to_right] =
-                    cone_margins(joint, self.now.gap_angle(interface), answer.contacts[interface], coefficient);
+                    cone_margins(joint, self.now.relative_angle(interface), answer.contacts[interface], coefficient);
                 match (to_left < -slack, to_right < -slack) {
                     (true, _) => Some(Slip::Slides(-1)),
                     (_, true) => Some(Slip::Slides(1)),
@@ -566,10 +566,15 @@ impl<'a> Search<'a> {
         let chain = self.chain();
         let change = answer.motion.apart[corner.interface];
         match self.question {
-            Question::Impact(_) => gaps::gap_velocity(chain, change, &answer.motion.omega, corner)[1],
+            Question::Impact(_) => gaps::slide_and_gap_rates_of(chain, change, &answer.motion.omega, corner)[1],
             Question::Accelerations(_) => {
                 let rate = chain.apart_rate(corner.interface, &self.now_rates);
-                gaps::gap_acceleration(chain, [rate, change], [&self.now.omega, &answer.motion.omega], corner)[1]
+                gaps::slide_and_gap_accelerations(
+                    chain,
+                    [rate, change],
+                    [&self.now.omega, &answer.motion.omega],
+                    corner,
+                )[1]
             }
         }
     }

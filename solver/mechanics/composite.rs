@@ -63,7 +63,7 @@ impl<'a> Links<'a> {
         for (index, state) in pattern.0.iter().enumerate() {
             if state.is_open() {
                 blocks.push(index..index);
-                pivots.push(f64::from(state.sign()) * column.contact_half_width(index));
+                pivots.push(column.pivot_offset(index, *state));
             }
             let own = blocks.len() - 1;
             blocks[own].end = index + 1;

@@ -25,7 +25,8 @@ impl Ground {
     }
 }
 
-/// Contact force at an interface, on the stack above (docs/book/model.md, section 4).
+/// Contact force at an interface, on the stack above (docs/book/model.md, section 4). In a part of a run in which blocks slide or fly, the axes are those of
+/// the face that carries the contact, and the moment of a corner is about its point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactForce {
     /// Normal part `[N]`, compression positive, in the axes of the lower block.

@@ -369,7 +369,7 @@ impl<P: Program> Dynamics for GeneratedMode<P> {
 
 /// Pivot offset of an interface (from zero) from the centre of its contact `[m]`, zero where it is closed.
 fn pivot(column: &Column, pattern: &Pattern, interface: usize) -> f64 {
-    f64::from(pattern.0[interface].sign()) * column.contact_half_width(interface)
+    column.pivot_offset(interface, pattern.0[interface])
 }
 
 /// The aligned rectangles of a column as the generated equations read them.

@@ -428,7 +428,7 @@ pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outlin
         let (below, above) = (-block.centroid_height, 2.0 * block.half_height - block.centroid_height);
         let corner = |offset: Vec2| plus(posture.centroid[index], Turn::new(theta[index]).rotate(offset));
         let state = pattern.0[index];
-        let offset = f64::from(state.sign()) * column.contact_half_width(index);
+        let offset = column.pivot_offset(index, state);
         let pivot = plus(posture.contact_centre[index], posture.lower[index].rotate([offset, 0.0]));
         let corners = [[-bottom, below], [bottom, below], [top, above], [-top, above]].map(corner);
         Outline { corners, pivot: state.is_open().then_some(pivot) }

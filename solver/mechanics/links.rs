@@ -9,7 +9,7 @@ use rocking_codegen::pattern::Pattern;
 /// Links, base first, in their axes: first moment of all that a link carries about its pivot `[kg m]`, and lever to the next pivot `[m]`.
 pub(crate) fn moments_and_levers(column: &Column, pattern: &Pattern) -> (Vec<Vec2>, Vec<Vec2>) {
     let link = pattern.linkage().link_of_block();
-    let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
+    let pivot = |i: usize| column.pivot_offset(i, pattern.0[i]);
     let (mut moments, mut levers) = (Vec::new(), Vec::new());
     for own in 1..=pattern.dof() {
         let (mut moment, mut lever) = ([0.0, 0.0], [0.0, 0.0]);

@@ -182,7 +182,7 @@ impl Corners {
         let links = pattern.linkage().link_of_block();
         let link = links[interface];
         let first = links.iter().position(|own| *own == link).expect("the interface carries a block of its link");
-        let pivot = |i: usize| f64::from(pattern.0[i].sign()) * column.contact_half_width(i);
+        let pivot = |i: usize| column.pivot_offset(i, pattern.0[i]);
         // The part that stands on the ground has no pivot; any place serves as one.
         let pivot_of_link = pivot(first);
         let side = |sign: f64| {

@@ -5,7 +5,8 @@
 
 pub use crate::numerics::scalar::Scalar;
 
-/// A column as the generated equations read it: its sizes, and the sides of the open interfaces as signs of the pivots.
+/// A column as the generated equations read it: its sizes, and the sides of the open interfaces as signs of the pivots. Lateral is to the right, axial
+/// upwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry<S> {
     /// Gravity `[m/s²]`.
@@ -154,7 +155,8 @@ pub trait EnergyProgram<S: Scalar> {
 }
 
 /// Inertias, first moments, levers and masses of links and translations at the present slides, and coefficients of friction, in SI units.
-/// Vectors are [lateral, axial] in the axes of a link: lateral to the left across the link's axis, axial upwards along the axis.
+/// Vectors are [lateral, axial] in the axes of a link. Lateral is to the **left** across the link's axis, the opposite of [`Geometry`] and of the
+/// derivation, because a link that opens on its right corner has its masses to the left of its pivot; axial is upwards along the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<S, const ANGLES: usize, const TRANSLATIONS: usize> {
     /// Moment of inertia of each link about its pivot, with all masses above placed in the next pivot `[kg m²]`.

@@ -28,7 +28,7 @@ impl Sample {
     }
 
     /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4). In a run in which blocks slide or fly, they are those
-    /// that the run recorded.
+    /// that the run recorded: in the axes of the face that carries each contact, with the moment of a corner about its point.
     pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
         if !self.blocks.is_empty() {
             return self.blocks.iter().map(|state| state.force).collect();

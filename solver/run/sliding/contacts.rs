@@ -53,8 +53,8 @@ pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) 
     let touch = |interface: usize| match now.joints[interface] {
         Joint::Closed(_) => Touch::Faces,
         Joint::Corner(side, ..) => {
-            let is_flat =
-                now.gap_angle(interface).abs() <= resolution.angle && now.gap_rate(interface).abs() <= resolution.rate;
+            let is_flat = now.relative_angle(interface).abs() <= resolution.angle
+                && now.relative_rate(interface).abs() <= resolution.rate;
             if is_flat { Touch::Faces } else { Touch::Corner(side) }
         }
         Joint::Free => {
@@ -84,11 +84,11 @@ fn stays_at(
     let length = column.blocks()[interface].bottom_half_width;
     let bounce = (2.0 * column.gravity() * problem.scene.options.stick_angle * length).sqrt();
     let close = |corner: &Corner| {
-        let [beside, above] = gaps::gap(chain, *corner);
+        let [beside, above] = gaps::corner_position(chain, *corner);
         beside <= resolution.gap && above.abs() <= resolution.gap
     };
     let stays = |corner: &Corner| {
-        let [_, leaving] = gaps::gap_rate(chain, rates, *corner);
+        let [_, leaving] = gaps::slide_and_gap_rates(chain, rates, *corner);
         leaving >= -resolution.speed && leaving <= resolution.speed.max(bounce)
     };
     let corners: Vec<Corner> = Corner::of_side(interface, side).filter(close).collect();
@@ -106,12 +106,12 @@ pub fn met(
     let chain = Chain::new(column, now);
     let side = if let Touch::Corner(side) = touch { side } else { 1 };
     let lower = Corner { interface, side, face: Face::Lower };
-    let [beside, above] = gaps::gap(&chain, lower);
+    let [beside, above] = gaps::corner_position(&chain, lower);
     let tolerance = FACE_SHARE * resolution.size;
     let is_lower = interface == 0 || beside <= tolerance && above.abs() <= tolerance;
     let corner = if is_lower { lower } else { Corner { face: Face::Upper, ..lower } };
     let slide = gaps::slide_of_landing(&chain, corner);
-    let [rate, _] = gaps::gap_rate(&chain, &Rates::of(now), corner);
+    let [rate, _] = gaps::slide_and_gap_rates(&chain, &Rates::of(now), corner);
     let slip = if rate.abs() <= resolution.speed { Slip::Sticks } else { Slip::along(rate) };
     let joint = match (touch, slip, face(column, interface, side, slide)) {
         (Touch::Faces | Touch::Nothing, ..) => Joint::Closed(slip),
@@ -124,7 +124,7 @@ pub fn met(
 /// Gap of a free interface `[m]`: the least distance of a corner from the other block's face.
 pub fn gap(chain: &Chain, interface: usize) -> f64 {
     let distance = |corner: Corner| {
-        let [beside, above] = gaps::gap(chain, corner);
+        let [beside, above] = gaps::corner_position(chain, corner);
         if beside <= 0.0 { above.max(0.0) } else { libm::hypot(beside, above) }
     };
     let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));

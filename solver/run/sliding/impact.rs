@@ -17,7 +17,7 @@ impl PendingTransition<'_> {
     /// Closes an interface whose gap of angles has fallen to zero.
     pub fn close(&mut self, interface: usize) {
         let Joint::Corner(side, _, slip) = self.now.joints[interface] else { return };
-        let rate = self.now.gap_rate(interface);
+        let rate = self.now.relative_rate(interface);
         let angle = lower(&self.now.theta, interface);
         self.now.theta[joined_above(&self.now.joints, interface)].fill(angle);
         if f64::from(side) * rate >= 0.0 {
@@ -36,7 +36,7 @@ impl PendingTransition<'_> {
     pub fn land(&mut self, corner: Corner) {
         let Corner { interface, side, .. } = corner;
         let chain = Chain::new(self.column(), &self.now);
-        let [_, above] = gaps::gap(&chain, corner);
+        let [_, above] = gaps::corner_position(&chain, corner);
         // Depths of lower hops than are followed are none.
         let depth = DEPTH_SHARE.max(self.problem.scene.options.stick_angle);
         if above < -depth * self.resolution.size {
@@ -46,8 +46,8 @@ impl PendingTransition<'_> {
             self.stop = Some(RunEnd::Collapsed(interface));
             return;
         }
-        let [beside, other_above] = gaps::gap(&chain, Corner { side: -side, ..corner });
-        let is_flat = self.now.gap_angle(interface).abs() <= self.resolution.angle
+        let [beside, other_above] = gaps::corner_position(&chain, Corner { side: -side, ..corner });
+        let is_flat = self.now.relative_angle(interface).abs() <= self.resolution.angle
             || beside <= 0.0 && other_above.abs() <= self.resolution.gap;
         self.now.slide[interface] = gaps::slide_of_landing(&chain, corner);
         let mut touch = self.touching();
@@ -131,7 +131,7 @@ impl PendingTransition<'_> {
             if face(self.column(), interface, side, self.now.slide[interface]) != Face::Both {
                 continue;
             }
-            if self.now.gap_angle(interface).abs() > self.resolution.angle {
+            if self.now.relative_angle(interface).abs() > self.resolution.angle {
                 self.set_free(interface);
             } else {
                 self.now.joints[interface] = Joint::after_coinciding(side, direction);

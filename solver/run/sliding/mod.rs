@@ -98,7 +98,7 @@ pub(super) fn run(
             None => {
                 let (mut until, ended) = mover.pass(&at, &mut recorder)?;
                 recorder.leave(&at, &until);
-                if ended == SlidingEnded::Rest {
+                if ended == SlidingEnded::Over(RunEnd::AtRest) {
                     // If nothing starts the column any more, the end is the time at which the rest began.
                     until.t = at.t;
                 }
@@ -108,7 +108,7 @@ pub(super) fn run(
         if progress(until.t).is_break() {
             return Err(SolveError::Cancelled { time: until.t });
         }
-        if let Some(stop) = ended.stop() {
+        if let SlidingEnded::Over(stop) = ended {
             return Ok(recorder.finish(until, stop, mover.work));
         }
         let lookahead = simultaneous.lookahead(&until, least_hop(problem, &until));

@@ -3,7 +3,7 @@
 
 use super::recorder::{Moments, SlidingRecorder};
 use super::smooth::{Moment, Smooth};
-use super::state::{SlidingEnded, SlidingState};
+use super::state::{RunEnd, SlidingEnded, SlidingState};
 use super::step::Step;
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
@@ -76,7 +76,7 @@ impl SegmentTime {
             }
             self.t = problem.ground[self.segment].end;
             if self.segment + 1 == problem.ground.len() {
-                return Some(SlidingEnded::Time);
+                return Some(SlidingEnded::Over(RunEnd::EndOfTime));
             }
             self.segment += 1;
             if problem.ground[self.segment].jumps {
@@ -155,7 +155,7 @@ impl<'p> Mover<'p> {
                 break SlidingEnded::Guard(guard);
             }
             if segment + 1 == ground.len() {
-                break SlidingEnded::Rest;
+                break SlidingEnded::Over(RunEnd::AtRest);
             }
             segment += 1;
             let may_start = || start_from_rest::may_start_at_once(&column, &self.friction.fixed, &ground[segment], t);
@@ -247,7 +247,7 @@ impl<'p> Mover<'p> {
             at.t = end.t;
             if let Some(guard) = end.guard {
                 x = smooth.state(&end.configuration);
-                break SlidingEnded::Guard(guard);
+                break SlidingEnded::at(guard);
             }
             x.clone_from(method.end());
         };

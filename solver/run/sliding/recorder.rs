@@ -233,11 +233,11 @@ impl<'p> SlidingRecorder<'p> {
             lost += energies[0] - energies[1];
             for (interface, impulse) in event.impulses.iter_mut().enumerate() {
                 // An interface whose blocks turn alike was closed in the impact: their accelerations open it.
-                let is_corner = before.joints[interface].is_corner() || after.gap_rate(interface) != 0.0;
+                let is_corner = before.joints[interface].is_corner() || after.relative_rate(interface) != 0.0;
                 if let Joint::Corner(side, face, _) = after.joints[interface]
                     && is_corner
                 {
-                    let turn = if face == Face::Upper { after.gap_angle(interface) } else { 0.0 };
+                    let turn = if face == Face::Upper { after.relative_angle(interface) } else { 0.0 };
                     *impulse = at_corner(*impulse, f64::from(side) * column.contact_half_width(interface), turn);
                 }
             }

@@ -79,7 +79,7 @@ impl<'p> Mover<'p> {
             let end = step.record(first, at.segment, recorder);
             (at.t, x) = (end.t, smooth.state(&end.configuration));
             if let Some(guard) = end.guard {
-                break SlidingEnded::Guard(guard);
+                break SlidingEnded::at(guard);
             }
         };
         self.pace = Some(suggested);

@@ -27,20 +27,18 @@ pub enum SlidingEnded {
     Jump,
     /// Forces grow without bound.
     Jam,
-    /// The time of the run is over.
-    Time,
-    /// Nothing starts the column any more.
-    Rest,
+    /// What follows is beyond the limits of a run without sliding. Nothing has happened yet.
+    Limits,
+    /// The run is over.
+    Over(RunEnd),
 }
 
 impl SlidingEnded {
-    /// Why the run ends with the stretch; `None` if the run continues.
-    pub fn stop(self) -> Option<RunEnd> {
-        match self {
-            SlidingEnded::Time => Some(RunEnd::EndOfTime),
-            SlidingEnded::Rest => Some(RunEnd::AtRest),
-            SlidingEnded::Guard(Guard::Overturn(block)) => Some(RunEnd::Overturned(block)),
-            SlidingEnded::Guard(_) | SlidingEnded::Jump | SlidingEnded::Jam => None,
+    /// The end at a guard that fell to zero.
+    pub fn at(guard: Guard) -> SlidingEnded {
+        match guard {
+            Guard::Overturn(block) => SlidingEnded::Over(RunEnd::Overturned(block)),
+            guard => SlidingEnded::Guard(guard),
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A run whose friction is never used up is one such part, and equals the run without friction to the last bit.
 
-use super::state::{SlidingEnded, SlidingState};
+use super::state::{RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards::Guard;
@@ -139,15 +139,15 @@ impl<'p> Sticking<'p> {
             Leaving::Over(last, over) => {
                 let (ended, status) = match over {
                     Over::Overturned(block) | Over::Falls(block) => {
-                        (SlidingEnded::Guard(Guard::Overturn(block)), StopReason::Overturned)
+                        (SlidingEnded::Over(RunEnd::Overturned(block)), StopReason::Overturned)
                     }
-                    Over::AtRest | Over::Stands => (SlidingEnded::Rest, StopReason::AtRest),
-                    Over::EndOfTime => (SlidingEnded::Time, StopReason::EndOfTime),
+                    Over::AtRest | Over::Stands => (SlidingEnded::Over(RunEnd::AtRest), StopReason::AtRest),
+                    Over::EndOfTime => (SlidingEnded::Over(RunEnd::EndOfTime), StopReason::EndOfTime),
                 };
                 (last, ended, status)
             }
             Leaving::Beyond(Exceeded::Start) => return Ok(StickingSpan::Nowhere),
-            Leaving::Beyond(Exceeded::Phase(last)) => (last, SlidingEnded::Jump, StopReason::EndOfTime),
+            Leaving::Beyond(Exceeded::Phase(last)) => (last, SlidingEnded::Limits, StopReason::EndOfTime),
             Leaving::Beyond(Exceeded::Event(last, why, closing)) => {
                 let ended = match why {
                     stretch::Ended::Closing => closing

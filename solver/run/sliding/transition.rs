@@ -61,7 +61,8 @@ pub fn transition(
             pending.jam();
             return pending.decided(EventKind::Impact, None);
         }
-        SlidingEnded::Jump | SlidingEnded::Time | SlidingEnded::Rest => return pending.decided(EventKind::Jump, None),
+        SlidingEnded::Jump | SlidingEnded::Limits => return pending.decided(EventKind::Jump, None),
+        SlidingEnded::Over(end) => return pending.end(end),
     };
     let (kind, hint) = match guard {
         Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
@@ -243,7 +244,7 @@ impl<'p> PendingTransition<'p> {
         let mut turns = false;
         for (interface, joint) in joints.iter_mut().enumerate() {
             if let (Touch::Faces, Some(slip)) = (touch[interface], joint.slip()) {
-                turns |= self.now.gap_rate(interface) != 0.0;
+                turns |= self.now.relative_rate(interface) != 0.0;
                 *joint = Joint::Closed(slip);
             }
         }
@@ -414,8 +415,8 @@ impl<'p> PendingTransition<'p> {
         };
         let hops = |interface: usize| {
             let turn = relative(&solution.answer.motion.omega, interface);
-            self.now.gap_angle(interface).abs() <= self.resolution.angle
-                && returns(self.now.gap_rate(interface), turn, least)
+            self.now.relative_angle(interface).abs() <= self.resolution.angle
+                && returns(self.now.relative_rate(interface), turn, least)
         };
         let stops = |interface: usize| {
             let length = half_length(self.column(), interface, self.now.slide[interface]);
@@ -462,9 +463,9 @@ impl<'p> PendingTransition<'p> {
             let Some(answer) = Rows::new(&chain, &held.joints, &none, &none).impact(&before) else { return };
             let closes = |interface: usize| match held.joints[interface] {
                 Joint::Corner(side, _, slip) => {
-                    let has_no_gap = held.gap_angle(interface).abs() <= self.resolution.angle;
+                    let has_no_gap = held.relative_angle(interface).abs() <= self.resolution.angle;
                     let rate = f64::from(side) * relative(&answer.motion.omega, interface);
-                    let was_closing = f64::from(side) * self.now.gap_rate(interface) < -self.resolution.rate;
+                    let was_closing = f64::from(side) * self.now.relative_rate(interface) < -self.resolution.rate;
                     (has_no_gap && rate < 0.0 && !was_closing).then_some(slip)
                 }
                 Joint::Closed(_) | Joint::Free => None,

@@ -70,7 +70,7 @@ impl<O: Output> Step<'_, '_, O> {
     fn gap(&mut self, corner: Corner, s: f64) -> [f64; 2] {
         let column = self.smooth.column;
         let now = &self.at(s, false).configuration;
-        gaps::gap_of_pose(column, &Pose::of_free(now, corner.interface), corner)
+        gaps::corner_position_of_pose(column, &Pose::of_free(now, corner.interface), corner)
     }
 
     /// The first place up to `limit` at which a corner with this gap lands. Height and distance beside the face are smooth, the larger of both is
