@@ -1,9 +1,10 @@
 //! A contact problem with friction: what touches, the coefficients, and the question. Also the ends of a contact, and margins of the friction cone.
 
 use super::chain::BlockMotion;
-use super::joint::{Face, Joint, Sign};
+use super::joint::{Joint, Sign};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
+use std::f64::consts::PI;
 
 /// What touches at an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,14 +35,20 @@ pub enum Question {
     Impact(BlockMotion),
 }
 
+/// Whether coinciding corners that stick hold any force: the sum of their friction cones, turned against each other by the relative angle `phi` `[rad]`, is
+/// the whole plane.
+pub fn holds_any_force(joint: Joint, phi: impl FnOnce() -> f64, coefficient: f64) -> bool {
+    joint.is_corner_on_corner() && phi().abs() + 2.0 * libm::atan(coefficient) >= PI
+}
+
 /// How far the force at a sticking contact is inside the friction cone `[N]`: margins against a slide to the left and against a slide to the right.
 /// `phi` is the relative angle `[rad]`: the two cones of coinciding corners are turned against each other by `phi`.
 pub fn cone_margins(joint: Joint, phi: f64, contact: ContactForce, coefficient: f64) -> [f64; 2] {
     let ContactForce { normal, tangential, .. } = contact;
-    let (least, most) = match joint {
-        Joint::Corner(_, Face::Both, _) => (phi.min(0.0), phi.max(0.0)),
-        _ => (0.0, 0.0),
-    };
+    if holds_any_force(joint, || phi, coefficient) {
+        return [normal.abs() + tangential.abs(); 2];
+    }
+    let (least, most) = if joint.is_corner_on_corner() { (phi.min(0.0), phi.max(0.0)) } else { (0.0, 0.0) };
     // Tangential and normal part of the force about a normal that is turned clockwise by an angle.
     let turned = |angle: f64| {
         if angle == 0.0 {

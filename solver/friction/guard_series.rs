@@ -3,6 +3,7 @@
 //! Every guard of [`super::guards`] but a landing is linear in what the series has (coordinates, forces in the axes of a face, moments, `u N`), or is
 //! the lesser of two such functions. In the second case both are given.
 
+use super::contact_problem::holds_any_force;
 use super::gaps::Corner;
 use super::guards::Guard;
 use super::joint::{Face, Joint, Sign, Slip};
@@ -131,11 +132,22 @@ impl<'s> SeriesSpan<'s> {
         self.poses[interface].get_or_init(|| self.series.pose(interface, self.series.orders() + 1))
     }
 
+    /// Relative angle of an interface at start or end of the step, whichever is larger in magnitude `[rad]`.
+    fn largest_relative_angle(&self, interface: usize) -> f64 {
+        let angle = |block: usize| self.series.angle(block);
+        let below = interface.checked_sub(1).map(angle);
+        let term = |k: usize| self.powers[k] * (angle(interface)[k] - below.map_or(0.0, |below| below[k]));
+        let end: f64 = (0..self.series.orders() + 2).map(term).sum();
+        if end.abs() > term(0).abs() { end } else { term(0) }
+    }
+
     /// How far the force at a sticking contact is inside its cone ([`super::contact_problem::cone_margins`]).
     fn cone(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let coefficient = self.limits.fixed[i];
         let margin = |[along, across]: [f64; 2]| coefficient * across + f64::from(side) * along;
         match self.joints[i] {
+            // Beyond this angle the corners hold any force, in a step that ends there as well.
+            joint if holds_any_force(joint, || self.largest_relative_angle(i), coefficient) => {}
             // On coinciding corners, each cone belongs to one of the two faces.
             Joint::Corner(corner, Face::Both, _) => {
                 visit(&self.of_forces(self.limits.slack, |k| margin(self.series.force(i, corner != side, k))));

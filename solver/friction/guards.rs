@@ -67,7 +67,11 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
                 }
             }
             Joint::Corner(_, face, slip) => {
-                guards.extend([Guard::Press(i), Guard::Close(i)]);
+                // Coinciding corners that stick are bounded by the sum of their cones alone, which may hold what one face would have to pull.
+                if !joint.is_corner_on_corner() || *slip != Slip::Sticks {
+                    guards.push(Guard::Press(i));
+                }
+                guards.push(Guard::Close(i));
                 if matches!(slip, Slip::Slides(_)) && (i > 0 || *face != Face::Lower) {
                     guards.extend([Guard::Edge(i), Guard::Collapse(i)]);
                 }

@@ -71,6 +71,11 @@ impl Joint {
         matches!(self, Joint::Closed(Slip::Sticks) | Joint::Corner(_, _, Slip::Sticks))
     }
 
+    /// Whether two coinciding corners carry the contact: both faces press at one point.
+    pub fn is_corner_on_corner(self) -> bool {
+        matches!(self, Joint::Corner(_, Face::Both, _))
+    }
+
     /// Whether a corner stands on a face.
     pub fn is_corner(self) -> bool {
         matches!(self, Joint::Corner(..))

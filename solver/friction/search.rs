@@ -484,14 +484,17 @@ impl<'a> Search<'a> {
                 self.wrong_slip(interface, joint, answer, violation).map(Joint::Closed)
             }
             Joint::Corner(side, _, slip) => {
-                if contact.normal < -slack {
+                let other_slip = self.wrong_slip(interface, joint, answer, violation);
+                // The sum of two cones may hold what one face would have to pull.
+                let is_held = joint.is_corner_on_corner() && slip == Slip::Sticks && other_slip.is_none();
+                if contact.normal < -slack && !is_held {
                     return Some(Joint::Free);
                 }
                 let opening = f64::from(side) * relative(&answer.motion.omega, interface);
                 if self.touch[interface] == Touch::Faces && opening < -violation.angular {
                     return Some(Joint::Closed(slip));
                 }
-                self.wrong_slip(interface, joint, answer, violation).map(|slip| self.corner(interface, side, slip))
+                other_slip.map(|slip| self.corner(interface, side, slip))
             }
         }
     }

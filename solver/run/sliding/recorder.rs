@@ -351,7 +351,10 @@ impl<'p> SlidingRecorder<'p> {
         for (interface, contact) in
             contacts.iter().enumerate().filter(|(interface, _)| joints[*interface] != Joint::Free)
         {
-            self.contact(interface, contact);
+            // Of coinciding corners that stick, one face may press where the other would have to pull.
+            let is_held = joints[interface].is_corner_on_corner() && joints[interface].sticks();
+            let normal = if is_held { contact.normal.max(0.0) } else { contact.normal };
+            self.contact(interface, &ContactForce { normal, ..*contact });
         }
     }
 
