@@ -289,3 +289,38 @@ fn a_check_says_what_slides_before_it_rocks() {
     assert_eq!((&contact["at_pga"], contact["coefficient_to_rock"].is_null()), (&"slides".into(), true));
     assert_eq!(check(0.2, 0.1).1["at_pga"], "rests");
 }
+
+/// A displaced block makes one side weaker, and vertical motion changes the weight: the time of the first slide or opening decides, not a threshold.
+#[test]
+fn a_check_says_what_this_ground_motion_does_first() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let check = |scene: &str| {
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+        let found: Value =
+            serde_json::from_str(&succeeds(folder.path(), &["check", "scene.toml", "--json"])).expect("JSON");
+        (succeeds(folder.path(), &["check", "scene.toml"]), found["contacts"][0].clone())
+    };
+    let displaced = |amplitude: f64| {
+        format!(
+            "[friction]\nstatic = [0.4, 3.0]\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 0.6\n[initial]\nslide = [0.0, 0.2]\n\
+             [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = {amplitude}\nduration = 0.05\n"
+        )
+    };
+    // The centroid is 0.1 m to the right: the base opens at 0.5 g to one side, and at 0.83 g to the other.
+    let (text, contact) = check(&displaced(0.55));
+    assert!(text.contains("interface 1 slides at 0.4 g, and opens, to its weaker side, at 0.5 g; under this ground motion it slides, at"), "{text}");
+    assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].is_null()), (Some(0.0), true));
+    let (text, contact) = check(&displaced(-0.55));
+    assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].as_f64()), (Some(0.0), Some(0.0)));
+    assert!(
+        contact["at_pga"].is_null() && text.contains("under this ground motion it passes both at t = 0.0000 s"),
+        "{text}"
+    );
+    // |ẍ| = μ (g + ÿ): 0.3 sin = 0.35 (1 - 0.4 sin).
+    let vertical = "friction = 0.35\n[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"half-sine\"\n\
+        amplitude_g = 0.3\nperiod = 1.0\n[excitation.vertical]\nkind = \"half-sine\"\namplitude_g = -0.4\nperiod = 1.0\n";
+    let (text, contact) = check(vertical);
+    let expected = (0.35f64 / (0.3 + 0.35 * 0.4)).asin() / std::f64::consts::TAU;
+    assert!((contact["slides_from"].as_f64().expect("it slides") - expected).abs() < 1e-12, "{contact}");
+    assert!(text.contains(&format!("it slides first, at t = {expected:.4} s")), "{text}");
+}

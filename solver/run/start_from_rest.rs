@@ -142,22 +142,38 @@ impl Scene {
     /// # Ok::<(), rocking::ColumnError>(())
     /// ```
     pub fn openings_at_rest(&self) -> Vec<Option<f64>> {
-        let segments = self.excitation.segments(self.options.t_end);
-        let opening =
-            |interface: usize| segments.iter().find_map(|segment| opening_in(&self.column, segment, interface));
-        (0..self.column.len()).map(opening).collect()
+        self.first_below_zero(|interface| corners(&self.column, interface).map(|(arm, side, _)| (arm, side)))
     }
-}
 
-/// The first instant in a segment at which an interface of a column at rest opens, if no other does.
-fn opening_in(column: &Column, segment: &Segment, interface: usize) -> Option<f64> {
-    let at_start = GroundWithBounds::at(segment, column.gravity(), segment.start);
-    // Where the ground jumps, a guard may be below zero without having fallen there.
-    if corners(column, interface).any(|(arm, side, _)| at_start.guard(arm, side) < 0.0) {
-        return Some(segment.start);
+    /// When the ground motion first slides each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
+    /// if it does not slide up to the end of the run, or the scene has no friction. Both components of the ground motion count.
+    pub fn slips_at_rest(&self) -> Vec<Option<f64>> {
+        let Some(friction) = &self.friction else { return vec![None; self.column.len()] };
+        let fixed = friction.per_interface(self.column.len()).fixed;
+        self.first_below_zero(|interface| {
+            let cone = [fixed[interface], 1.0];
+            [Interface::Right, Interface::Left].into_iter().map(move |side| (cone, side))
+        })
     }
-    let span = [segment.start, segment.end];
-    first_zero(segment, column.gravity(), span, || corners(column, interface)).map(|(t, _)| t)
+
+    /// The first instant at which one of the guards of each interface, given by arms and sides, falls below zero at rest `[s]`.
+    fn first_below_zero<I: Iterator<Item = ([f64; 2], Interface)>>(
+        &self,
+        guards: impl Fn(usize) -> I,
+    ) -> Vec<Option<f64>> {
+        let (segments, gravity) = (self.excitation.segments(self.options.t_end), self.column.gravity());
+        let in_segment = |segment: &Segment, interface: usize| {
+            let at_start = GroundWithBounds::at(segment, gravity, segment.start);
+            // Where the ground jumps, a guard may be below zero without having fallen there.
+            if guards(interface).any(|(arm, side)| at_start.guard(arm, side) < 0.0) {
+                return Some(segment.start);
+            }
+            let named = || guards(interface).map(|(arm, side)| (arm, side, ()));
+            first_zero(segment, gravity, [segment.start, segment.end], named).map(|(t, ())| t)
+        };
+        let first = |interface| segments.iter().find_map(|segment| in_segment(segment, interface));
+        (0..self.column.len()).map(first).collect()
+    }
 }
 
 /// The first instant in a segment from a time on at which an interface of a column at rest tips or slides, with the coefficients `fixed` of static

@@ -43,27 +43,41 @@ struct Findings {
     warnings: Vec<String>,
 }
 
-/// What gives way first at an interface: the contact slides, or it opens. The stack above counts as one body; the ground moves horizontally only.
+/// What gives way first at an interface: the contact slides, or it opens. The stack above counts as one body.
 #[derive(Debug, Serialize)]
 struct ContactFindings {
     /// From 1, base first.
     interface: usize,
     /// Coefficient of static friction, dimensionless.
     coefficient: f64,
-    /// Horizontal ground acceleration at which the contact slides `[m/s²]`.
+    /// Horizontal ground acceleration at which the contact slides, without vertical motion `[m/s²]`.
     slides_at: f64,
-    /// Horizontal ground acceleration at which the contact opens `[m/s²]`.
+    /// Horizontal ground acceleration at which the contact opens, to the side to which it takes less, without vertical motion `[m/s²]`.
     opens_at: f64,
+    /// When the ground motion of the scene slides the contact first `[s]`, if it has not opened before; `None` if it does not.
+    slides_from: Option<f64>,
+    /// When the ground motion of the scene opens the contact first `[s]`, if it has not slid before; `None` if it does not.
+    opens_from: Option<f64>,
+    /// Whether both sides take the same.
+    is_symmetric: bool,
     /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground; `None` if the ground moves vertically
-    /// as well.
+    /// as well, or one side takes less than the other.
     at_pga: Option<&'static str>,
     /// Least coefficient with which the stack would rock at the PGA without sliding; `None` if the contact slides first, or does not open.
     coefficient_to_rock: Option<f64>,
 }
 
 impl ContactFindings {
-    /// The contact below a stack under a peak ground acceleration `[m/s²]`; `None` if the ground moves vertically as well.
-    fn of(stack: &thresholds::Row, friction: &Friction, pga: Option<f64>) -> ContactFindings {
+    /// The contact below a stack under a peak ground acceleration `[m/s²]`, `None` if the ground moves vertically as well. `[slides, opens]` are the first
+    /// times at which it does `[s]`.
+    fn of(
+        stack: &thresholds::Row,
+        friction: &Friction,
+        pga: Option<f64>,
+        is_symmetric: bool,
+        [slides_from, opens_from]: [Option<f64>; 2],
+    ) -> ContactFindings {
+        let pga = pga.filter(|_| is_symmetric);
         let coefficient = friction.fixed[(stack.interface - 1).min(friction.fixed.len() - 1)];
         let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
         let opens_by = pga.filter(|pga| slides_at > opens_at && *pga > opens_at && opens_at > 0.0);
@@ -76,7 +90,17 @@ impl ContactFindings {
             None => "rests",
         });
         let interface = stack.interface;
-        ContactFindings { interface, coefficient, slides_at, opens_at, at_pga, coefficient_to_rock: needed }
+        ContactFindings {
+            interface,
+            coefficient,
+            slides_at,
+            opens_at,
+            slides_from,
+            opens_from,
+            is_symmetric,
+            at_pga,
+            coefficient_to_rock: needed,
+        }
     }
 
     /// In a sentence.
@@ -87,14 +111,29 @@ impl ContactFindings {
         if self.opens_at <= 0.0 {
             return format!("interface {interface} opens by itself: the stack above leans beyond its support");
         }
+        let Some(at_pga) = self.at_pga else {
+            let side = if self.is_symmetric { "" } else { ", to its weaker side," };
+            let first = match (self.slides_from, self.opens_from) {
+                (None, None) => "neither".into(),
+                (Some(slides), None) => format!("it slides, at t = {slides:.4} s"),
+                (Some(slides), Some(opens)) if slides < opens => format!("it slides first, at t = {slides:.4} s"),
+                (Some(slides), Some(opens)) if slides == opens => format!("it passes both at t = {opens:.4} s"),
+                (_, Some(opens)) => format!("it opens first, at t = {opens:.4} s"),
+            };
+            return format!(
+                "interface {interface} slides at {slides} g, and opens{side} at {opens} g; under this ground motion {first}"
+            );
+        };
         if self.slides_at <= self.opens_at {
-            return format!("interface {interface} slides at {slides} g before it opens at {opens} g");
+            let both = match at_pga {
+                "slides" => "; at the PGA it slides",
+                _ => "",
+            };
+            return format!("interface {interface} slides at {slides} g before it opens at {opens} g{both}");
         }
         let both = self.coefficient_to_rock.map(|needed| {
-            let (needed, verb) = (
-                significant(needed, 4),
-                if self.at_pga == Some("rocks") { "rocks without sliding" } else { "slides and rocks" },
-            );
+            let (needed, verb) =
+                (significant(needed, 4), if at_pga == "rocks" { "rocks without sliding" } else { "slides and rocks" });
             format!("; at the PGA it {verb}: that takes {needed} (mu_c), and it has {}", significant(*coefficient, 4))
         });
         format!("interface {interface} opens at {opens} g before it slides at {slides} g{}", both.unwrap_or_default())
@@ -135,7 +174,7 @@ impl Findings {
             |motion: &Option<Motion>| motion.as_ref().map(|motion| MotionFindings::of(motion, scene.options.t_end));
         let horizontal = component(&scene.excitation.horizontal);
         let pga = horizontal.as_ref().map_or(0.0, |motion| motion.pga);
-        let openings = scene.openings_at_rest();
+        let (openings, slips) = (scene.openings_at_rest(), scene.slips_at_rest());
         let opened = (1..).zip(&openings).filter(|(_, opening)| opening.is_some());
         let pga_alone = scene.excitation.vertical.is_none().then_some(pga);
         Findings {
@@ -143,11 +182,16 @@ impl Findings {
             blocks: column.blocks().to_vec(),
             derived,
             opens: opened.map(|(interface, _)| interface).collect(),
-            first_opening: openings.into_iter().flatten().reduce(f64::min),
+            first_opening: openings.iter().copied().flatten().reduce(f64::min),
             contacts: scene
                 .friction
                 .iter()
-                .flat_map(|friction| stacks.iter().map(|stack| ContactFindings::of(stack, friction, pga_alone)))
+                .flat_map(|friction| {
+                    stacks.iter().zip(&openings).zip(&slips).map(|((stack, opens), slides)| {
+                        let is_symmetric = column.centroid_offset(stack.interface - 1) == 0.0;
+                        ContactFindings::of(stack, friction, pga_alone, is_symmetric, [*slides, *opens])
+                    })
+                })
                 .collect(),
             stacks,
             restitution_factors: scene.restitution.factors(column),
