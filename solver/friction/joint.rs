@@ -205,16 +205,22 @@ const COINCIDENCE: f64 = 1e-13;
 
 /// The face that carries a corner of this side, at a slide `[m]`.
 pub fn face(column: &Column, interface: usize, side: Sign, slide: f64) -> Face {
-    let Some(below) = interface.checked_sub(1) else { return Face::Lower };
-    let (own, lower) = (column.blocks()[interface].bottom_half_width, column.blocks()[below].top_half_width);
+    if interface == 0 {
+        return Face::Lower;
+    }
     let beyond = overhang(column, interface, side, slide);
-    if beyond.abs() <= COINCIDENCE * (own + lower) {
+    if beyond.abs() <= coincidence(column, interface) {
         Face::Both
     } else if beyond < 0.0 {
         Face::Lower
     } else {
         Face::Upper
     }
+}
+
+/// Largest distance of coinciding corners at an interface above the ground `[m]`.
+pub fn coincidence(column: &Column, interface: usize) -> f64 {
+    COINCIDENCE * (column.blocks()[interface].bottom_half_width + column.lower_half_width(interface))
 }
 
 /// How far the upper corner of a side is outside the lower face `[m]`; minus infinity on the ground.

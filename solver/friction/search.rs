@@ -15,7 +15,7 @@ use super::chain::{Chain, Rates};
 use super::complementarity;
 use super::contact_problem::{Coefficients, Question, Touch, centre, cone_margins, half_length};
 use super::gaps::{self, Corner};
-use super::joint::{Configuration, Face, Joint, Sign, Slip, face, joined_above};
+use super::joint::{Configuration, Face, Joint, Sign, Slip, coincidence, face, joined_above};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::contact::ENERGY_ROUNDING;
@@ -252,19 +252,31 @@ impl<'a> Search<'a> {
                 joints[interface] = Joint::Free;
             }
         }
+        if !is_carried.contains(&true) {
+            return joints;
+        }
         // Each of the others changes a few times at most: it slides, then parts.
-        let most_changes = if is_carried.contains(&true) { 3 * joints.len() } else { 0 };
-        for _ in 0..most_changes {
-            let Some(answer) = self.answer(&joints) else { break };
-            let others = (0..joints.len()).filter(|i| !is_carried[*i]);
-            let Some((interface, joint)) =
-                others.filter_map(|i| self.required(&joints, &answer, i, self.slack).map(|joint| (i, joint))).next()
-            else {
-                break;
-            };
+        for _ in 0..3 * joints.len() {
+            let Some(answer) = self.answer(&joints) else { return joints };
+            let mut others = (0..joints.len()).filter(|i| !is_carried[*i]);
+            let required = |i: usize| self.required(&joints, &answer, i, self.slack).map(|joint| (i, joint));
+            let Some((interface, joint)) = others.find_map(required) else { return joints };
             joints[interface] = self.joint_an_instant_later(interface, joint).map_or(joint, |(later, _)| later);
         }
-        joints
+        // They go in circles: no state of theirs goes with the carried ones.
+        self.solved_an_instant_later(&solution.joints).unwrap_or(joints)
+    }
+
+    /// The states that the whole search finds once coinciding corners that slide are just too far apart to coincide.
+    fn solved_an_instant_later(&self, joints: &[Joint]) -> Option<PerBlock<Joint>> {
+        let mut later = self.now.clone();
+        for (interface, joint) in joints.iter().enumerate() {
+            if let Some((_, direction)) = self.joint_an_instant_later(interface, *joint) {
+                later.slide[interface] += f64::from(direction) * 2.0 * coincidence(self.column, interface);
+            }
+        }
+        let search = Search::new(self.column, &later, self.touch, self.friction, self.question.clone());
+        search.solve_from(search.first()).map(|found| found.joints)
     }
 
     /// The state of coinciding corners that slide, once they coincide no more, and the direction of the slide; `None` for all others.
@@ -544,7 +556,8 @@ impl<'a> Search<'a> {
                     Face::Upper => upper(),
                     Face::Both => lower().min(upper()),
                 };
-                (apart < slack).then(|| self.corner(interface, side, Slip::Sticks))
+                let slip = self.given_slip(interface).unwrap_or(Slip::Sticks);
+                (apart < slack).then(|| self.corner(interface, side, slip))
             }
             Touch::Faces => {
                 let sinking = [1, -1].map(|side| {
@@ -554,10 +567,11 @@ impl<'a> Search<'a> {
                     };
                     self.leaving(answer, Corner { interface, side, face }) < slack
                 });
+                let slip = self.given_slip(interface).unwrap_or(Slip::Sticks);
                 match sinking {
-                    [true, true] => Some(Joint::Closed(Slip::Sticks)),
-                    [true, false] => Some(self.corner(interface, 1, Slip::Sticks)),
-                    [false, true] => Some(self.corner(interface, -1, Slip::Sticks)),
+                    [true, true] => Some(Joint::Closed(slip)),
+                    [true, false] => Some(self.corner(interface, 1, slip)),
+                    [false, true] => Some(self.corner(interface, -1, slip)),
                     [false, false] => None,
                 }
             }
