@@ -3,7 +3,7 @@
 #[path = "common/stress.rs"]
 mod scenes;
 
-use rocking::{Block, Column, Friction, Motion, Scene, StopReason, simulate};
+use rocking::{Block, BlockAtEvent, Column, Friction, Motion, Response, Scene, StopReason, simulate};
 
 const GRAVITY: f64 = 9.81;
 
@@ -38,11 +38,34 @@ fn corners_on_corners_hold_what_the_sum_of_their_cones_holds() {
     }
 }
 
-/// Of these 240 columns 37 ended as undetermined, most of them in their fall.
+/// Where the corners at interface 4 began to slide, interface 5 had to part and would have sunk in: it was left sticking, and its slide lost its rate of
+/// 1.6 mm/s without an impulse.
+#[test]
+fn regression_a_slide_beside_coinciding_corners_keeps_its_rate() {
+    let pulse = (2.496565255035901, 0.7911432180856212);
+    let run = simulate(&column((5, 0.3679599472623747, 0.5552031039113399), 0.0, 0.6, pulse)).expect("a run");
+    assert_eq!(run.status, StopReason::Overturned);
+    hold_their_velocities(&run);
+}
+
+/// Largest change of a velocity without an impulse `[m/s]`: of hops and slides that end because they are too low to be followed.
+const UNFOLLOWED: f64 = 1e-4;
+
+/// Velocities change in impacts only.
+fn hold_their_velocities(run: &Response) {
+    for event in run.events.iter().filter(|event| !event.kind.is_impact()) {
+        let change =
+            |block: &BlockAtEvent, axis: usize| (block.velocity_after[axis] - block.velocity_before[axis]).abs();
+        let largest = event.blocks.iter().map(|block| change(block, 0).max(change(block, 1))).fold(0.0, f64::max);
+        assert!(largest < UNFOLLOWED, "{largest} m/s at {:?} at {} s", event.kind, event.t);
+    }
+}
+
+/// Of these columns with coefficients of 0.8 and more 37 ended as undetermined, most of them in their fall.
 #[test]
 fn columns_of_equal_drums_have_a_verdict_whatever_their_friction() {
     let mut undetermined = Vec::new();
-    for friction in [0.8, 1.0, 1.2, 1.5] {
+    for friction in [0.6, 0.8, 1.0, 1.2, 1.5] {
         for seed in 0..60 {
             let mut random = scenes::Random::new(seed);
             let sizes = (2 + random.below(5), random.within(0.2, 0.4), random.within(0.4, 1.25));
@@ -51,6 +74,7 @@ fn columns_of_equal_drums_have_a_verdict_whatever_their_friction() {
             if run.status == StopReason::Undetermined {
                 undetermined.push((friction, seed, run.t_final));
             }
+            hold_their_velocities(&run);
         }
     }
     assert!(undetermined.len() <= 1, "{undetermined:?}");
