@@ -1,8 +1,12 @@
 //! Columns of five to twelve blocks with friction, whose contact problems the search by violated conditions alone does not solve, or solved wrongly once
 //! (docs/book/model.md, sections 16 to 18).
 
+#[path = "common/stress.rs"]
+mod scenes;
+
+use rocking::column::Shape;
 use rocking::scene_file::SceneFile;
-use rocking::{EventKind, Response, Scene, StopReason, simulate};
+use rocking::{Block, Column, EventKind, Friction, Motion, Response, Scene, StopReason, simulate};
 use std::path::Path;
 
 fn run(name: &str) -> (Scene, Response) {
@@ -77,4 +81,35 @@ fn impulses_of_corners_have_no_moment_about_them() {
         }
     }
     assert!(counted > 100, "{counted} corners");
+}
+
+/// A column of drums, 4 to 7 m tall, whose top is 0.85 times as wide as its base, with a coefficient of 0.5 to 0.8, under a one-sine pulse of 0.5 to 1.5 g.
+fn shaken(drums: usize, seed: u64) -> Scene {
+    let mut random = scenes::Random::new(seed);
+    let (base, half_height) = (random.within(0.3, 0.6), 0.5 * random.within(4.0, 7.0) / drums as f64);
+    let half_width = |joint: usize| base * (1.0 - 0.15 * joint as f64 / drums as f64);
+    let block =
+        |drum: usize| Block::of_shape(Shape::Prism, [half_width(drum), half_width(drum + 1)], half_height, 1000.0);
+    let mut scene = Scene::new(Column::new((0..drums).map(block).collect(), 9.81).expect("positive sizes"));
+    let (amplitude, frequency) = (9.81 * random.within(0.5, 1.5), random.within(0.8, 2.0));
+    let omega = std::f64::consts::TAU * frequency;
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude, omega, start: 0.0 });
+    scene.friction = Some(Friction::uniform(random.within(0.5, 0.8)));
+    scene.options.t_end = 3.0;
+    scene
+}
+
+/// How many columns of many drums end without an answer, for README and docs/book/performance.md.
+#[test]
+#[ignore = "a measurement of some minutes: run with --ignored --nocapture"]
+fn columns_of_many_drums_without_an_answer() {
+    for (drums, columns, most) in [(8, 24, 0), (12, 24, 0), (20, 16, 3), (30, 8, 5)] {
+        let is_undetermined = |seed: &u64| {
+            let run = simulate(&shaken(drums, *seed)).expect("a run");
+            run.status == StopReason::Undetermined
+        };
+        let undetermined: Vec<u64> = (0..columns).filter(is_undetermined).collect();
+        println!("{drums} drums: {} of {columns} without an answer: {undetermined:?}", undetermined.len());
+        assert!(undetermined.len() <= most, "{drums} drums: {undetermined:?}");
+    }
 }

@@ -156,8 +156,25 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
         let slides: Vec<String> = report.residual_slide.iter().map(|slide| fixed(100.0 * slide, 3)).collect();
         let flights: usize = report.flights.iter().sum();
         let _ = writeln!(text, "slides at the end, base first: {} cm; {flights} flight(s)", slides.join(", "));
-    } else if response.sliding.is_some() {
+    } else if response.sliding.is_some() && response.status != StopReason::Undetermined {
         let _ = writeln!(text, "friction holds: no block slides or flies");
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking::{Column, Friction, simulate};
+
+    #[test]
+    fn friction_holds_where_a_motion_follows_from_it() {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes"));
+        scene.friction = Some(Friction::uniform(0.7));
+        let mut response = simulate(&scene).expect("it runs");
+        let said = |response: &Response| account(&scene, response, &Followed::No).contains("friction holds");
+        assert!(said(&response));
+        response.status = StopReason::Undetermined;
+        assert!(!said(&response));
+    }
 }

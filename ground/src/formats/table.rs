@@ -9,8 +9,8 @@
 //!
 //! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Lines of text
 //! above the names are titles. Without names the time is the nearest column before the accelerations that has equal steps, else the
-//! first column if it never falls. Equal intervals are required: nothing is resampled here. What the names mean is the matter of
-//! [`heading`](super::heading), what remarks and titles state that of [`statement`].
+//! first column if it never falls. Equal intervals are required: nothing is resampled here. Names of columns are read in
+//! [`heading`](super::heading), remarks and titles in [`statement`].
 
 use super::header::{Entry, brief, listed, tidy};
 use super::heading::{Heading, Quantity, headings};
@@ -229,6 +229,7 @@ fn title(lines: &[&str]) -> String {
         .unwrap_or_default()
 }
 
+/// The rows of a table, its headings, and what the text above them states.
 fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
     let body: Vec<(usize, &str)> = lines
         .iter()
@@ -237,6 +238,23 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .map(|(index, line)| (index + 1, without_remark(line)))
         .filter(|(_, line)| words(line).next().is_some())
         .collect();
+    let first = first_row(&body)?;
+    let mut rows = numbers(&body[first..])?;
+    let above = first.checked_sub(2).map(|place| body[place].1);
+    let headings = first.checked_sub(1).map(|last| (body[last].0, headings(body[last].1, above)));
+    let header = options.skip_rows..rows.lines[0] - 1;
+    rows.headings = headings
+        .filter(|(_, headings)| !headings.is_empty())
+        .or_else(|| remark_with_headings(lines, header.clone(), rows.columns))
+        .unwrap_or_default();
+    let text = || header.clone().map(|index| (index + 1, lines[index]));
+    rows.stated_unit = statement::unit(text().filter(|(line, _)| *line != rows.headings.0));
+    rows.stated_interval = text().find_map(|(line, text)| Some((line, statement::interval(text)?)));
+    Ok(rows)
+}
+
+/// Place of the first row of numbers among the lines with words.
+fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
     // The last line of text above the numbers has the headings; the lines before it are titles. A line with the number of samples is a title, as are
     // all lines above it.
@@ -246,19 +264,22 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         let word = words(first_text).next().expect("lines without words are left out");
         return Err(unreadable(refused(*first_line, word)));
     }
-    let above = first.checked_sub(2).map(|place| body[place].1);
-    let headings = first.checked_sub(1).map(|last| (body[last].0, headings(body[last].1, above)));
-    refuse_count(&body[first..])?;
-    let decimal_comma = has_decimal_commas(&body[first..]);
+    Ok(first)
+}
+
+/// The rows of numbers, without what stands above them.
+fn numbers(body: &[(usize, &str)]) -> Result<Rows, RecordError> {
+    refuse_count(body)?;
+    let decimal_comma = has_decimal_commas(body);
     let mut rows = Rows {
-        headings: headings.unwrap_or_default(),
+        headings: Default::default(),
         lines: Vec::new(),
         values: Vec::new(),
         columns: 0,
         stated_unit: None,
         stated_interval: None,
     };
-    for (line, text) in &body[first..] {
+    for (line, text) in body {
         // Spreadsheets may put every cell between quotes.
         let text = text.replace('"', " ");
         let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(&text, *line) };
@@ -271,13 +292,6 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         rows.lines.push(*line);
         rows.values.extend(row);
     }
-    let header = options.skip_rows..rows.lines[0] - 1;
-    if rows.headings.1.is_empty() {
-        rows.headings = remark_with_headings(lines, header.clone(), rows.columns).unwrap_or_default();
-    }
-    let text = || header.clone().map(|index| (index + 1, lines[index]));
-    rows.stated_unit = statement::unit(text().filter(|(line, _)| *line != rows.headings.0));
-    rows.stated_interval = text().find_map(|(line, text)| Some((line, statement::interval(text)?)));
     Ok(rows)
 }
 

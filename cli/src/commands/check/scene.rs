@@ -54,9 +54,9 @@ struct ContactFindings {
     slides_at: f64,
     /// Horizontal ground acceleration at which the contact opens, to the side to which it takes less, without vertical motion `[m/s²]`.
     opens_at: f64,
-    /// When the ground motion of the scene slides the contact first `[s]`, if it has not opened before; `None` if it does not.
+    /// When the ground motion of the scene first slides the contact at rest `[s]`, if nothing opens or slides before; `None` if it does not.
     slides_from: Option<f64>,
-    /// When the ground motion of the scene opens the contact first `[s]`, if it has not slid before; `None` if it does not.
+    /// When the ground motion of the scene first opens the contact at rest `[s]`, if nothing opens or slides before; `None` if it does not.
     opens_from: Option<f64>,
     /// Whether both sides take the same.
     is_symmetric: bool,
