@@ -22,7 +22,7 @@ pub struct Mode {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IntegrateOptions {
-    /// Gravity `[m/s²]`: 9.81 unless given, whatever the gravity of the column, which a mode does not know ([`Column::gravity`]).
+    /// Gravity `[m/s²]`: 9.81 unless given, whatever the gravity of the column, which a mode does not know ([`Column::gravity`](crate::Column::gravity)).
     pub gravity: f64,
     /// Method.
     pub method: Method,
