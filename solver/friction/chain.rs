@@ -12,7 +12,7 @@
 //! in the rates of angles, slides and `r_i`. Accelerations are the same linear function of the second derivatives, plus terms of the rates.
 
 use super::joint::{Configuration, Face, Joint};
-use crate::column::Column;
+use crate::column::{Block, Column};
 use crate::mechanics::kinematics::{Vec2, lower};
 use crate::numerics::per_block::PerBlock;
 use std::ops::Range;
@@ -188,10 +188,9 @@ pub struct Chain<'a> {
 impl<'a> Chain<'a> {
     /// The geometry of a configuration.
     pub fn new(column: &'a Column, configuration: &Configuration) -> Chain<'a> {
-        let (blocks, ground) = (column.blocks(), Rotation::NONE);
-        let mut chain = Chain { column, blocks: Vec::with_capacity(blocks.len()) };
-        let (mut below, mut lower, mut angle_below) = ([0.0, 0.0], ground, 0.0);
-        for (i, block) in blocks.iter().enumerate() {
+        let blocks = column.blocks();
+        let (mut below, mut lower, mut angle_below) = ([0.0, 0.0], Rotation::NONE, 0.0);
+        let placed = |(i, block): (usize, &Block)| {
             let (joint, slide, angle) = (configuration.joints[i], configuration.slide[i], configuration.theta[i]);
             // Blocks that are joined turn together.
             let upper = if angle == angle_below { lower } else { Rotation::by(angle) };
@@ -216,10 +215,10 @@ impl<'a> Chain<'a> {
             let to_centroid = upper.rotate([0.0, block.centroid_height]);
             let to_top = upper.rotate([0.0, 2.0 * block.half_height]);
             let (centroid, top) = (plus(foot, to_centroid), plus(foot, to_top));
-            chain.blocks.push(Placed { link, turn: upper, to_centroid, to_top, foot, centroid, top });
             (below, lower, angle_below) = (top, upper, angle);
-        }
-        chain
+            Placed { link, turn: upper, to_centroid, to_top, foot, centroid, top }
+        };
+        Chain { column, blocks: blocks.iter().enumerate().map(placed).collect() }
     }
 
     /// Number of blocks.

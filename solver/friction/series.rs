@@ -316,6 +316,20 @@ impl Values<'_> {
             Values::Component(vectors, axis) => vectors[order].to_array()[*axis],
         }
     }
+
+    /// Value and rate after `t` `[s]`, from the orders up to `highest`.
+    pub fn with_rate(&self, highest: usize, t: f64) -> [f64; 2] {
+        let horner = |[value, rate]: [f64; 2], coefficient: f64| [value * t + coefficient, rate * t + value];
+        match self {
+            Values::Number(numbers) => {
+                numbers[..=highest].iter().rev().fold([0.0; 2], |sum, number| horner(sum, *number))
+            }
+            Values::Component(vectors, axis) => {
+                let component = |vector: &f64x2| vector.to_array()[*axis];
+                vectors[..=highest].iter().rev().fold([0.0; 2], |sum, vector| horner(sum, component(vector)))
+            }
+        }
+    }
 }
 
 /// Two numbers as a vector.

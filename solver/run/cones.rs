@@ -62,12 +62,17 @@ impl<'a> Cones<'a> {
         }
     }
 
+    /// Whether the limits depend on the largest gaps, which the record must then have.
+    pub fn need_gaps(&self) -> bool {
+        self.may_be_below.contains(&true)
+    }
+
     /// Whether a demand `|T| / N`, in the axes of the lower face, is within a coefficient. If the upper face may carry the contact, the angle
-    /// `atan(demand)` is first increased by a bound of the angle between the faces: the sum of both blocks' entries in `peaks` `[rad]`.
-    fn is_within(&self, interface: usize, demand: f64, coefficient: f64, peaks: &[f64]) -> bool {
-        match interface.checked_sub(1).filter(|_| self.may_be_below[interface]) {
-            Some(below) => libm::atan(demand) + peaks[interface] + peaks[below] <= libm::atan(coefficient),
-            None => demand <= coefficient,
+    /// `atan(demand)` is first increased by the largest angle between the faces, an entry of `gaps` `[rad]`.
+    fn is_within(&self, interface: usize, demand: f64, coefficient: f64, gaps: &[f64]) -> bool {
+        match self.may_be_below[interface] {
+            true => libm::atan(demand) + gaps[interface] <= libm::atan(coefficient),
+            false => demand <= coefficient,
         }
     }
 }
@@ -76,10 +81,10 @@ impl Limits for Cones<'_> {
     const ARE_THERE: bool = true;
 
     fn hold(&self, record: &Recorder) -> bool {
-        let peaks = record.peak_theta();
+        let gaps = record.largest_gaps();
         let demands = record.friction_demand().iter().zip(&self.friction.fixed).enumerate();
         record.min_normal_force().iter().all(|least| *least >= 0.0)
-            && demands.into_iter().all(|(interface, (demand, most))| self.is_within(interface, *demand, *most, peaks))
+            && demands.into_iter().all(|(interface, (demand, most))| self.is_within(interface, *demand, *most, gaps))
     }
 
     fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool {
@@ -92,11 +97,11 @@ impl Limits for Cones<'_> {
         }
         let sizes = decision.impulses.iter().map(|own| own.normal.abs() + own.tangential.abs());
         let least = NEGLIGIBLE_IMPULSE * sizes.fold(0.0f64, f64::max);
-        let peaks = record.peak_theta();
+        let gaps = record.largest_gaps();
         decision.impulses.iter().enumerate().all(|(interface, own)| {
             let demand = || own.tangential.abs() / own.normal;
             own.normal >= -least
-                && (own.normal <= least || self.is_within(interface, demand(), self.friction.kinetic[interface], peaks))
+                && (own.normal <= least || self.is_within(interface, demand(), self.friction.kinetic[interface], gaps))
         })
     }
 }

@@ -125,9 +125,9 @@ impl Recorder {
         (self.friction_demand, self.impulse_friction_demand) = (mark.friction_demand, mark.impulse_friction_demand);
     }
 
-    /// Largest angles so far, per block `[rad]`.
-    pub fn peak_theta(&self) -> &[f64] {
-        &self.peak_theta
+    /// Largest sizes of gaps so far, per interface `[rad]`; empty unless they are recorded.
+    pub fn largest_gaps(&self) -> &[f64] {
+        &self.largest_gaps
     }
 
     /// Largest friction demands of forces so far, per interface.

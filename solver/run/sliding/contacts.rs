@@ -1,7 +1,7 @@
 //! What touches: contacts found from gaps and speeds, and the slide with which a corner lands.
 
 use crate::column::Column;
-use crate::friction::chain::{Chain, Rates};
+use crate::friction::chain::{Chain, Pose, Rates};
 use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
@@ -121,10 +121,11 @@ pub fn met(
     (joint, slide)
 }
 
-/// Gap of a free interface `[m]`: the least distance of a corner from the other block's face.
-pub fn gap(chain: &Chain, interface: usize) -> f64 {
+/// Gap of a free interface of a configuration `[m]`: the least distance of a corner from the other block's face.
+pub fn gap(column: &Column, now: &Configuration, interface: usize) -> f64 {
+    let pose = Pose::of_free(now, interface);
     let distance = |corner: Corner| {
-        let [beside, above] = gaps::corner_position(chain, corner);
+        let [beside, above] = gaps::corner_position_of_pose(column, &pose, corner);
         if beside <= 0.0 { above.max(0.0) } else { libm::hypot(beside, above) }
     };
     let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));

@@ -392,7 +392,7 @@ impl<'p> SlidingRecorder<'p> {
         let segment = self.segment_of_row(t);
         let Segment { horizontal, vertical, .. } = segment;
         let gap = |interface: usize| match now.joints[interface] {
-            Joint::Free => contacts::gap(chain, interface),
+            Joint::Free => contacts::gap(self.column(), now, interface),
             _ => 0.0,
         };
         let blocks = now.theta.len();

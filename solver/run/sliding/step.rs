@@ -36,13 +36,9 @@ impl Output for Interpolant<Vec<f64>> {
 impl Output for SeriesSpan<'_> {
     fn state(&self, s: f64, state: &mut [f64]) {
         let (values, rates) = state.split_at_mut(state.len() / 2);
-        let (t, highest) = (s * self.h, self.series.orders() + 1);
+        let highest = self.series.orders() + 1;
         for ((own, value), rate) in self.series.values().zip(values).zip(rates) {
-            (*value, *rate) = (0.0, 0.0);
-            for k in (0..=highest).rev() {
-                *rate = *rate * t + *value;
-                *value = *value * t + own.of(k);
-            }
+            [*value, *rate] = own.with_rate(highest, s * self.h);
         }
     }
 

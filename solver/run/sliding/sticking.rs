@@ -121,6 +121,7 @@ impl<'p> Sticking<'p> {
         let mut problem = Problem::new(&self.scene, self.problem.ground, None, self.problem.skips);
         problem.kappa.clone_from(&self.problem.kappa);
         let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
+        problem.records_gaps = cones.need_gaps();
         let is_beginning = from.is_none();
         let departure = match from {
             Some(state) => Departure::Decided(state),

@@ -1,7 +1,7 @@
 //! What the recorder reads of a step: moments, crests of angles, forces and work at the nodes of a quadrature.
 
 use super::{Output, Step};
-use crate::friction::chain::{Chain, Rates};
+use crate::friction::chain::Rates;
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::joint::Configuration;
 use crate::mechanics::dynamics::ContactForce;
@@ -78,7 +78,7 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
     fn gap(&mut self, t: f64, interface: usize) -> f64 {
         self.output.state(self.place(t), &mut self.state);
         let now = self.smooth.configuration(&self.state);
-        contacts::gap(&Chain::new(self.smooth.column, &now), interface)
+        contacts::gap(self.smooth.column, &now, interface)
     }
 }
 
