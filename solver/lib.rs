@@ -81,7 +81,7 @@ pub use response::{
     BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Fate, Impulse, ModeName, Response, Sample, SlidingReport,
     StopReason, Work,
 };
-pub use rocking_codegen::{GroundMotion, pattern};
+pub use rocking_codegen::{GroundMotion, joints, pattern};
 pub use rocking_ground as ground;
 pub use rocking_ground::{DEFAULT_GRAVITY, Excitation, Motion, Record, RecordError};
 pub use row_times::RowTimes;

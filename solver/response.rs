@@ -11,6 +11,7 @@ use crate::json::{number, numbers};
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
 use crate::validity::Validity;
+use rocking_codegen::joints::Joints;
 use rocking_codegen::pattern::{ModeLabel, Pattern};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -116,6 +117,15 @@ pub struct Event {
     pub omega_before: PerBlock<f64>,
     /// Rates after `[rad/s]`, per block.
     pub omega_after: PerBlock<f64>,
+    /// States of the interfaces before, slides and flights included; `None` for a run in which nothing slides or flies: `before` has them.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "states")]
+    pub states_before: Option<Joints>,
+    /// States of the interfaces after.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "states")]
+    pub states_after: Option<Joints>,
+    /// Slides `[m]` as in [`Sample::slide`]; empty for a run in which nothing slides or flies.
+    #[serde(default, skip_serializing_if = "is_empty")]
+    pub slide: PerBlock<f64>,
     /// Positions and velocities of the blocks, base first; empty for a run in which nothing slides or flies.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub blocks: Vec<BlockAtEvent>,
@@ -174,6 +184,21 @@ fn pattern<'de, D: Deserializer<'de>>(from: D) -> Result<Pattern, D::Error> {
     match signs.iter().find(|sign| sign.abs() > 1) {
         Some(sign) => Err(D::Error::custom(format!("{sign} is no sign of a pattern"))),
         None => Ok(Pattern::from_signs(&signs)),
+    }
+}
+
+/// States of all interfaces as text, like `(+>,0,f)`.
+mod states {
+    use super::Joints;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(states: &Option<Joints>, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&states.as_ref().map(Joints::to_string).unwrap_or_default())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Joints>, D::Error> {
+        Joints::parse(&String::deserialize(from)?).map(Some).map_err(D::Error::custom)
     }
 }
 

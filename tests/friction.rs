@@ -781,3 +781,25 @@ fn closed_interfaces_of_displaced_drums_need_what_parallel_faces_need() {
         assert_relative_eq!(one, other, max_relative = 1e-6);
     }
 }
+
+/// Every slide, flight and corner begins and ends with an event: the states before an event are those after the event before it.
+#[test]
+fn states_change_at_events_only() {
+    let mut slides_from_impacts = 0;
+    for mut scene in random_scenes(200) {
+        scene.friction = Some(Friction::new(vec![0.4; scene.column.len()], vec![0.3; scene.column.len()]));
+        let response = run(&scene);
+        for pair in response.events.windows(2).filter(|pair| pair[1].states_before.is_some()) {
+            assert_eq!(pair[0].states_after, pair[1].states_before, "{} s, {} s", pair[0].t, pair[1].t);
+        }
+        for event in response.events.iter().filter(|event| event.states_after.is_some()) {
+            let [before, after] =
+                [&event.states_before, &event.states_after].map(|states| states.as_ref().expect("states"));
+            assert_eq!(event.slide.len(), scene.column.len());
+            let slides = |text: String| text.contains(['<', '>', 'f']);
+            slides_from_impacts +=
+                usize::from(event.kind.is_impact() && slides(after.to_string()) && !slides(before.to_string()));
+        }
+    }
+    assert!(slides_from_impacts > 20, "{slides_from_impacts}");
+}

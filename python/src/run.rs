@@ -8,6 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking::dynamics::ContactForce;
+use rocking::joints::Joints;
 use rocking::json::Explicit;
 use rocking::pattern::Pattern;
 use rocking::run_folder::{Folder, Results, Run};
@@ -170,7 +171,7 @@ impl Response {
         self.scene.output_columns.iter().filter_map(name).collect()
     }
 
-    /// Events as columns; arrays of angles, rates and impulses have the shape (events, blocks).
+    /// Events as columns; arrays of angles, rates, slides and impulses have the shape (events, blocks).
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let events = &self.response.events;
         let columns = PyDict::new(py);
@@ -196,6 +197,12 @@ impl Response {
             let shape = [events.len(), blocks];
             columns.set_item(name, numbers.into_pyarray(py).reshape(shape)?)
         };
+        if events.iter().any(|event| event.states_after.is_some()) {
+            let text = |states: &Option<Joints>| states.as_ref().map(Joints::to_string);
+            columns.set_item("states_before", events.iter().map(|event| text(&event.states_before)).collect::<Vec<_>>())?;
+            columns.set_item("states_after", events.iter().map(|event| text(&event.states_after)).collect::<Vec<_>>())?;
+            grid("slide", &|event, block| event.slide.get(block).copied().unwrap_or(f64::NAN))?;
+        }
         grid("theta", &|event, block| event.theta[block])?;
         grid("omega_before", &|event, block| event.omega_before[block])?;
         grid("omega_after", &|event, block| event.omega_after[block])?;

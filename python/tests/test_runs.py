@@ -161,6 +161,9 @@ def test_friction_brings_slides_and_places() -> None:
     assert np.allclose(run.place[0], [[0.0, 0.4], [0.0, 1.2]]) and np.allclose(run.force[0, :, 0].ptp() if hasattr(run.force, "ptp") else 0.0, 0.0)
     sticking = rk.simulate(column, motion.replace(amplitude_g=0.05), friction={"static": 0.9, "kinetic": [0.8, 0.7]}, t_end=1)
     assert sticking.outcome == "no-uplift" and sticking.place is None and np.all(sticking.slide == 0)
+    events = run.events
+    assert events.states_after[0] == "(0<,0)" and list(events.states_before[1:]) == list(events.states_after[:-1])
+    assert abs(events.slide_1.iloc[-1]) > 0.01 and "states_after" not in sticking.events
 
 
 def test_tables_pictures_and_pages(scenes: Path, tmp_path: Path) -> None:

@@ -20,6 +20,11 @@ impl Corner {
         let faces: &[Face] = if interface == 0 { &[Face::Lower] } else { &[Face::Lower, Face::Upper] };
         faces.iter().map(move |&face| Corner { interface, side, face })
     }
+
+    /// All corners of an interface that may land on a face of the other block.
+    pub fn all(interface: usize) -> impl Iterator<Item = Corner> {
+        [1, -1].into_iter().flat_map(move |side| Corner::of_side(interface, side))
+    }
 }
 
 /// A corner seen from a face.
@@ -156,8 +161,7 @@ pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize, flush: 
         let [beside, above] = corner_position_of_pose(column, pose, corner);
         if beside < 0.0 || (beside <= flush && are_over_each_other) { -above } else { 0.0 }
     };
-    let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
-    corners.map(depth).fold(0.0, f64::max)
+    Corner::all(interface).map(depth).fold(0.0, f64::max)
 }
 
 /// How far the faces of a free interface reach over each other, along the lower one, as if they were parallel `[m]`.

@@ -80,7 +80,7 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
                 if i > 0 {
                     guards.push(Guard::Collapse(i));
                 }
-                guards.extend([1, -1].into_iter().flat_map(|side| Corner::of_side(i, side)).map(Guard::Land));
+                guards.extend(Corner::all(i).map(Guard::Land));
             }
         }
         guards.push(Guard::Overturn(i));

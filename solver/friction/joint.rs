@@ -13,6 +13,7 @@
 use crate::column::Column;
 use crate::mechanics::kinematics::{Vec2, relative};
 use crate::numerics::per_block::PerBlock;
+use rocking_codegen::joints::{self, Carrier, Joints};
 use rocking_codegen::pattern::{Interface, Pattern};
 use std::ops::RangeInclusive;
 
@@ -85,6 +86,22 @@ impl Joint {
     pub fn after_coinciding(side: Sign, direction: Sign) -> Joint {
         let face = if direction == side { Face::Upper } else { Face::Lower };
         Joint::Corner(side, face, Slip::Slides(direction))
+    }
+
+    /// The state in the notation of the generator, which names the face of corners that slide only.
+    fn notation(self) -> joints::Joint {
+        let (interface, face, slip) = match self {
+            Joint::Closed(slip) => (Interface::Closed, Face::Lower, slip),
+            Joint::Corner(side, face, slip) => (Interface::from_sign(side), face, slip),
+            Joint::Free => return joints::Joint::Free,
+        };
+        let slides = match slip {
+            Slip::Sticks => joints::Slip::Sticks,
+            Slip::Slides(direction) if direction > 0 => joints::Slip::Right,
+            Slip::Slides(_) => joints::Slip::Left,
+        };
+        let is_upper = face == Face::Upper && slip != Slip::Sticks;
+        joints::Joint::Contact(interface, slides, if is_upper { Carrier::Upper } else { Carrier::Lower })
     }
 
     /// How the contact resists sliding; `None` for a free interface.
@@ -165,6 +182,11 @@ impl Configuration {
             }
         };
         Pattern((0..self.joints.len()).map(state).collect())
+    }
+
+    /// The states of the interfaces, as events show them.
+    pub fn states(&self) -> Joints {
+        Joints(self.joints.iter().map(|joint| joint.notation()).collect())
     }
 
     /// Whether all faces lie on each other and stick.

@@ -128,6 +128,11 @@ impl Results {
             };
             states.iter().all(|pattern| pattern.0.len() == length)
                 && numbers.iter().all(|list| list.len() == length && all_plausible(list.iter().copied()))
+                && [&event.states_before, &event.states_after]
+                    .iter()
+                    .all(|states| states.as_ref().is_none_or(|states| states.0.len() == length))
+                && (event.slide.is_empty() || event.slide.len() == length)
+                && all_plausible(event.slide.iter().copied())
                 && (event.blocks.is_empty() || event.blocks.len() == length)
                 && event.blocks.iter().all(is_placed)
                 && (0.0..=LARGEST_NUMBER).contains(&event.t)

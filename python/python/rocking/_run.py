@@ -169,7 +169,9 @@ class Run:
 
     @cached_property
     def events(self) -> pd.DataFrame:
-        """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s], impulses [N s]."""
+        """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s], impulses [N s].
+        Where blocks slid or flew also states with slides and flights, such as ``(+>,0,f)``, and slides [m].
+        """
         columns: dict[str, Any] = {}
         for name, values in self._response.events().items():
             if getattr(values, "ndim", 1) == 2:

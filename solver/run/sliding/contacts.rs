@@ -121,14 +121,15 @@ pub fn met(
     (joint, slide)
 }
 
-/// Gap of a free interface of a configuration `[m]`: the least distance of a corner from the other block's face.
+/// Gap of a free interface of a configuration `[m]`.
 pub fn gap(column: &Column, now: &Configuration, interface: usize) -> f64 {
     let pose = Pose::of_free(now, interface);
-    let distance = |corner: Corner| {
-        let [beside, above] = gaps::corner_position_of_pose(column, &pose, corner);
-        if beside <= 0.0 { above.max(0.0) } else { libm::hypot(beside, above) }
-    };
-    let corners = [1, -1].into_iter().flat_map(|side| Corner::of_side(interface, side));
+    least_distance(Corner::all(interface).map(|corner| gaps::corner_position_of_pose(column, &pose, corner)))
+}
+
+/// The least distance of a corner from the other block's face, from positions beside and above the faces `[m]`.
+pub fn least_distance(corners: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let distance = |[beside, above]: [f64; 2]| if beside <= 0.0 { above.max(0.0) } else { libm::hypot(beside, above) };
     corners.map(distance).fold(f64::INFINITY, f64::min)
 }
 

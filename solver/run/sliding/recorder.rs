@@ -39,8 +39,8 @@ pub trait StepInside<'p>: Moments<'p> {
     /// Contact forces at a time `[s]`, as in [`Node::contacts`].
     fn contacts(&mut self, t: f64) -> PerBlock<ContactForce>;
 
-    /// Gap of a free interface at a time `[s]` `[m]`.
-    fn gap(&mut self, t: f64, interface: usize) -> f64;
+    /// The largest gap of a free interface up to a time `[s]`, or `so_far` if that is larger `[m]`.
+    fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64;
 }
 
 /// A node of the quadrature over a step.
@@ -160,9 +160,8 @@ impl<'p> SlidingRecorder<'p> {
             return;
         }
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
-        let (blocks, _) = self.blocks([before, after]);
         let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
-        self.events.push(Event {
+        let mut event = Event {
             t,
             kind: *kind,
             interface: numbers.first().copied(),
@@ -175,14 +174,19 @@ impl<'p> SlidingRecorder<'p> {
             theta: PerBlock::from_slice(&after.theta),
             omega_before: PerBlock::from_slice(&before.omega),
             omega_after: PerBlock::from_slice(&after.omega),
-            blocks,
+            states_before: None,
+            states_after: None,
+            slide: PerBlock::new(),
+            blocks: Vec::new(),
             energy_lost: impact.as_ref().map(|(_, share)| *share),
             impulses: impact.as_ref().map_or_else(PerBlock::new, |(impulses, _)| PerBlock::from_slice(impulses)),
-        });
+        };
+        self.write_configurations(&mut event, [before, after]);
+        self.events.push(event);
     }
 
-    /// The blocks before and after an event, and the energies then `[J]`.
-    fn blocks(&self, states: [&Configuration; 2]) -> (Vec<BlockAtEvent>, [f64; 2]) {
+    /// Writes the configurations before and after an event into it: states, slides and blocks. Returns the energies then `[J]`.
+    fn write_configurations(&self, event: &mut Event, states: [&Configuration; 2]) -> [f64; 2] {
         let chains = states.map(|one| Chain::new(self.column(), one));
         let motions = [0, 1].map(|k| chains[k].motion(&Rates::of(states[k])));
         let block = |block: usize| BlockAtEvent {
@@ -190,8 +194,11 @@ impl<'p> SlidingRecorder<'p> {
             velocity_before: motions[0].linear[block],
             velocity_after: motions[1].linear[block],
         };
-        let energies = [0, 1].map(|k| energy_of(&chains[k], &motions[k]));
-        ((0..self.column().len()).map(block).collect(), energies)
+        let blocks = 0..self.column().len();
+        event.blocks = blocks.clone().map(block).collect();
+        event.slide = blocks.map(|interface| slide(&chains[1], states[1], interface)).collect();
+        [event.states_before, event.states_after] = states.map(|one| Some(one.states()));
+        [0, 1].map(|k| energy_of(&chains[k], &motions[k]))
     }
 
     fn impulses(&mut self, impulses: &[Impulse]) {
@@ -225,11 +232,11 @@ impl<'p> SlidingRecorder<'p> {
         }
         self.impacts += response.impacts;
         let mut lost = 0.0;
+        self.events.reserve(response.events.len());
         for mut event in response.events {
             let before = sticking(&event.before, &event.theta, &event.omega_before);
             let after = sticking(&event.after, &event.theta, &event.omega_after);
-            let (blocks, energies) = self.blocks([&before, &after]);
-            event.blocks = blocks;
+            let energies = self.write_configurations(&mut event, [&before, &after]);
             lost += energies[0] - energies[1];
             for (interface, impulse) in event.impulses.iter_mut().enumerate() {
                 // An interface whose blocks turn alike was closed in the impact: their accelerations open it.
@@ -340,8 +347,7 @@ impl<'p> SlidingRecorder<'p> {
         self.read_until = until;
         for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free {
-                let gap = |t: f64| inside.gap(t, interface);
-                self.report.highest_flight = highest(gap, [from, until], self.report.highest_flight);
+                self.report.highest_flight = inside.highest_gap(until, interface, self.report.highest_flight);
             }
         }
     }
@@ -481,44 +487,6 @@ impl<'p> SlidingRecorder<'p> {
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
 const CRITICAL_WAY: f64 = 1e-13;
-
-/// Places at which a gap is sampled over a step of a flight.
-const PLACES_OF_GAP: usize = 5;
-
-/// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
-const ROUNDS_TO_CREST: usize = 40;
-
-/// The largest value of a gap over a span of time `[s]`, or `so_far` if that is larger. Over a face, gaps of flying corners are concave in time but
-/// for their rotation, and so is the lowest of them, which has kinks: the crest is beside the highest of several places, and found by the golden section.
-/// Beside a face the gap grows with the distance, and is largest at an end.
-fn highest(mut value: impl FnMut(f64) -> f64, [from, until]: [f64; 2], so_far: f64) -> f64 {
-    let place = |index: usize| from + (until - from) * index as f64 / (PLACES_OF_GAP - 1) as f64;
-    let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|index| value(place(index)));
-    let most = (1..PLACES_OF_GAP).fold(0, |most, own| if values[own] > values[most] { own } else { most });
-    let so_far = so_far.max(values[most]);
-    // The crest is beside this place, and no higher than the chords from one side continued to the other.
-    let middle = most.clamp(1, PLACES_OF_GAP - 2);
-    let bound = 2.0 * values[middle] - values[middle - 1].min(values[middle + 1]);
-    if bound <= so_far {
-        return so_far;
-    }
-    let [mut low, mut high] = [middle - 1, middle + 1].map(place);
-    let share = 0.5 * (5f64.sqrt() - 1.0);
-    let mut inner = [high - share * (high - low), low + share * (high - low)];
-    let mut heights = inner.map(&mut value);
-    for _ in 0..ROUNDS_TO_CREST {
-        if heights[0] > heights[1] {
-            (high, inner[1], heights[1]) = (inner[1], inner[0], heights[0]);
-            inner[0] = high - share * (high - low);
-            heights[0] = value(inner[0]);
-        } else {
-            (low, inner[0], heights[0]) = (inner[0], inner[1], heights[1]);
-            inner[1] = low + share * (high - low);
-            heights[1] = value(inner[1]);
-        }
-    }
-    so_far.max(heights[0]).max(heights[1])
-}
 
 /// An impulse in the axes of the lower face, with its moment about the contact's centre, as that of a corner: with the moment about the corner, `place`
 /// to the right of the centre `[m]`, in the axes of the face that carries it, which is turned by `turn` against the lower one `[rad]`.

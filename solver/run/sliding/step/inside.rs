@@ -2,11 +2,13 @@
 
 use super::{Output, Step};
 use crate::friction::chain::Rates;
+use crate::friction::gaps::Corner;
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::joint::Configuration;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::run::sliding::contacts;
 use crate::run::sliding::recorder::{Moments, Node, StepInside};
@@ -75,10 +77,16 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
         self.contacts_at(self.place(t))
     }
 
-    fn gap(&mut self, t: f64, interface: usize) -> f64 {
-        self.output.state(self.place(t), &mut self.state);
-        let now = self.smooth.configuration(&self.state);
-        contacts::gap(self.smooth.column, &now, interface)
+    fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64 {
+        let end = self.place(until);
+        let Some(span) = self.output.series() else {
+            let gap = |s: f64| contacts::gap(self.smooth.column, &self.at(s, false).configuration, interface);
+            return highest(gap, end, so_far);
+        };
+        let corners: Vec<_> = Corner::all(interface).map(|corner| span.gap(corner)).collect();
+        let position =
+            |([along, above], reach): &([Powers; 2], f64), s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
+        highest(|s| contacts::least_distance(corners.iter().map(|corner| position(corner, s))), end, so_far)
     }
 }
 
@@ -123,4 +131,42 @@ fn raise(peaks: &mut [f64], configuration: &Configuration) {
     for (peak, angle) in peaks.iter_mut().zip(&configuration.theta) {
         *peak = peak.max(angle.abs());
     }
+}
+
+/// Places at which a gap is sampled over a step of a flight.
+const PLACES_OF_GAP: usize = 5;
+
+/// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
+const ROUNDS_TO_CREST: usize = 40;
+
+/// The largest value of a gap over the step up to the place `end`, or `so_far` if that is larger. Over a face, gaps of flying corners are concave in time but
+/// for their rotation, and so is the lowest of them, which has kinks: the crest is beside the highest of several places, and found by the golden section.
+/// Beside a face the gap grows with the distance, and is largest at an end.
+fn highest(mut value: impl FnMut(f64) -> f64, end: f64, so_far: f64) -> f64 {
+    let place = |index: usize| end * index as f64 / (PLACES_OF_GAP - 1) as f64;
+    let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|index| value(place(index)));
+    let most = (1..PLACES_OF_GAP).fold(0, |most, own| if values[own] > values[most] { own } else { most });
+    let so_far = so_far.max(values[most]);
+    // The crest is beside this place, and no higher than the chords from one side continued to the other.
+    let middle = most.clamp(1, PLACES_OF_GAP - 2);
+    let bound = 2.0 * values[middle] - values[middle - 1].min(values[middle + 1]);
+    if bound <= so_far {
+        return so_far;
+    }
+    let [mut low, mut high] = [middle - 1, middle + 1].map(place);
+    let share = 0.5 * (5f64.sqrt() - 1.0);
+    let mut inner = [high - share * (high - low), low + share * (high - low)];
+    let mut heights = inner.map(&mut value);
+    for _ in 0..ROUNDS_TO_CREST {
+        if heights[0] > heights[1] {
+            (high, inner[1], heights[1]) = (inner[1], inner[0], heights[0]);
+            inner[0] = high - share * (high - low);
+            heights[0] = value(inner[0]);
+        } else {
+            (low, inner[0], heights[0]) = (inner[0], inner[1], heights[1]);
+            inner[1] = low + share * (high - low);
+            heights[1] = value(inner[1]);
+        }
+    }
+    so_far.max(heights[0]).max(heights[1])
 }
