@@ -199,8 +199,10 @@ impl Response {
         };
         if events.iter().any(|event| event.states_after.is_some()) {
             let text = |states: &Option<Joints>| states.as_ref().map(Joints::to_string);
-            columns.set_item("states_before", events.iter().map(|event| text(&event.states_before)).collect::<Vec<_>>())?;
-            columns.set_item("states_after", events.iter().map(|event| text(&event.states_after)).collect::<Vec<_>>())?;
+            columns
+                .set_item("states_before", events.iter().map(|event| text(&event.states_before)).collect::<Vec<_>>())?;
+            columns
+                .set_item("states_after", events.iter().map(|event| text(&event.states_after)).collect::<Vec<_>>())?;
             grid("slide", &|event, block| event.slide.get(block).copied().unwrap_or(f64::NAN))?;
         }
         grid("theta", &|event, block| event.theta[block])?;
