@@ -261,3 +261,34 @@ fn values_of_ranges_are_decimal_numbers_in_the_table() {
     let tolerances: Vec<f64> = (0..5).map(|index| of("solver.rtol", 9 * index).parse().expect("a number")).collect();
     assert_eq!(tolerances, [1e-9, 1e-8, 1e-7, 1e-6, 1e-5]);
 }
+
+#[test]
+fn residual_slides_have_a_figure_of_their_own() {
+    let scene = "friction = 0.3\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.2\n\
+        [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.4\nfrequency = 1.5\n[solver]\nt_end = 4.0\n";
+    let axis = "[axes]\namplitude_g = { from = 0.2, to = 0.6, steps = 5 }\n";
+    let folder = folder(scene, &format!("ask = \"slides\"\n{axis}"));
+    let told = succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
+    assert!(told.contains("wrote f.svg: Largest angle: the largest |θ|/α over"), "{told}");
+    assert!(
+        told.contains("wrote f-slides.svg: Residual slide: the size of the slide at the end of a run over"),
+        "{told}"
+    );
+    let (angles, slides) = (words(folder.path(), "f.svg"), words(folder.path(), "f-slides.svg"));
+    assert!(angles.contains(&"block 2".into()) && angles.contains(&"Largest |θ|/α".into()), "{angles:?}");
+    assert!(slides.contains(&"interface 2".into()) && slides.contains(&"Residual slide [m]".into()), "{slides:?}");
+    // The axis reaches just beyond the largest slide of the table, whatever its sign.
+    let table = rows(folder.path(), "sweep.csv");
+    let sizes = table.iter().flat_map(|row| [1, 2].map(|i| number(row, &format!("residual_slide_{i}")).abs()));
+    let largest = sizes.fold(0.0, f64::max);
+    let ticks: Vec<f64> = slides.iter().filter_map(|word| word.parse().ok()).filter(|tick: &f64| *tick < 0.2).collect();
+    let top = ticks.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 1e-3 && top > 0.6 * largest && top < 1.06 * largest, "{largest} {ticks:?}");
+    // The table alone gives the same; without slides there is one figure.
+    let later = succeeds(folder.path(), &["plot", "sweep.csv"]);
+    assert!(later.contains("sweep-slides.svg"), "{later}");
+    std::fs::write(folder.path().join("peaks.toml"), format!("scene = \"base.toml\"\nask = \"peaks\"\n{axis}"))
+        .expect("written");
+    succeeds(folder.path(), &["sweep", "peaks.toml", "--plot", "p.svg"]);
+    assert!(folder.path().join("p.svg").exists() && !folder.path().join("p-slides.svg").exists());
+}

@@ -50,21 +50,27 @@ pub fn plot(
     print(&draw(table, &picture, paper)?)
 }
 
-/// Draws a table into `picture`. A spectrum over two axes has a second figure, the least value that overturns: its file stands beside `picture`,
-/// with `-minimum` added to the name. Returns the names of the files written, with captions.
+/// Draws a table into `picture`. A spectrum over two axes has a second figure, the least value that overturns, and curves of a table with slides have one of
+/// these: their files stand beside `picture`. Returns the names of the files written, with captions.
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failure> {
     let mut text = String::new();
     let figures = figures(table, paper).map_err(at(Failure::Spectrum, table))?;
-    for (figure, path) in figures.into_iter().zip(files(picture)) {
-        write(&figure, &path)?;
-        let _ = writeln!(text, "wrote {}: {}", shown(&path), figure.caption);
+    let [own, minimum, slides] = files(picture);
+    for figure in figures {
+        let path = match figure.name {
+            "overturning-minimum" => &minimum,
+            "residual-slides" => &slides,
+            _ => &own,
+        };
+        write(&figure, path)?;
+        let _ = writeln!(text, "wrote {}: {}", shown(path), figure.caption);
     }
     Ok(text)
 }
 
-/// Paths for the figures of a table: `picture`, and `picture` with `-minimum` in its name. Only a spectrum over the plane of two axes has the second.
-pub fn files(picture: &Path) -> [PathBuf; 2] {
-    [picture.into(), beside(picture, "minimum")]
+/// Paths for the figures of a table: `picture`, and `picture` with `-minimum` and with `-slides` in its name. A table has one of the latter at most.
+pub fn files(picture: &Path) -> [PathBuf; 3] {
+    [picture.into(), beside(picture, "minimum"), beside(picture, "slides")]
 }
 
 /// The path of `file` with a word added to the name: `a-word.svg` for `a.svg`.

@@ -1,7 +1,7 @@
 //! Figures of the table of a sweep.
 //!
 //! ```text
-//!                       +─> family.rs ──> curves.rs   rocking spectra: the largest angle over an axis, a curve for each value of the others
+//!                       +─> family.rs ──> curves.rs   rocking spectra: angles and slides over an axis, a curve for each value of the others
 //! table ──> points.rs ──+             └─> strips.rs   what becomes of the column over one axis ────────────────┐
 //!                       +─> grid.rs ────────> plane.rs    overturning spectra, least values ───────────────────┤
 //!                           classes                                                                            v
@@ -25,6 +25,7 @@ mod strips;
 
 use super::paper::{Angles, Paper};
 use super::sheet::Figure;
+use curves::Measure;
 use family::Family;
 use grid::{Grid, Plane};
 use points::{Axis, Points};
@@ -84,14 +85,18 @@ pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpe
     Drawing::of(&axes, points, with_peaks).map(|_| ())
 }
 
-/// Figures of a sweep's table: largest angles as curves, outcomes as strips, or a spectrum with the least values that overturn.
+/// Figures of a sweep's table: largest angles, and slides where there are some, as curves, outcomes as strips, or a spectrum with the least values that overturn.
 pub fn figures(table: &Path, paper: &Paper) -> Result<Vec<Figure>, NoSpectrum> {
     let mut points = Points::read(table)?;
     if paper.angles == Angles::Degrees {
         points.axes.iter_mut().for_each(in_degrees);
     }
-    Ok(match Drawing::of(&points.axes, points.len(), points.blocks > 0)? {
-        Drawing::Curves(family) => vec![curves::draw(&points, &family, paper)],
+    Ok(match Drawing::of(&points.axes, points.len(), points.angles.entries > 0)? {
+        Drawing::Curves(family) => {
+            let slides = (points.slides.entries > 0).then(|| Measure::slides(&points));
+            let measures = [Measure::angles(&points, &family)].into_iter().chain(slides);
+            measures.map(|measure| curves::draw(&points, &family, &measure, paper)).collect()
+        }
         Drawing::Strips(family) => vec![strips::draw(&points, &family, paper)],
         Drawing::Plane(plane) => {
             let grid = Grid::of(&points, plane)?;

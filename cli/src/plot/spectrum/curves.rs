@@ -1,4 +1,4 @@
-//! Rocking spectra and their like: the largest angle over one axis of a sweep, a curve for each combination of values of the other axes.
+//! Rocking spectra and their like: a quantity over one axis of a sweep, a curve for each combination of values of the other axes.
 //! Makris & Konstantinidis (2003), Earthq. Eng. Struct. Dyn. 32.
 //!
 //! In a sweep over records, each combination (records left out) has a panel, with thin curves of the records and with their fractiles. Where the
@@ -6,7 +6,7 @@
 
 use super::family::{Family, Rows};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
-use super::points::Points;
+use super::points::{Points, Quantity};
 use super::scale::Scale;
 use crate::number::counted;
 use crate::plot::curve::{self, Frame, Point};
@@ -28,8 +28,8 @@ const ROOM: f64 = 0.06;
 /// Room above the largest angle if some columns are lost, as a share of it. The upper edge has a name, which needs room free of numbers.
 const ROOM_BELOW_LOST: f64 = 0.1;
 
-/// Upper end of the axis of angles if no column ever opens.
-const NO_ANGLE: f64 = 1.0;
+/// Upper end of the axis of a quantity that is zero throughout.
+const NOTHING: f64 = 1.0;
 
 /// Smallest upper end of the axis of angles if some columns are lost: a curve that leaves there must not look like an angle of a column that stands.
 const LEAST_TOP: f64 = 1.1;
@@ -37,7 +37,60 @@ const LEAST_TOP: f64 = 1.1;
 /// Gap between columns of panels `[px]`. Only the first column has numbers upwards.
 const BETWEEN: f64 = 14.0;
 
-/// A position and the largest angle there, infinite where the column is lost; `None` where there is no answer.
+/// A quantity and how its figure names it.
+pub struct Measure<'p> {
+    values: &'p Quantity,
+    /// Name of the figure.
+    figure: &'static str,
+    /// What the figure is.
+    subject: &'static str,
+    /// What the figure shows, in a caption.
+    words: &'static str,
+    /// Label of the axis where each block or interface has a curve.
+    label: &'static str,
+    /// Label of the axis where only the largest number of a run has.
+    label_of_largest: &'static str,
+    /// What the quantity has a number of.
+    entry: &'static str,
+    /// Value that is marked by a line.
+    reference: Option<f64>,
+    /// Smallest upper end of the axis if some columns are lost.
+    least_top: f64,
+}
+
+impl<'p> Measure<'p> {
+    /// The largest angles of the blocks, over an axis.
+    pub fn angles(points: &'p Points, family: &Family) -> Measure<'p> {
+        Measure {
+            values: &points.angles,
+            figure: "rocking-spectrum",
+            subject: if family.x.key.ends_with("rocking_period") { "Rocking spectrum" } else { "Largest angle" },
+            words: "the largest |θ|/α",
+            label: "Largest |θ|/α",
+            label_of_largest: "Largest |θ|/α of all blocks",
+            entry: "block",
+            reference: Some(1.0),
+            least_top: LEAST_TOP,
+        }
+    }
+
+    /// The slides at the end of the runs.
+    pub fn slides(points: &'p Points) -> Measure<'p> {
+        Measure {
+            values: &points.slides,
+            figure: "residual-slides",
+            subject: "Residual slide",
+            words: "the size of the slide at the end of a run",
+            label: "Residual slide [m]",
+            label_of_largest: "Largest residual slide of all interfaces [m]",
+            entry: "interface",
+            reference: None,
+            least_top: 0.0,
+        }
+    }
+}
+
+/// A position and the number there, infinite where the column is lost; `None` where there is no answer.
 type Value = (f64, Option<f64>);
 
 /// A curve: how it looks, its name, its values from the left.
@@ -47,31 +100,27 @@ struct Curve {
     values: Vec<Value>,
 }
 
-/// The figure of all curves.
-pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
+/// The figure of all curves of a quantity.
+pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) -> Figure {
     let rows = family.rows(points);
-    let demands_of_all = || (0..points.len()).filter_map(|row| points.demand(row));
-    let has_lost = demands_of_all().any(f64::is_infinite);
+    let &Measure { values, subject, .. } = measure;
+    let largest_of_all = || (0..points.len()).filter_map(|row| values.largest(row));
+    let has_lost = largest_of_all().any(f64::is_infinite);
     let room = 1.0 + if has_lost { ROOM_BELOW_LOST } else { ROOM };
-    let largest = demands_of_all().filter(|demand| demand.is_finite()).fold(0.0, f64::max) * room;
-    let top = match has_lost {
-        true => largest.max(LEAST_TOP),
-        false if largest > 0.0 => largest,
-        false => NO_ANGLE,
-    };
-    let y = Scale::over("", vec![0.0, top]);
-    let label = if points.blocks > 1 { "Largest |θ|/α of all blocks" } else { "Largest |θ|/α" };
-    let subject = if family.x.key.ends_with("rocking_period") { "Rocking spectrum" } else { "Largest angle" };
+    let largest = largest_of_all().filter(|number| number.is_finite()).fold(0.0, f64::max) * room;
+    let top = if has_lost { largest.max(measure.least_top) } else { largest };
+    let y = Scale::over("", vec![0.0, if top > 0.0 { top } else { NOTHING }]);
+    let label = if values.entries > 1 { measure.label_of_largest } else { measure.label };
     let mut sheet = Sheet::new(&format!("{subject}: {label} over {}", family.x.label()), paper);
 
     let panels: Vec<Vec<Curve>> = match family.records {
-        1 => vec![single(points, family, &rows)],
+        1 => vec![single(measure, family, &rows)],
         _ => rows
             .iter()
-            .map(|records| of_records(&records.iter().map(|rows| demands(points, rows)).collect::<Vec<_>>()))
+            .map(|records| of_records(&records.iter().map(|rows| largest_of(values, rows)).collect::<Vec<_>>()))
             .collect(),
     };
-    let is_each_block = family.records == 1 && rows.len() == 1 && points.blocks > 1;
+    let is_each_entry = family.records == 1 && rows.len() == 1 && values.entries > 1;
     let columns = panels.len().div_ceil(panels.len().div_ceil(MOST_COLUMNS.min(sheet.most_columns())));
     let width = (sheet.width - LEFT - RIGHT - (columns - 1) as f64 * BETWEEN) / columns as f64;
     let height = HEIGHTS[columns - 1];
@@ -83,7 +132,9 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         let frame = Frame { left: LEFT + column as f64 * (width + BETWEEN), top, width, height };
         let place = Place { frame, x: &family.x, y: &y };
         place.grid(&mut sheet);
-        place.level(&mut sheet, 1.0);
+        if let Some(reference) = measure.reference {
+            place.level(&mut sheet, reference);
+        }
         for curve in curves {
             place.values(&mut sheet, curve, family.is_joined);
         }
@@ -93,7 +144,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
             sheet.words([frame.left + 0.5 * width, frame.top - 8.0], &title, style::LABEL, Anchor::Middle);
         }
         if column == 0 {
-            let each = if is_each_block { "Largest |θ|/α" } else { label };
+            let each = if is_each_entry { measure.label } else { label };
             place.label_upwards(&mut sheet, each.into());
             if has_lost {
                 place.name_top(&mut sheet);
@@ -108,30 +159,31 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         true => below[1] + 12.0,
         false => sheet.legend(below[1] + 8.0, &entries) + 6.0,
     };
-    Figure::new("rocking-spectrum", caption(points, family, subject), sheet)
+    Figure::new(measure.figure, caption(points, family, measure), sheet)
 }
 
-/// Position of each row, and the largest angle of all blocks in the row.
-fn demands(points: &Points, rows: &Rows) -> Vec<Value> {
-    rows.iter().map(|(x, row)| (*x, points.demand(*row))).collect()
+/// Position of each row, and the largest number in the row.
+fn largest_of(values: &Quantity, rows: &Rows) -> Vec<Value> {
+    rows.iter().map(|(x, row)| (*x, values.largest(*row))).collect()
 }
 
-/// The curves of a panel without fractiles: those of the family, or one for each block if the family has a single curve and there are several blocks.
-fn single(points: &Points, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> {
-    match (rows, points.blocks) {
+/// The curves of a panel without fractiles: those of the family, or one for each block or interface if the family has a single curve.
+fn single(measure: &Measure, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> {
+    let values = measure.values;
+    match (rows, values.entries) {
         ([records], 2..) => {
-            let of_block = |block: usize| Curve {
-                stroke: line(block),
-                name: format!("block {}", block + 1),
-                values: records[0].iter().map(|(x, row)| (*x, points.peak(*row, block))).collect(),
+            let of_entry = |entry: usize| Curve {
+                stroke: line(entry),
+                name: format!("{} {}", measure.entry, entry + 1),
+                values: records[0].iter().map(|(x, row)| (*x, values.of(*row, entry))).collect(),
             };
-            (0..points.blocks).map(of_block).collect()
+            (0..values.entries).map(of_entry).collect()
         }
         _ => {
             let curve = |(number, records): (usize, &Vec<Rows>)| Curve {
                 stroke: line(number),
                 name: family.titles[number].clone(),
-                values: demands(points, &records[0]),
+                values: largest_of(values, &records[0]),
             };
             rows.iter().enumerate().map(curve).collect()
         }
@@ -166,11 +218,11 @@ fn legend(family: &Family, curves: &[Curve]) -> Vec<(Key, String)> {
     entries
 }
 
-fn caption(points: &Points, family: &Family, subject: &str) -> String {
-    let rows = 0..points.len();
-    let lost = rows.clone().filter(|row| points.demand(*row) == Some(f64::INFINITY)).count();
-    let open = rows.filter(|row| points.demand(*row).is_none()).count();
-    let mut text = format!("{subject}: the largest |θ|/α over {}", family.x.label());
+fn caption(points: &Points, family: &Family, measure: &Measure) -> String {
+    let (rows, &Measure { values, subject, words, .. }) = (0..points.len(), measure);
+    let lost = rows.clone().filter(|row| values.largest(*row) == Some(f64::INFINITY)).count();
+    let open = rows.filter(|row| values.largest(*row).is_none()).count();
+    let mut text = format!("{subject}: {words} over {}", family.x.label());
     if family.records > 1 {
         text.push_str(&format!(", {} records with their 16, 50 and 84 % fractiles", family.records));
     }
@@ -211,11 +263,11 @@ impl Place<'_> {
 
     /// A curve, interrupted where there is no answer. Points are drawn as dots if they are not joined, or if an answer stands alone.
     fn values(&self, sheet: &mut Sheet, curve: &Curve, is_joined: bool) {
-        let at = |(x, demand): (f64, f64)| self.at([self.x.share(x), self.y.share(demand).min(1.0)]);
+        let at = |(x, number): (f64, f64)| self.at([self.x.share(x), self.y.share(number).min(1.0)]);
         let parts = curve.values.chunk_by(|a, b| a.1.is_some() && b.1.is_some());
         let mut runs: Vec<Vec<Point>> = Vec::new();
         for part in parts {
-            let known: Vec<(f64, f64)> = part.iter().filter_map(|(x, demand)| Some((*x, (*demand)?))).collect();
+            let known: Vec<(f64, f64)> = part.iter().filter_map(|(x, number)| Some((*x, (*number)?))).collect();
             if !is_joined || known.len() == 1 {
                 known.iter().for_each(|value| sheet.dot(at(*value)));
                 continue;

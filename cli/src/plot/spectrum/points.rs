@@ -1,10 +1,11 @@
-//! The table of a sweep as points. Each point has its values of the axes, the outcome of the column, and the largest angles.
+//! The table of a sweep as points. Each point has its values of the axes, the outcome of the column, and the largest angles and the slides.
 
 use super::class::Class;
 use super::refusal::NoSpectrum;
 use crate::number::counted;
 use crate::table::column::{Rows, TRUST};
 use crate::table::open;
+use csv::StringRecord;
 use rocking::sweep::NOT_DETERMINED;
 use std::collections::HashMap;
 use std::path::Path;
@@ -20,13 +21,50 @@ pub struct Points {
     numbers: Vec<usize>,
     /// Class of each row.
     pub classes: Vec<Class>,
-    /// Largest `|θ|/α` of each block, row by row, with [`Points::blocks`] entries per row. `NaN` where a row has no answer, infinite where the
-    /// column is lost.
-    peaks: Vec<f64>,
-    /// Number of columns of peaks; zero where none were asked for.
-    pub blocks: usize,
+    /// Largest `|θ|/α` of each block.
+    pub angles: Quantity,
+    /// Size of the slide of each interface at the end `[m]`.
+    pub slides: Quantity,
     /// Number of rows whose runs `t_end` cuts.
     truncated: usize,
+}
+
+/// A quantity of the rows, with a number for each block or interface.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Place of the first column.
+    first: usize,
+    /// Number of columns; zero where none were asked for.
+    pub entries: usize,
+    /// Row by row. `NaN` where a row has no answer, infinite where the column is lost.
+    values: Vec<f64>,
+}
+
+impl Quantity {
+    /// The quantity of the columns `name_1`, `name_2` and so on of a table, without rows.
+    fn of_columns(header: &StringRecord, name: &str) -> Quantity {
+        let first = header.iter().position(|found| found == format!("{name}_1")).unwrap_or(header.len());
+        let numbered = header.iter().skip(first).zip(1..);
+        let entries = numbered.take_while(|(found, number)| *found == format!("{name}_{number}")).count();
+        Quantity { first, entries, values: Vec::new() }
+    }
+
+    /// Adds the numbers of a row; `known` replaces all of them.
+    fn add(&mut self, row: &StringRecord, known: Option<f64>) {
+        let cell = |entry: usize| row.get(self.first + entry).and_then(|cell| cell.parse::<f64>().ok());
+        let number = |entry: usize| cell(entry).map_or(f64::NAN, |number| known.unwrap_or(number.abs()));
+        self.values.extend((0..self.entries).map(number));
+    }
+
+    /// The number of a block or interface, counted from zero, in a row; infinite where the column is lost. `None` where the row has no answer.
+    pub fn of(&self, row: usize, entry: usize) -> Option<f64> {
+        self.values.get(row * self.entries + entry).copied().filter(|number| !number.is_nan())
+    }
+
+    /// The largest number of a row; infinite where the column is lost. `None` where the row has no answer.
+    pub fn largest(&self, row: usize) -> Option<f64> {
+        (0..self.entries).filter_map(|entry| self.of(row, entry)).reduce(f64::max)
+    }
 }
 
 impl Points {
@@ -40,18 +78,10 @@ impl Points {
             return Err(broken("it has no columns index, outcome and impacts".into()));
         };
         let (trust, truncated_at) = (column(TRUST), column("truncated"));
-        let first_peak = column("peak_1");
-        let blocks = first_peak.map_or(0, |first| {
-            header
-                .iter()
-                .skip(first)
-                .enumerate()
-                .take_while(|(place, name)| **name == format!("peak_{}", place + 1))
-                .count()
-        });
+        let [mut angles, mut slides] = ["peak", "residual_slide"].map(|name| Quantity::of_columns(&header, name));
         let mut axes: Vec<Axis> = header.iter().take(outcome).skip(1).map(|key| (key.into(), Vec::new())).collect();
         let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
-        let (mut numbers, mut classes, mut peaks, mut truncated) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        let (mut numbers, mut classes, mut truncated) = (Vec::new(), Vec::new(), 0);
         for row in rows {
             let row = row.map_err(failed)?;
             for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
@@ -66,18 +96,16 @@ impl Points {
             let class = class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?;
             truncated += usize::from(truncated_at.and_then(|at| row.get(at)) == Some("true"));
             let is_open = class == Class::Error || trust.is_some_and(|trust| row.get(trust) == Some(NOT_DETERMINED));
-            peaks.extend((0..blocks).map(|block| {
-                let cell = first_peak.and_then(|first| row.get(first + block)).unwrap_or_default();
-                match cell.parse() {
-                    _ if is_open => f64::NAN,
-                    Ok(_) if class.is_lost() => f64::INFINITY,
-                    Ok(peak) => peak,
-                    Err(_) => f64::NAN,
-                }
-            }));
+            let known = match class.is_lost() {
+                _ if is_open => Some(f64::NAN),
+                true => Some(f64::INFINITY),
+                false => None,
+            };
+            angles.add(&row, known);
+            slides.add(&row, known);
             classes.push(class);
         }
-        Ok(Points { axes, numbers, classes, peaks, blocks, truncated })
+        Ok(Points { axes, numbers, classes, angles, slides, truncated })
     }
 
     /// Number of rows.
@@ -99,15 +127,5 @@ impl Points {
     /// Index of the value of each axis in a row.
     pub fn numbers(&self, row: usize) -> &[usize] {
         &self.numbers[row * self.axes.len()..(row + 1) * self.axes.len()]
-    }
-
-    /// Largest `|θ|/α` of a block, counted from zero, in a row; infinite where the column is lost. `None` where the row has no answer.
-    pub fn peak(&self, row: usize, block: usize) -> Option<f64> {
-        self.peaks.get(row * self.blocks + block).copied().filter(|peak| !peak.is_nan())
-    }
-
-    /// Largest `|θ|/α` of all blocks in a row; infinite where the column is lost. `None` where the row has no answer.
-    pub fn demand(&self, row: usize) -> Option<f64> {
-        (0..self.blocks).filter_map(|block| self.peak(row, block)).reduce(f64::max)
     }
 }
