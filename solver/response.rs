@@ -171,6 +171,12 @@ impl From<&ContactForce> for Impulse {
     }
 }
 
+impl From<&Impulse> for ContactForce {
+    fn from(impulse: &Impulse) -> ContactForce {
+        ContactForce { normal: impulse.normal, tangential: impulse.tangential, moment: impulse.moment }
+    }
+}
+
 fn is_empty<T: Copy>(list: &PerBlock<T>) -> bool {
     list.is_empty()
 }

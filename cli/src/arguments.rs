@@ -346,7 +346,7 @@ pub struct Sweep {
     /// Draw the table (SVG, PNG or PDF by the name).
     ///
     /// With largest angles (`ask = "peaks"`): the largest |θ|/α over `rocking_period`, `p` or `R`, or else over the axis with most values, a curve for each
-    /// combination of the others, up to 12; of three records and more their fractiles. Otherwise, over two axes of numbers, the overturning spectrum, and
+    /// combination of the others, up to 12; of three records and more their fractiles; with `ask = "slides"` also FILE-slides. Otherwise, over two axes of numbers, the overturning spectrum, and
     /// beside it FILE-minimum: the least value that overturns; the last axis goes upwards, and each combination of the others is a panel. Over one axis,
     /// and over paired axes, a strip of what becomes of the column.
     /// `rocking plot TABLE.csv` draws a table that is there.

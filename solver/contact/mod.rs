@@ -27,6 +27,17 @@ pub use opening::open;
 pub use state_at_event::SingularMass;
 pub(crate) use state_at_event::{Gaps, critical_acceleration, rounding_acceleration};
 
+use crate::mechanics::dynamics::ContactForce;
+
+/// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
+const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
+
+/// The impulses of an impact that are not rounding, with their interfaces (from zero).
+pub(crate) fn noticeable_impulses(impulses: &[ContactForce]) -> impl Iterator<Item = (usize, &ContactForce)> {
+    let least = NEGLIGIBLE_IMPULSE * impulses.iter().map(ContactForce::size).fold(0.0, f64::max);
+    impulses.iter().enumerate().filter(move |(_, impulse)| impulse.size() > least)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

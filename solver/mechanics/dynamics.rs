@@ -47,6 +47,11 @@ impl ContactForce {
             (false, false) => f64::INFINITY,
         }
     }
+
+    /// The larger of the sizes of the normal and the tangential force.
+    pub fn size(&self) -> f64 {
+        self.normal.abs().max(self.tangential.abs())
+    }
 }
 
 /// Interfaces at which forces are requested.

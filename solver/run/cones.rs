@@ -1,9 +1,10 @@
 //! How far a run without sliding holds: everywhere, or as long as its forces stay within the cones of friction and no contact pulls.
 
-use super::recorder::{NEGLIGIBLE_IMPULSE, Recorder};
+use super::recorder::Recorder;
 use super::state::State;
 use super::transition::Transition;
 use crate::column::{Block, Column};
+use crate::contact::noticeable_impulses;
 use crate::friction::contact_problem::Coefficients;
 
 /// Share of a width by which an upper block must reach beyond the lower face to count as wider.
@@ -95,13 +96,10 @@ impl Limits for Cones<'_> {
         if before.omega.iter().all(|rate| rate.abs() <= self.last_rate) {
             return true;
         }
-        let sizes = decision.impulses.iter().map(|own| own.normal.abs() + own.tangential.abs());
-        let least = NEGLIGIBLE_IMPULSE * sizes.fold(0.0f64, f64::max);
         let gaps = record.largest_gaps();
-        decision.impulses.iter().enumerate().all(|(interface, own)| {
-            let demand = || own.tangential.abs() / own.normal;
-            own.normal >= -least
-                && (own.normal <= least || self.is_within(interface, demand(), self.friction.kinetic[interface], gaps))
+        noticeable_impulses(&decision.impulses).all(|(interface, impulse)| {
+            let (demand, coefficient) = (impulse.friction_demand(), self.friction.kinetic[interface]);
+            impulse.normal > 0.0 && self.is_within(interface, demand, coefficient, gaps)
         })
     }
 }

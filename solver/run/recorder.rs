@@ -8,6 +8,7 @@ use super::problem::Problem;
 use super::state::State;
 use super::stretch::{Over, Panel, Stretch};
 use super::transition::Transition;
+use crate::contact::noticeable_impulses;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason};
@@ -17,9 +18,6 @@ use std::collections::BTreeMap;
 
 /// Room made for events when the first one comes.
 pub(super) const USUAL_EVENTS: usize = 32;
-
-/// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
-pub(crate) const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
 
 /// The record of a run under way.
 pub(crate) struct Recorder {
@@ -241,12 +239,9 @@ impl Recorder {
 
     /// Records the friction that the impulses of an impact ask for.
     fn record_impulses(&mut self, impulses: &[ContactForce]) {
-        let size = |impulse: &ContactForce| impulse.normal.abs().max(impulse.tangential.abs());
-        let largest = impulses.iter().map(size).fold(0.0, f64::max);
-        for (own, impulse) in self.impulse_friction_demand.iter_mut().zip(impulses) {
-            if size(impulse) > NEGLIGIBLE_IMPULSE * largest {
-                *own = own.max(impulse.friction_demand());
-            }
+        for (interface, impulse) in noticeable_impulses(impulses) {
+            let demand = &mut self.impulse_friction_demand[interface];
+            *demand = demand.max(impulse.friction_demand());
         }
     }
 

@@ -5,6 +5,7 @@ use super::smooth::{Moment, Smooth};
 use super::state::{RunEnd, SlidingState};
 use super::transition::{Change, SlidingTransition};
 use crate::column::Column;
+use crate::contact::noticeable_impulses;
 use crate::friction::chain::{BlockMotion, Chain, Rates};
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Face, Joint, Slip};
@@ -16,7 +17,7 @@ use crate::response::{
     StopReason, Work,
 };
 use crate::run::problem::Problem;
-use crate::run::recorder::{NEGLIGIBLE_IMPULSE, USUAL_EVENTS};
+use crate::run::recorder::USUAL_EVENTS;
 use crate::run::rest;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
@@ -202,11 +203,10 @@ impl<'p> SlidingRecorder<'p> {
     }
 
     fn impulses(&mut self, impulses: &[Impulse]) {
-        let largest = impulses.iter().fold(0.0f64, |most, own| most.max(own.normal.abs() + own.tangential.abs()));
-        for (demand, own) in self.impulse_friction_demand.iter_mut().zip(impulses) {
-            if own.normal > NEGLIGIBLE_IMPULSE * largest {
-                *demand = demand.max(own.tangential.abs() / own.normal);
-            }
+        let impulses: PerBlock<ContactForce> = impulses.iter().map(ContactForce::from).collect();
+        for (interface, impulse) in noticeable_impulses(&impulses).filter(|(_, impulse)| impulse.normal > 0.0) {
+            let demand = &mut self.impulse_friction_demand[interface];
+            *demand = demand.max(impulse.friction_demand());
         }
     }
 
