@@ -80,7 +80,10 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64 {
         let end = self.place(until);
         let Some(span) = self.output.series() else {
-            let gap = |s: f64| contacts::gap(self.smooth.column, &self.at(s, false).configuration, interface);
+            let gap = |s: f64| {
+                self.output.state(s, &mut self.state);
+                contacts::gap(self.smooth.column, &self.smooth.configuration(&self.state), interface)
+            };
             return highest(gap, end, so_far);
         };
         let corners: Vec<_> = Corner::all(interface).map(|corner| span.gap(corner)).collect();
