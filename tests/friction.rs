@@ -44,6 +44,30 @@ fn a_block_slides_under_a_rectangular_pulse_as_newmarks() {
     }
 }
 
+/// A block without friction stays where it is while the ground moves below it. The wavelet begins with an acceleration that is not zero and falls to
+/// zero: the block slides from that instant on. Without a slack, the search for the start crept up to the zero in steps of 1e-11 s.
+#[test]
+fn a_block_without_friction_stays_in_place_under_a_wavelet() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.5, 1.0)], vec![0.0]);
+    let (velocity, omega, gamma, phase) = (0.05, 59.0, 5.5, 0.05);
+    scene.excitation.horizontal = Some(Motion::Gabor { velocity, omega, start: 0.03, phase, gamma });
+    scene.options.t_end = 2.0;
+    scene.options.rtol = 1e-10;
+    scene.options.atol = 1e-14;
+    scene.options.stick_angle = 1e-14;
+    let response = run(&scene);
+    assert_eq!(response.events.first().map(|event| (event.kind, event.t)), Some((EventKind::Slip, 0.03)));
+    let segments = scene.excitation.segments(2.0);
+    let [mut moved, mut speed] = [0.0, 0.0];
+    for segment in &segments {
+        let [gained, way] = segment.horizontal.integrals(segment.start, segment.end);
+        moved += speed * (segment.end - segment.start) + way;
+        speed += gained;
+    }
+    // A reversal of a slide is found once its rate is above 8e-3 √(g · size · stick_angle) = 2.5e-9 m/s: over 2 s, 5e-9 m, where slides reach 3e-4 m.
+    assert_relative_eq!(slide(&response, 0), -moved, epsilon = 5e-9);
+}
+
 /// The same under a half-sine: from 0.083333 to 0.677308 s, 0.338955 m.
 #[test]
 fn a_block_slides_under_a_half_sine_as_newmarks() {

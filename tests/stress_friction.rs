@@ -597,7 +597,7 @@ fn stress_many_everyday_scenes() {
 
 /// The same of hostile ones.
 #[test]
-#[ignore = "takes an hour; run it after a change to contact, friction or events"]
+#[ignore = "takes minutes; run it after a change to contact, friction or events"]
 fn stress_many_hostile_scenes() {
     check(Kind::Hostile, many(), &HOSTILE);
 }

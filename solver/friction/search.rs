@@ -38,9 +38,12 @@ pub struct Solution {
 /// Violation of a condition that counts as rounding in an impact, as a share of the velocities and impulses at work.
 const IMPACT_SHARE: f64 = 1e-10;
 
-/// Violation of a condition that counts as rounding, as a share of the accelerations and forces at work. Guards of forces allow twice this violation
-/// ([`force_slack`]): what ends a state does not count as rounding here.
+/// Violation of a condition that counts as rounding, as a share of the accelerations and forces at work.
 pub const ACCELERATION_SHARE: f64 = 1e-11;
+
+/// Violation of a guard of forces that counts as rounding, as a share of the forces at work: what ends a state does not count as rounding in the search
+/// for the next.
+pub const FORCE_SLACK_SHARE: f64 = 2.0 * ACCELERATION_SHARE;
 
 /// Least change of some velocity that makes an impact, as a share of the speed at work.
 const JUMP_SHARE: f64 = 1e-9;
@@ -97,13 +100,18 @@ const LEAST_SHARE: f64 = 1e-3;
 /// Scale of the accelerations at work `[m/s²]`.
 pub fn acceleration_scale(column: &Column, now: &Configuration, ground: Ground) -> f64 {
     let fastest = now.omega.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
-    ground.x.abs() + ground.gravity.abs() + LEAST_SHARE * column.gravity() + fastest * fastest * column.size()
+    acceleration_scale_at_rest(column.gravity(), ground) + fastest * fastest * column.size()
+}
+
+/// Scale of the accelerations at work at rest `[m/s²]`. `gravity` is that of the ground at rest.
+pub fn acceleration_scale_at_rest(gravity: f64, ground: Ground) -> f64 {
+    ground.x.abs() + ground.gravity.abs() + LEAST_SHARE * gravity
 }
 
 /// Violation of a condition on forces at which a state ends `[N]`. Contacts that are exactly critical, such as flat interfaces of equal friction
 /// above each other, do not start to slide by rounding. What counts as rounding in the search for the next states ends no state.
 pub fn force_slack(column: &Column, now: &Configuration, ground: Ground) -> f64 {
-    2.0 * ACCELERATION_SHARE * column.mass() * acceleration_scale(column, now, ground)
+    FORCE_SLACK_SHARE * column.mass() * acceleration_scale(column, now, ground)
 }
 
 impl<'a> Search<'a> {

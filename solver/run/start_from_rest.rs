@@ -8,6 +8,7 @@
 use super::problem::Problem;
 use crate::column::Column;
 use crate::friction::guards::Guard;
+use crate::friction::search::{FORCE_SLACK_SHARE, acceleration_scale_at_rest};
 use crate::mechanics::dynamics::Ground;
 use crate::scene::Scene;
 use rocking_codegen::pattern::Interface;
@@ -92,21 +93,41 @@ fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usi
 /// The first opening between two instants.
 fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
     let column = &problem.scene.column;
-    let guards = || (0..column.len()).flat_map(|interface| corners(column, interface));
+    let corner = |interface: usize, side: Interface| (RestGuard::corner(column, interface, side), (interface, side));
+    let guards = || (0..column.len()).flat_map(|interface| SIDES.map(|side| corner(interface, side)));
     first_zero(segment, column.gravity(), [from, until], guards).map(|(t, (interface, side))| (t, interface, side))
 }
 
-/// The guards of the two corners of an interface: arm, side, and what they guard.
-fn corners(column: &Column, interface: usize) -> impl Iterator<Item = ([f64; 2], Interface, (usize, Interface))> {
-    [Interface::Right, Interface::Left]
-        .into_iter()
-        .map(move |side| (arm(column, interface, side), side, (interface, side)))
+/// The sides of an interface.
+const SIDES: [Interface; 2] = [Interface::Right, Interface::Left];
+
+/// A guard `a (g + ÿ_g) + s b ẍ_g` of an interface of a column at rest, with a sign `s` for its side.
+#[derive(Clone, Copy, Debug)]
+struct RestGuard {
+    /// `a` and `b`: for the opening of a corner the lever of the stack's centre of gravity and its height `[m]`, for a slide the coefficient of friction
+    /// and one.
+    arm: [f64; 2],
+    side: Interface,
+    /// How far below zero the guard counts as zero, as a multiple of the scale of accelerations.
+    slack: f64,
 }
 
-/// The first zero of some guards between two instants of a segment `[s]`, and the guard that has it. Each guard has an arm, a side and a name. All
-/// guards are evaluated at the same places, spaced so that none of them can pass zero in between.
+impl RestGuard {
+    /// The corner of a side opens.
+    fn corner(column: &Column, interface: usize, side: Interface) -> RestGuard {
+        RestGuard { arm: arm(column, interface, side), side, slack: 0.0 }
+    }
+
+    /// The interface slides.
+    fn cone(coefficient: f64, side: Interface) -> RestGuard {
+        RestGuard { arm: [coefficient, 1.0], side, slack: 0.0 }
+    }
+}
+
+/// The first zero of some guards between two instants of a segment `[s]`, and the name of the guard that has it. All guards are evaluated at the same
+/// places, spaced so that none of them can pass zero in between.
 #[inline(always)]
-fn first_zero<G, I: Iterator<Item = ([f64; 2], Interface, G)>>(
+fn first_zero<G, I: Iterator<Item = (RestGuard, G)>>(
     segment: &Segment,
     gravity: f64,
     [from, until]: [f64; 2],
@@ -116,9 +137,9 @@ fn first_zero<G, I: Iterator<Item = ([f64; 2], Interface, G)>>(
     while t < until {
         let motion = GroundWithBounds::at(segment, gravity, t);
         let mut step = f64::INFINITY;
-        for (arm, side, guard) in guards() {
-            match motion.step_to_zero(arm, side) {
-                Some(0.0) => return Some((t, guard)),
+        for (guard, name) in guards() {
+            match motion.step_to_zero(guard) {
+                Some(0.0) => return Some((t, name)),
                 Some(own) => step = step.min(own),
                 None => {}
             }
@@ -142,7 +163,7 @@ impl Scene {
     /// # Ok::<(), rocking::ColumnError>(())
     /// ```
     pub fn openings_at_rest(&self) -> Vec<Option<f64>> {
-        self.first_below_zero(|interface| corners(&self.column, interface).map(|(arm, side, _)| (arm, side)))
+        self.first_below_zero(|interface, side| RestGuard::corner(&self.column, interface, side))
     }
 
     /// When the ground motion first slides each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
@@ -150,25 +171,20 @@ impl Scene {
     pub fn slips_at_rest(&self) -> Vec<Option<f64>> {
         let Some(friction) = &self.friction else { return vec![None; self.column.len()] };
         let fixed = friction.per_interface(self.column.len()).fixed;
-        self.first_below_zero(|interface| {
-            let cone = [fixed[interface], 1.0];
-            [Interface::Right, Interface::Left].into_iter().map(move |side| (cone, side))
-        })
+        self.first_below_zero(|interface, side| RestGuard::cone(fixed[interface], side))
     }
 
-    /// The first instant at which one of the guards of each interface, given by arms and sides, falls below zero at rest `[s]`.
-    fn first_below_zero<I: Iterator<Item = ([f64; 2], Interface)>>(
-        &self,
-        guards: impl Fn(usize) -> I,
-    ) -> Vec<Option<f64>> {
+    /// The first instant at which the guard of one side of each interface falls below zero at rest `[s]`.
+    fn first_below_zero(&self, guard: impl Fn(usize, Interface) -> RestGuard) -> Vec<Option<f64>> {
         let (segments, gravity) = (self.excitation.segments(self.options.t_end), self.column.gravity());
         let in_segment = |segment: &Segment, interface: usize| {
+            let guards = SIDES.map(|side| guard(interface, side));
             let at_start = GroundWithBounds::at(segment, gravity, segment.start);
             // Where the ground jumps, a guard may be below zero without having fallen there.
-            if guards(interface).any(|(arm, side)| at_start.guard(arm, side) < 0.0) {
+            if guards.iter().any(|guard| at_start.value(*guard) < 0.0) {
                 return Some(segment.start);
             }
-            let named = || guards(interface).map(|(arm, side)| (arm, side, ()));
+            let named = || guards.into_iter().map(|guard| (guard, ()));
             first_zero(segment, gravity, [segment.start, segment.end], named).map(|(t, ())| t)
         };
         let first = |interface| segments.iter().find_map(|segment| in_segment(segment, interface));
@@ -176,31 +192,30 @@ impl Scene {
     }
 }
 
-/// The first instant in a segment from a time on at which an interface of a column at rest tips or slides, with the coefficients `fixed` of static
-/// friction: as [`earliest_start`], with the guards `μ (g + ÿ_g) ± ẍ_g` beside those of the corners.
-pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
-    let of_interface = |(interface, coefficient): (usize, &f64)| {
-        let cone = [*coefficient, 1.0];
-        corners(column, interface).flat_map(move |(arm, side, _)| {
-            let sign = side.sign();
-            [(cone, side, Guard::Cone(interface, sign)), (arm, side, Guard::Tip(interface, sign))]
+/// The guards of a column at rest with limited friction, with the coefficients `fixed` of static friction: corners and slides. They have the slack of the
+/// guards of forces in motion: what starts the column does not count as rounding for the contact problem that decides how it starts.
+fn guards_with_friction(column: &Column, fixed: &[f64]) -> impl Iterator<Item = (RestGuard, Guard)> {
+    fixed.iter().enumerate().flat_map(move |(interface, coefficient)| {
+        let slack = FORCE_SLACK_SHARE * column.mass() / column.mass_above(interface);
+        SIDES.into_iter().flat_map(move |side| {
+            let cone = RestGuard { slack, ..RestGuard::cone(*coefficient, side) };
+            let slack = slack * column.contact_half_width(interface);
+            let corner = RestGuard { slack, ..RestGuard::corner(column, interface, side) };
+            [(cone, Guard::Cone(interface, side.sign())), (corner, Guard::Tip(interface, side.sign()))]
         })
-    };
-    first_zero(segment, column.gravity(), [from, segment.end], || fixed.iter().enumerate().flat_map(of_interface))
+    })
 }
 
-/// Whether a jump of the ground to a segment may start a column whose friction is limited: some guard of [`first_start`] is not above rounding.
-pub(crate) fn may_start_at_once(column: &Column, fixed: &[f64], segment: &Segment, t: f64) -> bool {
-    let ground = Ground::at(segment, t, column.gravity());
-    let is_critical = |[half_width, height]: [f64; 2], side: Interface| {
-        let (holding, tipping) = (half_width * ground.gravity, height * ground.x);
-        holding + f64::from(side.sign()) * tipping <= GUARD_ROUNDING * (holding.abs() + tipping.abs())
-    };
-    fixed.iter().enumerate().any(|(interface, coefficient)| {
-        [Interface::Right, Interface::Left]
-            .into_iter()
-            .any(|side| is_critical([*coefficient, 1.0], side) || is_critical(arm(column, interface, side), side))
-    })
+/// The first instant in a segment from a time on at which an interface of a column at rest opens or slides, with the coefficients `fixed` of static
+/// friction.
+pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
+    first_zero(segment, column.gravity(), [from, segment.end], || guards_with_friction(column, fixed))
+}
+
+/// Whether a jump of the ground to a segment starts a column at rest, with the coefficients `fixed` of static friction.
+pub(crate) fn starts_at_jump(column: &Column, fixed: &[f64], segment: &Segment, t: f64) -> bool {
+    let motion = GroundWithBounds::at(segment, column.gravity(), t);
+    guards_with_friction(column, fixed).any(|(guard, _)| motion.value(guard) < 0.0)
 }
 
 /// Whether some interface cannot stay closed under the acceleration that the ground has at `t` in a segment.
@@ -248,6 +263,8 @@ pub(super) struct GroundWithBounds {
     pub rates: [f64; 2],
     /// `[m/s⁴]`
     bends: [f64; 2],
+    /// Acceleration of gravity without the ground's motion `[m/s²]`.
+    gravity: f64,
 }
 
 impl GroundWithBounds {
@@ -259,23 +276,28 @@ impl GroundWithBounds {
             ground: Ground { x, gravity: gravity + y },
             rates: [rate, rate_upwards],
             bends: [horizontal.curvature_bound(), vertical.curvature_bound()],
+            gravity,
         }
     }
 
-    /// The guard `c (g + ÿ_g) + s h ẍ_g` of a side at this instant: positive `ẍ_g` tips to the left `[m²/s²]`.
-    fn guard(&self, [half_width, height]: [f64; 2], side: Interface) -> f64 {
-        half_width * self.ground.gravity + f64::from(side.sign()) * height * self.ground.x
+    /// A guard at this instant, its slack included: below zero, the interface cannot stay closed and at rest.
+    fn value(&self, RestGuard { arm: [holding, tipping], side, slack }: RestGuard) -> f64 {
+        holding * self.ground.gravity
+            + f64::from(side.sign()) * tipping * self.ground.x
+            + slack * acceleration_scale_at_rest(self.gravity, self.ground)
     }
 
-    /// A time within which the guard of a side does not fall below zero `[s]`. Zero if it falls below zero at this instant, `None` if it never does.
-    fn step_to_zero(&self, [half_width, height]: [f64; 2], side: Interface) -> Option<f64> {
-        let GroundWithBounds { t, ground, rates, bends } = self;
+    /// A time within which a guard does not fall below zero `[s]`. Zero if it falls below zero at this instant, or is below its slack. `None` if it never
+    /// falls below zero.
+    fn step_to_zero(&self, guard: RestGuard) -> Option<f64> {
+        let GroundWithBounds { t, ground, rates, bends, .. } = self;
+        let RestGuard { arm: [half_width, height], side, slack } = guard;
         let sign = f64::from(side.sign());
-        let value = self.guard([half_width, height], side);
+        let value = self.value(guard);
         let slope = half_width * rates[1] + sign * height * rates[0];
         let bend = half_width * bends[1] + height * bends[0];
         let scale = half_width * ground.gravity.abs() + height * ground.x.abs();
-        if value <= GUARD_ROUNDING * scale && slope < 0.0 {
+        if value <= GUARD_ROUNDING * scale && (slope < 0.0 || (slack > 0.0 && value < 0.0)) {
             return Some(0.0);
         }
         // The longest step for which value + slope h - bend h²/2 stays at or above zero, without cancellation for either slope.
@@ -301,7 +323,8 @@ mod tests {
 
     /// First zero of one guard.
     fn zero_of(segment: &Segment, arm: [f64; 2], side: Interface) -> Option<f64> {
-        first_zero(segment, 9.81, [segment.start, segment.end], || [(arm, side, ())].into_iter()).map(|(t, ())| t)
+        let guard = RestGuard { arm, side, slack: 0.0 };
+        first_zero(segment, 9.81, [segment.start, segment.end], || [(guard, ())].into_iter()).map(|(t, ())| t)
     }
 
     fn segment(amplitude: f64) -> Segment {

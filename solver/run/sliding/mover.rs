@@ -26,19 +26,12 @@ pub(super) const SHORTER_FOR_UNRESOLVED: f64 = 0.125;
 /// Share of the longest step down to which steps are shortened for this.
 pub(super) const SHORTEST_SHARE: f64 = 1e-4;
 
-/// Time for which the column waits after a start in vain `[s]`; it doubles as long as starts are in vain.
-const LEAST_WAIT: f64 = 1e-9;
-
 /// What moves a column with friction.
 pub struct Mover<'p> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) friction: &'p Coefficients,
     /// Step length that the steps before suggest `[s]`.
     pub(super) pace: Option<f64>,
-    /// Time at which the last wait ended with a start `[s]`.
-    started: f64,
-    /// Least time of a wait after a start in vain `[s]`; zero after a start that was not in vain.
-    vain: f64,
     pub work: Work,
 }
 
@@ -103,7 +96,7 @@ impl ForTableau for Passing<'_, '_> {
 
 impl<'p> Mover<'p> {
     pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients) -> Mover<'p> {
-        Mover { problem, friction, pace: None, started: f64::NEG_INFINITY, vain: 0.0, work: Work::default() }
+        Mover { problem, friction, pace: None, work: Work::default() }
     }
 
     fn column(&self) -> &'p Column {
@@ -140,26 +133,22 @@ impl<'p> Mover<'p> {
             |segment: usize, t: f64| start_from_rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
         let mut rest = Resting { smooth: self.smooth(from), moment: None };
         let (mut t, mut segment) = (from.t, from.segment);
-        // A ground whose acceleration just reaches what starts the column, and goes no further, has started nothing: the start was in vain.
-        let is_vain = from.t - self.started <= self.vain;
-        self.vain = if is_vain { (2.0 * self.vain).max(LEAST_WAIT) } else { 0.0 };
         let ended = loop {
             self.work.rest_stretches += 1;
-            let start = starts(segment, (from.t + self.vain).max(t));
+            let start = starts(segment, t);
             let until = start.map_or(ground[segment].end, |(start, _)| start);
             rest.smooth.segment = &ground[segment];
             recorder.rest(&column, segment, [t, until], &mut rest);
             t = until;
-            if let Some((start, guard)) = start {
-                self.started = start;
+            if let Some((_, guard)) = start {
                 break SlidingEnded::Guard(guard);
             }
             if segment + 1 == ground.len() {
                 break SlidingEnded::Over(RunEnd::AtRest);
             }
             segment += 1;
-            let may_start = || start_from_rest::may_start_at_once(&column, &self.friction.fixed, &ground[segment], t);
-            if ground[segment].jumps && may_start() {
+            let starts = || start_from_rest::starts_at_jump(&column, &self.friction.fixed, &ground[segment], t);
+            if ground[segment].jumps && starts() {
                 break SlidingEnded::Jump;
             }
         };
