@@ -13,7 +13,7 @@ use super::transition::{self, break_cycle, transition};
 use crate::numerics::per_block::PerBlock;
 use std::ops::ControlFlow;
 
-/// Stretches between two calls of a progress function within a phase.
+/// Stretches of a phase between two calls of the progress function.
 const STRETCHES_BETWEEN_REPORTS: usize = 1024;
 
 /// Why the loop is left.
@@ -85,20 +85,27 @@ pub(crate) fn event_loop<L: Limits>(
             done => done?,
         }
     }
-    let mut phase = PresentPhase::new::<L>(recorder, None);
+    let mut rollback = Rollback::new::<L>(recorder, None);
+    let mut stretches = 0usize;
     let (mut mode, mut motion) = modes.enter(problem, after);
     loop {
         let mut stretch = match motion.next(problem) {
             Ok(stretch) => stretch,
-            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(phase.before(recorder, spare))),
+            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(rollback.before(recorder, spare))),
             Err(error) => return Err(error),
         };
         recorder.read(problem, &mut stretch);
         if L::ARE_THERE && !limits.hold(recorder) {
-            return Ok(Leaving::Beyond(phase.beyond(problem, &mut stretch, mode, recorder, [spare, after])));
+            return Ok(Leaving::Beyond(rollback.beyond(problem, &mut stretch, mode, recorder, [spare, after])));
         }
         let Some(ended) = stretch.ended else {
-            phase.goes_on::<L>(stretch.end, recorder, progress)?;
+            if L::ARE_THERE {
+                rollback.reached = Some((stretch.end, recorder.mark()));
+            }
+            stretches += 1;
+            if stretches.is_multiple_of(STRETCHES_BETWEEN_REPORTS) {
+                report(progress, stretch.end)?;
+            }
             continue;
         };
         let before = stretch.inside.end(after);
@@ -118,13 +125,13 @@ pub(crate) fn event_loop<L: Limits>(
                 return Ok(Leaving::Beyond(exceeded));
             }
         };
-        phase = PresentPhase::new::<L>(recorder, Some((ended, closing)));
+        (rollback, stretches) = (Rollback::new::<L>(recorder, Some((ended, closing))), 0);
         after = next.after(before, spare);
         recorder.transition(problem, before, next, after);
         spare = before;
         if next.may_cycle(after) {
             if L::ARE_THERE {
-                return Ok(Leaving::Beyond(phase.before(recorder, spare)));
+                return Ok(Leaving::Beyond(rollback.before(recorder, spare)));
             }
             if let Some(forced) = break_cycle(problem, after)? {
                 let closed = forced.after(after, spare);
@@ -150,36 +157,20 @@ fn begin(problem: &Problem, before: &State, after: &mut State, recorder: &mut Re
     Ok(())
 }
 
-/// The phase under way, and what is needed to undo it: `event` and `reached` are filled with limits only.
-struct PresentPhase {
+/// How to undo the phase under way, of which a part is beyond the limits. Empty without limits.
+struct Rollback {
     /// The event that began the phase; `None` at the start of the run.
     event: Option<Event>,
     /// End of the last stretch `[s]`, and the place in the record there; `None` before the first stretch has ended.
     reached: Option<(f64, Mark)>,
-    stretches: usize,
 }
 
-impl PresentPhase {
-    /// A phase that begins with an event: why the stretch before it ended, and the interfaces that close.
+impl Rollback {
+    /// Of a phase that begins with an event: why the stretch before it ended, and the interfaces that close.
     #[inline(always)]
-    fn new<L: Limits>(recorder: &Recorder, event: Option<(Ended, &[usize])>) -> PresentPhase {
+    fn new<L: Limits>(recorder: &Recorder, event: Option<(Ended, &[usize])>) -> Rollback {
         let marked = |(ended, closing)| Event { ended, closing: PerBlock::from_slice(closing), mark: recorder.mark() };
-        PresentPhase { event: event.filter(|_| L::ARE_THERE).map(marked), reached: None, stretches: 0 }
-    }
-
-    /// Goes on after a stretch without an event.
-    #[inline(always)]
-    fn goes_on<L: Limits>(
-        &mut self,
-        end: f64,
-        recorder: &Recorder,
-        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(), SolveError> {
-        if L::ARE_THERE {
-            self.reached = Some((end, recorder.mark()));
-        }
-        self.stretches += 1;
-        if self.stretches.is_multiple_of(STRETCHES_BETWEEN_REPORTS) { report(progress, end) } else { Ok(()) }
+        Rollback { event: event.filter(|_| L::ARE_THERE).map(marked), reached: None }
     }
 
     /// The place before a stretch that is beyond the limits. `spare` is `x⁻` of the event that began the phase, `after` the state that followed.
@@ -192,7 +183,7 @@ impl PresentPhase {
         [spare, after]: [&State; 2],
     ) -> Exceeded {
         let Some((t, mark)) = self.reached else {
-            return PresentPhase { reached: None, ..self }.before(recorder, spare);
+            return self.before(recorder, spare);
         };
         recorder.undo(mark);
         let (theta, omega) = stretch.inside.state_at(t);

@@ -6,6 +6,7 @@ mod diagnostics;
 mod error;
 mod event_loop;
 mod expected_event;
+mod force_cache;
 mod modes;
 mod multi_sample_step;
 mod needs;
@@ -21,6 +22,7 @@ mod start_from_rest;
 mod state;
 mod step;
 mod stretch;
+mod stretch_kinds;
 mod swing;
 mod transition;
 

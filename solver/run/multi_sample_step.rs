@@ -5,9 +5,10 @@
 //! overturn or its gap graze zero, or the ground acceleration jumps or is not linear in time. To record forces, steps of the method pass the same
 //! samples once more. Their end is dropped, so that what is recorded does not affect the run.
 
-use super::phase::{Gap, Kind, MOST_INTERVALS, Phase, SampleStep, Samples, StepEnd};
+use super::phase::{Gap, Phase};
 use super::problem::Problem;
 use super::stretch::{Ended, Found, Stretch};
+use super::stretch_kinds::{Kind, MOST_INTERVALS, SampleStep, Samples, StepEnd};
 use crate::mechanics::rocker::Rocker;
 use crate::numerics::ode::control::{Part, Tolerance};
 use crate::numerics::ode::one_angle::{HIGHEST_ORDER, LEAST_ORDER, OneAngle, Turning};
@@ -77,7 +78,7 @@ impl Phase {
         let start = self.integrator.start();
         let (theta, omega) = (start[0], start[1]);
         let (sin, cos) = Scalar::sin_cos(theta);
-        self.sample_steps.clear();
+        self.last.sample_steps.clear();
         let mut walk = Walk {
             ground: problem.ground,
             rocker,
@@ -85,7 +86,7 @@ impl Phase {
             overturned: problem.scene.options.overturn_angle,
             gap: self.gaps[0],
             resolution: self.resolution(start),
-            has_closed_forms: self.pendulum.is_some(),
+            has_closed_forms: self.closed_forms.pendulum.is_some(),
             state: WalkState {
                 t: self.t,
                 segment: self.segment,
@@ -95,9 +96,9 @@ impl Phase {
             intervals: 0,
             needs_order: false,
             peak: theta.abs(),
-            steps: problem.records_rows().then_some(&mut self.sample_steps),
+            steps: problem.records_rows().then_some(&mut self.last.sample_steps),
         };
-        let mut order = self.pace.order.max(LEAST_ORDER);
+        let mut order = self.lengths.pace.order.max(LEAST_ORDER);
         let end = loop {
             let end = match order {
                 3 => walk.pass::<3>(),
@@ -116,7 +117,7 @@ impl Phase {
             }
             order += 1;
         };
-        self.pace.order = if walk.needs_order || end == End::Coarse { order } else { order - 1 };
+        self.lengths.pace.order = if walk.needs_order || end == End::Coarse { order } else { order - 1 };
         if walk.intervals == 0 {
             return Found::Nothing;
         }
@@ -125,18 +126,18 @@ impl Phase {
         self.work.rhs_calls += order * walk.intervals;
         let WalkState { t, segment, omega, angle } = walk.state;
         let x = [angle.theta, omega];
-        self.stretch = Kind::Samples(Samples { until: t, last_segment: segment, x, peak: walk.peak });
+        self.last.kind = Kind::Samples(Samples { until: t, last_segment: segment, x, peak: walk.peak });
         if end != End::Landed {
             return Found::Stretch(None);
         }
-        self.closing = PerBlock::filled(self.gaps[0].interface, 1);
+        self.last.closing = PerBlock::filled(self.gaps[0].interface, 1);
         Found::Stretch(Some(Ended::Closing))
     }
 
     /// Writes the state at a time of the stretch into `inside`.
     pub(super) fn state_in_samples(&mut self, t: f64) {
-        let index = self.sample_steps.partition_point(|step| step.t <= t).saturating_sub(1);
-        let Some(SampleStep { t: from, h, start, weights }) = self.sample_steps.get(index) else { return };
+        let index = self.last.sample_steps.partition_point(|step| step.t <= t).saturating_sub(1);
+        let Some(SampleStep { t: from, h, start, weights }) = self.last.sample_steps.get(index) else { return };
         let series = OneAngle::expand::<HIGHEST_ORDER>(weights, *start);
         let [theta, rate] = series.track(1.0, start.theta).with_slope((t - from) / h);
         self.inside.copy_from_slice(&[theta, rate / h]);
@@ -147,7 +148,7 @@ impl Phase {
         let (t, segment, gap) = (self.t, self.segment, self.gaps[0]);
         self.visit_samples(problem, samples.until, visit);
         (self.t, self.segment, self.gaps[0]) = (t, segment, gap);
-        self.stretch = Kind::Samples(samples);
+        self.last.kind = Kind::Samples(samples);
         self.forces.forget();
     }
 
@@ -172,7 +173,7 @@ impl Phase {
             self.integrator.accept();
             self.work.steps += 1;
             let end = if h == last - t { last } else { t + h };
-            self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
+            self.last.kind = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
             visit(&mut Stretch { end, ended: None, is_coarse: false, inside: self });
             self.advance(problem);
             if end == until {

@@ -5,10 +5,11 @@
 
 use super::certainty::verdict;
 use super::error::SolveError;
-use super::phase::{Gap, Kind, Phase, StepEnd, SwingStretch};
+use super::phase::{Gap, Phase};
 use super::problem::Problem;
 use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
+use super::stretch_kinds::{Kind, StepEnd, SwingStretch};
 use crate::column::Column;
 use crate::contact::{critical_acceleration, rounding_acceleration};
 use crate::mechanics::kinematics::lower;
@@ -21,10 +22,10 @@ impl Phase {
     /// Sets how many roots of each gap lie at the start, the state `inside`: by its gap, rate and acceleration there. The acceleration of a gap in
     /// `released` counts as zero up to the error of integration, that of any other gap only up to rounding.
     fn arm(&mut self, column: &Column, released: &[(usize, Interface)]) {
-        let (angles, rates) = self.inside.split_at(self.dof);
+        let (angles, rates) = self.inside.split_at(self.linkage.dof);
         let mut is_critical = |interface: usize, across: Difference| {
             self.integrator.start_slope(self.t, &mut self.slope);
-            let accelerations = &self.slope[self.dof..];
+            let accelerations = &self.slope[self.linkage.dof..];
             let ground = self.integrator.ground(self.t);
             let verge = match released.iter().any(|(other, _)| *other == interface) {
                 true => critical_acceleration(column, accelerations, ground),
@@ -45,7 +46,7 @@ impl Phase {
 
     /// Makes the end of the last stretch the start of the next one.
     pub(super) fn advance(&mut self, problem: &Problem) {
-        let (t, segment) = match self.stretch {
+        let (t, segment) = match self.last.kind {
             Kind::Instant => return,
             Kind::Step(StepEnd { end, .. }) => {
                 self.integrator.advance();
@@ -63,7 +64,7 @@ impl Phase {
             }
         };
         (self.t, self.segment) = (t, segment);
-        if matches!(self.stretch, Kind::Swing(_)) {
+        if matches!(self.last.kind, Kind::Swing(_)) {
             self.gaps[0].start_roots = 0;
         } else {
             // A gap that is still below the resolution of angles has not left its start.
@@ -76,7 +77,7 @@ impl Phase {
             }
         }
         self.forces.advance();
-        self.stretch = Kind::Instant;
+        self.last.kind = Kind::Instant;
         self.has_moved = true;
     }
 
@@ -98,15 +99,15 @@ impl Phase {
                 // On a ground at rest, only an event can make the outcome certain.
                 self.is_outcome_open = !segment.is_quiet();
             }
-            let pendulum = if segment.is_quiet() { self.pendulum } else { None };
+            let pendulum = if segment.is_quiet() { self.closed_forms.pendulum } else { None };
             if let Some(pendulum) = pendulum
                 && let Found::Stretch(ended) = self.swing(problem, pendulum)
             {
                 return Ok(ended);
             }
-            if let Some(rocker) = self.rocker
+            if let Some(rocker) = self.closed_forms.rocker
                 && segment.is_straight()
-                && self.held_until <= self.t
+                && self.lengths.held_until <= self.t
                 && let Found::Stretch(ended) = self.step_over_samples(problem, rocker)
             {
                 return Ok(ended);
@@ -137,10 +138,9 @@ impl Phase {
     fn certain_outcome(&self, problem: &Problem) -> Option<Over> {
         let x = self.integrator.start();
         let sign = self.gaps[0].across.sign;
-        if self
-            .fall
-            .is_some_and(|fall| verdict::falls(&fall, problem, (self.segment, self.t), [x[0], x[self.dof]], sign))
-        {
+        if self.closed_forms.fall.is_some_and(|fall| {
+            verdict::falls(&fall, problem, (self.segment, self.t), [x[0], x[self.linkage.dof]], sign)
+        }) {
             return Some(Over::Falls(0));
         }
         verdict::stands(problem, (self.segment, self.t), self.pattern(), || self.per_block(x)).then_some(Over::Stands)
@@ -151,37 +151,37 @@ impl Flow for Phase {
     fn enter(&mut self, problem: &Problem, after: &State) {
         self.work.phases += 1;
         self.integrator.enter(&problem.ground[after.segment]);
-        let (angles, rates) = self.inside.split_at_mut(self.dof);
+        let (angles, rates) = self.inside.split_at_mut(self.linkage.dof);
         for (gap, (angle, rate)) in self.gaps.iter().zip(angles.iter_mut().zip(rates)) {
             (*angle, *rate) = (after.theta[gap.interface], after.omega[gap.interface]);
         }
         self.integrator.begin(after.t, &self.inside);
         (self.t, self.segment) = (after.t, after.segment);
-        (self.held_until, self.pace) = (after.contact.hold.until, after.pace);
+        (self.lengths.held_until, self.lengths.pace) = (after.contact.hold.until, after.pace);
         self.arm(&problem.scene.column, &after.contact.released);
-        self.suggested = match self.pace.step {
+        self.lengths.suggested = match self.lengths.pace.step {
             Some(step) => step,
             None => self.integrator.first_step(problem.tolerance),
         };
-        self.longest = f64::INFINITY;
+        self.lengths.longest = f64::INFINITY;
         self.is_outcome_open = problem.outcome_bounds.is_some();
-        self.stretch = Kind::Instant;
+        self.last.kind = Kind::Instant;
         self.has_moved = false;
-        self.closing.clear();
+        self.last.closing.clear();
         self.forces.forget();
     }
 
     fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
         self.advance(problem);
         let ended = self.find_stretch(problem)?;
-        let end = match &self.stretch {
+        let end = match &self.last.kind {
             // A phase that ends at once has an inside of one instant.
             Kind::Instant => self.t,
             Kind::Step(step) => step.end,
             Kind::Swing(swing) => swing.until,
             Kind::Samples(samples) => samples.until,
         };
-        Ok(Stretch { end, ended, is_coarse: matches!(self.stretch, Kind::Samples(_)), inside: self })
+        Ok(Stretch { end, ended, is_coarse: matches!(self.last.kind, Kind::Samples(_)), inside: self })
     }
 
     fn take_work(&mut self) -> Work {
@@ -193,7 +193,7 @@ impl Flow for Phase {
 
 impl Inside for Phase {
     fn state_at(&mut self, t: f64) -> (PerBlock<f64>, PerBlock<f64>) {
-        match self.stretch {
+        match self.last.kind {
             Kind::Step(step) => self.state_in_step(step, t),
             Kind::Swing(swing) => self.state_in_swing(&swing, t),
             Kind::Samples(_) => self.state_in_samples(t),
@@ -203,11 +203,11 @@ impl Inside for Phase {
     }
 
     fn raise_peaks(&mut self, peaks: &mut [f64]) {
-        match &self.stretch {
+        match &self.last.kind {
             Kind::Instant => {}
             Kind::Step(step) => {
                 let step = *step;
-                for link in 0..self.dof {
+                for link in 0..self.linkage.dof {
                     let angle = Difference { sign: 1.0, upper: link, lower: None };
                     raise(&mut peaks[self.gaps[link].blocks()], |known| self.peak_of_step(step, angle, known));
                 }
@@ -218,9 +218,9 @@ impl Inside for Phase {
     }
 
     fn raise_gaps(&mut self, gaps: &mut [f64]) {
-        for index in 0..self.dof {
+        for index in 0..self.linkage.dof {
             let Gap { interface, across, .. } = self.gaps[index];
-            raise(&mut gaps[interface..=interface], |known| match self.stretch {
+            raise(&mut gaps[interface..=interface], |known| match self.last.kind {
                 Kind::Instant => known,
                 Kind::Step(step) => self.peak_of_step(step, across, known),
                 // Only one link moves: the magnitude of its gap is that of its angle.
@@ -231,7 +231,7 @@ impl Inside for Phase {
     }
 
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
-        match self.stretch {
+        match self.last.kind {
             Kind::Step(step) => self.forces_in_step(problem, step, note),
             Kind::Swing(swing) => self.forces_in_swing(problem, &swing, note),
             Kind::Samples(_) => {}
@@ -245,17 +245,17 @@ impl Inside for Phase {
     }
 
     fn refine(&mut self, problem: &Problem, visit: &mut dyn FnMut(&mut Stretch)) {
-        if let Kind::Samples(samples) = self.stretch {
+        if let Kind::Samples(samples) = self.last.kind {
             self.refine_samples(problem, samples, visit);
         }
     }
 
     fn closing(&self) -> &[usize] {
-        &self.closing
+        &self.last.closing
     }
 
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
-        let (t, segment, x) = match &self.stretch {
+        let (t, segment, x) = match &self.last.kind {
             Kind::Instant => (self.t, self.segment, self.integrator.start()),
             Kind::Step(step) => (step.end, self.segment, self.integrator.end()),
             Kind::Swing(swing) => (swing.until, self.segment, &swing.x[..]),
@@ -263,12 +263,12 @@ impl Inside for Phase {
         };
         self.write_per_block(x, &mut state.theta, &mut state.omega);
         // The blocks at an interface that closes get the same angle to the last bit.
-        for &interface in &self.closing {
+        for &interface in &self.last.closing {
             let below = lower(&state.theta, interface);
-            state.theta[self.gaps[self.links[interface] - 1].blocks()].fill(below);
+            state.theta[self.gaps[self.linkage.links[interface] - 1].blocks()].fill(below);
         }
         (state.t, state.segment) = (t, segment);
-        state.pace = Pace { step: Some(self.suggested), ..self.pace };
+        state.pace = Pace { step: Some(self.lengths.suggested), ..self.lengths.pace };
         state
     }
 }

@@ -11,9 +11,11 @@
 
 use super::error::SolveError;
 use super::expected_event;
-use super::phase::{Gap, Kind, KnownPart, Phase, StepEnd};
+use super::force_cache::KnownPart;
+use super::phase::{Gap, Phase};
 use super::problem::Problem;
 use super::stretch::{Ended, Found, Over, Panel};
+use super::stretch_kinds::{Kind, StepEnd};
 use crate::mechanics::integrator::Excursion;
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
@@ -53,26 +55,26 @@ impl Phase {
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn step(&mut self, problem: &Problem, left: f64) -> Result<Found, SolveError> {
         let t = self.t;
-        let held = self.held_until - t;
-        let most = if held > 0.0 { left.min(held) } else { left }.min(self.longest);
+        let held = self.lengths.held_until - t;
+        let most = if held > 0.0 { left.min(held) } else { left }.min(self.lengths.longest);
         let most = match self.integrator.cost_follows_length() {
-            true => most.min(expected_event::longest_step(self.expected_closing(), self.suggested)),
+            true => most.min(expected_event::longest_step(self.expected_closing(), self.lengths.suggested)),
             false => most,
         };
-        let attempt = self.integrator.attempt(t, self.suggested, most, problem.tolerance);
-        self.suggested = attempt.suggested;
+        let attempt = self.integrator.attempt(t, self.lengths.suggested, most, problem.tolerance);
+        self.lengths.suggested = attempt.suggested;
         if !attempt.is_good() {
             self.work.rejected += 1;
             self.check_step(attempt)?;
-            self.longest = self.suggested;
+            self.lengths.longest = self.lengths.suggested;
             return Ok(Found::Nothing);
         }
-        self.longest = f64::INFINITY;
+        self.lengths.longest = f64::INFINITY;
         let h = attempt.h;
         self.integrator.accept();
         self.work.steps += 1;
         let end = if h == left { problem.ground[self.segment].end } else { t + h };
-        self.stretch = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
+        self.last.kind = Kind::Step(StepEnd { attempted: h, h, end, part: Part::Attempt });
         let event = self.first_event(problem, h, end);
         Ok(Found::Stretch(event.and_then(|(guard, s)| self.cut_at(problem, guard, h, s))))
     }
@@ -80,8 +82,8 @@ impl Phase {
     /// Time at which the first gap is expected to close `[s]`; infinite if none is.
     fn expected_closing(&mut self) -> f64 {
         self.integrator.start_slope(self.t, &mut self.slope);
-        let (angles, rates) = self.integrator.start().split_at(self.dof);
-        let derivatives = [angles, rates, &self.slope[self.dof..]];
+        let (angles, rates) = self.integrator.start().split_at(self.linkage.dof);
+        let derivatives = [angles, rates, &self.slope[self.linkage.dof..]];
         let closing = |gap: &Gap| expected_event::closing(derivatives.map(|x| gap.across.of(x)));
         self.gaps.iter().map(closing).fold(f64::INFINITY, f64::min)
     }
@@ -132,7 +134,7 @@ impl Phase {
             offer(StepEvent::Gap(*gap), track.first_root(gap.start_roots));
         }
         let limit = problem.scene.options.overturn_angle;
-        let tilting = if reach < limit { 0..0 } else { 0..self.dof };
+        let tilting = if reach < limit { 0..0 } else { 0..self.linkage.dof };
         for link in tilting {
             let track = self.integrator.track(Difference { sign: 1.0, upper: link, lower: None }, false);
             if track.size() >= limit {
@@ -147,11 +149,11 @@ impl Phase {
     /// The first opening of a closed interface before `reach`. Margins at the end of the step are kept if they are known and the step has no event.
     fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(StepEvent, f64)> {
         let mut first: Option<(StepEvent, f64)> = None;
-        self.margin_samples.clear();
-        for index in 0..self.closed.len() {
+        self.last.margin_samples.clear();
+        for index in 0..self.linkage.closed.len() {
             let reach = first.map_or(reach, |(_, s)| s);
             if let Some(s) = self.opening_before(problem, [h, end], index, reach) {
-                first = Some((StepEvent::Contact { interface: self.closed[index] }, s));
+                first = Some((StepEvent::Contact { interface: self.linkage.closed[index] }, s));
             }
         }
         if !problem.skips.forces && !problem.records_forces() {
@@ -159,7 +161,7 @@ impl Phase {
         }
         if first.is_none()
             && reach >= 1.0
-            && let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == 1.0)
+            && let Some((_, margins)) = self.last.margin_samples.iter().find(|(place, _)| *place == 1.0)
         {
             self.forces.end.margins.copy_from_slice(margins);
             self.forces.end.known = KnownPart::Margins;
@@ -169,8 +171,9 @@ impl Phase {
 
     /// The place, 0 to `reach`, at which the closed interface of this index opens. The step has the length and end `[h, end]` `[s]`.
     fn opening_before(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, reach: f64) -> Option<f64> {
-        let is_held = self.t < self.held_until;
-        let opening = if is_held { Opening::Unclear } else { self.integrator.opening(&self.margins, index, reach * h) };
+        let is_held = self.t < self.lengths.held_until;
+        let opening =
+            if is_held { Opening::Unclear } else { self.integrator.opening(&self.linkage.margins, index, reach * h) };
         if opening == Opening::StaysClosed {
             return None;
         }
@@ -191,7 +194,7 @@ impl Phase {
 
     /// The margin of a closed interface at a place in the step.
     fn margin_at(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, s: f64) -> f64 {
-        if let Some((_, margins)) = self.margin_samples.iter().find(|(place, _)| *place == s) {
+        if let Some((_, margins)) = self.last.margin_samples.iter().find(|(place, _)| *place == s) {
             return margins[index];
         }
         // The end of the step is the state that the next one starts from, to the last bit.
@@ -202,10 +205,11 @@ impl Phase {
             self.evaluate_forces_inside(problem, self.t + s * h);
         }
         let column = &problem.scene.column;
-        let margins: PerBlock<f64> = self.closed.iter().map(|&interface| self.margin(column, interface)).collect();
+        let margins: PerBlock<f64> =
+            self.linkage.closed.iter().map(|&interface| self.margin(column, interface)).collect();
         let margin = margins[index];
-        if self.margin_samples.len() < self.margin_samples.inline_size() {
-            self.margin_samples.push((s, margins));
+        if self.last.margin_samples.len() < self.last.margin_samples.inline_size() {
+            self.last.margin_samples.push((s, margins));
         }
         margin
     }
@@ -228,9 +232,11 @@ impl Phase {
             self.integrator.cut(t, h, problem.tolerance);
             let end = self.integrator.end();
             let (value, rate) = match guard {
-                StepEvent::Gap(gap) => (gap.across.of(&end[..self.dof]), gap.across.of(&end[self.dof..])),
+                StepEvent::Gap(gap) => {
+                    (gap.across.of(&end[..self.linkage.dof]), gap.across.of(&end[self.linkage.dof..]))
+                }
                 StepEvent::Tilt { link, sign } => {
-                    (problem.scene.options.overturn_angle - sign * end[link], -sign * end[self.dof + link])
+                    (problem.scene.options.overturn_angle - sign * end[link], -sign * end[self.linkage.dof + link])
                 }
                 StepEvent::Contact { .. } => break,
             };
@@ -249,7 +255,7 @@ impl Phase {
         self.integrator.accept();
         let segment_end = problem.ground[self.segment].end;
         let end = if h == segment_end - t { segment_end } else { t + h };
-        self.stretch = Kind::Step(StepEnd { attempted, h, end, part: Part::UpToEvent });
+        self.last.kind = Kind::Step(StepEnd { attempted, h, end, part: Part::UpToEvent });
         if is_mistaken {
             return None;
         }
@@ -261,7 +267,7 @@ impl Phase {
             }
             StepEvent::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
             StepEvent::Gap(gap) => {
-                self.closing = self.closing_with(end, gap);
+                self.last.closing = self.closing_with(end, gap);
                 Ended::Closing
             }
         })
@@ -269,7 +275,7 @@ impl Phase {
 
     /// The interfaces that close in the instant `t` in which `first` does.
     fn closing_with(&self, t: f64, first: Gap) -> PerBlock<usize> {
-        let (dof, x) = (self.dof, self.integrator.end());
+        let (dof, x) = (self.linkage.dof, self.integrator.end());
         let (resolution, instant) = (self.resolution(x), 4.0 * f64::EPSILON * t);
         let is_closing = |gap: &&Gap| {
             let (value, rate) = (gap.across.of(&x[..dof]), gap.across.of(&x[dof..]));
@@ -297,7 +303,7 @@ impl Phase {
         if self.integrator.is_monotonic(angle) {
             return start.abs().max(end.abs());
         }
-        let of = |x: &[f64]| [&x[..self.dof], &x[self.dof..]].map(|values| angle.of(values));
+        let of = |x: &[f64]| [&x[..self.linkage.dof], &x[self.linkage.dof..]].map(|values| angle.of(values));
         let ([start, rate], [end, end_rate]) = (of(self.integrator.start()), of(self.integrator.end()));
         let control = hermite_control([start, rate, end, end_rate], step.h);
         if control.iter().all(|c| c.abs() <= known) {
@@ -311,7 +317,8 @@ impl Phase {
         self.evaluate_start_forces(problem);
         self.evaluate_end_forces(problem, step.end);
         let last = self.forces.last.clone();
-        let rates = self.integrator.start()[self.dof..].iter().chain(&self.integrator.end()[self.dof..]);
+        let rates =
+            self.integrator.start()[self.linkage.dof..].iter().chain(&self.integrator.end()[self.linkage.dof..]);
         let turned = step.h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
         let segment = &problem.ground[self.segment];
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
@@ -331,7 +338,7 @@ impl Phase {
             std::mem::swap(&mut start, &mut end);
         }
         self.forces.last.copy_from_slice(&last);
-        self.forces.end.keep(&last, problem.interfaces(), &self.closed, &problem.scene.column);
+        self.forces.end.keep(&last, problem.interfaces(), &self.linkage.closed, &problem.scene.column);
     }
 
     /// Evaluates contact forces at a share of the step as far as it was taken.

@@ -3,10 +3,11 @@
 //! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back: the
 //! margins of closed interfaces are polynomials of sine and cosine of the angle ([`crate::mechanics::harmonics`]).
 
-use super::phase::{Course, Kind, Phase, SwingStretch};
+use super::phase::Phase;
 use super::problem::Problem;
 use super::step::PANELS_PER_TURN;
 use super::stretch::{Ended, Found, Over, Panel};
+use super::stretch_kinds::{Course, Kind, SwingStretch};
 use crate::mechanics::harmonics::Critical;
 use crate::mechanics::pendulum::Pendulum;
 use crate::numerics::guards::{first_crossing, polished};
@@ -55,18 +56,18 @@ impl Phase {
     /// Swings to the next event, or to the end of the segment, on a ground at rest; nothing is found where closed forms do not apply.
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn swing(&mut self, problem: &Problem, pendulum: Pendulum) -> Found {
-        if self.held_until > self.t {
+        if self.lengths.held_until > self.t {
             return Found::Nothing;
         }
         let segment = &problem.ground[self.segment];
         let Some((course, mut end)) = self.course(problem, pendulum) else { return Found::Nothing };
         let left = segment.end - self.t;
-        if !self.closed.is_empty() {
+        if !self.linkage.closed.is_empty() {
             let legs = course.legs(&end);
             let (waves, gravity) = (pendulum.waves(&course.swing, course.sign), problem.scene.column.gravity());
-            self.over_swing.clear();
-            for index in 0..self.closed.len() {
-                self.over_swing.push(self.margins.over_swing(index, gravity, &waves));
+            self.last.over_swing.clear();
+            for index in 0..self.linkage.closed.len() {
+                self.last.over_swing.push(self.linkage.margins.over_swing(index, gravity, &waves));
             }
             for leg in legs {
                 let opening = self.opening_of_swing(problem, &course, leg);
@@ -79,10 +80,10 @@ impl Phase {
         let is_cut = end.time > left;
         let [psi, v] = if is_cut { course.swing.after(left) } else { [end.psi, end.v] };
         let until = if is_cut { segment.end } else { self.t + end.time };
-        self.stretch = Kind::Swing(SwingStretch { course, end: [psi, v], until, x: course.state([psi, v]) });
+        self.last.kind = Kind::Swing(SwingStretch { course, end: [psi, v], until, x: course.state([psi, v]) });
         let ended = (!is_cut).then_some(end.ended);
         if ended == Some(Ended::Closing) {
-            self.closing = PerBlock::filled(self.gaps[0].interface, 1);
+            self.last.closing = PerBlock::filled(self.gaps[0].interface, 1);
         }
         Found::Stretch(ended)
     }
@@ -127,19 +128,19 @@ impl Phase {
     /// The first opening of a closed interface on a leg of the swing, from its start to an angle.
     fn opening_of_swing(&mut self, problem: &Problem, course: &Course, to: f64) -> Option<End> {
         let from = course.start;
-        if self.closed.is_empty() || from == to {
+        if self.linkage.closed.is_empty() || from == to {
             return None;
         }
         let mut first: Option<(f64, usize)> = None;
-        for index in 0..self.closed.len() {
+        for index in 0..self.linkage.closed.len() {
             let reach = first.map_or(1.0, |(s, _)| s);
-            let interface = self.closed[index];
+            let interface = self.linkage.closed[index];
             let margin = |phase: &mut Self, s: f64| {
                 phase.evaluate_forces_at_angle(problem, course, from + s * (to - from));
                 phase.margin(&problem.scene.column, interface)
             };
             // The formula gives the place up to rounding; Newton's method on the force itself gives the last digits.
-            let known = match self.over_swing[index].opening(to - from) {
+            let known = match self.last.over_swing[index].opening(to - from) {
                 Ok(None) => continue,
                 Ok(Some([s, slope])) => polished(|s| margin(self, s), s, slope, 1.0),
                 Err(Critical) => None,
