@@ -6,13 +6,14 @@
 //! loop
 //!     x⁺  <- impact or acceleration, searched for                  transition.rs, impact.rs, contacts.rs, friction/search.rs
 //!     x⁻  <- if moving and all sticks: the run without sliding     sticking.rs
-//!            otherwise: rest, or steps until a guard is zero       mover.rs, series_steps.rs, step.rs
+//!            otherwise: rest, or steps until a guard is zero       mover.rs, steps.rs, step.rs
 //!            rows, peaks, forces, work on the way                  recorder.rs
 //! ```
 //!
 //! A scene without friction does not come here.
 
 mod contacts;
+mod explicit_steps;
 mod impact;
 mod mover;
 mod recorder;
@@ -20,6 +21,7 @@ mod series_steps;
 mod smooth;
 mod state;
 mod step;
+mod steps;
 pub(super) mod sticking;
 mod transition;
 

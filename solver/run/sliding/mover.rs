@@ -1,37 +1,39 @@
-//! What moves a column with friction: at rest it waits until the ground starts it, in motion it takes steps until a guard falls to zero. Steps of
-//! explicit methods are here, steps on Taylor series in `series_steps.rs`.
+//! What moves a column with friction: at rest it waits until the ground starts it, in motion it takes steps until a guard falls to zero. The steps are
+//! those of `explicit_steps.rs` or `series_steps.rs`.
 
+use super::explicit_steps::ExplicitSteps;
 use super::recorder::{Moments, SlidingRecorder};
+use super::series_steps::SeriesSteps;
 use super::smooth::{Moment, Smooth};
 use super::state::{RunEnd, SlidingEnded, SlidingState};
 use super::step::Step;
+use super::steps::{StepStart, Steps};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards;
-use crate::numerics::ode::control::StepControl;
-use crate::numerics::ode::explicit::{Explicit, System, Tableau};
-use crate::numerics::ode::interpolant::Interpolant;
+use crate::numerics::ode::explicit::Tableau;
 use crate::numerics::ode::methods::{ForTableau, Method};
 use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::problem::Problem;
 use crate::run::start_from_rest;
 use crate::scene::DynamicsSource;
+use std::ops::ControlFlow;
 
 /// First step of a run `[s]`; step control corrects it.
 const FIRST_STEP: f64 = 1e-3;
 
 /// Factor by which a step is shortened to resolve a guard that starts from zero.
-pub(super) const SHORTER_FOR_UNRESOLVED: f64 = 0.125;
+const SHORTER_FOR_UNRESOLVED: f64 = 0.125;
 /// Share of the longest step down to which steps are shortened for this.
-pub(super) const SHORTEST_SHARE: f64 = 1e-4;
+const SHORTEST_SHARE: f64 = 1e-4;
 
 /// What moves a column with friction.
 pub struct Mover<'p> {
-    pub(super) problem: &'p Problem<'p>,
-    pub(super) friction: &'p Coefficients,
+    problem: &'p Problem<'p>,
+    friction: &'p Coefficients,
     /// Step length that the steps before suggest `[s]`.
-    pub(super) pace: Option<f64>,
+    pace: Option<f64>,
     pub work: Work,
 }
 
@@ -52,16 +54,16 @@ impl<'p> Moments<'p> for Resting<'p> {
 }
 
 /// Where steps are in time.
-pub(super) struct SegmentTime {
+struct SegmentTime {
     /// `[s]`
-    pub t: f64,
+    t: f64,
     /// Segment of the ground motion.
-    pub segment: usize,
+    segment: usize,
 }
 
 impl SegmentTime {
     /// Goes on to the segment that is not over. Returns why the steps end: there is no such segment, or the ground jumps; otherwise `None`.
-    pub fn next_segment(&mut self, problem: &Problem) -> Option<SlidingEnded> {
+    fn next_segment(&mut self, problem: &Problem) -> Option<SlidingEnded> {
         loop {
             let left = problem.ground[self.segment].end - self.t;
             if self.t + left > self.t {
@@ -90,7 +92,7 @@ impl ForTableau for Passing<'_, '_> {
     type Built = Result<(SlidingState, SlidingEnded), SolveError>;
 
     fn with<M: Tableau>(self) -> Self::Built {
-        self.mover.steps::<M>(self.from, self.recorder)
+        self.mover.steps::<ExplicitSteps<M>>(self.from, self.recorder)
     }
 }
 
@@ -120,7 +122,7 @@ impl<'p> Mover<'p> {
         };
         match method.explicit(Passing { mover: self, from, recorder }) {
             Ok(result) => result,
-            Err(Passing { mover, from, recorder }) => mover.steps_on_series(from, recorder),
+            Err(Passing { mover, from, recorder }) => mover.steps::<SeriesSteps>(from, recorder),
         }
     }
 
@@ -155,92 +157,55 @@ impl<'p> Mover<'p> {
         (SlidingState { t, segment, configuration: from.configuration.clone() }, ended)
     }
 
-    pub(super) fn smooth(&self, from: &SlidingState) -> Smooth<'p> {
+    fn smooth(&self, from: &SlidingState) -> Smooth<'p> {
         Smooth::new(self.problem, self.friction, from)
     }
 
-    /// Where steps from a state begin.
-    pub(super) fn enter(&self, from: &SlidingState) -> SegmentTime {
-        SegmentTime { t: from.t, segment: from.segment }
-    }
-
-    /// Length of the first step from a state `[s]`.
-    pub(super) fn first_step(&self) -> f64 {
-        self.pace.unwrap_or(FIRST_STEP)
-    }
-
     /// Steps until a guard falls to zero, the ground jumps, or the time is over.
-    fn steps<M: Tableau>(
+    fn steps<S: Steps<'p>>(
         &mut self,
         from: &SlidingState,
         recorder: &mut SlidingRecorder<'p>,
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
-        let mut smooth = self.smooth(from);
-        let mut at = self.enter(from);
-        let mut x = smooth.state(&from.configuration);
-        let mut method = Explicit::<Vec<f64>, M>::new(&x);
-        let mut interpolant = Interpolant::new(&x);
-        let mut slope = x.clone();
         let list = guards::guards(&from.configuration.joints);
-        let control = StepControl::new(M::ERROR_ORDER);
-        let has_step_control = problem.scene.options.method.has_step_control();
-        let first_step = if has_step_control { self.first_step() } else { problem.scene.options.step };
-        let (mut suggested, mut longest) = (first_step, f64::INFINITY);
+        let mut smooth = self.smooth(from);
+        let mut method = S::new(problem, &smooth, from, self.pace.unwrap_or(FIRST_STEP));
+        let mut at = SegmentTime { t: from.t, segment: from.segment };
+        let (mut x, mut longest) = (smooth.state(&from.configuration), f64::INFINITY);
         self.work.phases += 1;
-        let ended = 'stretch: loop {
+        let ended = loop {
             if let Some(ended) = at.next_segment(problem) {
                 break ended;
             }
             smooth.segment = &problem.ground[at.segment];
-            let (t, left) = (at.t, smooth.segment.end - at.t);
-            smooth.slope(t, &x, &mut slope);
-            let mut h = suggested.min(left).min(longest);
-            loop {
-                let mut error = method.attempt(&mut smooth, t, &x, &slope, h, problem.tolerance);
-                if error <= 1.0 {
-                    method.accept(&mut smooth);
-                    // The rows may determine no motion at the end, where blocks jam.
-                    error = if method.end_slope().iter().all(|value| value.is_finite()) { error } else { f64::NAN };
-                }
-                if error <= 1.0 {
-                    let factor = control.factor(error);
-                    suggested = if !has_step_control {
-                        problem.scene.options.step
-                    } else if h < suggested && factor > 1.0 {
-                        suggested
-                    } else {
-                        h * factor
-                    };
-                    break;
-                }
-                self.work.rejected += 1;
-                h *= if error.is_finite() { control.factor(error) } else { 0.1 };
-                suggested = h;
-                if t + h <= t {
-                    break 'stretch smooth.without_step(t, &x, h)?;
-                }
-            }
-            method.interpolate(&mut smooth, &mut interpolant);
+            let start = StepStart { t: at.t, x: &x, left: smooth.segment.end - at.t, longest };
+            let h = match method.step(&mut smooth, &start, &mut self.work)? {
+                ControlFlow::Continue(h) => h,
+                ControlFlow::Break(ended) => break ended,
+            };
             self.work.steps += 1;
-            let mut step = Step::new(&mut smooth, &interpolant, [t, h], &problem.scene.options);
-            let first = step.first_of(&list);
-            let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && guard.may_start_from_zero());
-            if is_unresolved && h > SHORTEST_SHARE * suggested {
-                // A gap that has just opened, or a slide that has just begun, is less than the error of so long a step.
-                longest = SHORTER_FOR_UNRESOLVED * h;
-                continue;
-            }
+            let shortest = SHORTEST_SHARE * method.suggested();
+            let end = {
+                let output = method.output(&mut smooth, &start, h);
+                let mut step = Step::new(&mut smooth, &output, [at.t, h], &problem.scene.options);
+                let first = step.first_of(&list);
+                let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && S::may_be_unresolved(guard));
+                if is_unresolved && h > shortest {
+                    longest = SHORTER_FOR_UNRESOLVED * h;
+                    continue;
+                }
+                step.record(first, at.segment, recorder)
+            };
             longest = f64::INFINITY;
-            let end = step.record(first, at.segment, recorder);
             at.t = end.t;
             if let Some(guard) = end.guard {
                 x = smooth.state(&end.configuration);
                 break SlidingEnded::at(guard);
             }
-            x.clone_from(method.end());
+            x = method.end(&smooth, &end);
         };
-        self.pace = Some(suggested);
+        self.pace = Some(method.suggested());
         self.work.rhs_calls += smooth.calls;
         Ok((SlidingState { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
     }

@@ -1,19 +1,23 @@
 //! Steps on Taylor series: as many orders as the step needs, and a step as long as its last terms allow (Jorba & Zou, 2005).
 
-use super::mover::{Mover, SHORTER_FOR_UNRESOLVED, SHORTEST_SHARE};
-use super::recorder::SlidingRecorder;
+use super::smooth::Smooth;
 use super::state::{SlidingEnded, SlidingState};
-use super::step::Step;
+use super::step::StepEnd;
+use super::steps::{StepStart, Steps};
 use crate::friction::guard_series::{GuardLimits, SeriesSpan};
-use crate::friction::guards::{self, Guard};
+use crate::friction::guards::Guard;
 use crate::friction::joint::Joint;
 use crate::friction::search::force_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
 use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, SAFETY, TERMS_BELOW_TOLERANCE};
+use crate::numerics::per_block::PerBlock;
+use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::expected_event;
+use crate::run::problem::Problem;
+use std::ops::ControlFlow;
 
 /// Orders of second derivatives after which the terms are first compared with the tolerance.
 const LEAST_ORDERS: usize = 4;
@@ -21,70 +25,77 @@ const LEAST_ORDERS: usize = 4;
 /// Rounds in which the length of a step is computed from its last terms; in later rounds it is halved.
 const ROUNDS: usize = 4;
 
-impl<'p> Mover<'p> {
-    /// Steps on series until a guard falls to zero, the ground jumps, or the time is over.
-    pub(super) fn steps_on_series(
+/// Steps on the series of one set of states.
+pub struct SeriesSteps<'p> {
+    problem: &'p Problem<'p>,
+    series: Series,
+    joints: PerBlock<Joint>,
+    most_orders: usize,
+    suggested: f64,
+}
+
+impl<'p> Steps<'p> for SeriesSteps<'p> {
+    type Output<'s>
+        = SeriesSpan<'s>
+    where
+        'p: 's;
+
+    fn new(problem: &'p Problem<'p>, smooth: &Smooth<'p>, from: &SlidingState, suggested: f64) -> Self {
+        SeriesSteps {
+            problem,
+            series: Series::new(smooth.column, &from.configuration, &smooth.friction.kinetic),
+            joints: from.configuration.joints.clone(),
+            most_orders: most_orders(problem.tolerance.rtol),
+            suggested,
+        }
+    }
+
+    fn step(
         &mut self,
-        from: &SlidingState,
-        recorder: &mut SlidingRecorder<'p>,
-    ) -> Result<(SlidingState, SlidingEnded), SolveError> {
-        let problem = self.problem;
-        let options = &problem.scene.options;
-        let joints = &from.configuration.joints;
-        let mut smooth = self.smooth(from);
-        let mut series = Series::new(smooth.column, &from.configuration, &self.friction.kinetic);
-        let most_orders = most_orders(problem.tolerance.rtol);
-        let (mut at, mut x) = (self.enter(from), smooth.state(&from.configuration));
-        let list = guards::guards(joints);
-        let (mut suggested, mut longest) = (self.first_step(), f64::INFINITY);
-        self.work.phases += 1;
-        let ended = loop {
-            if let Some(ended) = at.next_segment(problem) {
-                break ended;
-            }
-            let segment = &problem.ground[at.segment];
-            smooth.segment = segment;
-            let (t, left) = (at.t, segment.end - at.t);
-            let mut ground = [[0.0; MOST_ORDERS]; 2];
-            segment.horizontal.expand_at(t, &mut ground[0][..most_orders]);
-            segment.vertical.expand_at(t, &mut ground[1][..most_orders]);
-            ground[1][0] += smooth.gravity;
-            let begun = series.begin(&x, [&ground[0], &ground[1]]);
-            let most = left.min(LARGEST_GROWTH * suggested).min(longest);
-            let most = most.min(expected_event::longest_step(expected_end(&series, joints), suggested));
-            let length = begun.and_then(|()| length(&mut series, most, most_orders, problem.tolerance));
-            self.work.rhs_calls += series.orders();
-            let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
-                break if begun.is_none() {
-                    SlidingEnded::Jam
-                } else {
-                    smooth.without_step(t, &x, length.unwrap_or(0.0))?
-                };
-            };
-            suggested = if h < most { h } else { suggested.max(h) };
-            self.work.steps += 1;
-            let now = smooth.configuration(&x);
-            let slack = force_slack(smooth.column, &now, Ground::at(segment, t, smooth.gravity));
-            let limits = GuardLimits { fixed: &self.friction.fixed, slack, overturn_angle: options.overturn_angle };
-            let span = SeriesSpan::new(&series, smooth.column, joints, h, limits);
-            let mut step = Step::new(&mut smooth, &span, [t, h], options);
-            let first = step.first_of(&list);
-            let is_unresolved = matches!(first, Some((0.0, Guard::Land(_))));
-            if is_unresolved && h > SHORTEST_SHARE * suggested {
-                // A landing may be sampled: a gap that has just opened may be less than the rounding of so long a step.
-                longest = SHORTER_FOR_UNRESOLVED * h;
-                continue;
-            }
-            longest = f64::INFINITY;
-            let end = step.record(first, at.segment, recorder);
-            (at.t, x) = (end.t, smooth.state(&end.configuration));
-            if let Some(guard) = end.guard {
-                break SlidingEnded::at(guard);
-            }
+        smooth: &mut Smooth<'p>,
+        start: &StepStart,
+        work: &mut Work,
+    ) -> Result<ControlFlow<SlidingEnded, f64>, SolveError> {
+        let &StepStart { t, x, left, longest } = start;
+        let mut ground = [[0.0; MOST_ORDERS]; 2];
+        smooth.segment.horizontal.expand_at(t, &mut ground[0][..self.most_orders]);
+        smooth.segment.vertical.expand_at(t, &mut ground[1][..self.most_orders]);
+        ground[1][0] += smooth.gravity;
+        let series = &mut self.series;
+        let begun = series.begin(x, [&ground[0], &ground[1]]);
+        let most = left.min(LARGEST_GROWTH * self.suggested).min(longest);
+        let most = most.min(expected_event::longest_step(expected_end(series, &self.joints), self.suggested));
+        let length = begun.and_then(|()| length(series, most, self.most_orders, self.problem.tolerance));
+        work.rhs_calls += series.orders();
+        let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
+            return Ok(ControlFlow::Break(match begun {
+                None => SlidingEnded::Jam,
+                Some(()) => smooth.without_step(t, x, length.unwrap_or(0.0))?,
+            }));
         };
-        self.pace = Some(suggested);
-        self.work.rhs_calls += smooth.calls;
-        Ok((SlidingState { t: at.t, segment: at.segment, configuration: smooth.configuration(&x) }, ended))
+        self.suggested = if h < most { h } else { self.suggested.max(h) };
+        Ok(ControlFlow::Continue(h))
+    }
+
+    fn output<'s>(&'s mut self, smooth: &mut Smooth<'p>, start: &StepStart, h: f64) -> SeriesSpan<'s> {
+        let now = smooth.configuration(start.x);
+        let slack = force_slack(smooth.column, &now, Ground::at(smooth.segment, start.t, smooth.gravity));
+        let overturn_angle = self.problem.scene.options.overturn_angle;
+        let limits = GuardLimits { fixed: &smooth.friction.fixed, slack, overturn_angle };
+        SeriesSpan::new(&self.series, smooth.column, &self.joints, h, limits)
+    }
+
+    /// A landing may be sampled: a gap that has just opened may be less than the rounding of so long a step.
+    fn may_be_unresolved(guard: Guard) -> bool {
+        matches!(guard, Guard::Land(_))
+    }
+
+    fn end(&self, smooth: &Smooth<'p>, end: &StepEnd) -> Vec<f64> {
+        smooth.state(&end.configuration)
+    }
+
+    fn suggested(&self) -> f64 {
+        self.suggested
     }
 }
 

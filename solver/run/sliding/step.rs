@@ -23,7 +23,7 @@ pub trait Output {
     fn series(&self) -> Option<&SeriesSpan<'_>>;
 }
 
-impl Output for Interpolant<Vec<f64>> {
+impl Output for &Interpolant<Vec<f64>> {
     fn state(&self, s: f64, state: &mut [f64]) {
         self.evaluate(s, state);
     }
