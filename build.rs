@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
     let dump = std::env::var_os("ROCKING_DUMP_DIR").map(PathBuf::from);
     dump.iter().try_for_each(std::fs::create_dir_all)?;
-    for (name, text) in rocking_codegen::modules(max_blocks)? {
+    for (name, text) in rocking_codegen::modules(max_blocks).map_err(|error| error.to_string())? {
         let dumped = dump.iter().map(|folder| folder.join(format!("{name}_{max_blocks}.rs")));
         dumped.chain([out.join(format!("{name}.rs"))]).try_for_each(|file| std::fs::write(file, &text))?;
     }

@@ -337,6 +337,9 @@ impl Column {
         density: f64,
         gravity: f64,
     ) -> Result<Column, ColumnError> {
+        if count > MOST_BLOCKS {
+            return Err(ColumnError::TooMany { blocks: count });
+        }
         Column::new(vec![Block::rectangle(half_width, half_height / count as f64, density); count], gravity)
     }
 

@@ -135,16 +135,31 @@ impl std::fmt::Display for Intensity {
     }
 }
 
-impl std::str::FromStr for Intensity {
-    type Err = ();
+/// A text that is not the heading of an intensity.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{0}` is no intensity measure: give pga, pga_g, pga_uplift, pgv, pgv_uplift, pgd, arias or cav, or sa(PERIOD) or sa_g(PERIOD DAMPING) with a \
+     period above zero and a damping ratio from 0 to below 1"
+)]
+pub struct UnknownIntensity(pub String);
 
-    fn from_str(text: &str) -> Result<Intensity, ()> {
-        let Some((name, rest)) = text.split_once('(') else { return Intensity::named(text, None).ok_or(()) };
-        let mut numbers =
-            rest.strip_suffix(')').ok_or(())?.split_whitespace().map(|number| number.parse().map_err(drop));
-        let period = numbers.next().ok_or(())??;
-        let damping = numbers.next().unwrap_or(Ok(DEFAULT_DAMPING))?;
-        Intensity::named(name, Some([period, damping])).ok_or(())
+impl std::str::FromStr for Intensity {
+    type Err = UnknownIntensity;
+
+    fn from_str(text: &str) -> Result<Intensity, UnknownIntensity> {
+        let read = || {
+            let Some((name, rest)) = text.split_once('(') else { return Intensity::named(text, None) };
+            let numbers = rest.strip_suffix(')')?.split_whitespace().map(|number| number.parse().ok());
+            let [period, damping] = match numbers.collect::<Option<Vec<f64>>>()?[..] {
+                [period] => [period, DEFAULT_DAMPING],
+                [period, damping] => [period, damping],
+                _ => return None,
+            };
+            let is_within = period.is_finite() && period > 0.0 && (0.0..1.0).contains(&damping);
+            let intensity = Intensity::named(name, Some([period, damping])).filter(|_| is_within)?;
+            matches!(intensity.measure, Measure::Sa { .. }).then_some(intensity)
+        };
+        read().ok_or_else(|| UnknownIntensity(text.into()))
     }
 }
 
@@ -162,8 +177,9 @@ mod tests {
                 assert!(!intensity.label().is_empty());
             }
         }
-        for text in ["", "pg", "sa", "sa()", "sa(x)", "sa(1"] {
-            assert_eq!(text.parse::<Intensity>(), Err(()), "{text}");
+        for text in ["", "pg", "sa", "sa()", "sa(x)", "sa(1", "pga(1)", "sa(-1)", "sa(nan)", "sa(1 1)", "sa(1 0.05 7)"]
+        {
+            assert_eq!(text.parse::<Intensity>(), Err(UnknownIntensity(text.into())), "{text}");
         }
     }
 

@@ -62,7 +62,7 @@ pub enum EventKind {
     Opening,
     /// An open interface closed.
     Impact,
-    /// The ground acceleration jumped and the pattern changed with it.
+    /// The ground acceleration jumped and the pattern changed with it; with friction also where blocks began to slide ([`Event::states_after`]).
     Jump,
     /// A sticking contact began to slide; only with friction, like all kinds below.
     Slip,
@@ -430,21 +430,37 @@ impl Response {
         modes
     }
 
-    /// What a user must know before believing the run, up to the point of no return ([`crate::validity`]): separations and tension. For a scene with
-    /// friction, the warnings about its sliding instead.
+    /// What a user must know before believing the run: whether it is open that the column stands, and up to the point of no return
+    /// ([`crate::validity`]) separations and tension; for a scene with friction, the warnings about its sliding instead of these.
+    /// [`Run::warnings`](crate::run_folder::Run::warnings) has also what needs the scene: warnings about its records, and a ground motion that is cut.
     pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = match &self.sliding {
+        let open = self.may_overturn.then(|| {
+            format!(
+                "the run ends at solver.t_end = {} s with the column past its balance, or with the energy to get there: whether it stands is open \
+                 (give a later t_end)",
+                self.t_final
+            )
+        });
+        let of_contacts = match &self.sliding {
             Some(sliding) => sliding.warnings(self.status, self.t_final),
             None => self.warnings_of_parting(),
         };
-        if self.used_generic {
-            warnings.push(format!(
-                "this build has generated equations up to {} blocks; larger modes ran on the generic ones, which are slower \
-                 (build with ROCKING_MAX_BLOCKS set to the number of blocks)",
-                crate::mechanics::generated::MAX_BLOCKS
-            ));
+        let generic = self.used_generic.then(|| self.warning_of_generic_modes());
+        open.into_iter().chain(of_contacts).chain(generic).collect()
+    }
+
+    fn warning_of_generic_modes(&self) -> String {
+        let (blocks, most) = (self.peak_theta.len(), crate::mechanics::generated::MAX_BLOCKS);
+        if (1..=most).contains(&blocks) {
+            // This build has all modes of such a column: other equations were supplied.
+            return "the supplied equations lack modes of this column, which ran on the generic ones: slower, and perhaps not what was meant \
+                    (generate equations for these blocks, to the last digit)"
+                .into();
         }
-        warnings
+        format!(
+            "this build has generated equations up to {most} blocks; larger modes ran on the generic ones, which are slower (build with \
+             ROCKING_MAX_BLOCKS set to the number of blocks)"
+        )
     }
 
     /// Separations and tension, which a run without friction cannot follow.

@@ -44,7 +44,7 @@ impl Restitution {
 
 /// State at `t = 0`. Start from `Initial::default()` and set fields.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Initial {
     /// Angles `[rad]`, base first, length N; empty for zero.
@@ -112,7 +112,7 @@ pub enum Wanted {
 
 /// How a scene is solved. Start from `SolveOptions::default()` and set fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 #[non_exhaustive]
 pub struct SolveOptions {
     /// End of the run `[s]`.
@@ -155,8 +155,7 @@ impl Default for SolveOptions {
     }
 }
 
-/// Tightest relative tolerance: below it, rounding alone exceeds the error asked for.
-pub const TIGHTEST_RTOL: f64 = 1e-14;
+pub use crate::numerics::ode::control::TIGHTEST_RTOL;
 
 /// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
 pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
@@ -522,7 +521,9 @@ impl Scene {
                 let remedy = match name.rsplit('.').next() {
                     Some("gamma") => "give a number up to 1e6, above 0 (of mavroeidis-papageorgiou, above 1)",
                     Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",
-                    _ => "give a size up to 1e6, above zero for omega and dt",
+                    Some("dt") => "give an interval above 1e-9 s, up to 1e6",
+                    Some("cycles") => "give a whole number of cycles, at least one",
+                    _ => "give a size up to 1e6, above zero for omega and duration",
                 };
                 faults.note(&format!("excitation.{component}.{name}"), format!("{value} is out of range"), remedy);
             }

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use rocking::ground::AccelerationUnit;
-use rocking::intensity::{Intensity, NAMES};
+use rocking::intensity::{Intensity, NAMES, UnknownIntensity};
 use rocking::studies::{Layout, LimitState, MOST_REPLICATES};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -293,7 +293,7 @@ fn damping(text: &str) -> Result<f64, String> {
 fn target(text: &str) -> Result<(Intensity, f64), String> {
     let (name, size) = text.split_once('=').ok_or("write MEASURE=SIZE, e.g. pgv=0.5")?;
     let name = name.trim();
-    let intensity = name.parse().map_err(|()| match name.split('(').next() {
+    let intensity = name.parse().map_err(|_: UnknownIntensity| match name.split('(').next() {
         Some(spectral @ ("sa" | "sa_g")) => {
             format!("write {spectral}(PERIOD)=SIZE, e.g. {spectral}(0.5)={}", size.trim())
         }

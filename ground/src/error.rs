@@ -35,6 +35,9 @@ pub enum RecordError {
         "dt = {dt:e}: the sampling interval must be a number from {SHORTEST_INTERVAL:e} to {LONGEST_INTERVAL:e} (s)"
     )]
     Interval { dt: f64 },
+    /// One g, for files in g, is no positive number.
+    #[error("gravity = {gravity:e}: one g must be a finite number above zero (m/s²)")]
+    Gravity { gravity: f64 },
     /// A sample is not finite, or beyond what sums of squares can hold.
     #[error(
         "sample {sample} is {value:e}: accelerations must be finite numbers of at most {LARGEST_ACCELERATION:e} m/s²"

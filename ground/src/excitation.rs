@@ -16,7 +16,7 @@ const LONGEST_RECORDING: f64 = 600.0;
 
 /// Ground motion in both directions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Excitation {
     /// Horizontal, positive to the right.
     pub horizontal: Option<Motion>,

@@ -21,7 +21,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 /// Parameters: `amplitude [m/s²]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `duration [s]`, `phase [rad]`; `cycles` and `gamma` are
 /// dimensionless.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
 pub enum Motion {
@@ -246,7 +246,10 @@ impl Motion {
     pub fn still_from(&self) -> Option<f64> {
         match self {
             Motion::Record(record) => Some(record.still_from()),
-            Motion::Sum { terms } => terms.iter().try_fold(0.0f64, |last, term| Some(last.max(term.still_from()?))),
+            Motion::Sum { terms } if terms.is_empty() => Some(0.0),
+            Motion::Sum { terms } => {
+                terms.iter().try_fold(f64::NEG_INFINITY, |last, term| Some(last.max(term.still_from()?)))
+            }
             _ => self.end(),
         }
     }

@@ -12,7 +12,8 @@ use std::sync::Arc;
 
 /// Ground acceleration sampled at equal intervals, linear between samples, zero outside.
 ///
-/// The serialised form has the samples (`accel`). It is read back through the checks of [`Record::new`] and gives an equal record.
+/// The serialised form has the samples (`accel`). It is read back through the checks of [`Record::new`] and gives an equal record, with
+/// a reader whose numbers are exact: that of `serde_json` needs its feature `float_roundtrip`.
 /// [`Motion::description`](crate::Motion::description) leaves the samples out.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Unchecked")]

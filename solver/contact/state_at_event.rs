@@ -29,7 +29,10 @@ pub(super) struct Answer<S: Size> {
 }
 
 /// The mass matrix of a pattern could not be factorised: its blocks differ beyond what rounding can hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the mass matrix of a pattern cannot be factorised: sizes or masses of the blocks differ too much; give blocks that differ less"
+)]
 pub struct SingularMass;
 
 /// The column as it stands at the instant of a contact problem.

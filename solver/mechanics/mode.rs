@@ -5,7 +5,7 @@
 
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use super::integrator::{ExplicitSteps, Integrator, TaylorSteps};
-use crate::numerics::ode::control::{Part, Tolerance};
+use crate::numerics::ode::control::{Part, TIGHTEST_RTOL, Tolerance};
 use crate::numerics::ode::explicit::Tableau;
 use crate::numerics::ode::methods::{ForTableau, Method};
 use rocking_codegen::pattern::Pattern;
@@ -79,8 +79,16 @@ pub enum IntegrateError {
         /// End of the segment before `[s]`.
         time: f64,
     },
-    /// A tolerance or a step is not a finite number above zero.
-    #[error("{name} = {value} must be a finite number above zero")]
+    /// A component of the state is not finite.
+    #[error("component {index} of the state is {value}; give finite angles and rates")]
+    State {
+        /// Place in the state, from zero.
+        index: usize,
+        /// Value given.
+        value: f64,
+    },
+    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], or gravity is not finite.
+    #[error("{name} = {value:e} is out of range; give a finite number above zero, for rtol at least {TIGHTEST_RTOL:e}")]
     Options {
         /// Name of the field of [`IntegrateOptions`].
         name: &'static str,
@@ -240,10 +248,19 @@ impl Mode {
         if x.len() != expected {
             return Err(IntegrateError::StateLength { expected, found: x.len() });
         }
-        let IntegrateOptions { rtol, atol, step, .. } = *options;
-        let sizes = [("rtol", rtol), ("atol", atol), ("step", step)];
-        if let Some((name, value)) = sizes.into_iter().find(|(_, size)| !(size.is_finite() && *size > 0.0)) {
+        let IntegrateOptions { rtol, atol, step, gravity, .. } = *options;
+        let sizes = [
+            ("rtol", rtol, TIGHTEST_RTOL),
+            ("atol", atol, f64::MIN_POSITIVE),
+            ("step", step, f64::MIN_POSITIVE),
+            ("gravity", gravity, f64::MIN),
+        ];
+        let is_size = |value: f64, least: f64| value.is_finite() && value >= least;
+        if let Some((name, value, _)) = sizes.into_iter().find(|(_, value, least)| !is_size(*value, *least)) {
             return Err(IntegrateError::Options { name, value });
+        }
+        if let Some((index, &value)) = x.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+            return Err(IntegrateError::State { index, value });
         }
         let mut least = f64::NEG_INFINITY;
         for (index, &time) in times.iter().enumerate() {

@@ -8,7 +8,7 @@ use super::{Response, StopReason};
 pub enum Fate {
     /// Nothing opened.
     NoUplift,
-    /// It rocked and stands.
+    /// It rocked and stood at the end of the run. Whether it goes on standing may be open: see [`Response::may_overturn`] and [`Response::truncated`].
     Rocks,
     /// It overturned.
     Overturns,

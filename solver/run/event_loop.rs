@@ -14,7 +14,7 @@ use crate::numerics::per_block::PerBlock;
 use std::ops::ControlFlow;
 
 /// Stretches of a phase between two calls of the progress function.
-const STRETCHES_BETWEEN_REPORTS: usize = 1024;
+pub(crate) const STRETCHES_BETWEEN_REPORTS: usize = 1024;
 
 /// Why the loop is left.
 pub(crate) enum Leaving {
@@ -207,6 +207,6 @@ impl Rollback {
 }
 
 /// Reports the time; an error if the caller stops the run.
-fn report(progress: &mut dyn FnMut(f64) -> ControlFlow<()>, t: f64) -> Result<(), SolveError> {
+pub(crate) fn report(progress: &mut dyn FnMut(f64) -> ControlFlow<()>, t: f64) -> Result<(), SolveError> {
     if progress(t).is_break() { Err(SolveError::Cancelled { time: t }) } else { Ok(()) }
 }

@@ -156,8 +156,8 @@ impl Modes {
         let with_vertical = self.ground() == GroundMotion::WithVertical;
         let mut work = Work { with_vertical, ..self.rest.take_work() };
         work.add(&std::mem::take(&mut self.dropped));
-        for entered in self.entered.iter_mut().filter(|entered| entered.is_entered) {
-            work.modes_entered += 1;
+        for entered in &mut self.entered {
+            work.modes_entered += usize::from(entered.is_entered);
             if let Some(phase) = &mut entered.phase {
                 work.add(&phase.take_work());
             }

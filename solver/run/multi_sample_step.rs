@@ -76,7 +76,7 @@ impl Phase {
     #[inline(never)] // Its registers are not saved for stretches of other kinds.
     pub(super) fn step_over_samples(&mut self, problem: &Problem, rocker: Rocker) -> Found {
         let start = self.integrator.start();
-        let (theta, omega) = (start[0], start[1]);
+        let (theta, start_rate) = (start[0], start[1]);
         let (sin, cos) = Scalar::sin_cos(theta);
         self.last.sample_steps.clear();
         let mut walk = Walk {
@@ -90,7 +90,7 @@ impl Phase {
             state: WalkState {
                 t: self.t,
                 segment: self.segment,
-                omega,
+                omega: start_rate,
                 angle: Turning { theta, rate: 0.0, circle: f64x2::new([cos, sin]) },
             },
             intervals: 0,
@@ -126,7 +126,8 @@ impl Phase {
         self.work.rhs_calls += order * walk.intervals;
         let WalkState { t, segment, omega, angle } = walk.state;
         let x = [angle.theta, omega];
-        self.last.kind = Kind::Samples(Samples { until: t, last_segment: segment, x, peak: walk.peak });
+        let (start, peak) = ([theta, start_rate], walk.peak);
+        self.last.kind = Kind::Samples(Samples { until: t, last_segment: segment, start, x, peak });
         if end != End::Landed {
             return Found::Stretch(None);
         }
@@ -134,8 +135,11 @@ impl Phase {
         Found::Stretch(Some(Ended::Closing))
     }
 
-    /// Writes the state at a time of the stretch into `inside`.
-    pub(super) fn state_in_samples(&mut self, t: f64) {
+    /// Writes the state at a time of the stretch into `inside`: at its start, or, if rows are recorded, at any time.
+    pub(super) fn state_in_samples(&mut self, samples: Samples, t: f64) {
+        if t <= self.t {
+            return self.inside.copy_from_slice(&samples.start);
+        }
         let index = self.last.sample_steps.partition_point(|step| step.t <= t).saturating_sub(1);
         let Some(SampleStep { t: from, h, start, weights }) = self.last.sample_steps.get(index) else { return };
         let series = OneAngle::expand::<HIGHEST_ORDER>(weights, *start);

@@ -196,7 +196,7 @@ impl Inside for Phase {
         match self.last.kind {
             Kind::Step(step) => self.state_in_step(step, t),
             Kind::Swing(swing) => self.state_in_swing(&swing, t),
-            Kind::Samples(_) => self.state_in_samples(t),
+            Kind::Samples(samples) => self.state_in_samples(samples, t),
             Kind::Instant => self.inside.copy_from_slice(self.integrator.start()),
         }
         self.per_block(&self.inside)

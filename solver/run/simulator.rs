@@ -111,6 +111,8 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
+        // A run that was stopped has left its work.
+        self.modes.take_work();
         let mut response = self.response(scene, progress)?;
         let ground_moves = scene.excitation.moves_after(scene.options.t_end);
         response.may_overturn &= !ground_moves;

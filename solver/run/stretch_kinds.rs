@@ -63,6 +63,8 @@ pub(super) struct Samples {
     pub until: f64,
     /// Segment of the ground motion at the end.
     pub last_segment: usize,
+    /// `[θ, θ̇]` at the start.
+    pub start: [f64; 2],
     /// `[θ, θ̇]` at the end.
     pub x: [f64; 2],
     /// Largest magnitude of the angle `[rad]`.

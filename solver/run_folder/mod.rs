@@ -98,7 +98,7 @@ pub enum FolderError {
         problem: String,
     },
     /// A run has no rows, so that no figures or reports can be made.
-    #[error("{}: there are no rows; where the run ends before the first of `output.times`, give an earlier one, otherwise {AGAIN}", path.display())]
+    #[error("{}: there are no rows; set `output_dt` or `output_times` of a scene of the library; where the run ends before the first of `output.times`, give an earlier one, otherwise {AGAIN}", path.display())]
     NoRows {
         /// The file.
         path: PathBuf,

@@ -183,6 +183,9 @@ impl Results {
         let Results { response, column, options, .. } = self;
         let length = column.len();
         let lists = [&response.friction_demand, &response.impulse_friction_demand, &response.min_normal_force];
+        if response.peak_theta.is_empty() {
+            return Some("there are no peaks, as after a run of the library with `Wanted::Outcome`: run the scene with `Wanted::Everything`".into());
+        }
         if response.peak_theta.len() != length || lists.iter().any(|list| !list.is_empty() && list.len() != length) {
             return Some(format!("peaks or forces are not of {length} block(s)"));
         }

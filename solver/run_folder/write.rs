@@ -94,17 +94,10 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The warning of a run that ends before its ground motion, or before it is settled whether the column stands. A motion without end has none, as it
-/// must be cut somewhere.
+/// The warning of a run that ends before its ground motion. A motion without end has none, as it must be cut somewhere.
 fn cut(scene: &Scene, response: &Response) -> Option<String> {
-    if response.may_overturn {
-        return Some(format!(
-            "the run ends at solver.t_end = {} s with the column past its balance, or with the energy to get there: whether it stands is open \
-             (give a later t_end)",
-            scene.options.t_end
-        ));
-    }
-    let still = scene.excitation.still_from().filter(|_| response.truncated)?;
+    let is_cut = response.truncated && !response.may_overturn;
+    let still = scene.excitation.still_from().filter(|_| is_cut)?;
     let end = scene.options.t_end;
     Some(format!(
         "the ground motion is cut: it lasts until t = {still:.4} s, and the run ends at solver.t_end = {end} s; the outcome holds up to then \

@@ -22,6 +22,10 @@ impl RecordFile {
     /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     pub fn read(bytes: &[u8], options: &TextOptions) -> Result<RecordFile, RecordError> {
+        let &TextOptions { gravity, .. } = options;
+        if !(gravity.is_finite() && gravity > 0.0) {
+            return Err(RecordError::Gravity { gravity });
+        }
         let text = decode(bytes)?;
         // Old files end with Ctrl-Z, files that are cut off may end with zeros.
         let text = text.trim_end_matches(['\u{1a}', '\0']);

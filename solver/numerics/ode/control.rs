@@ -2,6 +2,9 @@
 
 use crate::numerics::state_vector::StateVector;
 
+/// Tightest relative tolerance: below it, rounding alone exceeds the error asked for.
+pub const TIGHTEST_RTOL: f64 = 1e-14;
+
 /// Error tolerances: component `i` may err by `atol + rtol · |x_i|` in one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {

@@ -98,7 +98,7 @@ pub(super) fn run(
                 (until, ended)
             }
             None => {
-                let (mut until, ended) = mover.pass(&at, &mut recorder)?;
+                let (mut until, ended) = mover.pass(&at, &mut recorder, progress)?;
                 recorder.leave(&at, &until);
                 if ended == SlidingEnded::Over(RunEnd::AtRest) {
                     // If nothing starts the column any more, the end is the time at which the rest began.

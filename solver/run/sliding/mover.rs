@@ -15,6 +15,7 @@ use crate::numerics::ode::explicit::Tableau;
 use crate::numerics::ode::methods::{ForTableau, Method};
 use crate::response::Work;
 use crate::run::error::SolveError;
+use crate::run::event_loop::{STRETCHES_BETWEEN_REPORTS, report};
 use crate::run::problem::Problem;
 use crate::run::start_from_rest;
 use crate::scene::DynamicsSource;
@@ -86,13 +87,14 @@ struct Passing<'m, 'p> {
     mover: &'m mut Mover<'p>,
     from: &'m SlidingState,
     recorder: &'m mut SlidingRecorder<'p>,
+    progress: &'m mut dyn FnMut(f64) -> ControlFlow<()>,
 }
 
 impl ForTableau for Passing<'_, '_> {
     type Built = Result<(SlidingState, SlidingEnded), SolveError>;
 
     fn with<M: Tableau>(self) -> Self::Built {
-        self.mover.steps::<ExplicitSteps<M>>(self.from, self.recorder)
+        self.mover.steps::<ExplicitSteps<M>>(self.from, self.recorder, self.progress)
     }
 }
 
@@ -106,10 +108,14 @@ impl<'p> Mover<'p> {
     }
 
     /// Moves the column until something happens.
+    ///
+    /// # Errors
+    /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run, which is called after so many steps.
     pub fn pass(
         &mut self,
         from: &SlidingState,
         recorder: &mut SlidingRecorder<'p>,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         if from.configuration.is_at_rest() {
             return Ok(self.wait(from, recorder));
@@ -120,9 +126,9 @@ impl<'p> Mover<'p> {
             Method::Taylor if options.dynamics == DynamicsSource::Generic => Method::Dop853,
             method => method,
         };
-        match method.explicit(Passing { mover: self, from, recorder }) {
+        match method.explicit(Passing { mover: self, from, recorder, progress }) {
             Ok(result) => result,
-            Err(Passing { mover, from, recorder }) => mover.steps::<SeriesSteps>(from, recorder),
+            Err(Passing { mover, from, recorder, progress }) => mover.steps::<SeriesSteps>(from, recorder, progress),
         }
     }
 
@@ -166,6 +172,7 @@ impl<'p> Mover<'p> {
         &mut self,
         from: &SlidingState,
         recorder: &mut SlidingRecorder<'p>,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
         let list = guards::guards(&from.configuration.joints);
@@ -174,6 +181,7 @@ impl<'p> Mover<'p> {
         let mut at = SegmentTime { t: from.t, segment: from.segment };
         let (mut x, mut longest) = (smooth.state(&from.configuration), f64::INFINITY);
         self.work.phases += 1;
+        let mut stretches = 0usize;
         let ended = loop {
             if let Some(ended) = at.next_segment(problem) {
                 break ended;
@@ -204,6 +212,10 @@ impl<'p> Mover<'p> {
                 break SlidingEnded::at(guard);
             }
             x = method.end(&smooth, &end);
+            stretches += 1;
+            if stretches.is_multiple_of(STRETCHES_BETWEEN_REPORTS) {
+                report(progress, at.t)?;
+            }
         };
         self.pace = Some(method.suggested());
         self.work.rhs_calls += smooth.calls;

@@ -220,8 +220,12 @@ impl<'p> SlidingRecorder<'p> {
     pub fn append(&mut self, column: &Column, [from, until]: [&SlidingState; 2], response: Response) {
         self.work.add(&response.work);
         self.used_generic |= response.used_generic;
+        self.impacts += response.impacts;
+        for (mode, time) in response.time_in_mode {
+            *self.time_in_mode.entry(mode).or_insert(0.0) += time;
+            self.report.times.iter_mut().for_each(|times| times.sticking += time);
+        }
         if !self.problem.is_recorded() {
-            self.impacts += response.impacts;
             return;
         }
         let sticking =
@@ -230,7 +234,6 @@ impl<'p> SlidingRecorder<'p> {
             let moment = self.moment(sample.t, sticking(&sample.pattern, &sample.theta, &sample.omega));
             self.row(sample.t, &moment);
         }
-        self.impacts += response.impacts;
         let mut lost = 0.0;
         self.events.reserve(response.events.len());
         for mut event in response.events {
@@ -260,10 +263,6 @@ impl<'p> SlidingRecorder<'p> {
         raise(&mut self.friction_demand, &response.friction_demand);
         for (all, own) in self.min_normal_force.iter_mut().zip(&response.min_normal_force) {
             *all = all.min(*own);
-        }
-        for (mode, time) in response.time_in_mode {
-            *self.time_in_mode.entry(mode).or_insert(0.0) += time;
-            self.report.times.iter_mut().for_each(|times| times.sticking += time);
         }
     }
 
@@ -426,12 +425,27 @@ impl<'p> SlidingRecorder<'p> {
         });
     }
 
-    /// Whether the column is past its balance, or has the energy to get there, with the blocks displaced as they are at the end. A block that is off
-    /// its support then has no balance.
+    /// Whether the column is past its balance, or has the energy to get there: with the blocks displaced as they are at the end, or as far as slides and
+    /// flights on other blocks may go on, by the energy that there is. A block that is off its support then has no balance.
     fn may_overturn(&self, now: &Configuration) -> bool {
-        let Ok(column) = self.column().clone().displaced(self.report.residual_slide.clone()) else { return true };
-        let above_rest = energy(&column, now) - rest::energy(&column).potential;
-        column.barrier(self.problem.scene.options.overturn_angle).may_be_passed(&now.theta, above_rest)
+        let (column, slides) = (self.column(), &self.report.residual_slide);
+        let above_rest = energy(column, now) - rest::energy(column).potential;
+        let farther = |(interface, slide): (usize, &f64)| {
+            // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share.
+            let share = above_rest / (column.mass_above(interface) * column.gravity());
+            let stopped = share / self.friction.kinetic[interface];
+            match (interface, now.joints[interface].slip()) {
+                (0, _) => *slide,
+                (_, Some(slip)) if slip.sign() == 0.0 => *slide,
+                (_, Some(slip)) => slide + slip.sign() * stopped,
+                (_, None) => slide + now.apart_rate[interface][0].signum() * (2.0 * share + stopped),
+            }
+        };
+        let farthest = slides.iter().enumerate().map(farther).collect();
+        [slides.clone(), farthest].into_iter().any(|slides| {
+            let Ok(column) = column.clone().displaced(slides) else { return true };
+            column.barrier(self.problem.scene.options.overturn_angle).may_be_passed(&now.theta, above_rest)
+        })
     }
 
     /// The response of a run that ends in a state.

@@ -122,6 +122,8 @@ impl<'p> Sticking<'p> {
         problem.kappa.clone_from(&self.problem.kappa);
         let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
         problem.records_gaps = cones.need_gaps();
+        // Whether blocks rocked, before others slid, belongs to the outcome.
+        problem.records_times = true;
         let is_beginning = from.is_none();
         let departure = match from {
             Some(state) => Departure::Decided(state),
@@ -171,6 +173,8 @@ impl<'p> Sticking<'p> {
 fn reported(column: &Column, mut response: Response) -> Response {
     let slides = column.slides().to_vec();
     let time = response.time_in_mode.values().sum();
+    // They were recorded for the cones alone.
+    response.largest_gaps.clear();
     for sample in &mut response.samples {
         (sample.slide, sample.gap) = (slides.clone(), vec![0.0; slides.len()]);
     }
