@@ -8,7 +8,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 /// The timeline of the last ground motion, kept for the next run: a record is divided into segments once for many runs.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct TimelineCache {
     /// Ground motion and end `[s]` of the timeline. It is `None` for a timeline of few segments, which is divided anew for each run.
     of: Option<(Excitation, f64)>,

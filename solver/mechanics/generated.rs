@@ -34,6 +34,7 @@ use super::program::{
 use crate::column::{Block, Column};
 use rocking_codegen::GroundMotion;
 use rocking_codegen::pattern::Pattern;
+use std::fmt;
 use std::marker::PhantomData;
 use std::sync::OnceLock;
 
@@ -140,6 +141,12 @@ pub struct GeneratedMode<P: Program> {
     energy_constants: OnceLock<<Energies<P> as EnergyProgram<f64>>::Constants>,
     series_constants: OnceLock<<Series<P> as SeriesProgram<f64>>::Constants>,
     interfaces: Vec<InterfaceForces>,
+}
+
+impl<P: Program> fmt::Debug for GeneratedMode<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("GeneratedMode").field("geometry", &self.geometry).finish_non_exhaustive()
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -10,12 +10,19 @@ use crate::numerics::ode::explicit::Tableau;
 use crate::numerics::ode::methods::{ForTableau, Method};
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
+use std::fmt;
 use std::sync::Arc;
 
 /// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
 pub struct Mode {
     pattern: Pattern,
     equations: Arc<dyn Erased>,
+}
+
+impl fmt::Debug for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Mode").field("pattern", &self.pattern).finish_non_exhaustive()
+    }
 }
 
 /// How [`Mode::integrate`] solves.

@@ -13,6 +13,7 @@ use crate::friction::Friction;
 use crate::response::Response;
 use crate::scene::Scene;
 use rocking_ground::TimelineCache;
+use std::fmt;
 use std::ops::ControlFlow;
 
 /// Runs a scene.
@@ -65,6 +66,12 @@ pub struct Simulator {
     ground: TimelineCache,
     skips: Skips,
     records_gaps: bool,
+}
+
+impl fmt::Debug for Simulator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulator").field("skips", &self.skips).finish_non_exhaustive()
+    }
 }
 
 impl Simulator {

@@ -9,6 +9,7 @@ use super::count::{Operations, count_expressions};
 use crate::mechanics::{Symbols, Vector};
 use crate::symbolic::{Arena, Expr, Level, Node, Rational, Unit};
 use std::collections::HashMap;
+use std::fmt;
 
 /// Rule that names a constant, given the inputs and statements that the constant multiplies, outermost first, and its formula in the derivation.
 type ConstantName = Box<dyn Fn(&[String], &Arena, Expr) -> Option<String>>;
@@ -155,6 +156,12 @@ pub struct ProgramBuilder<'a> {
     /// Inputs and statements that multiply the expression being translated, outermost first.
     factors: Vec<String>,
     constant_name: ConstantName,
+}
+
+impl fmt::Debug for ProgramBuilder<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ProgramBuilder").field("program", &self.program).finish_non_exhaustive()
+    }
 }
 
 impl<'a> ProgramBuilder<'a> {
