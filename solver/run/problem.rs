@@ -23,8 +23,6 @@ pub(crate) struct Problem<'a> {
     pub tolerance: Tolerance,
     /// Whether the run may end once it certainly stands: it has `outcome_bounds`, and the last segment of the ground motion is at rest.
     pub may_stand: bool,
-    /// Whether times in modes are recorded.
-    pub records_times: bool,
     /// Whether the largest gaps are recorded.
     pub records_gaps: bool,
 }
@@ -85,7 +83,6 @@ impl<'a> Problem<'a> {
             kappa: scene.restitution.per_interface(&scene.column),
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
             may_stand: outcome_bounds.is_some() && ground.last().is_some_and(Segment::is_quiet),
-            records_times: options.wanted == Wanted::Everything,
             records_gaps: false,
         }
     }

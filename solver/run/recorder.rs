@@ -247,12 +247,10 @@ impl Recorder {
 
     /// Records that the motion at this place among the modes is left at `x⁻`.
     pub fn leave(&mut self, problem: &Problem, mode: usize, before: &State) {
-        if problem.is_recorded() {
-            self.record_angles(&before.theta);
-        }
-        if !problem.records_times {
+        if !problem.is_recorded() {
             return;
         }
+        self.record_angles(&before.theta);
         if self.times.len() <= mode {
             self.times.resize(mode + 1, 0.0);
         }
@@ -289,7 +287,7 @@ impl Recorder {
     /// The response of a run up to a state, without the rows that follow.
     pub fn so_far(self, problem: &Problem, last: &State, status: StopReason, modes: &mut Modes) -> Response {
         let mut time_in_mode = BTreeMap::new();
-        if problem.records_times {
+        if problem.is_recorded() {
             let time = |mode: usize| self.times.get(mode).copied().unwrap_or(0.0);
             for (mode, name) in modes.entered() {
                 *time_in_mode.entry(name.to_string()).or_insert(0.0) += time(mode);

@@ -221,6 +221,7 @@ impl<'p> SlidingRecorder<'p> {
         self.work.add(&response.work);
         self.used_generic |= response.used_generic;
         self.impacts += response.impacts;
+        // Whether blocks rocked before others slid belongs to the outcome.
         for (mode, time) in response.time_in_mode {
             *self.time_in_mode.entry(mode).or_insert(0.0) += time;
             self.report.times.iter_mut().for_each(|times| times.sticking += time);

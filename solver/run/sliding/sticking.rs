@@ -122,8 +122,6 @@ impl<'p> Sticking<'p> {
         problem.kappa.clone_from(&self.problem.kappa);
         let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
         problem.records_gaps = cones.need_gaps();
-        // Whether blocks rocked, before others slid, belongs to the outcome.
-        problem.records_times = true;
         let is_beginning = from.is_none();
         let departure = match from {
             Some(state) => Departure::Decided(state),
