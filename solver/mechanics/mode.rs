@@ -29,7 +29,8 @@ impl fmt::Debug for Mode {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IntegrateOptions {
-    /// Gravity `[m/s²]`: 9.81 unless given, whatever the gravity of the column, which a mode does not know ([`Column::gravity`](crate::Column::gravity)).
+    /// Gravity `[m/s²]`: 9.81 unless given, whatever the gravity of the column ([`Column::gravity`](crate::Column::gravity)), which a mode of `Mode::new`
+    /// does not know. Generated equations without vertical ground motion have the column's gravity in their constants.
     pub gravity: f64,
     /// Method.
     pub method: Method,
