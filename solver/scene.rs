@@ -471,6 +471,13 @@ impl Scene {
         for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LOOSEST) {
             faults.note(key, format!("{value} is too loose for an answer"), "give at most 0.01");
         }
+        let stacks = (0..self.column.len()).map(|block| self.column.stack(block).frequency_parameter());
+        let shortest = 1.0 / stacks.fold(0.0, f64::max);
+        if !options.method.has_step_control() && options.step > shortest {
+            let problem =
+                format!("{} s is longer than the time 1/p = {shortest:.4} s in which a block falls", options.step);
+            faults.note("solver.step", problem, "give a small part of that time");
+        }
         if options.overturn_angle > std::f64::consts::PI {
             let problem = format!("{} rad is beyond upside down", options.overturn_angle);
             faults.note("solver.overturn_angle", problem, "give at most pi");

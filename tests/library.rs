@@ -157,3 +157,15 @@ fn a_block_that_slides_at_the_end_may_fall_off_its_support() {
     scene.options.t_end = 0.83;
     assert!(!simulate(&scene).expect("a run").may_overturn);
 }
+
+/// Steps as long as a fall overturned blocks that stand.
+#[test]
+fn steps_of_fixed_length_are_shorter_than_a_fall() {
+    let mut scene = pulse(Column::equal_blocks(1, 0.3, 1.2, 1000.0, GRAVITY).expect("valid"), 3.2, 4.5);
+    // 1/p = √(4 R / 3 g) = 0.4100 s.
+    (scene.options.method, scene.options.step) = (Method::RungeKutta4, 0.42);
+    let message = scene.check().expect_err("too long").to_string();
+    assert!(message.contains("solver.step") && message.contains("0.4100 s"), "{message}");
+    scene.options.step = 0.4;
+    assert_eq!(scene.check(), Ok(()));
+}
