@@ -9,6 +9,8 @@ use rocking::column::Shape;
 use rocking::ground::{Motion, Record};
 use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason, Wanted, simulate};
 
+use std::f64::consts::TAU;
+
 const GRAVITY: f64 = 9.81;
 
 fn scene(blocks: Vec<Block>, friction: Vec<f64>) -> Scene {
@@ -66,6 +68,36 @@ fn a_block_without_friction_stays_in_place_under_a_wavelet() {
     }
     // A reversal of a slide is found once its rate is above 8e-3 √(g · size · stick_angle) = 2.5e-9 m/s: over 2 s, 5e-9 m, where slides reach 3e-4 m.
     assert_relative_eq!(slide(&response, 0), -moved, epsilon = 5e-9);
+}
+
+/// Two blocks, the upper one on a contact without friction, under vertical motion that no coordinate feels: the upper one tips when its centre of gravity
+/// passes the edge, the lower one slides when its friction is used up, the upper one at rest above it. Steps followed the coordinates alone, and missed
+/// both.
+#[test]
+fn forces_that_no_coordinate_feels_end_a_state_as_well() {
+    let methods = [Method::Auto, Method::Dop853, Method::DormandPrince54];
+    for (method, rtol) in methods.into_iter().flat_map(|method| [1e-6, 1e-9, 1e-11].map(|rtol| (method, rtol))) {
+        let vertical = |omega| Some(Motion::Harmonic { amplitude: 0.1 * GRAVITY, omega, start: 0.0, phase: 0.0 });
+        let two = |half_width| vec![Block::rectangle(half_width, 0.1, 1.0); 2];
+        let mut glides = scene(two(0.3), vec![0.9, 0.0]);
+        glides.excitation.vertical = vertical(TAU / 0.4);
+        (glides.initial.x, glides.initial.y) = (vec![0.0, 0.0], vec![0.1, 0.3]);
+        (glides.initial.vx, glides.initial.vy) = (vec![0.0, 0.3], vec![0.0, 0.0]);
+        (glides.options.t_end, glides.options.method, glides.options.rtol) = (2.5, method, rtol);
+        let opening = run(&glides).events.iter().find(|event| event.kind == EventKind::Opening).map(|event| event.t);
+        assert_relative_eq!(opening.expect("it tips"), 1.0, max_relative = 1e-9);
+
+        let mut slips = scene(two(2.0), vec![0.3, 0.0]);
+        slips.excitation.vertical = vertical(TAU / 0.05);
+        let amplitude = -0.65 * GRAVITY;
+        slips.excitation.horizontal = Some(Motion::HalfSine { amplitude, omega: TAU / 4.0, start: 0.0 });
+        (slips.options.t_end, slips.options.method, slips.options.rtol) = (2.0, method, rtol);
+        let response = run(&slips);
+        let slip = |event: &&rocking::Event| event.kind == EventKind::Slip && event.interface == Some(1);
+        // 0.65 sin(π t / 2) = 2 · 0.3 (1 + 0.1 sin(2π t / 0.05)), by bisection; accelerations follow angles and slides to the tolerance.
+        let first = response.events.iter().find(slip).map(|event| event.t);
+        assert_relative_eq!(first.expect("it slips"), 0.634054538, epsilon = 1e-8);
+    }
 }
 
 /// The same under a half-sine: from 0.083333 to 0.677308 s, 0.338955 m.

@@ -13,6 +13,9 @@ use crate::run::error::SolveError;
 use crate::run::problem::Problem;
 use std::ops::ControlFlow;
 
+/// Longest step, in radians of the ground motion: guards of forces are sampled in a step, and no coordinate may feel what they follow.
+const LONGEST_TURN: f64 = 2.0;
+
 /// Steps of the method with the tableau `M`.
 pub struct ExplicitSteps<M> {
     method: Explicit<Vec<f64>, M>,
@@ -53,7 +56,9 @@ impl<'p, M: Tableau> Steps<'p> for ExplicitSteps<M> {
     ) -> Result<ControlFlow<SlidingEnded, f64>, SolveError> {
         let &StepStart { t, x, left, longest } = start;
         smooth.slope(t, x, &mut self.slope);
-        let mut h = self.suggested.min(left).min(longest);
+        let omega = smooth.segment.horizontal.omega().max(smooth.segment.vertical.omega());
+        let most = if self.fixed.is_none() && omega > 0.0 { LONGEST_TURN / omega } else { f64::INFINITY };
+        let mut h = self.suggested.min(left).min(longest).min(most);
         loop {
             let mut error = self.method.attempt(smooth, t, x, &self.slope, h, self.tolerance);
             if error <= 1.0 {

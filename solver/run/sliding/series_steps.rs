@@ -63,9 +63,11 @@ impl<'p> Steps<'p> for SeriesSteps<'p> {
         ground[1][0] += smooth.gravity;
         let series = &mut self.series;
         let begun = series.begin(x, [&ground[0], &ground[1]]);
+        let (tolerance, size) = (self.problem.tolerance, smooth.column.size());
+        let limits = StepLimits { tolerance, ground: &ground, size, speed: (size * smooth.gravity).sqrt() };
         let most = left.min(LARGEST_GROWTH * self.suggested).min(longest);
         let most = most.min(expected_event::longest_step(expected_end(series, &self.joints), self.suggested));
-        let length = begun.and_then(|()| length(series, most, self.most_orders, self.problem.tolerance));
+        let length = begun.and_then(|()| length(series, most, self.most_orders, &limits));
         work.rhs_calls += series.orders();
         let Some(h) = length.map(|h| without_remainder(h, left)).filter(|h| t + h > t) else {
             return Ok(ControlFlow::Break(match begun {
@@ -120,11 +122,22 @@ fn most_orders(rtol: f64) -> usize {
     ((2.0 - 0.5 * libm::log(rtol)).ceil() as usize).clamp(LEAST_ORDERS, MOST_ORDERS)
 }
 
+/// What limits the length of a step.
+struct StepLimits<'g> {
+    tolerance: Tolerance,
+    /// Taylor coefficients of the ground's acceleration, gravity included `[m/s^(2+k)]`.
+    ground: &'g [[f64; MOST_ORDERS]; 2],
+    /// Scale of displacements `[m]`.
+    size: f64,
+    /// Scale of speeds `[m/s]`.
+    speed: f64,
+}
+
 /// A length up to `most` for which the last terms of the series meet the tolerance `[s]`; orders are added as far as they are needed. `None` if a
 /// number is not finite, or the length falls to zero.
-fn length(series: &mut Series, most: f64, most_orders: usize, tolerance: Tolerance) -> Option<f64> {
+fn length(series: &mut Series, most: f64, most_orders: usize, limits: &StepLimits) -> Option<f64> {
     loop {
-        if series.orders() >= LEAST_ORDERS && error(series, most, tolerance) <= 1.0 {
+        if series.orders() >= LEAST_ORDERS && error(series, most, limits) <= 1.0 {
             return Some(most);
         }
         if series.orders() >= most_orders {
@@ -134,7 +147,7 @@ fn length(series: &mut Series, most: f64, most_orders: usize, tolerance: Toleran
     }
     let mut h = most;
     for round in 0.. {
-        let error = error(series, h, tolerance);
+        let error = error(series, h, limits);
         if error <= 1.0 {
             return Some(h);
         }
@@ -146,22 +159,30 @@ fn length(series: &mut Series, most: f64, most_orders: usize, tolerance: Toleran
     None
 }
 
-/// Size of the last terms of all rates and values in a step, relative to the tolerance.
-fn error(series: &Series, h: f64, tolerance: Tolerance) -> f64 {
+/// Size of the last terms of all rates and values in a step, relative to the tolerance. The ground's own velocity and displacement are among them:
+/// where contacts slide without friction, no coordinate may feel a motion of the ground that forces follow.
+fn error(series: &Series, h: f64, limits: &StepLimits) -> f64 {
+    let &StepLimits { tolerance, ground, size, speed } = limits;
     let last = series.orders();
     let power = (1..last).fold(TERMS_BELOW_TOLERANCE, |power, _| power * h);
+    // From the last two coefficients of a rate, and the errors allowed to value and rate.
+    let weighted = |rates: [f64; 2], allowed: [f64; 2]| {
+        let size = (rates[1] * h).abs().max(BEFORE_LAST * rates[0].abs()) * power;
+        size * (h / (last as f64 * allowed[0])).max(1.0 / allowed[1])
+    };
     let mut error = 0.0f64;
+    // A number that is not finite is an error of any size.
+    let mut raise = |own: f64| error = if own <= error || error.is_nan() { error } else { own };
     for values in series.values() {
         let rate = |order: usize| (order + 1) as f64 * values.of(order + 1);
         let [value, first, second] = [values.of(0).abs(), rate(0).abs(), rate(1).abs()];
-        let scales = [
-            h / (last as f64 * tolerance.scale(value, value + h * (first + 0.5 * h * second))),
-            1.0 / tolerance.scale(first, first + h * second),
-        ];
-        let size = (rate(last) * h).abs().max(BEFORE_LAST * rate(last - 1).abs()) * power;
-        let weighted = size * scales[0].max(scales[1]);
-        // A number that is not finite is an error of any size.
-        error = if weighted <= error || error.is_nan() { error } else { weighted };
+        let at_end = [value + h * (first + 0.5 * h * second), first + h * second];
+        let allowed = [tolerance.scale(value, at_end[0]), tolerance.scale(first, at_end[1])];
+        raise(weighted([rate(last - 1), rate(last)], allowed));
+    }
+    for acceleration in ground {
+        let rate = |order: usize| acceleration[order - 1] / order as f64;
+        raise(weighted([rate(last - 1), rate(last)], [size, speed].map(|scale| tolerance.scale(scale, scale))));
     }
     error
 }
