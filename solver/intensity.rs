@@ -138,8 +138,9 @@ impl std::fmt::Display for Intensity {
 /// A text that is not the heading of an intensity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no intensity measure: give pga, pga_g, pga_uplift, pgv, pgv_uplift, pgd, arias or cav, or sa(PERIOD) or sa_g(PERIOD DAMPING) with a \
-     period above zero and a damping ratio from 0 to below 1"
+    "`{0}` is no intensity measure: give one of {names}; sa and sa_g with a period above zero, and a damping ratio from 0 to below 1 if it is not \
+     0.05: sa(0.5), sa_g(0.5 0.02)",
+    names = NAMES.join(", ")
 )]
 pub struct UnknownIntensity(pub String);
 

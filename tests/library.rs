@@ -59,6 +59,7 @@ fn runs_that_slide_are_observed_every_thousand_steps() {
         Continue(())
     })
     .expect("a run");
+    // 50,000 steps, a call after each 1,024.
     assert!(times.len() >= 48, "{} calls", times.len());
     let stopped = simulate_observed(&scene, |t| if t > 0.01 { Break(()) } else { Continue(()) });
     assert!(matches!(stopped, Err(SolveError::Cancelled { time }) if time < 0.03), "{stopped:?}");

@@ -141,7 +141,8 @@ impl Phase {
             return self.inside.copy_from_slice(&samples.start);
         }
         let index = self.last.sample_steps.partition_point(|step| step.t <= t).saturating_sub(1);
-        let Some(SampleStep { t: from, h, start, weights }) = self.last.sample_steps.get(index) else { return };
+        let step = self.last.sample_steps.get(index).expect("steps are kept where rows are recorded");
+        let SampleStep { t: from, h, start, weights } = step;
         let series = OneAngle::expand::<HIGHEST_ORDER>(weights, *start);
         let [theta, rate] = series.track(1.0, start.theta).with_slope((t - from) / h);
         self.inside.copy_from_slice(&[theta, rate / h]);

@@ -118,7 +118,7 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
-        // A run that was stopped has left its work.
+        // A run that was stopped, or one with friction, may have left its work.
         self.modes.take_work();
         let mut response = self.response(scene, progress)?;
         let ground_moves = scene.excitation.moves_after(scene.options.t_end);

@@ -291,12 +291,12 @@ impl GroundWithBounds {
     /// falls below zero.
     fn step_to_zero(&self, guard: RestGuard) -> Option<f64> {
         let GroundWithBounds { t, ground, rates, bends, .. } = self;
-        let RestGuard { arm: [half_width, height], side, slack } = guard;
+        let RestGuard { arm: [holding, tipping], side, slack } = guard;
         let sign = f64::from(side.sign());
         let value = self.value(guard);
-        let slope = half_width * rates[1] + sign * height * rates[0];
-        let bend = half_width * bends[1] + height * bends[0];
-        let scale = half_width * ground.gravity.abs() + height * ground.x.abs();
+        let slope = holding * rates[1] + sign * tipping * rates[0];
+        let bend = holding * bends[1] + tipping * bends[0];
+        let scale = holding * ground.gravity.abs() + tipping * ground.x.abs();
         if value <= GUARD_ROUNDING * scale && (slope < 0.0 || (slack > 0.0 && value < 0.0)) {
             return Some(0.0);
         }

@@ -167,8 +167,8 @@ fn error(series: &Series, h: f64, limits: &StepLimits) -> f64 {
     let power = (1..last).fold(TERMS_BELOW_TOLERANCE, |power, _| power * h);
     // From the last two coefficients of a rate, and the errors allowed to value and rate.
     let weighted = |rates: [f64; 2], allowed: [f64; 2]| {
-        let size = (rates[1] * h).abs().max(BEFORE_LAST * rates[0].abs()) * power;
-        size * (h / (last as f64 * allowed[0])).max(1.0 / allowed[1])
+        let last_terms = (rates[1] * h).abs().max(BEFORE_LAST * rates[0].abs()) * power;
+        last_terms * (h / (last as f64 * allowed[0])).max(1.0 / allowed[1])
     };
     let mut error = 0.0f64;
     // A number that is not finite is an error of any size.
