@@ -5,7 +5,7 @@
 
 use super::contact_problem::holds_any_force;
 use super::gaps::Corner;
-use super::guards::Guard;
+use super::guards::{Guard, TIP_SLACK, cone_slack};
 use super::joint::{Face, Joint, Sign, Slip};
 use super::series::Series;
 use crate::column::Column;
@@ -32,7 +32,7 @@ pub struct SeriesSpan<'s> {
 pub struct GuardLimits<'s> {
     /// Static coefficients of friction.
     pub fixed: &'s [f64],
-    /// Violation of a condition on forces that counts as rounding `[N]`.
+    /// Violation of a condition on forces that counts as rounding, per unit of the mass above the interface `[m/s²]`.
     pub slack: f64,
     /// `[rad]`
     pub overturn_angle: f64,
@@ -66,6 +66,11 @@ impl<'s> SeriesSpan<'s> {
         Powers::scaled(&self.powers[..self.series.orders()], constant, coefficient)
     }
 
+    /// Violation of a condition on the force at an interface that counts as rounding `[N]`.
+    fn force_slack(&self, interface: usize) -> f64 {
+        self.column.mass_above(interface) * self.limits.slack
+    }
+
     /// Angle of a block `[rad]`.
     pub fn angle(&self, block: usize) -> Powers {
         let angle = self.series.angle(block);
@@ -77,7 +82,7 @@ impl<'s> SeriesSpan<'s> {
         let series = self.series;
         match guard {
             Guard::Cone(i, side) => self.cone(i, side, visit),
-            Guard::Press(i) => visit(&self.of_forces(self.limits.slack, |k| series.contact_force(i, k)[1])),
+            Guard::Press(i) => visit(&self.of_forces(self.force_slack(i), |k| series.contact_force(i, k)[1])),
             Guard::Tip(i, side) => self.tip(i, side, visit),
             Guard::Stop(i) => {
                 let Some(slide) = series.slide(i) else { return };
@@ -144,15 +149,16 @@ impl<'s> SeriesSpan<'s> {
     /// How far the force at a sticking contact is inside its cone ([`super::contact_problem::cone_margins`]).
     fn cone(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let coefficient = self.limits.fixed[i];
+        let slack = cone_slack(coefficient) * self.force_slack(i);
         let margin = |[along, across]: [f64; 2]| coefficient * across + f64::from(side) * along;
         match self.joints[i] {
             // Beyond this angle the corners hold any force, in a step that ends there as well.
             joint if holds_any_force(joint, || self.largest_relative_angle(i), coefficient) => {}
             // On coinciding corners, each cone belongs to one of the two faces.
             Joint::Corner(corner, Face::Both, _) => {
-                visit(&self.of_forces(self.limits.slack, |k| margin(self.series.force(i, corner != side, k))));
+                visit(&self.of_forces(slack, |k| margin(self.series.force(i, corner != side, k))));
             }
-            _ => visit(&self.of_forces(self.limits.slack, |k| margin(self.series.contact_force(i, k)))),
+            _ => visit(&self.of_forces(slack, |k| margin(self.series.contact_force(i, k)))),
         }
     }
 
@@ -162,12 +168,13 @@ impl<'s> SeriesSpan<'s> {
         let blocks = self.column.blocks();
         let (side, series) = (f64::from(side), self.series);
         let own = blocks[i].bottom_half_width;
+        let slack = TIP_SLACK * self.force_slack(i);
         let normal = |k: usize| series.contact_force(i, k)[1];
-        visit(&self.of_forces(own * self.limits.slack, |k| own * normal(k) + side * series.moment(i, k)));
+        visit(&self.of_forces(own * slack, |k| own * normal(k) + side * series.moment(i, k)));
         if let Some(below) = i.checked_sub(1) {
             let reach = blocks[below].top_half_width;
             let margin = |k: usize| reach * normal(k) + side * (series.moment(i, k) - series.lever(i, k));
-            visit(&self.of_forces(reach * self.limits.slack, margin));
+            visit(&self.of_forces(reach * slack, margin));
         }
     }
 

@@ -113,7 +113,18 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
     }
 }
 
-/// Value of a guard of forces, with the static coefficients; infinite for any other guard. `slack` is the violation that counts as rounding `[N]`.
+/// Slack of the guard of a tip, over that of a normal force that vanishes. Where a column loses its whole weight, moments vanish with the forces, at a
+/// ratio that leaves the resultant inside: the contact must part before the guard of the tip falls to zero, which it does at half of this slack at the
+/// earliest.
+pub const TIP_SLACK: f64 = 2.0;
+
+/// The same for the guard of a friction cone with this coefficient, whose tangential force may vanish at any ratio up to the coefficient.
+pub fn cone_slack(coefficient: f64) -> f64 {
+    1.0 + 2.0 * coefficient
+}
+
+/// Value of a guard of forces, with the static coefficients; infinite for any other guard. `slack` is the violation that counts as rounding, per
+/// unit of the mass above the interface `[m/s²]`.
 pub fn value_of_forces(
     guard: Guard,
     column: &Column,
@@ -122,14 +133,15 @@ pub fn value_of_forces(
     fixed: &[f64],
     slack: f64,
 ) -> f64 {
+    let slack = |interface: usize| column.mass_above(interface) * slack;
     match guard {
         Guard::Cone(i, side) => {
             let [to_left, to_right] = cone_margins(now.joints[i], now.relative_angle(i), answer.contacts[i], fixed[i]);
-            slack + if side < 0 { to_left } else { to_right }
+            cone_slack(fixed[i]) * slack(i) + if side < 0 { to_left } else { to_right }
         }
-        Guard::Press(i) => answer.contacts[i].normal + slack,
+        Guard::Press(i) => answer.contacts[i].normal + slack(i),
         Guard::Tip(i, side) => {
-            half_length(column, i, now.slide[i]) * (answer.contacts[i].normal + slack)
+            half_length(column, i, now.slide[i]) * (answer.contacts[i].normal + TIP_SLACK * slack(i))
                 + f64::from(side) * answer.contacts[i].moment
         }
         _ => f64::INFINITY,

@@ -39,11 +39,11 @@ pub struct Solution {
 const IMPACT_SHARE: f64 = 1e-10;
 
 /// Violation of a condition that counts as rounding, as a share of the accelerations and forces at work.
-pub const ACCELERATION_SHARE: f64 = 1e-11;
+pub const ACCELERATION_SHARE: f64 = 5e-12;
 
 /// Violation of a guard of forces that counts as rounding, as a share of the forces at work: what ends a state does not count as rounding in the search
 /// for the next.
-pub const FORCE_SLACK_SHARE: f64 = 2.0 * ACCELERATION_SHARE;
+pub const GUARD_SLACK_SHARE: f64 = 2.0 * ACCELERATION_SHARE;
 
 /// Least change of some velocity that makes an impact, as a share of the speed at work.
 const JUMP_SHARE: f64 = 1e-9;
@@ -79,10 +79,10 @@ pub struct Search<'a> {
     slack: Slack,
 }
 
-/// Violations that count as rounding: of forces or impulses, of accelerations or velocities, and of angular accelerations or rates.
+/// Violations that count as rounding: of accelerations or velocities, and of angular accelerations or rates. Of forces or impulses it is the first one
+/// times the mass above the interface.
 #[derive(Clone, Copy, Debug)]
 struct Slack {
-    force: f64,
     linear: f64,
     angular: f64,
 }
@@ -90,7 +90,7 @@ struct Slack {
 impl Slack {
     /// The same tolerances, negated: a condition that is tested with them must hold by more than rounding.
     fn margin(self) -> Slack {
-        Slack { force: -self.force, linear: -self.linear, angular: -self.angular }
+        Slack { linear: -self.linear, angular: -self.angular }
     }
 }
 
@@ -108,10 +108,11 @@ pub fn acceleration_scale_at_rest(gravity: f64, ground: Ground) -> f64 {
     ground.x.abs() + ground.gravity.abs() + LEAST_SHARE * gravity
 }
 
-/// Violation of a condition on forces at which a state ends `[N]`. Contacts that are exactly critical, such as flat interfaces of equal friction
-/// above each other, do not start to slide by rounding. What counts as rounding in the search for the next states ends no state.
-pub fn force_slack(column: &Column, now: &Configuration, ground: Ground) -> f64 {
-    FORCE_SLACK_SHARE * column.mass() * acceleration_scale(column, now, ground)
+/// Violation of a condition on forces at which a state ends, per unit of the mass above the interface `[m/s²]`. Contacts that are exactly critical, such
+/// as flat interfaces of equal friction above each other, do not start to slide by rounding. What counts as rounding in the search for the next states
+/// ends no state.
+pub fn guard_slack(column: &Column, now: &Configuration, ground: Ground) -> f64 {
+    GUARD_SLACK_SHARE * acceleration_scale(column, now, ground)
 }
 
 impl<'a> Search<'a> {
@@ -133,7 +134,7 @@ impl<'a> Search<'a> {
             }
         };
         let slack = share * linear;
-        let slack = Slack { force: column.mass() * slack, linear: slack, angular: slack / size };
+        let slack = Slack { linear: slack, angular: slack / size };
         let now_rates = Rates::of(now);
         let centres = now.slide.iter().enumerate().map(|(i, slide)| centre(column, i, *slide)).collect();
         Search { column, now, touch, friction, question, now_rates, centres, chain: OnceCell::new(), linear, slack }
@@ -254,7 +255,8 @@ impl<'a> Search<'a> {
             let holds = self.answer(&joints).is_some_and(|answer| {
                 let along = f64::from(direction) * answer.motion.slide[interface];
                 let is_given = self.given_slip(interface).is_some();
-                answer.contacts[interface].normal >= -self.slack.force && (is_given || along >= -self.slack.linear)
+                answer.contacts[interface].normal >= -self.force_slack(interface, self.slack)
+                    && (is_given || along >= -self.slack.linear)
             });
             if !holds {
                 joints[interface] = Joint::Free;
@@ -404,7 +406,7 @@ impl<'a> Search<'a> {
         let holds = |i: usize| match joints[i] {
             // Where the resultant acts in a closed contact is no condition of restitution.
             Joint::Closed(_) => {
-                answer.contacts[i].normal >= -self.slack.force
+                answer.contacts[i].normal >= -self.force_slack(i, self.slack)
                     && self.wrong_slip(i, joints[i], &answer, self.slack).is_none()
             }
             _ => self.required(joints, &answer, i, self.slack).is_none(),
@@ -480,6 +482,11 @@ impl<'a> Search<'a> {
         Some(Solution { joints, answer, is_ambiguous })
     }
 
+    /// Violation of a condition on the force, or impulse, at an interface that counts as rounding `[N]`, `[N s]`.
+    fn force_slack(&self, interface: usize, violation: Slack) -> f64 {
+        self.column.mass_above(interface) * violation.linear
+    }
+
     /// Whether states are admissible: all conditions hold, up to `slack`.
     fn is_admissible(&self, joints: &[Joint], answer: &Answer, slack: Slack) -> bool {
         (0..joints.len()).all(|interface| self.required(joints, answer, interface, slack).is_none())
@@ -488,7 +495,7 @@ impl<'a> Search<'a> {
     /// The state that a violated condition of an interface names; `None` if all conditions hold, up to `violation`.
     fn required(&self, joints: &[Joint], answer: &Answer, interface: usize, violation: Slack) -> Option<Joint> {
         let (joint, contact) = (joints[interface], answer.contacts[interface]);
-        let slack = violation.force;
+        let slack = self.force_slack(interface, violation);
         match joint {
             Joint::Free => self.sinks(answer, interface, violation),
             Joint::Closed(slip) => {
@@ -521,7 +528,7 @@ impl<'a> Search<'a> {
 
     /// The slip that a violated condition names.
     fn wrong_slip(&self, interface: usize, joint: Joint, answer: &Answer, violation: Slack) -> Option<Slip> {
-        let slack = violation.force;
+        let slack = self.force_slack(interface, violation);
         match joint.slip()? {
             Slip::Sticks => {
                 if let Some(slip) = self.given_slip(interface) {

@@ -7,8 +7,8 @@
 
 use super::problem::Problem;
 use crate::column::Column;
-use crate::friction::guards::Guard;
-use crate::friction::search::{FORCE_SLACK_SHARE, acceleration_scale_at_rest};
+use crate::friction::guards::{Guard, TIP_SLACK, cone_slack};
+use crate::friction::search::{GUARD_SLACK_SHARE, acceleration_scale_at_rest};
 use crate::mechanics::dynamics::Ground;
 use crate::scene::Scene;
 use rocking_codegen::pattern::Interface;
@@ -196,10 +196,12 @@ impl Scene {
 /// guards of forces in motion: what starts the column does not count as rounding for the contact problem that decides how it starts.
 fn guards_with_friction(column: &Column, fixed: &[f64]) -> impl Iterator<Item = (RestGuard, Guard)> {
     fixed.iter().enumerate().flat_map(move |(interface, coefficient)| {
-        let slack = FORCE_SLACK_SHARE * column.mass() / column.mass_above(interface);
         SIDES.into_iter().flat_map(move |side| {
-            let cone = RestGuard { slack, ..RestGuard::cone(*coefficient, side) };
-            let slack = slack * column.contact_half_width(interface);
+            let cone = RestGuard {
+                slack: GUARD_SLACK_SHARE * cone_slack(*coefficient),
+                ..RestGuard::cone(*coefficient, side)
+            };
+            let slack = GUARD_SLACK_SHARE * TIP_SLACK * column.contact_half_width(interface);
             let corner = RestGuard { slack, ..RestGuard::corner(column, interface, side) };
             [(cone, Guard::Cone(interface, side.sign())), (corner, Guard::Tip(interface, side.sign()))]
         })

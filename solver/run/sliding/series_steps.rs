@@ -7,7 +7,7 @@ use super::steps::{StepStart, Steps};
 use crate::friction::guard_series::{GuardLimits, SeriesSpan};
 use crate::friction::guards::Guard;
 use crate::friction::joint::Joint;
-use crate::friction::search::force_slack;
+use crate::friction::search::guard_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
@@ -81,7 +81,7 @@ impl<'p> Steps<'p> for SeriesSteps<'p> {
 
     fn output<'s>(&'s mut self, smooth: &mut Smooth<'p>, start: &StepStart, h: f64) -> SeriesSpan<'s> {
         let now = smooth.configuration(start.x);
-        let slack = force_slack(smooth.column, &now, Ground::at(smooth.segment, start.t, smooth.gravity));
+        let slack = guard_slack(smooth.column, &now, Ground::at(smooth.segment, start.t, smooth.gravity));
         let overturn_angle = self.problem.scene.options.overturn_angle;
         let limits = GuardLimits { fixed: &smooth.friction.fixed, slack, overturn_angle };
         SeriesSpan::new(&self.series, smooth.column, &self.joints, h, limits)

@@ -9,7 +9,7 @@ use super::smooth::{Moment, Smooth};
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::Configuration;
-use crate::friction::search::force_slack;
+use crate::friction::search::guard_slack;
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::scene::SolveOptions;
@@ -124,8 +124,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         }
         let ground = Ground::at(segment, self.t + s * self.h, gravity);
         let Moment { configuration, answer, .. } = self.at(s, true);
-        let slack = force_slack(column, configuration, ground);
+        let slack = guard_slack(column, configuration, ground);
         let value = |answer| guards::value_of_forces(guard, column, configuration, answer, &friction.fixed, slack);
-        answer.as_ref().map_or(slack, value)
+        answer.as_ref().map_or(column.mass() * slack, value)
     }
 }
