@@ -4,7 +4,7 @@
 //! contact is one point: at `p` from the middle of the lower face, `p - u` from the middle of the upper one (docs/book/model.md, section 1). States
 //! without a translation run on the equations of displaced blocks.
 
-use super::chain::Rates;
+use super::chain::{Rates, plus};
 use super::joint::{Configuration, Face, Joint, Slip};
 use super::rows::{self, Coordinate, coordinates};
 use crate::column::Column;
@@ -212,34 +212,32 @@ impl Moving {
         // Middle of a block's base from the pivot, to the right and upwards in the axes of the link.
         let mut base = [-self.contact(start)[1], 0.0];
         let (mut inertia, mut moment) = (0.0, [0.0, 0.0]);
+        let links = self.angles.len();
+        self.lists.carried.iter_mut().skip(link).step_by(links).for_each(|carried| *carried = [0.0; 2]);
         for (i, block) in self.column.blocks().iter().enumerate().take(end).skip(start) {
             if i > start {
                 let [on_lower, on_upper] = self.contact(i);
                 base[0] += on_lower - on_upper;
             }
-            for (each, _) in self.translations.iter().enumerate().filter(|(_, each)| each.interface == i) {
-                // Blocks so far do not move with the translation: their moment is subtracted once the moment of the whole link is known.
-                self.lists.carried[each * self.angles.len() + link] = moment;
-            }
             let [x, y] = [base[0], base[1] + block.centroid_height];
             inertia += block.inertia + block.mass * (x * x + y * y);
-            moment = [moment[0] + block.mass * x, moment[1] + block.mass * y];
+            let own = [block.mass * x, block.mass * y];
+            moment = plus(moment, own);
+            // Of the link, a translation moves the blocks from its interface on. They may be far lighter than those below: no difference of moments.
+            for (each, _) in self.translations.iter().enumerate().filter(|(_, each)| each.interface <= i) {
+                let carried = &mut self.lists.carried[each * links + link];
+                *carried = plus(*carried, own);
+            }
             base[1] += 2.0 * block.half_height;
         }
         let lever = [if end < self.joints.len() { base[0] + self.contact(end)[0] } else { base[0] }, base[1]];
-        let moment = [0, 1].map(|axis| moment[axis] + above * lever[axis]);
+        let moment = plus(moment, lever.map(|component| above * component));
         // Here x is to the right; the lateral axis of `Carried` points to the left.
         let to_the_left = |[x, y]: [f64; 2]| [-x, y];
         for (each, translation) in self.translations.iter().enumerate() {
-            let carried = &mut self.lists.carried[each * self.angles.len() + link];
-            let of_mass = if translation.interface <= start {
-                moment
-            } else if translation.interface >= end {
-                lever.map(|component| self.lists.mass[each] * component)
-            } else {
-                [moment[0] - carried[0], moment[1] - carried[1]]
-            };
-            *carried = to_the_left(of_mass);
+            let carried = &mut self.lists.carried[each * links + link];
+            let above = self.mass_from[end.max(translation.interface)];
+            *carried = to_the_left(plus(*carried, lever.map(|component| above * component)));
         }
         self.lists.inertia[link] = inertia + above * (lever[0] * lever[0] + lever[1] * lever[1]);
         self.lists.moment[link] = to_the_left(moment);

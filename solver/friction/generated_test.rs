@@ -121,6 +121,26 @@ fn compare(random: &mut Random, column: &Column, configuration: &Configuration) 
     Some((worst, (angles, coordinates.len() - angles)))
 }
 
+/// Blocks that are 1e4 times as light as those below: what a light block feels is no difference of what heavy ones feel.
+#[test]
+fn light_blocks_on_heavy_ones_lose_no_digits() {
+    let mut random = Random(0x51ED_270B);
+    for joints in &combinations(3) {
+        if coordinates(joints).iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
+            continue;
+        }
+        let (column, configuration) = random_configuration(&mut random, joints);
+        let mut blocks = column.blocks().to_vec();
+        for (place, block) in blocks.iter_mut().enumerate() {
+            let share = 1e-4f64.powi(i32::try_from(place).expect("three blocks"));
+            (block.mass, block.inertia) = (share * block.mass, share * block.inertia);
+        }
+        let column = Column::new(blocks, 9.81).expect("valid");
+        let (difference, _) = compare(&mut random, &column, &configuration).expect("three blocks have all programs");
+        assert!(difference < 1e-11, "{joints:?}: {difference:e}");
+    }
+}
+
 #[test]
 fn generated_programs_give_the_accelerations_of_the_rows_in_all_states() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);

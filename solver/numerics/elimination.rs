@@ -1,23 +1,26 @@
 //! Small systems of linear equations whose matrix is not symmetric: elimination with partial pivoting. [`eliminate`] serves one system of known size,
-//! [`Factors`] several systems with the same matrix.
+//! whose rows may be of very different sizes, [`Factors`] several systems with the same matrix.
 
 use smallvec::SmallVec;
 
 /// Size of a matrix up to which its storage is inline.
 const USUAL_SIZE: usize = 6;
 
-/// `x` of `matrix · x = loads`; `None` if a pivot vanishes or the solution is not finite.
+/// `x` of `matrix · x = loads`; `None` if a pivot vanishes or the solution is not finite. Pivots are the largest entries relative to their rows (scaled
+/// partial pivoting, Golub & Van Loan, Matrix Computations, section 3.5.2): the row of a light block has small entries, and keeps its digits.
 #[inline]
 pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: [f64; SIZE]) -> Option<[f64; SIZE]> {
+    let mut scales = matrix.map(|row| 1.0 / row.iter().fold(0.0f64, |most, entry| most.max(entry.abs())));
     for column in 0..SIZE {
         let mut pivot = column;
         for row in column + 1..SIZE {
-            if matrix[row][column].abs() > matrix[pivot][column].abs() {
+            if matrix[row][column].abs() * scales[row] > matrix[pivot][column].abs() * scales[pivot] {
                 pivot = row;
             }
         }
         matrix.swap(pivot, column);
         loads.swap(pivot, column);
+        scales.swap(pivot, column);
         if matrix[column][column] == 0.0 {
             return None;
         }
