@@ -1,14 +1,13 @@
-//! Reads the bytes of a record file. Only regular files of limited size are read.
+//! Reads the bytes of a file that somebody named: a record, or a scene. Only regular files of limited size are read.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-/// Largest file that is read as a record `[bytes]`. Two hours of three components at 200 Hz are 40 MiB of text; a larger file would fill the
-/// memory.
+/// Largest file that is read `[bytes]`. Two hours of three components at 200 Hz are 40 MiB of text; a larger file would fill the memory.
 pub const LARGEST_FILE: u64 = 64 << 20;
 
-/// The content of a record file.
+/// The content of a file.
 ///
 /// # Errors
 /// The error of the system for a file that cannot be read. [`ErrorKind::InvalidInput`] for a folder, a device or a pipe: the last two may
@@ -18,7 +17,7 @@ pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
     let metadata = std::fs::metadata(&path)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "a device or a pipe" };
-        let text = format!("this is {kind}; a record is a regular file: name one, or write the samples into one");
+        let text = format!("this is {kind}; name a regular file, or write the content into one");
         return Err(Error::new(ErrorKind::InvalidInput, text));
     }
     let mut bytes = Vec::new();
@@ -28,7 +27,7 @@ pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
     }
     if metadata.len().max(bytes.len() as u64) > LARGEST_FILE {
         let text = format!(
-            "the file has more than {} MiB, too many for a record; cut out the part with the motion",
+            "the file is larger than {} MiB, and at most that is read; of a record, cut out the part with the motion",
             LARGEST_FILE >> 20
         );
         return Err(Error::new(ErrorKind::FileTooLarge, text));

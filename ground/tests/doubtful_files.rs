@@ -202,7 +202,7 @@ fn what_is_hardly_an_acceleration_has_a_warning() {
     let gap = |k: usize, a: f64| seconds(k, if k == 7 { -999.0 } else { a });
     let gal = read(&table("time (s),a (cm/s2)", gap), &options());
     assert!(
-        gal.warnings.len() == 1 && gal.warnings[0].starts_with("line 9: -999 often stands for a missing"),
+        gal.warnings.len() == 1 && gal.warnings[0].starts_with("sample 8, at 0.070000 s, is -999, which often"),
         "{gal:?}"
     );
     let large = read(&table("time (s),a (g)", |k, a| seconds(k, 100.0 * a)), &options());
@@ -253,6 +253,37 @@ fn times_that_drift_are_read_if_dt_is_given() {
     assert_eq!(read(&rows, &TextOptions { dt: Some(0.005), ..options() }).dt, 0.005);
     let other = refused(&rows, &TextOptions { dt: Some(0.00501), ..options() });
     assert!(other.contains("`dt` is given as 0.00501 s"), "{other}");
+}
+
+/// Times with a mistake among them are refused with the right interval as well: a row that was moved, two that were swapped, a wrong time.
+#[test]
+fn times_out_of_order_are_refused_though_dt_is_given() {
+    let given = TextOptions { dt: Some(0.01), ..options() };
+    let rows: Vec<String> = (0..40).map(|k| format!("{:.2},{}", 0.01 * f64::from(k), f64::from(k % 7))).collect();
+    let text = |rows: &[String]| format!("time (s),a (m/s2)\n{}\n", rows.join("\n"));
+    assert_eq!(read(&text(&rows), &given).dt, 0.01);
+    let (mut moved, mut swapped, mut wrong) = (rows.clone(), rows.clone(), rows);
+    let row = moved.remove(5);
+    moved.insert(17, row);
+    swapped.swap(9, 10);
+    wrong[12] = "5.00,5".into();
+    for (rows, line) in [(moved, 7), (swapped, 11), (wrong, 14)] {
+        let error = refused(&text(&rows), &given);
+        assert!(error.starts_with(&format!("line {line}: time ")), "{error}");
+    }
+}
+
+/// In all formats, and what is hardly a sampling interval.
+#[test]
+fn missing_samples_and_odd_intervals_have_a_warning_in_all_formats() {
+    let at2 = |dt: f64| {
+        let samples: String = (0..40).map(|k| format!(" {}\n", if k == 3 { -999.0 } else { 0.01 })).collect();
+        format!("PEER NGA\nEVENT\nACCELERATION TIME SERIES IN UNITS OF CM/S/S\nNPTS= 40, DT= {dt} SEC\n{samples}")
+    };
+    let file = read(&at2(0.01), &options());
+    assert!(file.warnings.iter().any(|warning| warning.starts_with("sample 4, at 0.030000 s, is -999")), "{file:?}");
+    let file = read(&at2(1e-9), &options());
+    assert!(file.warnings.iter().any(|warning| warning.contains("a sampling interval of 0.000000001 s")), "{file:?}");
 }
 
 #[test]

@@ -72,6 +72,9 @@ impl<'t> Header<'t> {
 }
 
 /// Reads a DYNA file.
+/// Number of intervals by which the stated duration may differ from that of the samples: it is from the first to the last, or one more, and rounded.
+const INTERVALS_OFF: f64 = 2.0;
+
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let header = Header::of(lines);
     if let Some((line, text)) = header.find("DATA_TYPE") {
@@ -99,7 +102,18 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     };
     let (span, header_entry) = ((header.end, lines.len()), (entry.line, "NDATA"));
     let block = Block { lines, span, declared, header: header_entry, columns: None, lenient: options.lenient };
-    let mut file = RecordFile::of(Format::Dyna, unit, unit.in_si(options.gravity), dt, block.read()?);
+    let mut samples = block.read()?;
+    let count = samples.values.len();
+    if let Some((line, text)) = header.find("DURATION_S")
+        && let Some(duration) = leading_number(text)
+        && (duration - count as f64 * dt).abs() > INTERVALS_OFF * dt
+    {
+        samples.warnings.push(format!(
+            "{count} samples at {dt} s are {:.6} s, and line {line} says {duration} s; is the file whole?",
+            count as f64 * dt
+        ));
+    }
+    let mut file = RecordFile::of(Format::Dyna, unit, unit.in_si(options.gravity), dt, samples);
     let stated = header.entries.iter().find(|(_, key, _)| key.starts_with("PGA_")).and_then(|(line, key, value)| {
         let scale = AccelerationUnit::parse(&key["PGA_".len()..])?.in_si(options.gravity);
         Some(StatedPeak { line: *line, size: leading_number(value)? * scale, rounding: rounding(value) * scale })

@@ -49,8 +49,8 @@ impl Format {
 /// Largest plausible peak in g: no instrument has recorded it on the ground. A file with a larger one is likely to be in another unit.
 const LARGEST_PEAK_IN_G: f64 = 20.0;
 
-/// Longest plausible sampling interval `[s]`: strong motion is sampled at 20 Hz or more.
-const LONGEST_PLAUSIBLE_INTERVAL: f64 = 0.1;
+/// Plausible sampling intervals `[s]`: strong motion is sampled at 20 Hz or more, and up to some 1000 Hz.
+const PLAUSIBLE_INTERVALS: std::ops::RangeInclusive<f64> = 1e-4..=0.1;
 
 /// The peak acceleration that a header states.
 pub(super) struct StatedPeak {
@@ -100,9 +100,22 @@ pub struct RecordFile {
     pub warnings: Vec<String>,
 }
 
+/// Numbers that stand for missing samples in the files of many programs.
+const MISSING: [f64; 3] = [-999.0, -9999.0, -99999.0];
+
+/// Warning that a sample is a number that often stands for a missing one.
+fn missing_sample(values: &[f64], dt: f64) -> Option<String> {
+    let place = values.iter().position(|value| MISSING.contains(value))?;
+    let (sample, t, value) = (place + 1, place as f64 * dt, values[place]);
+    Some(format!(
+        "sample {sample}, at {t:.6} s, is {value}, which often stands for a missing one, and is read as an acceleration"
+    ))
+}
+
 impl RecordFile {
     /// A file of which only the samples are known. `scale [m/s²]` is the acceleration of a printed 1.
-    pub(super) fn of(format: Format, unit: AccelerationUnit, scale: f64, dt: f64, samples: Samples) -> RecordFile {
+    pub(super) fn of(format: Format, unit: AccelerationUnit, scale: f64, dt: f64, mut samples: Samples) -> RecordFile {
+        samples.warnings.extend(missing_sample(&samples.values, dt));
         RecordFile {
             format,
             title: String::new(),
@@ -162,7 +175,7 @@ impl RecordFile {
                 self.unit
             ));
         }
-        if dt > LONGEST_PLAUSIBLE_INTERVAL {
+        if !PLAUSIBLE_INTERVALS.contains(&dt) {
             self.warnings.push(format!(
                 "a sampling interval of {dt} s is hardly one; are the times in another unit than s, or numbers of rows?"
             ));

@@ -109,7 +109,6 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let (begins, dt) = begin_and_interval(&rows, chosen, options, &mut warnings)?;
     warnings.extend(begins.and_then(|begins| late_start(begins, dt)));
     let values: Vec<f64> = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
-    warnings.extend(missing_values(&rows, &values));
     let samples = Samples { values, cut: false, warnings };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
     let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
@@ -199,16 +198,6 @@ fn begin_and_interval(
         warnings.push(format!("line {line} states a sampling interval of {stated} s, and {dt} s is taken"));
     }
     Ok((begins, dt))
-}
-
-/// Numbers that stand for missing samples in the files of many programs.
-const MISSING: [f64; 3] = [-999.0, -9999.0, -99999.0];
-
-/// Warning that a sample is a number that often stands for a missing one.
-fn missing_values(rows: &Rows, values: &[f64]) -> Option<String> {
-    let row = values.iter().position(|value| MISSING.contains(value))?;
-    let (line, value) = (rows.lines[row], values[row]);
-    Some(format!("line {line}: {value} often stands for a missing sample, and is read as an acceleration"))
 }
 
 /// Number of intervals before the first time up to which a record counts as beginning at zero: some files begin with the time of one interval.
@@ -460,14 +449,18 @@ fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Res
     let is_exact = off_grid(first, EXACT_TOLERANCE * at(last).abs()).is_none();
     let dt = if is_exact { first } else { rows.mean_step(time, second) };
     if let Some(own) = options.dt {
-        let agrees = off_grid(own, ROUNDED_TOLERANCE * own).is_none()
-            || (own - dt).abs() <= 1e-6 * dt.abs()
-            || rows.steps_are(own, time, second);
-        if !agrees {
-            let (given, file) = (format!("{own} s"), format!("{dt} s"));
-            return Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file });
-        }
-        return Ok(own);
+        let is_mean = (own - dt).abs() <= 1e-6 * dt.abs();
+        let odd = off_grid(own, ROUNDED_TOLERANCE * own)
+            .filter(|_| !(is_exact && is_mean || rows.steps_are(own, time, second)));
+        return match odd {
+            None => Ok(own),
+            // The interval is right, and some times are not.
+            Some(row) if is_mean => Err(uneven(rows, row, at)),
+            Some(_) => {
+                let (given, file) = (format!("{own} s"), format!("{dt} s"));
+                Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file })
+            }
+        };
     }
     if dt.is_nan() || dt <= 0.0 {
         return Err(uneven(rows, 1, at));
