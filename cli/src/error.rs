@@ -33,7 +33,7 @@ pub enum Failure {
     #[error("{}: there is such a file already; choose another name, or write over it with --force", .0.display())]
     Taken(PathBuf),
     /// A file or folder cannot be read.
-    #[error("{}: {}; check the path and its permissions", .0.display(), .1)]
+    #[error("{}: {}", .0.display(), .1)]
     Input(PathBuf, String),
     /// A record file must be corrected, or options such as `--units` must be given for it.
     #[error("{}: {}", .0.display(), with_dashes(&.1.to_string()))]

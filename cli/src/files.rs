@@ -1,14 +1,10 @@
-//! Files: read up to a size limit, and written as temporary files that are renamed when complete, so that no file is ever half written.
+//! Files: tables are read up to a size limit, and all files are written as temporary files that are renamed when complete, so that no file is ever half written.
 
 use std::fs::File;
-use std::io::{BufWriter, Error, ErrorKind, Read, Result, Write};
+use std::io::{BufWriter, Error, ErrorKind, Result, Write};
 use std::path::Path;
 use tempfile::NamedTempFile;
 
-/// Largest scene or sweep that is read [bytes].
-pub const LARGEST_SCENE: u64 = 64 << 20;
-/// Largest record that is read [bytes]: as many as its reader takes.
-pub const LARGEST_RECORD: u64 = 64 << 20;
 /// Largest table of a sweep that is read, row by row [bytes].
 pub const LARGEST_TABLE: u64 = 1 << 40;
 
@@ -24,14 +20,6 @@ pub fn check(path: &Path, largest: u64) -> Result<()> {
         size if size > largest => refused(format!("it has {size} bytes, and at most {largest} are read")),
         _ => Ok(()),
     }
-}
-
-/// Content of a regular file of at most `largest` bytes.
-pub fn read(path: &Path, largest: u64) -> Result<Vec<u8>> {
-    check(path, largest)?;
-    let mut bytes = Vec::new();
-    File::open(path)?.take(largest).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// Folder of a file. A bare name has an empty parent path; its folder is `.`.

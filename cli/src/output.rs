@@ -40,6 +40,11 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses outputs of which one is a folder, which nothing can take the place of.
+pub fn no_folders(outputs: &[PathBuf]) -> Result<(), Failure> {
+    outputs.iter().filter(|output| output.is_dir()).try_for_each(|output| target(output).map(|_| ()))
+}
+
 /// Refuses outputs of which one is an input: it would be overwritten, or removed.
 pub fn spare(inputs: &[PathBuf], outputs: impl IntoIterator<Item = PathBuf>) -> Result<(), Failure> {
     let lost = outputs.into_iter().find(|output| inputs.iter().any(|input| are_same(input, output)));

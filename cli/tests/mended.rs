@@ -435,3 +435,52 @@ fn inputs_of_init_and_record_are_not_written_over() {
     assert_eq!(read_to_string(folder.path().join("a.csv")).expect("it is still there"), samples);
     assert_eq!(read_to_string(folder.path().join("scene.toml")).expect("it is still there"), SCENE);
 }
+
+/// A digest of a sweep does not hang on which records have been read so far: shards that print warnings read all of them first.
+#[test]
+fn shards_of_records_are_merged_with_their_sweep() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\nfile = [\"a.csv\", \"b.csv\"]\n");
+    let base = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"record\"\nfile = \"a.csv\"\n";
+    write(folder.path().join("base.toml"), base).expect("written");
+    for name in ["a.csv", "b.csv"] {
+        write(folder.path().join(name), "t (s),a (m/s2)\n0,0\n0.01,3.5\n0.02,0\n0.03,-1\n").expect("written");
+    }
+    for (first, second) in [(None, None), (None, Some("--quiet")), (Some("--quiet"), None)] {
+        for (shard, quiet) in [("1/2", first), ("2/2", second)] {
+            let arguments: Vec<&str> = ["sweep", "sweep.toml", "--shard", shard].into_iter().chain(quiet).collect();
+            succeeds(folder.path(), &arguments);
+        }
+        let told = succeeds(
+            folder.path(),
+            &["merge", "m.csv", "sweep-1-of-2.csv", "sweep-2-of-2.csv", "--sweep", "sweep.toml"],
+        );
+        assert!(told.contains("2 row(s)"), "{told}");
+    }
+}
+
+/// A base scene is read as any scene is: no device, nothing without end. One that is missing is a fault of the key that names it.
+#[test]
+fn base_scenes_are_regular_files_and_named_by_their_key() {
+    let folder = folder("scene = \"no.toml\"\n[axes]\neta = [0.9]\n");
+    write(folder.path().join("study.toml"), "scene = \"no.toml\"\nmeasure = \"pga\"\n").expect("written");
+    for file in ["sweep.toml", "study.toml"] {
+        let named = [file, "line 1", "`scene`", "no.toml: No such file", "relative to this file"];
+        fails(folder.path(), &["check", file], 2, &named);
+    }
+    if cfg!(unix) {
+        for file in ["sweep.toml", "study.toml"] {
+            let text = read_to_string(folder.path().join(file)).expect("written").replace("no.toml", "/dev/zero");
+            write(folder.path().join(file), text).expect("written");
+            fails(folder.path(), &["check", file], 2, &[file, "`scene`", "/dev/zero: this is a device or a pipe"]);
+        }
+    }
+}
+
+/// A station's record is found in the scene's own folder as well.
+#[test]
+fn a_record_beside_the_scene_needs_no_folder() {
+    let scene = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.station]\nrecord = \"R1\"\n";
+    let folder = folder_with(scene);
+    write(folder.path().join("R1_H1.csv"), "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n").expect("written");
+    assert!(succeeds(folder.path(), &["run", "scene.toml", "--out", "out"]).starts_with("no uplift, stands at rest"));
+}

@@ -2,6 +2,8 @@
 
 use super::table::Cause;
 use crate::scene::lines;
+use rocking_ground::read_file;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Why a scene file is refused.
@@ -56,16 +58,20 @@ pub enum SceneFileError {
     },
 }
 
-/// The text of a scene file.
+/// The text of a scene file: a regular file of up to [`LARGEST_FILE`](rocking_ground::LARGEST_FILE).
 ///
 /// # Errors
 /// [`SceneFileError::Unreadable`]
 pub fn text(file: &Path) -> Result<String, SceneFileError> {
-    let unreadable = |error: std::io::Error| SceneFileError::Unreadable {
-        file: file.into(),
-        problem: format!("{error}; check the path and its permissions"),
+    let unreadable = |error: std::io::Error| {
+        let remedy = match error.kind() {
+            ErrorKind::NotFound => "; check the path",
+            ErrorKind::PermissionDenied => "; check the permissions",
+            _ => "",
+        };
+        SceneFileError::Unreadable { file: file.into(), problem: format!("{error}{remedy}") }
     };
-    let bytes = std::fs::read(file).map_err(unreadable)?;
+    let bytes = read_file(file).map_err(unreadable)?;
     let text = std::str::from_utf8(&bytes).map_err(|error| {
         let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
         let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");

@@ -31,16 +31,21 @@ impl Fault {
     pub fn of_record(table: &Table, key: &str, record: PathBuf, problem: String) -> Fault {
         Fault::Record { place: table.find(key), key: table.dotted(key), record, problem }
     }
+
+    /// A scene that the key `scene` of `table` names. One that cannot be read is a fault of that key.
+    pub fn of_scene(table: &Table, error: SceneFileError) -> Fault {
+        match error {
+            SceneFileError::Unreadable { file, problem } => {
+                let problem = format!("{}: {problem}", file.display());
+                table.wrong("scene", problem, "name the scene relative to this file").into()
+            }
+            error => Fault::OtherFile(Box::new(error)),
+        }
+    }
 }
 
 impl From<Wrong> for Fault {
     fn from(wrong: Wrong) -> Fault {
         Fault::Wrong(wrong)
-    }
-}
-
-impl From<SceneFileError> for Fault {
-    fn from(error: SceneFileError) -> Fault {
-        Fault::OtherFile(Box::new(error))
     }
 }

@@ -38,6 +38,8 @@ const NO_ACCELERATION: [&str; 6] = ["vt2", "dt2", "md", "pdf", "html", "htm"];
 /// Names of the files of a folder, sorted. Hidden files, files whose names begin with `_` (lists and readmes of PEER), files with velocity or
 /// displacement, documents and `README` files are left out.
 pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
+    // The folder of a bare name is the one that the program runs in.
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;

@@ -87,7 +87,7 @@ fn scene(reader: &Reader, root: &mut Table, inputs: &mut Vec<PathBuf>) -> Result
     let Some((name, _)) = root.text("scene")? else { return Err(root.missing("scene", remedy).into()) };
     let file = reader.file.parent().unwrap_or(Path::new("")).join(name);
     inputs.push(file.clone());
-    Ok(Scene::from_file(&file)?)
+    Scene::from_file(&file).map_err(|error| Fault::of_scene(root, error))
 }
 
 /// `measure`, with `sa_period` and `sa_damping`.

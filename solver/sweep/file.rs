@@ -50,7 +50,10 @@ impl Sweep {
             (Some(_), Some(_)) => {
                 return Err(root.wrong("scene", "the base scene is given already".into(), "remove it").into());
             }
-            (None, Some((name, _))) => Template::from_file(&file.parent().unwrap_or(Path::new("")).join(name))?,
+            (None, Some((name, _))) => {
+                let base = file.parent().unwrap_or(Path::new("")).join(name);
+                Template::from_file(&base).map_err(|error| Fault::of_scene(&root, error))?
+            }
             (None, None) => return Err(root.missing("scene", "name the base scene: scene = \"base.toml\"").into()),
         };
         let combine = match root.text("combine")? {

@@ -35,9 +35,10 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
             LimitState::Peak { block: Some(block), .. } if *block > peaks => {
                 Some(format!("needs the column peak_{block}, and the columns of the table have {peaks} block(s)"))
             }
-            LimitState::Slide { .. } if !has_slides => {
-                Some("needs the columns residual_slide_1, ...: give the scene friction".to_string())
-            }
+            LimitState::Slide { .. } if !has_slides => Some(
+                "needs the columns residual_slide_1, ...: run the sweep of a scene with friction with ask = \"slides\""
+                    .to_string(),
+            ),
             _ => None,
         };
         if let Some(lacks) = lacks {

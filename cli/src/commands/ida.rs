@@ -4,11 +4,11 @@
 
 use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
-use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
 use crate::commands::sweep::{OUTCOME, TIME, TableDigest, threads};
 use crate::error::{Failure, at};
+use crate::output;
 use crate::plot::{self, Paper};
 use crate::progress::Progress;
 use crate::table::column::{Column, Kind, Rows};
@@ -16,7 +16,6 @@ use crate::table::growing::Growing;
 use crate::table::{Format, open};
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{distinct, printable, shown};
-use crate::{files, output};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{
@@ -36,7 +35,6 @@ const FIRST_BATCH: usize = 16;
 pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let out = &request.out;
     let format = Format::of(out)?;
-    inputs::check(&request.file)?;
     let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&request.file).map_err(Failure::scene)?;
     let stripes_file = beside(&out.with_extension("csv"), "stripes");
     let [curves_file, shares_file] = fragility::tables(out);
@@ -133,7 +131,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
 fn digest(inputs: &[PathBuf]) -> Result<TableDigest, Failure> {
     let mut digest = TableDigest::new();
     for input in inputs {
-        digest.add(&files::read(input, files::LARGEST_RECORD).map_err(at(Failure::Input, input))?);
+        digest.add(&rocking::ground::read_file(input).map_err(at(Failure::Input, input))?);
     }
     Ok(digest)
 }

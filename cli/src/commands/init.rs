@@ -1,11 +1,11 @@
 //! `rocking init`: a scene to begin with, commented.
 
 use crate::error::{Failure, at};
-use crate::files::{LARGEST_RECORD, folder_of, read};
+use crate::files::folder_of;
 use crate::output;
 use crate::terminal::print;
 use crate::text::{shell_word, shown};
-use rocking::ground::{RecordFile, TextOptions};
+use rocking::ground::{RecordFile, TextOptions, read_file};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -40,7 +40,7 @@ struct NamedRecord {
 
 impl NamedRecord {
     fn new(file: &Path, record: &Path) -> Result<NamedRecord, Failure> {
-        let bytes = read(record, LARGEST_RECORD).map_err(at(Failure::Input, record))?;
+        let bytes = read_file(record).map_err(at(Failure::Input, record))?;
         let found = std::fs::canonicalize(record).map_err(at(Failure::Input, record))?;
         let folder = folder_of(file);
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());

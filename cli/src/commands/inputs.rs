@@ -1,15 +1,10 @@
-//! Scene and sweep files as commands read them: regular files up to a size, or standard input.
+//! Scene and sweep files as commands read them: from a file, or from standard input.
 
 use crate::error::{Failure, at};
-use crate::files::{self, LARGEST_SCENE};
 use rocking::Scene;
+use rocking::ground::LARGEST_FILE;
 use std::io::Read as _;
 use std::path::Path;
-
-/// Refuses a folder, a device, a pipe, and a file that is too large. A missing file passes: the library reports it.
-pub fn check(path: &Path) -> Result<(), Failure> {
-    if path.exists() { files::check(path, LARGEST_SCENE).map_err(at(Failure::Input, path)) } else { Ok(()) }
-}
 
 /// The name of standard input in place of a file.
 const STANDARD_INPUT: &str = "-";
@@ -19,7 +14,6 @@ pub fn text(path: &Path) -> Result<String, Failure> {
     if path == Path::new(STANDARD_INPUT) {
         return standard_input().map_err(at(Failure::Input, path));
     }
-    check(path)?;
     rocking::scene_file::text(path).map_err(Failure::scene)
 }
 
@@ -27,8 +21,8 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 fn standard_input() -> std::io::Result<String> {
     let refused = |problem: &str| Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, problem));
     let mut bytes = Vec::new();
-    std::io::stdin().take(LARGEST_SCENE + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST_SCENE {
+    std::io::stdin().take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST_FILE {
         return refused("standard input has more than 64 MiB, which no scene has");
     }
     String::from_utf8(bytes).or_else(|_| refused("standard input is not UTF-8 text"))

@@ -6,7 +6,7 @@
 use crate::commands::sweep::{self, OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
-use crate::files::{folder_of, read, share};
+use crate::files::{folder_of, share};
 use crate::output;
 use crate::table::column::{Column, Rows};
 #[cfg(feature = "parquet")]
@@ -16,6 +16,7 @@ use crate::terminal::print;
 use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
+use rocking::ground::read_file;
 use rocking::scene_file::Setting;
 use rocking::sweep::{Ask, ERROR, Sweep};
 use std::fs::File;
@@ -105,7 +106,7 @@ impl ExpectedSweep<'_> {
 /// Refuses a table whose digest is not that of the sweep, or of the first table if no sweep is given.
 /// A table passes if it has no digest, or if there is none to compare it with.
 fn check_digest(path: &Path, first: &Path, expected: Option<&ExpectedSweep>) -> Result<(), Failure> {
-    let of_table = |table: &Path| read(&digest_file(table), 64).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let of_table = |table: &Path| read_file(digest_file(table)).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let Some(own) = of_table(path) else { return Ok(()) };
     let (expected, other) = match expected {
         Some(expected) => (Some(TableDigest::of(&expected.sweep, expected.file)?.to_string()), expected.file),

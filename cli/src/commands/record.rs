@@ -4,7 +4,6 @@ use crate::arguments;
 use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
-use crate::files::{self, LARGEST_RECORD};
 use crate::number::significant;
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
@@ -152,7 +151,7 @@ impl Problem {
 }
 
 pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
-    let bytes = files::read(path, LARGEST_RECORD).map_err(Problem::System)?;
+    let bytes = rocking::ground::read_file(path).map_err(Problem::System)?;
     RecordFile::read(&bytes, options).map_err(Problem::Content)
 }
 

@@ -52,6 +52,7 @@ struct Unread {
 pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     let given = [
         ("out", arguments.out.is_some()),
+        ("plot", arguments.plot.is_some()),
         ("trim", !arguments.trim.is_empty()),
         ("scale", arguments.scale.is_some()),
         ("pga", arguments.pga.is_some()),

@@ -34,9 +34,15 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         .flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")))
         .chain([report::NAME.into()])
         .collect();
-    let touched = FILES.into_iter().chain([COMPANIONS]).chain(outdated.iter().map(String::as_str));
+    let touched: Vec<PathBuf> = FILES
+        .into_iter()
+        .chain([COMPANIONS])
+        .chain(outdated.iter().map(String::as_str))
+        .map(|name| out.join(name))
+        .collect();
+    output::no_folders(&touched)?;
     let inputs: Vec<PathBuf> = template.records().into_iter().chain([path.clone()]).collect();
-    output::spare(&inputs, touched.map(|name| out.join(name)))?;
+    output::spare(&inputs, touched)?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();

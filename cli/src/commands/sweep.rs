@@ -5,7 +5,7 @@
 
 use crate::arguments;
 use crate::commands::probability::{self, Lost};
-use crate::commands::{fractiles, inputs, spectrum};
+use crate::commands::{fractiles, spectrum};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::Paper;
@@ -18,6 +18,7 @@ use crate::text::{distinct, printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::SceneFileError;
+use rocking::ground::read_file;
 use rocking::run_folder::Digest;
 use rocking::scene_file::{Cause, Setting};
 use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
@@ -109,7 +110,6 @@ pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
 
 /// Reads a sweep, and refuses keys that no scene knows.
 pub fn read(file: &Path) -> Result<Sweep, Failure> {
-    inputs::check(file)?;
     let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
     check_keys(&sweep)?;
     Ok(sweep)
@@ -149,14 +149,17 @@ pub fn inputs_of(file: &Path, sweep: &Sweep) -> Vec<PathBuf> {
     records(sweep).into_iter().chain([file.into(), sweep.template.file().into()]).collect()
 }
 
-/// The records of the base scene and of the axes.
+/// The records of the base scene and of the axes, each once, whether or not a scene has been made of them yet.
 fn records(sweep: &Sweep) -> Vec<PathBuf> {
     let axes = sweep.axes.iter().filter(|axis| axis.key.ends_with(".file"));
     let of_axes = axes.flat_map(|axis| &axis.values).map(|value| sweep.template.beside(&value.to_string()));
     let of_stations = sweep.axes.iter().filter(|axis| axis.key == "excitation.station.record");
     let of_stations = of_stations.flat_map(|axis| &axis.values);
     let components = of_stations.flat_map(|value| sweep.template.files_of_record(&value.to_string()));
-    sweep.template.records().into_iter().chain(of_axes).chain(components).collect()
+    let mut records: Vec<PathBuf> = sweep.template.records().into_iter().chain(of_axes).chain(components).collect();
+    records.sort();
+    records.dedup();
+    records
 }
 
 pub use crate::table::column::{OUTCOME, TRUST};
@@ -235,7 +238,7 @@ impl TableDigest {
         }
         // Another record of the same name gives other rows.
         for record in records(sweep) {
-            digest.add(&crate::files::read(&record, crate::files::LARGEST_RECORD).unwrap_or_default());
+            digest.add(&read_file(&record).unwrap_or_default());
         }
         Ok(digest)
     }

@@ -58,13 +58,15 @@ impl Drawing {
         if with_peaks {
             return match family {
                 Ok(family) if family.is_drawn() => Ok(Drawing::Curves(family)),
-                Ok(family) => plane().map_err(|_| NoSpectrum::ManyCurves(family.titles.len())),
+                Ok(family) => {
+                    plane().map_err(|_| NoSpectrum::ManyCurves { curves: family.titles.len(), most: family.most() })
+                }
                 Err(error) => Err(error),
             };
         }
         match (plane(), family) {
             (Err(NoSpectrum::FewAxes), Ok(family)) if family.titles.len() > MOST_PANELS => {
-                Err(NoSpectrum::ManyCurves(family.titles.len()))
+                Err(NoSpectrum::ManyCurves { curves: family.titles.len(), most: family.most() })
             }
             (Err(NoSpectrum::FewAxes), Ok(family)) => Ok(Drawing::Strips(family)),
             (Err(NoSpectrum::NoGrid { .. }), Ok(family)) if family.is_paired => Ok(Drawing::Strips(family)),

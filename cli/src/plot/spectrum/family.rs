@@ -96,7 +96,12 @@ impl Family {
 
     /// Whether there are few enough curves, or panels of records, to be read.
     pub fn is_drawn(&self) -> bool {
-        self.titles.len() <= if self.records > 1 { MOST_RECORD_PANELS } else { MOST_CURVES }
+        self.titles.len() <= self.most()
+    }
+
+    /// Largest number of curves, or of panels of records.
+    pub fn most(&self) -> usize {
+        if self.records > 1 { MOST_RECORD_PANELS } else { MOST_CURVES }
     }
 
     /// Number of the curve, number of the record and position of a row.

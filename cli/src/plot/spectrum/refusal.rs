@@ -24,8 +24,8 @@ pub enum NoSpectrum {
     )]
     ManyPanels(usize),
     /// So many curves could not be read.
-    #[error("the other axes make {0} curves, and {MOST_CURVES} can be read; give those axes fewer values")]
-    ManyCurves(usize),
+    #[error("the other axes make {curves} curves, and {most} can be read; give those axes fewer values")]
+    ManyCurves { curves: usize, most: usize },
     /// The table lacks points of a sweep, or repeats one.
     #[error(
         "there are {rows} points and the values of the axes make {points}; draw a whole sweep whose axes have each value once, of shards \
