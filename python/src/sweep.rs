@@ -6,9 +6,9 @@ use crate::table::{Column, Names, Values, into_python, truth, whole};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use rocking::Fate;
 use rocking::scene_file::{Setting, Template};
 use rocking::sweep::{Axis, Cell, CellKind, DETERMINED, ERROR, Field, NOT_DETERMINED, Outcome, PointError};
+use rocking::{Fate, Wanted};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -108,7 +108,9 @@ impl Sweep {
     /// The scene of a point.
     fn scene(&self, py: Python<'_>, index: usize) -> PyResult<Scene> {
         range(index, index + 1, self.sweep.len())?;
-        let scene = self.sweep.scene(index).map_err(|refused| error::scene(py, &refused))?;
+        let mut scene = self.sweep.scene(index).map_err(|refused| error::scene(py, &refused))?;
+        // What is asked of a run is said where it is run.
+        scene.options.wanted = Wanted::Everything;
         let origin = Origin { file: self.sweep.template.file().into(), text: self.sweep.template.text().into() };
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
     }

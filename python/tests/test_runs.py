@@ -122,8 +122,9 @@ def test_rows_at_given_times_end_with_the_run() -> None:
     assert rk.simulate(block, theta=[0.01], eta=0.2, t_end=9, t_eval=np.arange(10)).theta[-1].tolist() == [0.0]
     fallen = rk.simulate(block, theta=[1.0], t_end=9, t_eval=[8.0])
     assert fallen.overturned and fallen.theta.shape == (0, 1) and len(fallen.to_pandas()) == 0 and "<table>" in fallen._repr_html_()
-    with pytest.raises(rk.FolderError, match="no rows"):
-        fallen.figures()
+    for drawn in (fallen.figures, fallen.plot, lambda: fallen.report("none.html")):
+        with pytest.raises(ValueError, match="no rows"):
+            drawn()
 
 
 @pytest.mark.parametrize(

@@ -237,7 +237,7 @@ def test_bad_studies_are_refused() -> None:
     assert study.measure == "sa_g(0.5)" and study.label.startswith("Sa(0.5 s")
     with pytest.raises(rk.StudyError, match="no state `falling`"):
         study.fragility("falling")
-    with pytest.raises(rk.StudyError, match="give the scene friction"):
+    with pytest.raises(rk.StudyError, match="scene with friction with ask = \"slides\""):
         study.fragility("slide > 0.1")
     with pytest.raises(ValueError, match="confidence"):
         study.fragility(confidence=2.0)
@@ -374,3 +374,22 @@ def test_numbers_beyond_any_use_are_refused():
     for gravity in (0.0, -9.81, float("nan")):
         with pytest.raises(ValueError, match="gravity"):
             rk.Record.synthetic(1).scaled(pga_g=0.1, gravity=gravity)
+
+
+def test_fractiles_need_the_peaks_of_all_runs():
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.3, half_height=1.5), {"kind": "synthetic", "duration": 6.0, "pgv": 0.3}, eta=0.85)
+    axes = {"seed": [1, 2, 3], "pgv": [0.3, 0.6]}
+    known = rk.Study(rk.sweep(scene, axes, ask="peaks")).stripes
+    assert (known.peak_50 > 0.0).all()
+    table = rk.sweep(scene, axes, ask="outcome")
+    assert (table.outcome == "rocks").all()
+    assert rk.Study(table).stripes[["peak_16", "peak_50", "peak_84"]].isna().all(axis=None)
+    none = rk.Study(table[table.outcome == "overturns"])
+    assert len(none.stripes) == 0 and none.fragility().fit == "no-runs"
+
+
+def test_the_scene_of_a_point_runs_to_its_end():
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.3, half_height=1.5), {"kind": "synthetic", "duration": 6.0, "pgv": 0.3}, eta=0.85)
+    sweep = rk.Sweep(scene, {"seed": [1, 2]}, ask="outcome")
+    whole = rk.simulate(sweep.scene(1))
+    assert whole.status == "at-rest" and len(whole.peak_theta) == 1

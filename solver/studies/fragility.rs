@@ -129,7 +129,7 @@ pub enum Fit {
         /// Lowest level of a run with the state.
         always_from: f64,
     },
-    /// The share of runs that reach the state falls with the level, which no lognormal curve does.
+    /// The share of runs that reach the state falls with the level, or is the same at all levels, as no lognormal curve does.
     Falling,
 }
 
@@ -383,16 +383,29 @@ impl Fragility {
             Fit::Step { never_to, .. } if self.levels_with_runs() == 1 => {
                 format!("{none}all runs are at one level, {}; a curve needs two levels or more", brief(never_to))
             }
-            Fit::Step { never_to, always_from } if never_to == always_from => format!(
-                "{none}no run below {0} reaches the state and every run above does; put levels around {0}",
-                brief(never_to)
-            ),
+            Fit::Step { never_to, always_from } if never_to == always_from => {
+                let level = brief(never_to);
+                let is_beyond = |beyond: fn(f64, f64) -> bool| {
+                    self.counts.iter().any(|count| count.runs > 0 && beyond(count.level, never_to))
+                };
+                match [is_beyond(|a, b| a < b), is_beyond(|a, b| a > b)] {
+                    [true, false] => {
+                        format!("{none}no run below {level} reaches the state, and some at {level} do; go higher")
+                    }
+                    [false, true] => {
+                        format!("{none}every run above {level} reaches the state, and some at {level} do; begin lower")
+                    }
+                    _ => format!(
+                        "{none}no run below {level} reaches the state and every run above does; put levels around {level}"
+                    ),
+                }
+            }
             Fit::Step { never_to, always_from } => format!(
                 "{none}no run up to {0} reaches the state and every run from {1} on does; put levels between",
                 brief(never_to),
                 brief(always_from)
             ),
-            Fit::Falling => format!("{none}the share of runs with the state falls with the level"),
+            Fit::Falling => format!("{none}the share of runs with the state does not rise with the level"),
         }
     }
 
@@ -640,6 +653,21 @@ mod tests {
         let told = overturning(&single).statements();
         assert_eq!(told[0], "no curve: all runs are at one level, 0.5; a curve needs two levels or more");
         assert_eq!(overturning(&all(|_, _| false, 1)).fit, Fit::Never { up_to: 1.6 });
+        // Some runs at one level alone: at the highest, at the lowest, and between.
+        for (told, lost) in [
+            (
+                "no run below 1.6 reaches the state, and some at 1.6 do; go higher",
+                (|record, level| level == 1.6 && record == 0) as fn(usize, f64) -> bool,
+            ),
+            ("every run above 0.2 reaches the state, and some at 0.2 do; begin lower", |record, level| {
+                level > 0.2 || record == 0
+            }),
+            ("no run below 0.4 reaches the state and every run above does; put levels around 0.4", |record, level| {
+                level > 0.4 || (level == 0.4 && record == 0)
+            }),
+        ] {
+            assert_eq!(overturning(&all(lost, 3)).statements()[0], format!("no curve: {told}"));
+        }
         // Runs without friction have no slides, and those of one block no second one: that some overturn says nothing of either.
         for state in ["slide > 0.05", "peak_2 > 0.3"] {
             let runs = all(|_, level| level > 0.5, 3);

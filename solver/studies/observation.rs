@@ -33,12 +33,12 @@ impl Observation {
         !matches!(self.fate, None | Some(Fate::Undetermined | Fate::NotDetermined))
     }
 
-    /// Largest `|θ|/α` of all blocks; infinite for a lost column, `None` for an undecided run.
+    /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` for an undecided run, and where the peaks are not known.
     pub fn demand(&self) -> Option<f64> {
         match self.is_decided() {
             false => None,
             true if self.is_lost() => Some(f64::INFINITY),
-            true => Some(self.peaks.iter().copied().fold(0.0, f64::max)),
+            true => self.peaks.iter().copied().reduce(f64::max),
         }
     }
 }

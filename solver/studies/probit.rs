@@ -27,7 +27,7 @@ pub struct Trial {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Maximum {
-    /// The curve of the greatest likelihood; its slope may be below zero.
+    /// The curve of the greatest likelihood; its slope may be below zero, and is zero where the shares of all levels are equal.
     Curve(Probit),
     /// No run reached the state, or there is no run.
     Never,
@@ -77,6 +77,10 @@ const MOST_STEPS: usize = 200;
 
 /// Newton's method ends when a step raises `ln L` by no more than this share of its magnitude.
 const SMALLEST_GAIN: f64 = 1e-15;
+
+/// A slope up to this, per standard deviation of `ln x`, is what Newton's method leaves of zero: the root of [`SMALLEST_GAIN`]. Shares of the levels are equal
+/// then, or differ by less than one run in a million.
+const NO_SLOPE: f64 = 1e-7;
 
 /// The curve of the greatest likelihood.
 ///
@@ -153,7 +157,7 @@ fn climb(trials: &[Trial]) -> Probit {
             break;
         }
     }
-    let slope = place[1] / spread;
+    let slope = if place[1].abs() > NO_SLOPE { place[1] / spread } else { 0.0 };
     Probit { intercept: place[0] - slope * mean, slope, log_likelihood: best }
 }
 
@@ -244,6 +248,13 @@ mod tests {
         assert_eq!(fit(&trials(&[4.0, 0.0])), Maximum::Reversed);
         assert!(matches!(fit(&trials(&[0.0, 1.0, 3.0, 4.0])), Maximum::Curve(curve) if curve.slope > 0.0));
         assert!(matches!(fit(&trials(&[4.0, 3.0, 1.0, 0.0])), Maximum::Curve(curve) if curve.slope < 0.0));
+        // Equal shares at levels at which rounding leaves a slope.
+        for levels in [[0.5, 3.0], [0.998, 1.129], [0.2, 0.7]] {
+            for reached in [1.0, 3.0] {
+                let flat = fit(&levels.map(|level| Trial { level, runs: 6.0, reached }));
+                assert!(matches!(flat, Maximum::Curve(curve) if curve.slope == 0.0), "{flat:?}");
+            }
+        }
         // A single level determines no curve.
         assert_eq!(fit(&trials(&[2.0])), Maximum::Step { never_to: 1.0, always_from: 1.0 });
     }

@@ -17,7 +17,8 @@ pub struct Stripe {
     pub fates: [usize; Fate::ALL.len()],
     /// Runs that failed.
     pub errors: usize,
-    /// [`FRACTILES`] of the largest `|θ|/α` of the decided runs; a lost column counts as infinite. `None` without a decided run.
+    /// [`FRACTILES`] of the largest `|θ|/α` of the decided runs; a lost column counts as infinite. `None` without a decided run, or where the peaks of one are
+    /// not known.
     pub fractiles: Option<[f64; 3]>,
 }
 
@@ -36,13 +37,15 @@ pub fn stripes(runs: &[Observation]) -> Vec<Stripe> {
     sorted.sort_by(|a, b| a.level.total_cmp(&b.level));
     let stripe = |runs: &[&Observation]| {
         let count = |fate: Fate| runs.iter().filter(|run| run.fate == Some(fate)).count();
-        let demands: Vec<f64> = runs.iter().filter_map(|run| run.demand()).collect();
+        let decided = runs.iter().filter(|run| run.is_decided());
+        let demands =
+            decided.map(|run| run.demand()).collect::<Option<Vec<f64>>>().filter(|demands| !demands.is_empty());
         Stripe {
             level: runs[0].level,
             runs: runs.len(),
             fates: Fate::ALL.map(count),
             errors: runs.iter().filter(|run| run.fate.is_none()).count(),
-            fractiles: (!demands.is_empty()).then(|| FRACTILES.map(|share| fractile(&demands, share))),
+            fractiles: demands.map(|demands| FRACTILES.map(|share| fractile(&demands, share))),
         }
     };
     sorted.chunk_by(|a, b| a.level == b.level).map(stripe).collect()

@@ -27,8 +27,6 @@ def record(drawn: "Record", ax: "Axes | None" = None) -> "Axes":
 
 
 def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
-    if len(drawn.t) == 0:
-        raise ValueError("the run has no rows; run it with rows=True")
     if axes is None:
         axes = plt.subplots(2, 1, sharex=True, figsize=(8, 5), height_ratios=[1, 2.5], layout="constrained")[1]
     above, below = axes

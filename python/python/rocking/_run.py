@@ -303,6 +303,7 @@ class Run:
 
     def report(self, file: str | os.PathLike[str]) -> None:
         """Writes the page of the run: one HTML file with outcome, validity, animation, figures, inputs."""
+        self._need_rows()
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder)
             page = _rocking.page(folder)
@@ -311,14 +312,20 @@ class Run:
 
     def figures(self) -> dict[str, str]:
         """The figures of the page as SVG, by their names: ``time-history``, ``phase-portrait``, ``energy``, ``forces``, ``slides``."""
+        self._need_rows()
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder)
             return {name: svg for name, _, svg in _rocking.figures(folder)}
+
+    def _need_rows(self) -> None:
+        if len(self.t) == 0:
+            raise ValueError("the run has no rows; run it with rows=True, without `wanted`, and with output times up to its end")
 
     def plot(self, axes: Any = None) -> "npt.NDArray[Any]":
         """Draws ground acceleration and angles over time; returns both axes of matplotlib."""
         from ._plot import run
 
+        self._need_rows()
         return run(self, axes)
 
     def _repr_svg_(self) -> str | None:

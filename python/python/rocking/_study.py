@@ -216,7 +216,7 @@ class Study:
         names = [str(name) for name in table.columns]
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
         if of_records:
-            records = table[of_records].astype(str).agg(", ".join, axis=1).tolist()
+            records = [", ".join(map(str, row)) for row in table[of_records].itertuples(index=False)]
         else:
             records = [f"run {number}" for number in range(1, len(table) + 1)]
 
@@ -248,7 +248,7 @@ class Study:
 
     @property
     def stripes(self) -> pd.DataFrame:
-        """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost."""
+        """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost, NaN where peaks are unknown."""
         columns = _rocking.stripes(self._runs)
         return pd.DataFrame(columns).rename(columns={"level": self.measure})
 
@@ -281,7 +281,7 @@ class Study:
         if named is not None and int(named[1]) > blocks:
             raise StudyError(f"the state `{state}` needs the column peak_{named[1]}, and the columns of the table have {blocks} block(s)")
         if kind.startswith("slide") and runs.slides.shape[1] == 0:
-            raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: give the scene friction")
+            raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: run the sweep of a scene with friction with ask = \"slides\"")
         given = {"replicates": replicates, "confidence": confidence, "seed": seed, "layout": layout}
         options = {**self._options, **{name: value for name, value in given.items() if value is not None}}
         text, statements = _rocking.fragility(runs, state, **options)
