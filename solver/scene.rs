@@ -486,15 +486,18 @@ impl Scene {
             let problem = format!("{:e} is below what double precision can keep", options.rtol);
             faults.note("solver.rtol", problem, "give at least 1e-14");
         }
-        let (least, remedy) = match self.friction {
-            None => (SMALLEST_STICK_ANGLE, "give at least 1e-20"),
-            Some(_) => (SMALLEST_STICK_ANGLE_WITH_FRICTION, "with friction, give at least 1e-14"),
-        };
-        if options.stick_angle < least {
+        if options.stick_angle < self.smallest_stick_angle() {
+            let remedy =
+                if self.friction.is_none() { "give at least 1e-20" } else { "with friction, give at least 1e-14" };
             let problem = format!("{:e} rad is below what rounding can hold", options.stick_angle);
             faults.note("solver.stick_angle", problem, remedy);
         }
         self.check_rows(faults);
+    }
+
+    /// Smallest `stick_angle` of the scene `[rad]`.
+    pub(crate) fn smallest_stick_angle(&self) -> f64 {
+        if self.friction.is_none() { SMALLEST_STICK_ANGLE } else { SMALLEST_STICK_ANGLE_WITH_FRICTION }
     }
 
     fn check_rows(&self, faults: &mut Faults) {

@@ -20,7 +20,8 @@ const CHANGES: [f64; 4] = [1e-9, -1e-9, 1e-6, -1e-6];
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Change {
-    /// Tolerances multiplied by this factor; the length of the steps of a method without step control by its fourth root.
+    /// Tolerances and the angle of the lowest hop that is followed multiplied by this factor; the length of the steps of a method without step control by
+    /// its fourth root.
     Tolerance(f64),
     /// Ground motion, initial angles, rates and velocities multiplied by one plus this; blocks placed by their centroids keep their angles.
     Excitation(f64),
@@ -48,6 +49,7 @@ impl Change {
                 let options = &mut changed.options;
                 options.rtol = (options.rtol * factor).max(TIGHTEST_RTOL.min(options.rtol));
                 options.atol *= factor;
+                options.stick_angle = (options.stick_angle * factor).max(scene.smallest_stick_angle());
                 options.step *= factor.sqrt().sqrt();
             }
             Change::Excitation(change) => {
