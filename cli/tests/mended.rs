@@ -484,3 +484,21 @@ fn a_record_beside_the_scene_needs_no_folder() {
     write(folder.path().join("R1_H1.csv"), "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n").expect("written");
     assert!(succeeds(folder.path(), &["run", "scene.toml", "--out", "out"]).starts_with("no uplift, stands at rest"));
 }
+
+/// Each of the three commands says which one a file is for.
+#[test]
+fn files_of_another_kind_are_sent_to_their_command() {
+    let folder = folder(SWEEP);
+    write(folder.path().join("study.toml"), "scene = \"base.toml\"\nmeasure = \"pga\"\n").expect("written");
+    let [run, sweep, ida] = [&["run", "--out", "out"][..], &["sweep"], &["ida", "--out", "ida.csv"]];
+    for (command, file, named) in [
+        (run, "sweep.toml", "`rocking sweep`"),
+        (run, "study.toml", "`rocking ida`"),
+        (sweep, "base.toml", "`rocking run`"),
+        (sweep, "study.toml", "`rocking ida`"),
+        (ida, "base.toml", "`rocking run`"),
+        (ida, "sweep.toml", "`rocking sweep`"),
+    ] {
+        fails(folder.path(), &[command, &[file]].concat(), 2, &[file, "give it to", named]);
+    }
+}

@@ -120,12 +120,8 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
             cut(&mut column, count as usize, derived)
         }
         _ => {
-            let remedy = match FileKind::of_root(root) {
-                FileKind::Sweep => "this is a sweep file: give it to `rocking sweep`",
-                FileKind::Study => "this is the file of a study: give it to `rocking ida`",
-                FileKind::Scene => "add a [[block]] with half_width and half_height for each block, base first",
-            };
-            Err(root.missing("block", remedy))
+            let usual = "add a [[block]] with half_width and half_height for each block, base first";
+            Err(root.missing("block", FileKind::Scene.remedy_for_another(root).unwrap_or(usual)))
         }
     }
 }

@@ -27,7 +27,20 @@ impl FileKind {
         Table::parse(text).map_or(FileKind::Scene, |root| FileKind::of_root(&root))
     }
 
-    pub(super) fn of_root(root: &Table) -> FileKind {
+    /// The command for a file that is of another kind than this one, as a remedy. `None` for a file of this kind, and where nothing tells its kind.
+    pub(crate) fn remedy_for_another(self, root: &Table) -> Option<&'static str> {
+        match FileKind::of_root(root) {
+            found if found == self => None,
+            FileKind::Sweep => Some("this is a sweep file: give it to `rocking sweep`"),
+            FileKind::Study => Some("this is the file of a study: give it to `rocking ida`"),
+            FileKind::Scene if root.has("block") || root.has("column") => {
+                Some("this is a scene: give it to `rocking run`")
+            }
+            FileKind::Scene => None,
+        }
+    }
+
+    fn of_root(root: &Table) -> FileKind {
         let has_one = |keys: &[&str]| keys.iter().any(|key| root.has(key));
         if has_one(&["axes", "ask", "combine"]) {
             FileKind::Sweep

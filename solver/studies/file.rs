@@ -12,7 +12,7 @@ use crate::scene_file::reader::Reader;
 use crate::scene_file::record_cache::Records;
 use crate::scene_file::stations::{Component, records_of};
 use crate::scene_file::table::{Table, Wrong};
-use crate::scene_file::{SceneFileError, Setting, text};
+use crate::scene_file::{FileKind, SceneFileError, Setting, text};
 use crate::sweep::file::range;
 use rocking_ground::{Direction, Synthetic, TextOptions};
 use std::path::{Path, PathBuf};
@@ -51,6 +51,9 @@ impl IdaFile {
     }
 
     fn read(reader: &Reader, kept: &Records, mut root: Table) -> Result<IdaFile, Fault> {
+        if let Some(remedy) = FileKind::Study.remedy_for_another(&root) {
+            return Err(root.missing("measure", remedy).into());
+        }
         let mut inputs = vec![reader.file.to_path_buf()];
         let scene = scene(reader, &mut root, &mut inputs)?;
         let intensity = intensity(&mut root)?;

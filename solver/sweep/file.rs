@@ -7,7 +7,7 @@ use crate::scene_file::fault::Fault;
 use crate::scene_file::reader::Reader;
 use crate::scene_file::stations::{files_in, records_of};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
-use crate::scene_file::{SceneFileError, Setting, Template, text};
+use crate::scene_file::{FileKind, SceneFileError, Setting, Template, text};
 use rocking_ground::{Direction, record_and_component};
 use std::path::Path;
 
@@ -45,6 +45,9 @@ impl Sweep {
     }
 
     fn read(mut root: Table, file: &Path, base: Option<Template>) -> Result<Sweep, Fault> {
+        if let Some(remedy) = FileKind::Sweep.remedy_for_another(&root) {
+            return Err(root.missing("axes", remedy).into());
+        }
         let template = match (base, root.text("scene")?) {
             (Some(template), None) => template,
             (Some(_), Some(_)) => {

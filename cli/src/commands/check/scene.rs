@@ -335,12 +335,12 @@ impl Findings {
             );
             match (motion.end, motion.left_with) {
                 (Some(end), Some([velocity, displacement])) => {
-                    let _ = writeln!(
-                        text,
-                        "  ends at {end:.4} s; the ground is left with {} m/s, displaced by {} m",
-                        fixed(velocity, 4),
-                        fixed(displacement, 4)
-                    );
+                    let left = [velocity, displacement].map(|size| fixed(size, 4));
+                    let told = match velocity.is_finite() && displacement.is_finite() {
+                        true => format!("with {} m/s, displaced by {} m", left[0], left[1]),
+                        false => "beyond what numbers hold".into(),
+                    };
+                    let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {told}");
                     if end > scene.options.t_end {
                         let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
                     }
