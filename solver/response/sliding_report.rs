@@ -117,8 +117,10 @@ impl SlidingReport {
             ));
         }
         if status == StopReason::Undetermined {
-            warnings
-                .push(format!("the run ends at t = {t_final:.4} s: no motion follows from the laws of contact there"));
+            warnings.push(format!(
+                "the run ends at t = {t_final:.4} s: no motion follows from the laws of contact there; with a smaller `stick_angle` or another \
+                 `method` the run may go on"
+            ));
         }
         warnings
     }
