@@ -244,7 +244,7 @@ pub struct Record {
     #[arg(long)]
     pub lenient: bool,
     /// Multiply the accelerations.
-    #[arg(long, value_name = "F", conflicts_with_all = ["pga", "scale_to"], allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "F", conflicts_with_all = ["pga", "scale_to"], value_parser = finite)]
     pub scale: Option<f64>,
     /// Scale to this peak, in g.
     #[arg(long, value_name = "G", value_parser = positive)]

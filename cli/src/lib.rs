@@ -18,7 +18,8 @@ mod table;
 mod terminal;
 mod text;
 
-use clap::Parser;
+use arguments::Arguments;
+use clap::{CommandFactory, FromArgMatches};
 use rocking::run_folder::Results;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -27,12 +28,13 @@ pub use report::page;
 
 /// Carries out the command that the arguments of this process name. Returns the status with which the process should exit.
 pub fn main() -> ExitCode {
-    execute(arguments::Arguments::parse()).into()
+    main_with(std::env::args_os()).into()
 }
 
 /// As [`main`] with these arguments, the name of the program first.
 pub fn main_with<T: Into<OsString> + Clone>(words: impl IntoIterator<Item = T>) -> u8 {
-    match arguments::Arguments::try_parse_from(words) {
+    let parsed = command().try_get_matches_from(words).and_then(|found| Arguments::from_arg_matches(&found));
+    match parsed {
         Ok(arguments) => execute(arguments),
         Err(refused) => {
             // A failure to print is ignored: there is nowhere to report it.
@@ -42,7 +44,17 @@ pub fn main_with<T: Into<OsString> + Clone>(words: impl IntoIterator<Item = T>) 
     }
 }
 
-fn execute(arguments: arguments::Arguments) -> u8 {
+/// The command line. A negative number is a value of the option before it, whose range says what is wrong, and no option of its own.
+fn command() -> clap::Command {
+    Arguments::command().mut_subcommands(|command| {
+        command.mut_args(|argument| {
+            let takes_numbers = !argument.is_positional() && argument.get_action().takes_values();
+            argument.allow_negative_numbers(takes_numbers)
+        })
+    })
+}
+
+fn execute(arguments: Arguments) -> u8 {
     error::install_report();
     match commands::execute(arguments) {
         Ok(()) => 0,

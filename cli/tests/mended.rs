@@ -502,3 +502,21 @@ fn files_of_another_kind_are_sent_to_their_command() {
         fails(folder.path(), &[command, &[file]].concat(), 2, &[file, "give it to", named]);
     }
 }
+
+/// A negative number after an option is its value, and the range of the option says what is wrong.
+#[test]
+fn negative_values_of_options_are_out_of_range() {
+    let folder = folder_with(SCENE);
+    write(folder.path().join("a.csv"), "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n").expect("written");
+    for (arguments, named) in [
+        (&["record", "a.csv", "--pga", "-0.3"][..], ["'-0.3'", "--pga"]),
+        (&["record", "a.csv", "--sa", "-1"], ["'-1'", "--sa"]),
+        (&["plot", "out", "--width", "-5"], ["'-5'", "--width"]),
+        (&["sweep", "scene.toml", "--threads", "-1"], ["'-1'", "--threads"]),
+    ] {
+        let message = fails(folder.path(), arguments, 2, &named);
+        assert!(message.contains("invalid value") && !message.contains("-- "), "{message}");
+    }
+    let turned = succeeds(folder.path(), &["record", "a.csv", "--scale", "-2"]);
+    assert!(turned.contains("PGA"), "{turned}");
+}

@@ -10,11 +10,11 @@ pub const LARGEST_FILE: u64 = 64 << 20;
 /// The content of a file.
 ///
 /// # Errors
-/// The error of the system for a file that cannot be read. [`ErrorKind::InvalidInput`] for a folder, a device or a pipe: the last two may
+/// The error of the system for a file that cannot be read, with a remedy. [`ErrorKind::InvalidInput`] for a folder, a device or a pipe: the last two may
 /// never end. [`ErrorKind::FileTooLarge`] above [`LARGEST_FILE`].
 pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
     // The kind is checked before the file is opened: opening a pipe waits for its writer.
-    let metadata = std::fs::metadata(&path)?;
+    let metadata = std::fs::metadata(&path).map_err(with_remedy)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "a device or a pipe" };
         let text = format!("this is {kind}; name a regular file, or write the content into one");
@@ -23,7 +23,7 @@ pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     if metadata.len() <= LARGEST_FILE {
         // A file may grow, or have another size than the system states.
-        File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+        File::open(path).map_err(with_remedy)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     }
     if metadata.len().max(bytes.len() as u64) > LARGEST_FILE {
         let text = format!(
@@ -33,6 +33,16 @@ pub fn read_file(path: impl AsRef<Path>) -> Result<Vec<u8>> {
         return Err(Error::new(ErrorKind::FileTooLarge, text));
     }
     Ok(bytes)
+}
+
+/// An error of the system, with what to do about it.
+fn with_remedy(error: Error) -> Error {
+    let remedy = match error.kind() {
+        ErrorKind::NotFound => "check the path",
+        ErrorKind::PermissionDenied => "check the permissions",
+        _ => return error,
+    };
+    Error::new(error.kind(), format!("{error}; {remedy}"))
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use super::table::Cause;
 use crate::scene::lines;
 use rocking_ground::read_file;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Why a scene file is refused.
@@ -63,19 +62,12 @@ pub enum SceneFileError {
 /// # Errors
 /// [`SceneFileError::Unreadable`]
 pub fn text(file: &Path) -> Result<String, SceneFileError> {
-    let unreadable = |error: std::io::Error| {
-        let remedy = match error.kind() {
-            ErrorKind::NotFound => "; check the path",
-            ErrorKind::PermissionDenied => "; check the permissions",
-            _ => "",
-        };
-        SceneFileError::Unreadable { file: file.into(), problem: format!("{error}{remedy}") }
-    };
-    let bytes = read_file(file).map_err(unreadable)?;
+    let unreadable = |problem| SceneFileError::Unreadable { file: file.into(), problem };
+    let bytes = read_file(file).map_err(|error| unreadable(error.to_string()))?;
     let text = std::str::from_utf8(&bytes).map_err(|error| {
         let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
         let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
-        SceneFileError::Unreadable { file: file.into(), problem }
+        unreadable(problem)
     })?;
     Ok(text.into())
 }

@@ -182,7 +182,7 @@ impl Reader<'_> {
         }
         let refuse = |problem: String| Fault::of_record(table, key, path.clone(), problem);
         let bytes = rocking_ground::read_file(&path)
-            .map_err(|error| refuse(format!("{error}; give the path relative to the file that names it")))?;
+            .map_err(|error| refuse(format!("{error}; its path is relative to the file that names it")))?;
         let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
         if let Some(records) = self.records {
             records.keep(kept(), &record);
