@@ -322,6 +322,18 @@ const CONTRADICTIONS: [(&str, &str, &str, &str); 4] = [
     ),
 ];
 
+/// 42 samples at an interval that is twice the true one: PGA and number of samples do not show it, the duration does.
+#[test]
+fn a_dyna_file_whose_samples_do_not_fill_its_duration_has_a_warning() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/records/dyna/XX.MIB..HNE.D.55.ASC");
+    let text: String = std::fs::read(path).expect("a file").into_iter().map(char::from).collect();
+    let told = |text: &str| {
+        read(text, &options()).warnings.iter().any(|told| told.contains("says 0.41 s; is the file whole?"))
+    };
+    assert!(!told(&text));
+    assert!(told(&text.replacen("SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S: 0.020000", 1)));
+}
+
 #[test]
 fn headers_that_contradict_themselves_are_refused_unless_lenient() {
     for (name, from, to, part) in CONTRADICTIONS {
