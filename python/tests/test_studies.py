@@ -393,3 +393,8 @@ def test_the_scene_of_a_point_runs_to_its_end():
     sweep = rk.Sweep(scene, {"seed": [1, 2]}, ask="outcome")
     whole = rk.simulate(sweep.scene(1))
     assert whole.status == "at-rest" and len(whole.peak_theta) == 1
+
+
+def test_records_of_a_study_are_records():
+    with pytest.raises(TypeError, match="record 2 is a ndarray; give a Record"):
+        rk.Records([rk.Record([0.0, 1.0], dt=0.01), np.array([0.0, 1.0])])

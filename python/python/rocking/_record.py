@@ -261,6 +261,8 @@ class Records(Sequence[StudyRecord]):
         for number, record in enumerate(records, start=1):
             if isinstance(record, Record):
                 record = StudyRecord(record.name or f"record {number}", record)
+            if not isinstance(record, StudyRecord):
+                raise TypeError(f"record {number} is a {type(record).__name__}; give a Record, as Record(samples, dt=0.01)")
             self._records.append(record)
         names = [record.name for record in self._records]
         for name in names:
