@@ -7,6 +7,7 @@ use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
+use crate::mechanics::kinematics::relative;
 use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
@@ -100,7 +101,13 @@ impl<'p> Sticking<'p> {
         }
         let (theta, omega) = (theta.clone(), omega.clone());
         let at_rest = state::State::at_rest(joints.len());
-        let start = state::State { t: from.t, segment: from.segment, theta, omega, pattern, ..at_rest };
+        let mut start = state::State { t: from.t, segment: from.segment, theta, omega, pattern, ..at_rest };
+        // What is open without a gap has opened in this instant: where rounding has its acceleration drive it back, that is no impact.
+        let is_new = |i: &usize| {
+            let gap = [relative(&start.theta, *i), relative(&start.omega, *i)];
+            start.pattern.0[*i].is_open() && gap == [0.0; 2]
+        };
+        start.contact.released = (0..joints.len()).filter(is_new).map(|i| (i, start.pattern.0[i])).collect();
         let mut modes = std::mem::take(&mut self.modes);
         modes.prepare(&self.scene, self.problem.skips);
         let folded = self.fold(&mut modes, Some(start), rows, progress);
