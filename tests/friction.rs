@@ -625,6 +625,29 @@ fn the_largest_slide_may_be_the_first() {
     assert!((slide(&response, 0) - (0.7 - 4.0 / (2.0 * 0.3 * GRAVITY))).abs() < 1e-10, "{}", slide(&response, 0));
 }
 
+/// At rest all contacts lose their force in one instant, where the ground's acceleration downwards exceeds gravity: the column flies as one body and lands
+/// once. Rounding had contacts open one by one, and strike up to 150 times.
+#[test]
+fn a_column_at_rest_that_loses_its_weight_flies_as_one() {
+    let (amplitude, omega, start) = (-20.0, TAU / 0.5, 0.0);
+    let ricker = Motion::Ricker { amplitude, omega: TAU / 0.6, start };
+    for motion in [Motion::SinePulse { amplitude, omega, start }, Motion::HalfSine { amplitude, omega, start }, ricker]
+    {
+        for count in 1..=5 {
+            let mut scene = scene(vec![Block::rectangle(0.4, 0.3, 1.0); count], vec![0.6; count]);
+            scene.excitation.vertical = Some(motion.clone());
+            scene.options.t_end = 2.0;
+            let response = run(&scene);
+            let kinds: Vec<EventKind> = response.events.iter().map(|event| event.kind).collect();
+            assert_eq!(
+                (&kinds[..], response.impacts),
+                (&[EventKind::Flight, EventKind::Landing][..], 1),
+                "{motion:?} {count}"
+            );
+        }
+    }
+}
+
 /// Four blocks open one after the other while they fall, and nothing strikes. What opens in the instant in which sliding ends has no gap and no acceleration:
 /// rounding drove it back, it struck, and opened again, up to eighty times, after which the run was undetermined.
 #[test]

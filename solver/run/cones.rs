@@ -10,6 +10,9 @@ use crate::friction::contact_problem::Coefficients;
 /// Share of a width by which an upper block must reach beyond the lower face to count as wider.
 const WIDTH_ROUNDING: f64 = 1e-12;
 
+/// Share of the weight above a contact below which its force counts as vanished: rounding would decide where the contact opens.
+const NO_FORCE: f64 = 1e-10;
+
 /// Limits of the contact forces in a run without sliding.
 pub(crate) trait Limits {
     /// Whether there are limits at all.
@@ -42,6 +45,8 @@ pub(crate) struct Cones<'a> {
     friction: &'a Coefficients,
     /// Per interface, whether the upper block reaches beyond the lower one: the contact may then be a corner of the lower block on the base of the upper one.
     may_be_below: Vec<bool>,
+    /// Per interface, the normal force below which a contact parts `[N]`.
+    least_normal: Vec<f64>,
     /// Largest rate of all blocks up to which impulses are not checked `[rad/s]`: no block that slow hops higher than `stick_angle`.
     last_rate: f64,
 }
@@ -59,6 +64,7 @@ impl<'a> Cones<'a> {
         Cones {
             friction,
             may_be_below: (0..column.len()).map(may_be_below).collect(),
+            least_normal: (0..column.len()).map(|i| NO_FORCE * column.mass_above(i) * column.gravity()).collect(),
             last_rate: (2.0 * column.gravity() / size * stick_angle).sqrt(),
         }
     }
@@ -84,7 +90,7 @@ impl Limits for Cones<'_> {
     fn hold(&self, record: &Recorder) -> bool {
         let gaps = record.largest_gaps();
         let demands = record.friction_demand().iter().zip(&self.friction.fixed).enumerate();
-        record.min_normal_force().iter().all(|least| *least >= 0.0)
+        record.min_normal_force().iter().zip(&self.least_normal).all(|(found, least)| found >= least)
             && demands.into_iter().all(|(interface, (demand, most))| self.is_within(interface, *demand, *most, gaps))
     }
 

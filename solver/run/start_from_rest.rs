@@ -192,10 +192,12 @@ impl Scene {
     }
 }
 
-/// The guards of a column at rest with limited friction, with the coefficients `fixed` of static friction: corners and slides. They have the slack of the
-/// guards of forces in motion: what starts the column does not count as rounding for the contact problem that decides how it starts.
+/// The guards of a column at rest with limited friction, with the coefficients `fixed` of static friction: corners, slides, and the weight, which vanishes
+/// in all contacts at once. They have the slack of the guards of forces in motion: what starts the column does not count as rounding for the contact
+/// problem that decides how it starts.
 fn guards_with_friction(column: &Column, fixed: &[f64]) -> impl Iterator<Item = (RestGuard, Guard)> {
-    fixed.iter().enumerate().flat_map(move |(interface, coefficient)| {
+    let weight = RestGuard { arm: [1.0, 0.0], side: Interface::Right, slack: GUARD_SLACK_SHARE };
+    let of_interfaces = fixed.iter().enumerate().flat_map(move |(interface, coefficient)| {
         SIDES.into_iter().flat_map(move |side| {
             let cone = RestGuard {
                 slack: GUARD_SLACK_SHARE * cone_slack(*coefficient),
@@ -205,7 +207,8 @@ fn guards_with_friction(column: &Column, fixed: &[f64]) -> impl Iterator<Item = 
             let corner = RestGuard { slack, ..RestGuard::corner(column, interface, side) };
             [(cone, Guard::Cone(interface, side.sign())), (corner, Guard::Tip(interface, side.sign()))]
         })
-    })
+    });
+    std::iter::once((weight, Guard::Press(0))).chain(of_interfaces)
 }
 
 /// The first instant in a segment from a time on at which an interface of a column at rest opens or slides, with the coefficients `fixed` of static
