@@ -40,9 +40,11 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses outputs of which one is a folder, which nothing can take the place of.
-pub fn no_folders(outputs: &[PathBuf]) -> Result<(), Failure> {
-    outputs.iter().filter(|output| output.is_dir()).try_for_each(|output| target(output).map(|_| ()))
+/// Refuses outputs in a folder that may not be there yet, if one of them cannot be put in place: a folder or a link has its name.
+pub fn free(mut outputs: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
+    let refused =
+        outputs.find_map(|output| if output.exists() || output.is_symlink() { target(&output).err() } else { None });
+    refused.map_or(Ok(()), Err)
 }
 
 /// Refuses outputs of which one is an input: it would be overwritten, or removed.

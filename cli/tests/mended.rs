@@ -520,3 +520,30 @@ fn negative_values_of_options_are_out_of_range() {
     let turned = succeeds(folder.path(), &["record", "a.csv", "--scale", "-2"]);
     assert!(turned.contains("PGA"), "{turned}");
 }
+
+/// Before a run replaces anything, its figures and its page must have a place.
+#[test]
+fn a_run_whose_figure_has_no_place_leaves_the_folder_as_it_is() {
+    let folder = folder_with(SCENE);
+    succeeds(folder.path(), &["run", "scene.toml", "--out", "out", "--plots"]);
+    let out = folder.path().join("out");
+    write(folder.path().join("scene.toml"), SCENE.replace("amplitude = 4.0", "amplitude = 3.0")).expect("written");
+    std::fs::create_dir(out.join("report.html")).expect("made");
+    #[cfg(unix)]
+    {
+        std::fs::remove_file(out.join("energy.svg")).expect("removed");
+        std::os::unix::fs::symlink("nowhere", out.join("energy.svg")).expect("made");
+    }
+    let before = read(out.join("summary.json")).expect("written");
+    fails(
+        folder.path(),
+        &["run", "scene.toml", "--out", "out", "--report"],
+        2,
+        &["report.html", "a folder has this name"],
+    );
+    if cfg!(unix) {
+        fails(folder.path(), &["run", "scene.toml", "--out", "out", "--plots"], 2, &["energy.svg", "a link"]);
+    }
+    assert_eq!(read(out.join("summary.json")).expect("written"), before);
+    assert!(out.join("time-history.svg").is_file());
+}

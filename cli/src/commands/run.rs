@@ -34,13 +34,10 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         .flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")))
         .chain([report::NAME.into()])
         .collect();
-    let touched: Vec<PathBuf> = FILES
-        .into_iter()
-        .chain([COMPANIONS])
-        .chain(outdated.iter().map(String::as_str))
-        .map(|name| out.join(name))
-        .collect();
-    output::no_folders(&touched)?;
+    let of_run = FILES.into_iter().chain([COMPANIONS]).map(String::from);
+    let touched: Vec<PathBuf> = of_run.chain(outdated.iter().cloned()).map(|name| out.join(name)).collect();
+    let figures = NAMES.iter().filter(|_| request.plots).map(|name| out.join(format!("{name}.svg")));
+    output::free(figures.chain(request.report.then(|| out.join(report::NAME))))?;
     let inputs: Vec<PathBuf> = template.records().into_iter().chain([path.clone()]).collect();
     output::spare(&inputs, touched)?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
