@@ -146,13 +146,12 @@ fn a_block_on_a_heavy_base_moves_as_on_the_ground() {
             (scene.options.t_end, scene.options.rtol, scene.options.atol) = (6.0, 1e-11, 1e-13);
             run(&scene)
         });
-        let events = |response: &Response| -> Vec<(EventKind, f64)> {
-            response.events.iter().map(|event| (event.kind, event.t)).collect()
-        };
-        assert!(events(&on_ground).iter().any(|(kind, _)| *kind == EventKind::Slip));
-        for (ground, base) in events(&on_ground).into_iter().zip(events(&on_base)) {
-            assert_eq!(ground.0, base.0);
-            assert_relative_eq!(ground.1, base.1, max_relative = 1e-7);
+        let kinds = |response: &Response| response.events.iter().map(|event| event.kind).collect::<Vec<_>>();
+        assert_eq!(kinds(&on_ground), kinds(&on_base));
+        assert!(kinds(&on_ground).contains(&EventKind::Slip));
+        // The base gives way by the ratio of the masses, 1e-10; what follows from that grows by less than a thousand.
+        for (ground, base) in on_ground.events.iter().zip(&on_base.events) {
+            assert_relative_eq!(ground.t, base.t, max_relative = 1e-7);
         }
         assert_relative_eq!(slide(&on_ground, 0), slide(&on_base, 1), max_relative = 1e-7);
     }

@@ -40,7 +40,7 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses outputs in a folder that may not be there yet, if one of them cannot be put in place: a folder or a link has its name.
+/// Refuses outputs of which one cannot be put in place, as a folder or a link that leads nowhere has its name. Their own folder need not be there yet.
 pub fn free(mut outputs: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
     let refused =
         outputs.find_map(|output| if output.exists() || output.is_symlink() { target(&output).err() } else { None });

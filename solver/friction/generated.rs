@@ -236,8 +236,8 @@ impl Moving {
         let to_the_left = |[x, y]: [f64; 2]| [-x, y];
         for (each, translation) in self.translations.iter().enumerate() {
             let carried = &mut self.lists.carried[each * links + link];
-            let above = self.mass_from[end.max(translation.interface)];
-            *carried = to_the_left(plus(*carried, lever.map(|component| above * component)));
+            let moved = self.mass_from[end.max(translation.interface)];
+            *carried = to_the_left(plus(*carried, lever.map(|component| moved * component)));
         }
         self.lists.inertia[link] = inertia + above * (lever[0] * lever[0] + lever[1] * lever[1]);
         self.lists.moment[link] = to_the_left(moment);

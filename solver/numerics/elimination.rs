@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 const USUAL_SIZE: usize = 6;
 
 /// `x` of `matrix · x = loads`; `None` if a pivot vanishes or the solution is not finite. Pivots are the largest entries relative to their rows (scaled
-/// partial pivoting, Golub & Van Loan, Matrix Computations, section 3.5.2): the row of a light block has small entries, and keeps its digits.
+/// partial pivoting): the row of a light block has small entries, and keeps its digits.
 #[inline]
 pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: [f64; SIZE]) -> Option<[f64; SIZE]> {
     let mut scales = matrix.map(|row| 1.0 / row.iter().fold(0.0f64, |most, entry| most.max(entry.abs())));

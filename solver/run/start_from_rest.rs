@@ -105,7 +105,7 @@ const SIDES: [Interface; 2] = [Interface::Right, Interface::Left];
 #[derive(Clone, Copy, Debug)]
 struct RestGuard {
     /// `a` and `b`: for the opening of a corner the lever of the stack's centre of gravity and its height `[m]`, for a slide the coefficient of friction
-    /// and one.
+    /// and one, for the weight one and zero.
     arm: [f64; 2],
     side: Interface,
     /// How far below zero the guard counts as zero, as a multiple of the scale of accelerations.

@@ -1,4 +1,4 @@
-//! Scene and sweep files as commands read them: from a file, or from standard input.
+//! Scenes and sweeps as commands read them: from a file, or from standard input.
 
 use crate::error::{Failure, at};
 use rocking::Scene;
