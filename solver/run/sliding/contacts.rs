@@ -5,7 +5,6 @@ use crate::friction::chain::{Chain, Pose, Rates};
 use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
-use crate::run::problem::Problem;
 
 /// Gap that is rounding, as a share of the column's size; gap of angles that is rounding `[rad]`.
 const GAP_SHARE: f64 = 1e-12;
@@ -34,21 +33,23 @@ pub struct Resolution {
     pub rounding: f64,
     /// Relative rate of faces that stay on each other `[rad/s]`.
     pub rate: f64,
+    /// Angle of the lowest hop that is followed, the scene's `stick_angle` `[rad]`.
+    pub lowest_hop: f64,
 }
 
 impl Resolution {
-    pub fn new(column: &Column) -> Resolution {
+    pub fn new(column: &Column, lowest_hop: f64) -> Resolution {
         let size = column.size();
         let fall = (size * column.gravity()).sqrt();
         let speed = SPEED_SHARE * fall;
         let (gap, angle, rounding) = (GAP_SHARE * size, GAP_SHARE, ROUNDING_SHARE * fall);
-        Resolution { size, gap, angle, speed, rounding, rate: speed / size }
+        Resolution { size, gap, angle, speed, rounding, rate: speed / size, lowest_hop }
     }
 }
 
 /// What touches at each interface, with or without force.
-pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) -> Vec<Touch> {
-    let chain = Chain::new(&problem.scene.column, now);
+pub fn touching(column: &Column, resolution: Resolution, now: &Configuration) -> Vec<Touch> {
+    let chain = Chain::new(column, now);
     let rates = Rates::of(now);
     let touch = |interface: usize| match now.joints[interface] {
         Joint::Closed(_) => Touch::Faces,
@@ -58,7 +59,7 @@ pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) 
             if is_flat { Touch::Faces } else { Touch::Corner(side) }
         }
         Joint::Free => {
-            let touches = |side| stays_at(problem, resolution, &chain, &rates, interface, side);
+            let touches = |side| stays_at(column, resolution, &chain, &rates, interface, side);
             match (touches(1), touches(-1)) {
                 (true, true) => Touch::Faces,
                 (true, false) => Touch::Corner(1),
@@ -73,16 +74,15 @@ pub fn touching(problem: &Problem, resolution: Resolution, now: &Configuration) 
 /// Whether a free interface stays in contact at a side: its corners there are within `resolution` of the face, and move away no faster than a bounce
 /// that is too low to be followed. Coinciding corners touch both faces, or neither.
 fn stays_at(
-    problem: &Problem,
+    column: &Column,
     resolution: Resolution,
     chain: &Chain,
     rates: &Rates,
     interface: usize,
     side: Sign,
 ) -> bool {
-    let column = &problem.scene.column;
     let length = column.blocks()[interface].bottom_half_width;
-    let bounce = (2.0 * column.gravity() * problem.scene.options.stick_angle * length).sqrt();
+    let bounce = (2.0 * column.gravity() * resolution.lowest_hop * length).sqrt();
     let close = |corner: &Corner| {
         let [beside, above] = gaps::corner_position(chain, *corner);
         beside <= resolution.gap && above.abs() <= resolution.gap

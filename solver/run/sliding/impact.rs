@@ -38,7 +38,7 @@ impl PendingTransition<'_> {
         let chain = Chain::new(self.column(), &self.now);
         let [_, above] = gaps::corner_position(&chain, corner);
         // Depths of lower hops than are followed are none.
-        let depth = DEPTH_SHARE.max(self.problem.scene.options.stick_angle);
+        let depth = DEPTH_SHARE.max(self.resolution.lowest_hop);
         if above < -depth * self.resolution.size {
             // The corner comes from beside the face: it strikes the block's side, which is no contact of a column.
             let before = self.now.clone();

@@ -134,7 +134,7 @@ impl<'p> PendingTransition<'p> {
         PendingTransition {
             problem,
             friction,
-            resolution: Resolution::new(&problem.scene.column),
+            resolution: Resolution::new(&problem.scene.column, problem.scene.options.stick_angle),
             segment: at.segment,
             t: at.t,
             lookahead,
@@ -196,6 +196,7 @@ impl<'p> PendingTransition<'p> {
 
     /// The states with which the column moves on from here.
     fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<PerBlock<Joint>, RunEnd> {
+        let as_it_came = self.now.clone();
         let touch = self.joined();
         // A guard has just fallen to zero: the states before do not simply go on, even if they are admissible up to rounding. Only a slide that has come
         // to rest may begin anew.
@@ -209,6 +210,12 @@ impl<'p> PendingTransition<'p> {
         };
         let mut solution = match found.or_else(|| self.without_slow_slides()) {
             Some(solution) => solution,
+            None if self.lookahead == 0.0 && self.resolution.lowest_hop > 0.0 => {
+                // Blocks that part too slowly were held together, and no motion follows: they go on.
+                self.now = as_it_came;
+                self.resolution.lowest_hop = 0.0;
+                return self.accelerated(before, hint);
+            }
             None => self.jammed()?,
         };
         // Hops, bounces and slides lower than the resolution end at once.
@@ -295,7 +302,7 @@ impl<'p> PendingTransition<'p> {
     }
 
     pub fn touching(&self) -> Vec<Touch> {
-        touching(self.problem, self.resolution, &self.now)
+        touching(self.column(), self.resolution, &self.now)
     }
 
     /// What touches. Free interfaces that have met are joined; faces that stay on each other get one angle and one rate, to the last bit. Slide rates
@@ -409,7 +416,7 @@ impl<'p> PendingTransition<'p> {
     /// The states in which hops and slides that would come back before they exceed the resolution are stilled; `None` if none is new. All hops and
     /// slides of this instant are stilled together: one at a time, each would pass its momentum on to the others.
     fn too_low(&self, solution: &Solution, stilled: &mut Stilled) -> Option<PerBlock<Joint>> {
-        let least = self.problem.scene.options.stick_angle;
+        let least = self.resolution.lowest_hop;
         let returns = |rate: f64, change: f64, least: f64| {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
         };
