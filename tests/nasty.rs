@@ -273,9 +273,11 @@ fn a_graze_closes_on_one_side_only_and_both_sides_approach_each_other() {
             let off = 10f64.powi(-power);
             let [open, closed] = [1.0, -1.0].map(|side| run(&Graze::scene(verge + side * off, method, dynamics)));
             let impacts = |response: &Response| response.events.iter().filter(|e| e.kind == EventKind::Impact).count();
-            // At 1e-9 the dip is 2e-13 rad deep: below what the tolerance resolves.
-            assert!(impacts(&open) == 0 || power > 7, "{method:?}: closes {off} before the verge: {:?}", open.events);
-            assert!(impacts(&closed) > 0 || power > 7, "{method:?}: does not close {off} behind the verge {verge}");
+            // At 1e-9 the dip is 2e-13 rad deep: below what the tolerance resolves. Both sides may close there, or neither.
+            if power <= 7 {
+                assert_eq!(impacts(&open), 0, "{method:?}: closes {off} before the verge: {:?}", open.events);
+                assert!(impacts(&closed) > 0, "{method:?}: does not close {off} behind the verge {verge}");
+            }
             // Measured 2e-3, 2e-4, 2e-5: the rate at the touch falls with the root of the distance.
             let apart = distance(&end(&open), &end(&closed));
             assert!(apart < 0.12 * last || apart < 1e-6, "{method:?}: {apart} apart at {off}, {last} before");

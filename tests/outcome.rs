@@ -3,14 +3,14 @@
 #[path = "common/stress.rs"]
 mod scenes;
 
-use rocking::{Column, Friction, Method, Response, Scene, StopReason, Wanted, simulate};
+use rocking::{Column, Friction, Method, Response, Scene, SolveError, StopReason, Wanted, simulate};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-fn wanting(scene: &Scene, wanted: Wanted) -> Option<Response> {
+fn wanting(scene: &Scene, wanted: Wanted) -> Result<Response, SolveError> {
     let mut scene = scene.clone();
     scene.options.wanted = wanted;
-    simulate(&scene).ok()
+    simulate(&scene)
 }
 
 /// What a full run and those for the outcome say of the scene of a seed, if they disagree; and whether these ended early, standing and
@@ -32,9 +32,16 @@ fn compare_loosely(seed: u64) -> (Option<String>, [bool; 2]) {
 }
 
 fn compare_runs(seed: u64, scene: &Scene) -> (Option<String>, [bool; 2]) {
-    let [full, outcome, alone] =
-        [Wanted::Everything, Wanted::Outcome, Wanted::Overturns].map(|wanted| wanting(scene, wanted));
-    let (Some(full), Some(outcome), Some(alone)) = (full, outcome, alone) else { return (None, [false; 2]) };
+    let (full, outcome, alone) =
+        match [Wanted::Everything, Wanted::Outcome, Wanted::Overturns].map(|wanted| wanting(scene, wanted)) {
+            [Ok(full), Ok(outcome), Ok(alone)] => (full, outcome, alone),
+            // A run that ends for certain before it fails is no disagreement; one that fails where the full run does not is.
+            [Err(_), ..] => return (None, [false; 2]),
+            [Ok(_), outcome, alone] => {
+                let errors = [outcome, alone].map(|run| run.err().map(|error| error.to_string()));
+                return (Some(format!("seed {seed}: the full run ends, others do not: {errors:?}")), [false; 2]);
+            }
+        };
     let overturned = |response: &Response| {
         (response.status == StopReason::Overturned).then_some((response.overturned_block, response.t_final))
     };
@@ -229,9 +236,9 @@ fn columns_that_overturn_later_may_have_been_falling() {
         let angles: Vec<f64> = (0..blocks).map(|_| random.within(-1.0, 1.0)).collect();
         let rates: Vec<f64> = (0..blocks).map(|_| random.within(-0.5, 0.5)).collect();
         let mut scene = free_swing(blocks, &angles, &rates, None);
-        let Some(cut) = wanting(&scene, Wanted::Everything) else { continue };
+        let cut = wanting(&scene, Wanted::Everything).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         scene.options.t_end = 60.0;
-        let Some(whole) = wanting(&scene, Wanted::Overturns) else { continue };
+        let whole = wanting(&scene, Wanted::Overturns).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         if !cut.status.stands() {
             continue;
         }

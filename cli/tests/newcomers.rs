@@ -157,7 +157,7 @@ fn durations_of_friction_demand_are_those_of_the_rows() {
         assert!((above.share - above.time / 4.0).abs() < 1e-12);
     }
     let largest = demands.iter().fold((0.0, 0.0, 0.0), |most, own| if own.1 > most.1 { *own } else { most });
-    let Some(own) = Some(needs.friction_demand) else { return };
+    let own = needs.friction_demand;
     assert!((own.value - largest.1).abs() < 1e-3 * largest.1, "{own:?} {largest:?}");
     assert!((own.t - largest.0).abs() < 2e-3 && (own.theta - largest.2).abs() < 2e-3, "{own:?} {largest:?}");
 }

@@ -197,6 +197,7 @@ fn few_translations(random: &mut Random, blocks: usize) -> Vec<Joint> {
 #[test]
 fn sticking_states_have_the_accelerations_of_the_rows() {
     let mut random = Random(0x2545_F491_4F6C_DD1D);
+    let mut compared = 0;
     for trial in 0..2000 {
         let signs: Vec<i8> =
             (0..1 + trial % MAX_BLOCKS.min(3)).map(|_| random.within(-1.5, 1.5).round() as i8).collect();
@@ -217,7 +218,9 @@ fn sticking_states_have_the_accelerations_of_the_rows() {
         }
         let worst = compare(&mut random, &column, &configuration).expect("the build has the equations of the mode").0;
         assert!(worst < 1e-10, "{pattern}: {worst:e}");
+        compared += 1;
     }
+    assert!(compared > 1000, "{compared}");
 }
 
 /// Times the accelerations by programs and by rows, on eight combinations of states.
