@@ -1,4 +1,4 @@
-//! The column: rigid blocks on one axis, base first, validated, in SI units.
+//! The column: rigid blocks, base first, on one axis or displaced sideways by slides; validated, in SI units.
 
 use rocking_codegen::pattern::Interface;
 use serde::{Deserialize, Serialize};

@@ -160,11 +160,11 @@ pub use crate::numerics::ode::control::TIGHTEST_RTOL;
 /// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
 pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
 
-/// The same with friction, where gaps of angles at landings are rounding: hops, slides and landings would go on without end.
+/// Smallest `stick_angle` with friction `[rad]`: lower, gaps of angles at landings are rounding, and hops, slides and landings would go on without end.
 pub const SMALLEST_STICK_ANGLE_WITH_FRICTION: f64 = 1e-14;
 
-/// Loosest tolerances: beyond, a step may err by more than a block turns.
-const LOOSEST: f64 = 1e-2;
+/// Largest relative and absolute tolerance: beyond, a step may err by more than a block turns.
+const LARGEST_TOLERANCE: f64 = 1e-2;
 
 /// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
 const SHORTEST_RUN: f64 = 1e-9;
@@ -184,14 +184,14 @@ pub(crate) const LARGEST: f64 = 1e6;
 const LENGTHS: RangeInclusive<f64> = 1e-7..=1e6;
 
 /// Largest ratio of two lengths of a column. Corners are sums of lengths, rounded to 1e-16 of the largest: the smallest keeps eight digits.
-/// Larger, and the contact search cannot tell on which corner a resultant acts, and impacts follow each other for ever.
+/// If it were larger, the contact search could not tell on which corner a resultant acts, and impacts would follow each other for ever.
 const LENGTH_RATIO: f64 = 1e8;
 
 /// Masses of blocks `[kg]`, and per metre of thickness: products of masses with squares of lengths and rates stay in the range of doubles.
 const MASSES: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// Largest ratio of two masses of a column. The mass matrix sums them, rounded to 1e-16 of the largest: the lightest block keeps six digits.
-/// Larger, and the matrix is singular to rounding.
+/// If it were larger, the matrix would be singular to rounding.
 const MASS_RATIO: f64 = 1e10;
 
 /// Inertia of a block as a share of `m (b² + h²)`, dimensionless; one third for a rectangle, one with all mass in the corners. A share outside
@@ -468,7 +468,7 @@ impl Scene {
         }
         let loosest =
             [("solver.rtol", options.rtol), ("solver.atol", options.atol), ("solver.stick_angle", options.stick_angle)];
-        for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LOOSEST) {
+        for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LARGEST_TOLERANCE) {
             faults.note(key, format!("{value} is too loose for an answer"), "give at most 0.01");
         }
         let stacks = (0..self.column.len()).map(|block| self.column.stack(block).frequency_parameter());

@@ -55,9 +55,9 @@ pub struct Extreme {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Span {
-    /// `[s]`
+    /// Duration `[s]`.
     pub time: f64,
-    /// Share of [`Validity::until`], dimensionless.
+    /// Duration as a share of [`Validity::until`], dimensionless.
     pub share: f64,
 }
 
@@ -65,9 +65,9 @@ pub struct Span {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Exceedance {
-    /// Dimensionless.
+    /// The coefficient of friction, dimensionless.
     pub coefficient: f64,
-    /// `[s]`
+    /// Time in which the contact needs more `[s]`.
     pub time: f64,
     /// Share of [`Validity::until`], dimensionless.
     pub share: f64,

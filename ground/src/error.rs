@@ -135,7 +135,7 @@ fn microseconds(seconds: &f64) -> f64 {
 /// What to do with a record that has no columns: its samples fill row after row.
 const WRAPPED: &str = "; samples that fill row after row need one value per line, or the header of an AT2 file (`NPTS= 4000, DT= .01 SEC`)";
 
-/// The same for columns that have no names, but numbers.
+/// The remedy for columns that have no names, but numbers.
 fn wrapped(known: &str) -> &'static str {
     if known.starts_with("1 to ") { WRAPPED } else { "" }
 }

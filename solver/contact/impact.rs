@@ -1,13 +1,14 @@
-//! Impacts: the plastic law, restitution, and the rest rule (docs/book/model.md, section 5).
+//! Impacts: the plastic law, and the rest rule (docs/book/model.md, section 5).
 
 use super::decision::Decision;
-use super::search::ContactProblem;
+use super::restitution::rebounded;
+use super::search::{Candidate, ContactProblem, Solution};
 use super::state_at_event::{
     Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_choose, project, sizes,
 };
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
-use crate::mechanics::kinematics::{Factorised, relative};
+use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::{Any, PerBlock, Size, for_size, largest};
 use rocking_codegen::pattern::{Interface, Pattern};
 
@@ -57,11 +58,9 @@ fn impact_at<S: Size>(
     // Most often the interface that closes goes on to its other corner and the rest stays as it is.
     let mut guess = states.clone();
     closing.iter().for_each(|&interface| guess[interface] = states[interface].mirror());
-    let mut mechanism = at_event.mechanism(guess)?;
     // Interfaces without gap: closed, closing, or just opened by an earlier impact of the same instant.
     let free = at_event.size.list_of(|interface| at_event.gaps.is_rounding(interface));
     let least_parting = f64::MIN_POSITIVE.max(ROUNDING * largest(omega));
-    let mut plastic = project(&mechanism, &before);
     let projected = |candidate: &Mechanism<S>| project(candidate, &before);
     let problem = ContactProblem {
         at_event,
@@ -70,14 +69,15 @@ fn impact_at<S: Size>(
         answer: projected,
         given: |block| sizes(&before, block),
     };
-    let mut separation = problem.solve(&mut mechanism, &mut plastic)?;
+    let Solution { candidate: Candidate { mut mechanism, answer: plastic }, is_separation } =
+        problem.solve(problem.candidate(guess)?)?;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
-    let rebound = restitute(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
+    let rebound = rebounded(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
     let mut rates = rebound.unwrap_or(plastic.angular);
-    let mut forced = settle(at_event, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
+    let forced = settle(at_event, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
     let (mut energy_lost, mut impulses) = (0.0, None);
     if law.is_recorded {
         let posture = &mechanism.posture;
@@ -97,11 +97,11 @@ fn impact_at<S: Size>(
         answer: forces,
         given: |_| [ground.x.abs() + ground.gravity.abs(), 0.0],
     };
-    separation |= problem.solve(&mut mechanism, &mut forced)?;
+    let forced = problem.solve(Candidate { mechanism, answer: forced })?;
     Ok(Decision {
-        pattern: Pattern::from_states(&mechanism.states),
+        pattern: Pattern::from_states(&forced.candidate.mechanism.states),
         omega: PerBlock::from_slice(&rates),
-        separation,
+        separation: is_separation || forced.is_separation,
         energy_lost,
         impulses: impulses.map_or_else(PerBlock::new, |list| PerBlock::from_slice(&list)),
     })
@@ -140,84 +140,8 @@ pub(crate) fn stick(
     })
 }
 
-/// Rates after `ω' ← ω' + M'⁻¹ Cᵀ μ` with `C ω'` multiplied by `κ`. `None` if nothing rebounds, all factors are one, or the model leaves
-/// restitution out.
-fn restitute<S: Size>(
-    mechanism: &Mechanism<S>,
-    plastic: &Answer<S>,
-    striking: impl Iterator<Item = usize>,
-    free: &[bool],
-    kappa: &[f64],
-    energy_before: f64,
-) -> Option<S::List<f64>> {
-    let Mechanism { states, posture, mass } = mechanism;
-    let (size, width) = (posture.size, posture.size.links(posture.dof));
-    let (mut rebounding, mut count) = (size.list(0), 0);
-    for interface in striking.filter(|&i| states[i].is_open()) {
-        rebounding[count] = interface;
-        count += 1;
-    }
-    let rebounding = &rebounding[..count];
-    if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
-        return None;
-    }
-    // Row by row: the links' rates that a unit impulse at each rebounding interface causes.
-    let (mut spread, mut gain) = (size.table(width, 0.0), size.list(0.0));
-    let above = |interface: usize| posture.link[interface] - 1;
-    let below = |interface: usize| if interface > 0 { posture.link[interface - 1].checked_sub(1) } else { None };
-    let rate_below = |rates: &[f64], interface: usize| below(interface).map_or(0.0, |link| rates[link]);
-    let apart = |rates: &[f64], interface: usize| rates[above(interface)] - rate_below(rates, interface);
-    for (index, &interface) in rebounding.iter().enumerate() {
-        let row = &mut spread[index * width..][..width];
-        row[above(interface)] = 1.0;
-        if let Some(link) = below(interface) {
-            row[link] = -1.0;
-        }
-        mass.solve(row);
-        gain[index] = (kappa[interface] - 1.0) * relative(&plastic.angular, interface);
-    }
-    let row_of = |index: usize| &spread[index * width..][..width];
-    if count == 1 {
-        // Most often one interface strikes.
-        let compliance = apart(row_of(0), rebounding[0]);
-        if compliance.is_nan() || compliance <= 0.0 {
-            return None;
-        }
-        gain[0] /= compliance;
-    } else {
-        let mut compliance = size.table(count, 0.0);
-        for (row, &interface) in rebounding.iter().enumerate() {
-            for column in 0..count {
-                compliance[row * count + column] = apart(row_of(column), interface);
-            }
-        }
-        Factorised::<S>::new(compliance, count)?.solve(&mut gain);
-    }
-    let mut rates = posture.link_rates(&plastic.angular);
-    for (index, impulse) in gain[..count].iter().enumerate() {
-        rates.iter_mut().zip(row_of(index)).for_each(|(rate, share)| *rate += share * impulse);
-    }
-    // Sets the relative rates exactly, base first: with a factor of zero, the rounding of the sum would be a hop.
-    for interface in (0..states.len()).filter(|interface| rebounding.contains(interface)) {
-        let rebound_rate = kappa[interface] * relative(&plastic.angular, interface);
-        rates[above(interface)] = rate_below(&rates, interface) + rebound_rate;
-    }
-    let rebound = posture.angular(&rates);
-
-    let flips = |i: usize| {
-        let sign = f64::from(states[i].sign());
-        states[i].is_open() && sign * relative(&plastic.angular, i) > 0.0 && sign * relative(&rebound, i) < 0.0
-    };
-    let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
-    let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
-    (!chosen(free).any(flips) && !gains).then_some(rebound)
-}
-
-/// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (docs/book/model.md, section 5).
-pub(crate) const ENERGY_ROUNDING: f64 = 1e-12;
-
-/// A hop of less than this is below the resolution of angles: 64 roundings of a radian `[rad]`. Larger, and short hops that
-/// the model has are lost; smaller, and two interfaces that strike in turn go on until rounding decides their pattern.
+/// Height of the lowest hop that angles resolve: 64 roundings of a radian `[rad]`. If it were larger, short hops of the model would be lost; if it were
+/// smaller, two interfaces that strike in turn would go on until rounding decides their pattern.
 const UNRESOLVED_HOP: f64 = 64.0 * f64::EPSILON;
 
 /// Closes the interfaces at `φ = 0` whose next hop would stay below `stick_angle` (docs/book/model.md, section 5, rest): all of them at

@@ -17,13 +17,15 @@
 mod decision;
 mod impact;
 mod opening;
+mod restitution;
 mod search;
 mod state_at_event;
 
 pub use decision::Decision;
-pub(crate) use impact::{ENERGY_ROUNDING, stick};
+pub(crate) use impact::stick;
 pub use impact::{ImpactLaw, impact};
 pub use opening::open;
+pub(crate) use restitution::ENERGY_ROUNDING;
 pub use state_at_event::SingularMass;
 pub(crate) use state_at_event::{Gaps, critical_acceleration, rounding_acceleration};
 

@@ -40,22 +40,22 @@ fn open_at<S: Size>(
         guess[interface] = side;
         free[interface] = false;
     }
-    let mut mechanism = at_event.mechanism(guess)?;
-    let mut answer = accelerate(&mechanism, omega, ground);
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
     let given = |_: usize| [ground.x.abs() + ground.gravity.abs(), 0.0];
     let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
-    let mut separation = problem.solve(&mut mechanism, &mut answer)?;
-    let tolerance = critical_acceleration(at_event.column, &answer.angular, ground);
+    let mut solution = problem.solve(problem.candidate(guess)?)?;
+    let accelerations = &solution.candidate.answer.angular;
+    let tolerance = critical_acceleration(at_event.column, accelerations, ground);
     let is_driven_back =
-        |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(&answer.angular, *i) < -tolerance;
+        |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(accelerations, *i) < -tolerance;
     let driven_back: PerBlock<usize> =
         released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
         driven_back.iter().for_each(|&interface| free[interface] = true);
         let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
-        separation = problem.solve(&mut mechanism, &mut answer)?;
+        solution = problem.solve(solution.candidate)?;
     }
-    let (pattern, omega) = (Pattern::from_states(&mechanism.states), PerBlock::from_slice(omega));
+    let pattern = Pattern::from_states(&solution.candidate.mechanism.states);
+    let (omega, separation) = (PerBlock::from_slice(omega), solution.is_separation);
     Ok(Decision { pattern, omega, separation, energy_lost: 0.0, impulses: PerBlock::new() })
 }

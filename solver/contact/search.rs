@@ -71,34 +71,47 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
     }
 
     #[inline(always)]
-    fn is_admissible(&self, states: &[Interface], answer: &Answer<S>) -> bool {
-        chosen(self.free).all(|interface| self.required(states[interface], answer, interface).is_none())
+    fn is_admissible(&self, Candidate { mechanism, answer }: &Candidate<'a, S>) -> bool {
+        chosen(self.free).all(|interface| self.required(mechanism.states[interface], answer, interface).is_none())
     }
 
-    /// Replaces a guess and its answer by the admissible pattern and its answer. If none is found, takes the nearest pattern tried whose opened
-    /// interfaces part, and returns `true`: a separation.
+    /// Whether all interfaces that are open, and had the choice, part.
+    fn opened_part(&self, Candidate { mechanism, answer }: &Candidate<'a, S>) -> bool {
+        let mut opened = chosen(self.free).filter(|&interface| mechanism.states[interface].is_open());
+        opened.all(|interface| self.parts(mechanism.states[interface], answer, interface))
+    }
+
+    /// The candidate of a pattern.
+    pub(super) fn candidate(&self, states: S::List<Interface>) -> Result<Candidate<'a, S>, SingularMass> {
+        let mechanism = self.at_event.mechanism(states)?;
+        let answer = (self.answer)(&mechanism);
+        Ok(Candidate { mechanism, answer })
+    }
+
+    /// The admissible pattern, searched for from a guess. If none is found, the nearest pattern tried whose opened interfaces part.
     #[inline(always)]
-    pub(super) fn solve(&self, guess: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
-        if self.is_admissible(&guess.states, answer) { Ok(false) } else { self.search(guess, answer) }
+    pub(super) fn solve(&self, guess: Candidate<'a, S>) -> Result<Solution<'a, S>, SingularMass> {
+        if self.is_admissible(&guess) { Ok(Solution::admissible(guess)) } else { self.search(guess) }
     }
 
     /// [`ContactProblem::solve`] for a guess that is not admissible.
     #[inline(never)]
-    fn search(&self, mechanism: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
-        let (guess, choices) = (mechanism.states.clone(), chosen(self.free).count());
+    fn search(&self, guess: Candidate<'a, S>) -> Result<Solution<'a, S>, SingularMass> {
+        let (first, choices) = (guess.mechanism.states.clone(), chosen(self.free).count());
         let mut visited: Vec<S::List<Interface>> = Vec::new();
         let was_visited = |visited: &[S::List<Interface>], states: &[Interface]| visited.iter().any(|v| **v == *states);
+        let mut candidate = guess;
         loop {
-            let states = mechanism.states.clone();
-            let required =
-                chosen(self.free).filter_map(|i| self.required(states[i], answer, i).map(|state| (i, state)));
+            let states = candidate.mechanism.states.clone();
+            let required = chosen(self.free)
+                .filter_map(|i| self.required(states[i], &candidate.answer, i).map(|state| (i, state)));
             let mut next = states.clone();
             let mut lowest = None;
             for (interface, state) in required {
                 next[interface] = state;
                 lowest = lowest.or(Some((interface, state)));
             }
-            let Some((lowest, state)) = lowest else { return Ok(false) };
+            let Some((lowest, state)) = lowest else { return Ok(Solution::admissible(candidate)) };
             visited.push(states.clone());
             if was_visited(&visited, &next) {
                 // `next` was tried before: the search would go in circles. Only the lowest violated interface changes.
@@ -108,33 +121,19 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             if was_visited(&visited, &next) || visited.len() >= 8 * choices + 8 {
                 break;
             }
-            self.go_to(next, mechanism, answer)?;
+            candidate = self.candidate(next)?;
         }
         if choices <= MOST_CHOICES {
-            return self.search_all(mechanism, answer);
+            return self.search_all(first);
         }
         let mut nearest = Nearest::none();
-        for candidate in visited {
-            self.go_to(candidate, mechanism, answer)?;
-            let mut opened = chosen(self.free).filter(|&interface| mechanism.states[interface].is_open());
-            if opened.all(|interface| self.parts(mechanism.states[interface], answer, interface)) {
-                nearest.offer(mechanism, answer);
+        for states in visited {
+            let candidate = self.candidate(states)?;
+            if self.opened_part(&candidate) {
+                nearest.offer(candidate);
             }
         }
-        self.go_to(nearest.states.unwrap_or(guess), mechanism, answer)?;
-        Ok(true)
-    }
-
-    /// Replaces mechanism and answer by those of a pattern.
-    fn go_to(
-        &self,
-        states: S::List<Interface>,
-        mechanism: &mut Mechanism<'a, S>,
-        answer: &mut Answer<S>,
-    ) -> Result<(), SingularMass> {
-        *mechanism = self.at_event.mechanism(states)?;
-        *answer = (self.answer)(mechanism);
-        Ok(())
+        self.separation(nearest, first)
     }
 
     /// As [`ContactProblem::search`], over all patterns. The admissible pattern, if there is one, is the nearest of those whose opened interfaces part.
@@ -142,16 +141,14 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
     /// Each free interface gets a side, and is open to it or closed. To close an interface is a constraint more: with given sides, no pattern is nearer
     /// than the one in which all free interfaces are open. Sides are taken in order of this bound, until it exceeds the distance of the nearest pattern.
     #[inline(never)]
-    fn search_all(&self, mechanism: &mut Mechanism<'a, S>, answer: &mut Answer<S>) -> Result<bool, SingularMass> {
-        let guess = mechanism.states.clone();
+    fn search_all(&self, first: S::List<Interface>) -> Result<Solution<'a, S>, SingularMass> {
         let mut bounded = Vec::new();
         for choice in 0..1 << chosen(self.free).count() {
-            let mut sides = guess.clone();
+            let mut sides = first.clone();
             for (bit, interface) in chosen(self.free).enumerate() {
                 sides[interface] = if choice >> bit & 1 == 0 { Interface::Right } else { Interface::Left };
             }
-            self.go_to(sides.clone(), mechanism, answer)?;
-            bounded.push((distance(mechanism, answer), sides));
+            bounded.push((self.candidate(sides.clone())?.distance(), sides));
         }
         bounded.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let mut nearest = Nearest::none();
@@ -159,36 +156,30 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             if bound >= nearest.distance {
                 break;
             }
-            if self.solve_with_sides(&sides, mechanism, answer)? {
-                if self.is_admissible(&mechanism.states, answer) {
-                    return Ok(false);
-                }
-                nearest.offer(mechanism, answer);
+            let Some(candidate) = self.solve_with_sides(&sides)? else { continue };
+            if self.is_admissible(&candidate) {
+                return Ok(Solution::admissible(candidate));
             }
+            nearest.offer(candidate);
         }
-        self.go_to(nearest.states.unwrap_or(guess), mechanism, answer)?;
-        Ok(true)
+        self.separation(nearest, first)
     }
 
-    /// Finds the nearest pattern whose opened interfaces part, with each free interface closed or open to its side: a projection onto a convex cone. All
-    /// violated conditions change at once as long as they become fewer, otherwise the lowest one alone, which comes to an end (Murty 1974). Returns
-    /// `false` if rounding does not let it.
-    fn solve_with_sides(
-        &self,
-        sides: &S::List<Interface>,
-        mechanism: &mut Mechanism<'a, S>,
-        answer: &mut Answer<S>,
-    ) -> Result<bool, SingularMass> {
+    /// The nearest pattern whose opened interfaces part, with each free interface closed or open to its side: a projection onto a convex cone. All
+    /// violated conditions change at once as long as they become fewer, otherwise the lowest one alone, which comes to an end (Murty 1974). `None` if
+    /// rounding does not let it.
+    fn solve_with_sides(&self, sides: &S::List<Interface>) -> Result<Option<Candidate<'a, S>>, SingularMass> {
         let (mut states, mut fewest) = (sides.clone(), usize::MAX);
         for _ in 0..2 << chosen(self.free).count() {
-            self.go_to(states.clone(), mechanism, answer)?;
+            let candidate = self.candidate(states.clone())?;
+            let answer = &candidate.answer;
             let is_violated = |interface: &usize| match states[*interface] {
                 Interface::Closed => self.required(Interface::Closed, answer, *interface) == Some(sides[*interface]),
                 side => !self.parts(side, answer, *interface),
             };
             let violated: PerBlock<usize> = chosen(self.free).filter(is_violated).collect();
             if violated.is_empty() {
-                return Ok(true);
+                return Ok(Some(candidate));
             }
             let changing = if violated.len() < fewest { &violated[..] } else { &violated[..1] };
             fewest = fewest.min(violated.len());
@@ -196,33 +187,64 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
                 states[interface] = if states[interface].is_open() { Interface::Closed } else { sides[interface] };
             }
         }
-        Ok(false)
+        Ok(None)
+    }
+
+    /// The separation with the nearest candidate; that of the pattern with which the search began if there is none.
+    fn separation(&self, nearest: Nearest<'a, S>, first: S::List<Interface>) -> Result<Solution<'a, S>, SingularMass> {
+        let candidate = match nearest.candidate {
+            Some(candidate) => candidate,
+            None => self.candidate(first)?,
+        };
+        Ok(Solution { candidate, is_separation: true })
     }
 }
 
-/// The nearest of some patterns.
-struct Nearest<S: Size> {
-    states: Option<S::List<Interface>>,
+/// A pattern that is tried, and how it answers a contact problem.
+pub(super) struct Candidate<'a, S: Size> {
+    pub(super) mechanism: Mechanism<'a, S>,
+    pub(super) answer: Answer<S>,
+}
+
+impl<S: Size> Candidate<'_, S> {
+    /// Half the square of the distance between the answer and the motion without contacts, in the metric of the masses.
+    fn distance(&self) -> f64 {
+        self.mechanism.posture.kinetic_energy(&self.answer.change.linear, &self.answer.change.angular)
+    }
+}
+
+/// What a search has found.
+pub(super) struct Solution<'a, S: Size> {
+    pub(super) candidate: Candidate<'a, S>,
+    /// No pattern is admissible: blocks would part. The candidate is the nearest of those tried.
+    pub(super) is_separation: bool,
+}
+
+impl<'a, S: Size> Solution<'a, S> {
+    #[inline(always)]
+    fn admissible(candidate: Candidate<'a, S>) -> Solution<'a, S> {
+        Solution { candidate, is_separation: false }
+    }
+}
+
+/// The nearest of some candidates.
+struct Nearest<'a, S: Size> {
+    candidate: Option<Candidate<'a, S>>,
     distance: f64,
 }
 
-impl<S: Size> Nearest<S> {
-    fn none() -> Nearest<S> {
-        Nearest { states: None, distance: f64::INFINITY }
+impl<'a, S: Size> Nearest<'a, S> {
+    fn none() -> Nearest<'a, S> {
+        Nearest { candidate: None, distance: f64::INFINITY }
     }
 
-    /// Takes a pattern if it is nearer.
-    fn offer(&mut self, mechanism: &Mechanism<S>, answer: &Answer<S>) {
-        let distance = distance(mechanism, answer);
+    /// Takes a candidate if it is nearer.
+    fn offer(&mut self, candidate: Candidate<'a, S>) {
+        let distance = candidate.distance();
         if distance < self.distance {
-            *self = Nearest { states: Some(mechanism.states.clone()), distance };
+            *self = Nearest { candidate: Some(candidate), distance };
         }
     }
-}
-
-/// Half the square of the distance between the answer and the motion without contacts, in the metric of the masses.
-fn distance<S: Size>(mechanism: &Mechanism<S>, answer: &Answer<S>) -> f64 {
-    mechanism.posture.kinetic_energy(&answer.change.linear, &answer.change.angular)
 }
 
 #[cfg(test)]
@@ -258,29 +280,20 @@ mod tests {
         problem: &ContactProblem<'i, 'a, Any, F, T>,
         states: &PerBlock<Interface>,
     ) -> usize {
-        let answered = |candidate: &PerBlock<Interface>| {
-            let mechanism = problem.at_event.mechanism(candidate.clone()).expect("solvable");
-            let answer = (problem.answer)(&mechanism);
-            (mechanism, answer)
-        };
-        let (mut admissible, mut nearest) = (0, (f64::INFINITY, states.clone()));
-        for candidate in all::<Any>(states, problem.free) {
-            let (mechanism, answer) = answered(&candidate);
-            admissible += usize::from(problem.is_admissible(&candidate, &answer));
-            let mut opened = chosen(problem.free).filter(|i| candidate[*i].is_open());
-            if opened.all(|i| problem.parts(candidate[i], &answer, i)) && distance(&mechanism, &answer) < nearest.0 {
-                nearest = (distance(&mechanism, &answer), candidate);
+        let candidate = |states: &PerBlock<Interface>| problem.candidate(states.clone()).expect("solvable");
+        let (mut admissible, mut nearest) = (0, Nearest::none());
+        for states in all::<Any>(states, problem.free) {
+            let candidate = candidate(&states);
+            admissible += usize::from(problem.is_admissible(&candidate));
+            if problem.opened_part(&candidate) {
+                nearest.offer(candidate);
             }
         }
-        let (_, best) = answered(&nearest.1);
+        let best = nearest.candidate.unwrap_or_else(|| candidate(states)).answer;
         let scale = 1.0 + largest(&best.angular);
-        for is_over_all in [false, true] {
-            let (mut mechanism, mut found) = answered(states);
-            let separation = match is_over_all {
-                false => problem.solve(&mut mechanism, &mut found),
-                true => problem.search_all(&mut mechanism, &mut found),
-            };
-            assert_eq!(separation.expect("solvable"), admissible == 0);
+        for solution in [problem.solve(candidate(states)), problem.search_all(states.clone())] {
+            let Solution { candidate: Candidate { answer: found, .. }, is_separation } = solution.expect("solvable");
+            assert_eq!(is_separation, admissible == 0);
             for (a, b) in found.angular.iter().zip(&*best.angular) {
                 // Both are solves of systems with a condition number of some thousands.
                 assert!((a - b).abs() < 1e-10 * scale, "{:?} and {:?}", found.angular, best.angular);

@@ -12,7 +12,7 @@ use rocking_codegen::pattern::{Interface, Pattern};
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Gaps `[rad]` and relative rates `[rad/s]` up to this count as zero in any case: columns in free fall come to angles of 1e-60, whose
-/// roundings are no motion. Larger, and the rocking of very slender columns would be cut off.
+/// roundings are no motion. If it were larger, the rocking of very slender columns would be cut off.
 const NOTHING: f64 = 1e-40;
 
 /// Acceleration by which a released interface may be driven back and still open, as a share of the largest one, at least that of a falling

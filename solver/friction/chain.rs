@@ -17,12 +17,12 @@ use crate::mechanics::kinematics::{Vec2, lower};
 use crate::numerics::per_block::PerBlock;
 use std::ops::Range;
 
-/// Velocities, or accelerations, of the blocks.
+/// Velocities of the blocks; in an answer to a question about accelerations, their accelerations, with units per second more.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlockMotion {
-    /// Of the centroids `[m/s]`.
+    /// Velocities of the centroids `[m/s]`.
     pub linear: PerBlock<Vec2>,
-    /// Angular `[rad/s]`.
+    /// Angular velocities `[rad/s]`.
     pub angular: PerBlock<f64>,
 }
 

@@ -73,13 +73,13 @@ pub fn ends(column: &Column, interface: usize, slide: f64) -> [f64; 2] {
     }
 }
 
-/// Half of the length of a closed contact `[m]`.
+/// Half of the length of the overlap of the two faces of a closed interface `[m]`.
 pub fn half_length(column: &Column, interface: usize, slide: f64) -> f64 {
     let [left, right] = ends(column, interface, slide);
     0.5 * (right - left)
 }
 
-/// Centre of a closed contact, from the middle of the lower face `[m]`.
+/// Middle of the overlap of the two faces of a closed interface, from the middle of the lower face `[m]`.
 pub fn centre(column: &Column, interface: usize, slide: f64) -> f64 {
     let [left, right] = ends(column, interface, slide);
     0.5 * (left + right)

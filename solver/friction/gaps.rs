@@ -164,7 +164,8 @@ pub fn overlap_of_blocks(column: &Column, pose: &Pose, interface: usize, flush: 
     Corner::all(interface).map(depth).fold(0.0, f64::max)
 }
 
-/// How far the faces of a free interface reach over each other, along the lower one, as if they were parallel `[m]`.
+/// Length over which the faces of a free interface overlap, along the lower face, as if they were parallel `[m]`; negative where they are beside each
+/// other, infinite over the ground.
 pub fn overlap(column: &Column, pose: &Pose, interface: usize) -> f64 {
     let blocks = column.blocks();
     let lower = column.lower_half_width(interface);

@@ -221,8 +221,8 @@ impl Configuration {
     }
 }
 
-/// Two corners coincide if their distance is at most this share of the sum of the half-widths: the rounding of equal widths. Larger, and drums that
-/// are nearly equal would count as equal ones, whose coinciding corners carry a force in the sum of two friction cones.
+/// Two corners coincide if their distance is at most this share of the sum of the half-widths: the rounding of equal widths. If it were larger,
+/// drums that are nearly equal would count as equal ones, whose coinciding corners carry a force in the sum of two friction cones.
 const COINCIDENCE: f64 = 1e-13;
 
 /// The face that carries a corner of this side, at a slide `[m]`.

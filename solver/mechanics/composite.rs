@@ -71,7 +71,7 @@ impl<'a> Links<'a> {
         Links { column, blocks, pivots }
     }
 
-    /// Geometry that the linkage of `dof` links reads.
+    /// Geometry of all links, from which the scene constants of the linkage follow.
     pub fn whole(&self) -> Geometry<f64> {
         self.geometry(self.blocks.iter().cloned(), self.pivots.clone())
     }

@@ -19,7 +19,8 @@ pub(crate) struct Harmonics {
 const LONGEST_WAY: f64 = 0.6;
 
 /// A margin is critical up to this share of its terms, where rounding of the terms decides: in very slender columns, and in any column about
-/// to open. Lower, and openings are found in the wrong place; higher, and more is searched for that could be computed.
+/// to open. If the share were smaller, openings would be found in the wrong place; if it were larger, more would be searched for that could be
+/// computed.
 const SHARE_OF_ROUNDING: f64 = 1e-9;
 
 impl Harmonics {
@@ -33,7 +34,7 @@ impl Harmonics {
         }
     }
 
-    /// The same margins from a start that lies further on, by an angle with this sine and cosine.
+    /// These margins with a start that lies further on, by an angle with this sine and cosine.
     pub fn from(&self, (sin, cos): (f64, f64)) -> Harmonics {
         let turned = |[of_cos, of_sin]: [f64x2; 2], sin: f64, cos: f64| {
             let (sin, cos) = (f64x2::splat(sin), f64x2::splat(cos));
@@ -48,8 +49,8 @@ impl Harmonics {
         self.mean + self.first[0] + self.second[0]
     }
 
-    /// Lower bounds of both margins while the free angle changes from the start by up to `way` `[rad]`, positive or negative. They follow from
-    /// the margins' values and slopes at the start and from a bound of their curvature.
+    /// Lower bounds of both margins while the free angle goes from the start by the signed angle `way` `[rad]`. They follow from the margins'
+    /// values and slopes at the start and from a bound of their curvature.
     fn least(&self, way: f64) -> f64x2 {
         let size = |[of_cos, of_sin]: [f64x2; 2]| of_cos.abs() + of_sin.abs();
         let slope = self.first[1] + f64x2::splat(2.0) * self.second[1];

@@ -220,8 +220,8 @@ impl Corners {
     }
 }
 
-/// Order from which on the last three terms bound all that follow. Lower, and a term whose parts cancel by chance is taken for a series that
-/// has settled; higher, and terms are computed for nothing.
+/// Order from which on the last three terms bound all that follow. If it were lower, a term whose parts cancel by chance would be taken
+/// for a series that has settled; if higher, terms would be computed for nothing.
 const FIRST_BOUNDING_ORDER: usize = 5;
 
 /// Bound of the sum of all later terms, relative to the sum of the last three. The value 2 holds if each term is at most 0.87 of the term before;

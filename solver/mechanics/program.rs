@@ -62,9 +62,9 @@ pub trait StepProgram<S: Scalar> {
     type State: AsRef<[S]> + AsMut<[S]> + Clone;
     /// Scene constants, in the order of the program's doc.
     type Constants: for<'a> TryFrom<&'a [S]> + Clone;
-    /// Mass matrix and energies of the same modes.
+    /// Program of the mass matrix and energies for modes with this number of degrees of freedom.
     type Energies: EnergyProgram<S, Vector = Self::Vector>;
-    /// Weights of the same equations, for Taylor coefficients.
+    /// Program of the equations in the form that Taylor coefficients need.
     type Series: SeriesProgram<S, Vector = Self::Vector>;
 
     /// A vector filled with one value.

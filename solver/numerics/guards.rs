@@ -81,8 +81,8 @@ const LAST_WEIGHT: f64 = 1.0 / 2048.0;
 const PLACES_BETWEEN: usize = 8;
 
 /// If the values of a guard at start, middle and end spread by less than this share of the smallest of them, it is taken to have no zero in between: it
-/// would have to fall more than twice as far and rise again within half a step. Larger, and more dips go unseen; smaller,
-/// and most steps are sampled for nothing.
+/// would have to fall more than twice as far and rise again within half a step. If it were larger, more dips would go
+/// unseen; if smaller, most steps would be sampled for nothing.
 const LARGEST_SPREAD: f64 = 0.5;
 
 /// First `s` in `(0, limit]` at which `guard` is not above zero; `start` is its value at zero. Zero if neither `start` nor the first sample

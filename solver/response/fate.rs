@@ -48,6 +48,21 @@ impl Fate {
         }
     }
 
+    /// The fate of this name, as [`Fate::name`] gives it.
+    pub fn named(name: &str) -> Option<Fate> {
+        Fate::ALL.into_iter().find(|fate| fate.name() == name)
+    }
+
+    /// Whether the column is lost: overturned, or collapsed.
+    pub fn is_lost(self) -> bool {
+        matches!(self, Fate::Overturns | Fate::Collapses)
+    }
+
+    /// Whether the column is known to stand or to be lost: a motion followed from the laws of contact to its end, and the verdict is determined.
+    pub fn is_decided(self) -> bool {
+        !matches!(self, Fate::Undetermined | Fate::NotDetermined)
+    }
+
     /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
     pub fn name(self) -> &'static str {
         match self {

@@ -46,11 +46,11 @@ pub struct SlidingReport {
 #[serde(default)]
 #[non_exhaustive]
 pub struct ContactTimes {
-    /// `[s]`
+    /// Time in contact without sliding `[s]`.
     pub sticking: f64,
-    /// `[s]`
+    /// Time in contact while sliding `[s]`.
     pub sliding: f64,
-    /// `[s]`
+    /// Time without contact `[s]`.
     pub free: f64,
 }
 

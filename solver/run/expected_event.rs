@@ -1,7 +1,8 @@
 //! When the next event is to be expected, from the second derivatives at the start of a step. A step far beyond it would take orders of a series that
 //! only its far end needs. The step's guards decide where the event is.
 
-/// Ratio of a step to the time of the expected event. Smaller, and the event falls into the next step more often; larger, and the step takes more orders.
+/// Ratio of a step to the time of the expected event. If it were smaller, the event would fall into the next step more
+/// often; if larger, the step would take more orders.
 const STEP_OVER_EXPECTED_TIME: f64 = 1.25;
 
 /// Least share of the suggested step to which an expected event shortens a step. Zero, and a step could be too short to advance the time.

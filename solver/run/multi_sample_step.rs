@@ -3,7 +3,7 @@
 //!
 //! The stretch ends at the landing, after [`MOST_INTERVALS`] intervals, or before an interval that is left to steps of the method: the block may
 //! overturn or its gap graze zero, or the ground acceleration jumps or is not linear in time. To record forces, steps of the method pass the same
-//! samples once more. Their end is dropped, so that what is recorded does not affect the run.
+//! samples once more. The state at the end of these steps is not used, so that what is recorded does not affect the run.
 
 use super::phase::{Gap, Phase};
 use super::problem::Problem;

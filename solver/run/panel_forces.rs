@@ -25,7 +25,7 @@ impl PanelForces {
         PanelForces { tangential, normal, demand, largest_demand, least_normal }
     }
 
-    /// The same within a part of the panel, between two shares of it.
+    /// Forces within a part of the panel, between two shares of its length.
     pub fn part(&self, [from, until]: [f64; 2]) -> PanelForces {
         let force = |share: f64| ContactForce {
             normal: parabola(self.normal, share),

@@ -27,22 +27,22 @@ pub(crate) struct Recorder {
     sample_segment: usize,
     /// Pattern of the present motion.
     pattern: Pattern,
-    /// Per block `[rad]`.
+    /// Largest `|θ|` so far, per block `[rad]`.
     peak_theta: PerBlock<f64>,
     /// Largest sizes of gaps per interface, where they are recorded `[rad]`.
     largest_gaps: PerBlock<f64>,
-    /// Per interface.
+    /// Largest friction demand `|T|/N` so far, per interface, dimensionless.
     friction_demand: PerBlock<f64>,
-    /// Friction demand of impulses at impacts, per interface.
+    /// Largest friction demand of impulses at impacts so far, per interface, dimensionless.
     impulse_friction_demand: PerBlock<f64>,
-    /// Per interface `[N]`.
+    /// Smallest normal force so far, per interface `[N]`.
     min_normal_force: PerBlock<f64>,
     /// Friction demands and normal forces up to the point of no return, with times; `None` unless forces are recorded.
     needs: Option<Needs>,
     events: Vec<Event>,
     impacts: usize,
     separations: Vec<Separation>,
-    /// When the present motion was entered `[s]`.
+    /// Time at which the present motion was entered `[s]`.
     entered_at: f64,
     /// Time per motion, by its place among the modes `[s]`.
     times: Vec<f64>,

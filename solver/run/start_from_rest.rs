@@ -261,12 +261,12 @@ fn arm(column: &Column, interface: usize, side: Interface) -> [f64; 2] {
 
 /// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
 pub(super) struct GroundWithBounds {
-    /// `[s]`
+    /// The instant `[s]`.
     pub t: f64,
     pub ground: Ground,
-    /// `[m/s³]`
+    /// Rates of the horizontal and vertical acceleration `[m/s³]`.
     pub rates: [f64; 2],
-    /// `[m/s⁴]`
+    /// Bounds of the second derivatives of both `[m/s⁴]`.
     bends: [f64; 2],
     /// Acceleration of gravity without the ground's motion `[m/s²]`.
     gravity: f64,

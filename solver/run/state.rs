@@ -65,8 +65,8 @@ pub(crate) struct Hold {
     span: f64,
 }
 
-/// Shortest hold `[s]`; the hold doubles while separations follow each other. Shorter, and a column in flight costs thousands of contact
-/// problems; longer, and contact is regained late.
+/// Shortest hold `[s]`; the hold doubles while separations follow each other. If it were shorter, a column in flight would cost
+/// thousands of contact problems; if longer, contact would be regained late.
 const SHORTEST_HOLD: f64 = 1e-6;
 
 /// Longest hold `[s]`.

@@ -113,9 +113,9 @@ struct Summary<'a> {
     scene: &'a SceneText,
     #[serde(flatten)]
     response: &'a Response,
-    /// `[s]`
+    /// Time of overturning, if the column overturns `[s]`.
     overturned_at: Option<f64>,
-    /// As in the table of a sweep.
+    /// Name of the [`Fate`], as in the table of a sweep.
     outcome: &'a str,
     /// Largest `|θ|` of each block over the slenderness of the stack that begins with it, as in the table of a sweep, dimensionless.
     peaks: Vec<f64>,

@@ -4,7 +4,6 @@ use super::table::Table;
 
 /// What a TOML file describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum FileKind {
     /// A scene: `rocking run`.
     Scene,

@@ -20,7 +20,7 @@ fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Records {
-    /// A record read before.
+    /// The record of this file and these options, if it is kept.
     pub fn get(&self, key: &(PathBuf, String)) -> Option<Record> {
         locked(&self.records).get(key).cloned()
     }
@@ -38,12 +38,12 @@ impl Records {
         locked(&self.records).insert(key, record.clone());
     }
 
-    /// The records of a folder listed before.
+    /// The list of a folder's records, if it is kept.
     pub fn folder(&self, folder: &Path) -> Option<Listed> {
         locked(&self.folders).get(folder).cloned()
     }
 
-    /// Keeps the records of a folder.
+    /// Keeps the list of a folder's records: their names and files.
     pub fn keep_folder(&self, folder: PathBuf, listed: &Listed) {
         locked(&self.folders).insert(folder, listed.clone());
     }

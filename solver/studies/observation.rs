@@ -25,12 +25,12 @@ pub struct Observation {
 impl Observation {
     /// Whether the column is lost: overturned, or collapsed.
     pub fn is_lost(&self) -> bool {
-        matches!(self.fate, Some(Fate::Overturns | Fate::Collapses))
+        self.fate.is_some_and(Fate::is_lost)
     }
 
     /// Whether the run has an answer: it did not fail, a motion followed from the laws of contact to its end, and its verdict is determined.
     pub fn is_decided(&self) -> bool {
-        !matches!(self.fate, None | Some(Fate::Undetermined | Fate::NotDetermined))
+        self.fate.is_some_and(Fate::is_decided)
     }
 
     /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` for an undecided run, and where the peaks are not known.
@@ -85,10 +85,9 @@ impl TryFrom<Cells<'_>> for Observation {
 
     fn try_from(cells: Cells<'_>) -> Result<Observation, WrongCell> {
         let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
-        let named = |name: &str| Fate::ALL.into_iter().find(|fate| fate.name() == name);
         let fate = match outcome {
             None | Some(ERROR) => None,
-            Some(name) => Some(named(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
+            Some(name) => Some(Fate::named(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
         };
         let is_open = match trust {
             None | Some("" | DETERMINED) => false,

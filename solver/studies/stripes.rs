@@ -25,8 +25,7 @@ pub struct Stripe {
 impl Stripe {
     /// Runs without an answer: failed, undetermined, or not determined.
     pub fn undecided(&self) -> usize {
-        let is_open = |fate: Fate| matches!(fate, Fate::Undetermined | Fate::NotDetermined);
-        let undetermined = Fate::ALL.iter().zip(self.fates).filter(|(fate, _)| is_open(**fate));
+        let undetermined = Fate::ALL.iter().zip(self.fates).filter(|(fate, _)| !fate.is_decided());
         self.errors + undetermined.map(|(_, count)| count).sum::<usize>()
     }
 }

@@ -156,9 +156,9 @@ impl Outcome {
     /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` if peaks are not asked for, if no motion follows from the laws of
     /// contact, or if the verdict is not determined.
     pub fn demand(&self) -> Option<f64> {
-        let is_open = matches!(self.fate, Fate::Undetermined | Fate::NotDetermined) || self.determined == Some(false);
+        let is_open = !self.fate.is_decided() || self.determined == Some(false);
         let largest = self.peaks.iter().copied().reduce(f64::max).filter(|_| !is_open)?;
-        Some(if matches!(self.fate, Fate::Overturns | Fate::Collapses) { f64::INFINITY } else { largest })
+        Some(if self.fate.is_lost() { f64::INFINITY } else { largest })
     }
 }
 

@@ -1,4 +1,4 @@
-//! What becomes of a column, and which block is lost.
+//! The verdict of a run, as far as one asks whether the column stands.
 
 use crate::response::StopReason;
 use serde::{Deserialize, Serialize};

@@ -15,6 +15,6 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     match FileKind::of(&text) {
         FileKind::Sweep => sweep::check(path, as_json),
         FileKind::Study => study::check(path, as_json),
-        _ => scene::check(path, &text, as_json),
+        FileKind::Scene => scene::check(path, &text, as_json),
     }
 }

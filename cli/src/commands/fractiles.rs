@@ -46,16 +46,13 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     for (index, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, out))?;
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::ALL.into_iter().find(|fate| fate.name() == cell(outcome));
-        let is_open =
-            cell(trust) == NOT_DETERMINED || matches!(fate, None | Some(Fate::Undetermined | Fate::NotDetermined));
-        let is_lost = matches!(fate, Some(Fate::Overturns | Fate::Collapses));
+        let fate = Fate::named(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
         let peaks = (0..blocks).filter_map(|block| cell(first_peak.map(|first| first + block)).parse::<f64>().ok());
         let group = &mut groups[group(sweep, index)];
         group.first = if group.runs == 0 { index } else { group.first };
         group.runs += 1;
-        if !is_open {
-            group.demands.push(if is_lost { f64::INFINITY } else { peaks.fold(0.0, f64::max) });
+        if let Some(fate) = fate {
+            group.demands.push(if fate.is_lost() { f64::INFINITY } else { peaks.fold(0.0, f64::max) });
         }
     }
     let path = table(out);

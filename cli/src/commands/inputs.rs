@@ -6,7 +6,7 @@ use rocking::ground::LARGEST_FILE;
 use std::io::Read as _;
 use std::path::Path;
 
-/// The name of standard input in place of a file.
+/// Path that stands for standard input.
 const STANDARD_INPUT: &str = "-";
 
 /// The text of a scene or a sweep; of standard input where the path is `-`.

@@ -47,13 +47,12 @@ pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     for (place, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, out))?;
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::ALL.into_iter().find(|fate| fate.name() == cell(outcome));
+        let fate = Fate::named(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
         let Some(count) = counts.get_mut(place / samples) else { break };
         match fate {
-            None | Some(Fate::Undetermined) => undecided[place / samples] += 1,
-            _ if cell(trust) == NOT_DETERMINED => undecided[place / samples] += 1,
+            None => undecided[place / samples] += 1,
             Some(fate) => {
-                count[0] += usize::from(matches!(fate, Fate::Overturns | Fate::Collapses));
+                count[0] += usize::from(fate.is_lost());
                 count[1] += 1;
             }
         }

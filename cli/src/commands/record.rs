@@ -170,7 +170,7 @@ pub struct Description {
     pub declared: Option<usize>,
     /// Peak that the header states `[m/s²]`.
     pub stated_peak: Option<f64>,
-    /// `[s]`
+    /// Sampling interval `[s]`.
     pub dt: f64,
     pub samples: usize,
     /// Time from the first sample to the last `[s]`; in JSON it stands among the measures.

@@ -28,7 +28,7 @@ pub struct Sweep {
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Sampling {
-    /// samples of all distributed axes together
+    /// number of samples; each gives a value to every distributed axis
     #[schemars(range(min = 1))]
     pub samples: u32,
     /// how samples are drawn

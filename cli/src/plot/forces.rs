@@ -21,7 +21,7 @@ const LARGEST_DEMAND: f64 = 2.0;
 const LARGEST_NORMAL: f64 = 5.0;
 
 /// Normal force of a contact, as a share of the weight above it, up to which it has no friction demand, as in the summary of a run: where blocks
-/// part, both forces are rounding. Larger, and contacts under little load are left out.
+/// part, both forces are rounding. If the share were larger, contacts under little load would be left out.
 const LIGHT_SHARE: f64 = 1e-9;
 
 /// Lines of the scene's friction coefficients.

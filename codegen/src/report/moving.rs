@@ -329,7 +329,7 @@ fn program(record: &MovingRecord, out: &mut String) {
     display(out, &statements);
 }
 
-/// The direction of a translation, and that of its test, as LaTeX.
+/// Direction of a translation, and the virtual displacement on which its equation is formed, as LaTeX.
 struct Direction {
     along: String,
     test: String,

@@ -21,29 +21,30 @@ impl Series {
         &self.links[self.levels[block].link].theta
     }
 
-    /// Taylor coefficient of order `order` of the force at an interface `[N/s^order]`, in the axes of the upper block if `is_upper`, else the lower.
+    /// Taylor coefficient of order `order` of the force at an interface, `[tangential, normal]` in the axes of the upper block if `is_upper`, else of
+    /// the lower one `[N/s^order]`.
     pub fn force(&self, interface: usize, is_upper: bool, order: usize) -> InAxes {
         let level = &self.levels[interface];
         if is_upper { level.in_upper[order] } else { level.in_lower[order] }.to_array()
     }
 
-    /// Coefficient, of an order, of the force at an interface, in the axes of the face that carries the contact `[N]`.
+    /// Taylor coefficient of the force at an interface, in the axes of the face that carries the contact `[N/s^order]`.
     pub fn contact_force(&self, interface: usize, order: usize) -> InAxes {
         let is_upper = matches!(self.levels[interface].joint, Joint::Corner(_, Face::Upper, _));
         self.force(interface, is_upper, order)
     }
 
-    /// Coefficient, of an order, of the moment at a closed interface about the middle of the upper block's base, clockwise `[N m]`.
+    /// Taylor coefficient of the moment at a closed interface about the middle of the upper block's base, clockwise `[N m/s^order]`.
     pub fn moment(&self, interface: usize, order: usize) -> f64 {
         self.levels[interface].moment[order]
     }
 
-    /// Coefficient, of an order, of slide times normal force at a closed interface `[N m]`.
+    /// Taylor coefficient of slide times normal force at a closed interface `[N m/s^order]`.
     pub fn lever(&self, interface: usize, order: usize) -> f64 {
         let level = &self.levels[interface];
         match level.translation {
             Some(_) => level.lever[order],
-            None => level.on_lower * level.across(false, order),
+            None => level.on_lower * level.normal_force(false, order),
         }
     }
 

@@ -94,7 +94,7 @@ pub(super) struct Known {
     pub(super) lever: f64,
 }
 
-/// `i v`
+/// `i v`: the vector turned by a right angle, from along a face to across it.
 pub(super) fn across(v: f64x2) -> f64x2 {
     turned(v)
 }
@@ -180,8 +180,8 @@ impl Level {
         }
     }
 
-    /// Normal force: coefficient of an order, across the upper or the lower face.
-    pub(super) fn across(&self, is_upper: bool, order: usize) -> f64 {
+    /// Taylor coefficient of the normal force, across the upper face if `is_upper`, else the lower `[N/s^order]`.
+    pub(super) fn normal_force(&self, is_upper: bool, order: usize) -> f64 {
         let [_, normal] = if is_upper { self.in_upper[order] } else { self.in_lower[order] }.to_array();
         normal
     }
@@ -213,7 +213,7 @@ impl Level {
             sum = f64x2::splat(slide[j]) * direction[order + 2 - j] + sum;
         }
         self.known.translation = sum * f64x2::splat(((order + 1) * (order + 2)) as f64);
-        self.known.lever = (1..=order).map(|j| slide[j] * self.across(*is_upper, order - j)).sum();
+        self.known.lever = (1..=order).map(|j| slide[j] * self.normal_force(*is_upper, order - j)).sum();
     }
 }
 

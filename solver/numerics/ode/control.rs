@@ -28,12 +28,12 @@ pub struct StepControl {
     exponent: f64,
 }
 
-/// Steps aim below the tolerance by this factor. Larger: more steps are rejected. Smaller: more steps are needed.
+/// Factor by which steps aim below the tolerance, dimensionless. If it were larger, more steps would be rejected; if smaller, more would be needed.
 const SAFETY: f64 = 0.9;
-/// A step shrinks by no more than this: an error estimate far above one says little.
-const SHRINK: f64 = 0.2;
-/// A step grows by no more than this: an error estimate near zero may be a coincidence.
-const GROW: f64 = 6.0;
+/// Least ratio of a step to the one before, dimensionless: an error estimate far above one says little.
+const LEAST_RATIO: f64 = 0.2;
+/// Largest ratio of a step to the one before, dimensionless: an error estimate near zero may be a coincidence.
+const LARGEST_RATIO: f64 = 6.0;
 
 impl StepControl {
     /// A controller for an error estimate of this order.
@@ -44,10 +44,10 @@ impl StepControl {
     /// The factor for the next step after one with this error.
     pub fn factor(self, error: f64) -> f64 {
         if error == 0.0 {
-            return GROW;
+            return LARGEST_RATIO;
         }
         // Of libm, since powers differ between C libraries and step sizes decide the last digits of a run.
-        (SAFETY * libm::pow(error, self.exponent)).clamp(SHRINK, GROW)
+        (SAFETY * libm::pow(error, self.exponent)).clamp(LEAST_RATIO, LARGEST_RATIO)
     }
 
     /// A first step: short against the time in which the state changes by its own magnitude, and against the step that the tolerance allows;

@@ -165,7 +165,7 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
         }
     }
 
-    /// Slope at the end of the last attempt.
+    /// Slope at the end of the last attempt; valid after [`Explicit::accept`].
     pub fn end_slope(&self) -> &V {
         &self.k[M::END_SLOPE]
     }

@@ -40,7 +40,7 @@ impl Track {
         }
     }
 
-    /// `constant + sign` times the function.
+    /// `constant + sign · f`, with `f` this function.
     pub fn shifted(self, sign: f64, constant: f64) -> Track {
         match self {
             Track::Powers(powers) => Track::Powers(powers.shifted(sign, constant)),

@@ -75,8 +75,7 @@ pub(super) fn run(
         StickingSpan::Throughout(response) => return Ok(*response),
         StickingSpan::Nowhere => start(problem, friction, &at),
         StickingSpan::Part(part) => {
-            let StickingPart { response, column, until, ended } = *part;
-            recorder.append(&column, [&at, &until], response);
+            let (until, ended) = end_of_part(&mut recorder, &at, *part);
             at = until;
             transition(problem, friction, &at, ended, 0.0)
         }
@@ -92,11 +91,7 @@ pub(super) fn run(
             return Ok(recorder.finish(at, stop, mover.work));
         }
         let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
-            Some(part) => {
-                let StickingPart { response, column, until, ended } = *part;
-                recorder.append(&column, [&at, &until], response);
-                (until, ended)
-            }
+            Some(part) => end_of_part(&mut recorder, &at, *part),
             None => {
                 let (mut until, ended) = mover.pass(&at, &mut recorder, progress)?;
                 recorder.leave(&at, &until);
@@ -117,6 +112,16 @@ pub(super) fn run(
         next = transition(problem, friction, &until, ended, lookahead);
         at = until;
     }
+}
+
+/// Records a part in which everything sticks, from its state at the start; returns its end.
+fn end_of_part(
+    recorder: &mut SlidingRecorder,
+    from: &SlidingState,
+    StickingPart { response, column, until, ended }: StickingPart,
+) -> (SlidingState, SlidingEnded) {
+    recorder.append(&column, [from, &until], response);
+    (until, ended)
 }
 
 /// Time that a hop of `stick_angle`, the least hop that is followed, takes under the accelerations at work `[s]`.

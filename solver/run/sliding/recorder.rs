@@ -54,12 +54,12 @@ pub struct Node {
     pub momentum: Vec2,
     /// Contact forces by interface, in the axes of the faces that carry the contacts; empty if the states determine none.
     pub contacts: PerBlock<ContactForce>,
-    /// `[m/s]`, by interface.
+    /// Rates of the slides, by interface `[m/s]`.
     pub slide_rates: PerBlock<f64>,
 }
 
 /// Normal force of a contact, as a share of the weight above it, up to which its friction demand is not recorded: both forces are rounding where blocks
-/// part. Larger, and contacts under little load are left out.
+/// part. If the share were larger, contacts under little load would be left out.
 const LIGHT_SHARE: f64 = 1e-9;
 
 /// The record of a run under way.
@@ -73,13 +73,13 @@ pub struct SlidingRecorder<'p> {
     read_until: f64,
     events: Vec<Event>,
     impacts: usize,
-    /// Per block `[rad]`.
+    /// Largest `|θ|` so far, per block `[rad]`.
     peak_theta: Vec<f64>,
-    /// Per interface, dimensionless.
+    /// Largest friction demand `|T|/N` so far, per interface, dimensionless.
     friction_demand: Vec<f64>,
-    /// Friction demand of impulses at impacts, per interface, dimensionless.
+    /// Largest friction demand of impulses at impacts so far, per interface, dimensionless.
     impulse_friction_demand: Vec<f64>,
-    /// Per interface `[N]`.
+    /// Smallest normal force so far, per interface `[N]`.
     min_normal_force: Vec<f64>,
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
@@ -87,7 +87,7 @@ pub struct SlidingRecorder<'p> {
     /// Whether a part in which everything sticks ran on generic equations because this build has no generated ones.
     used_generic: bool,
     report: SlidingReport,
-    /// Relative to the ground `[J]`.
+    /// Energy at the start, relative to the ground `[J]`.
     energy_at_start: f64,
     pub work: Work,
 }

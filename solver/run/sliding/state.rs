@@ -4,13 +4,14 @@ use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
 use crate::response::StopReason;
 use crate::run::problem::Problem;
+use crate::run::stretch::{Ended, Over};
 use crate::run::transition;
 use crate::scene::Initial;
 
 /// The state of a run at an instant.
 #[derive(Clone, Debug)]
 pub struct SlidingState {
-    /// `[s]`
+    /// Time since the start of the run `[s]`.
     pub t: f64,
     /// Segment of the ground motion.
     pub segment: usize,
@@ -41,6 +42,15 @@ impl SlidingEnded {
             guard => SlidingEnded::Guard(guard),
         }
     }
+
+    /// The end of a stretch without sliding, at which these interfaces close.
+    pub fn without_sliding(ended: Ended, closing: &[usize]) -> SlidingEnded {
+        match (ended, closing) {
+            (Ended::Closing, [interface, ..]) => SlidingEnded::Guard(Guard::Close(*interface)),
+            (Ended::Opening(interface, side), _) => SlidingEnded::Guard(Guard::Tip(interface, side.sign())),
+            (Ended::Closing | Ended::Jump | Ended::Over(_), _) => SlidingEnded::Jump,
+        }
+    }
 }
 
 /// Why a run ends. Blocks are counted from zero.
@@ -56,6 +66,16 @@ pub enum RunEnd {
     AtRest,
     /// The time is over.
     EndOfTime,
+}
+
+impl From<Over> for RunEnd {
+    fn from(over: Over) -> RunEnd {
+        match over {
+            Over::Overturned(block) | Over::Falls(block) => RunEnd::Overturned(block),
+            Over::AtRest | Over::Stands => RunEnd::AtRest,
+            Over::EndOfTime => RunEnd::EndOfTime,
+        }
+    }
 }
 
 impl RunEnd {

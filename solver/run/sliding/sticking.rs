@@ -5,7 +5,6 @@
 use super::state::{RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
-use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
 use crate::mechanics::kinematics::relative;
 use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
@@ -14,7 +13,6 @@ use crate::run::error::SolveError;
 use crate::run::event_loop::{Departure, Exceeded, Leaving, event_loop};
 use crate::run::modes::Modes;
 use crate::run::problem::Problem;
-use crate::run::stretch::{self, Over};
 use crate::run::{recorder, state, transition};
 use crate::scene::{Scene, Wanted};
 use std::ops::ControlFlow;
@@ -145,26 +143,13 @@ impl<'p> Sticking<'p> {
                 return Ok(StickingSpan::Throughout(Box::new(reported(&self.scene.column, response))));
             }
             Leaving::Over(last, over) => {
-                let (ended, status) = match over {
-                    Over::Overturned(block) | Over::Falls(block) => {
-                        (SlidingEnded::Over(RunEnd::Overturned(block)), StopReason::Overturned)
-                    }
-                    Over::AtRest | Over::Stands => (SlidingEnded::Over(RunEnd::AtRest), StopReason::AtRest),
-                    Over::EndOfTime => (SlidingEnded::Over(RunEnd::EndOfTime), StopReason::EndOfTime),
-                };
-                (last, ended, status)
+                let end = RunEnd::from(over);
+                (last, SlidingEnded::Over(end), end.status())
             }
             Leaving::Beyond(Exceeded::Start) => return Ok(StickingSpan::Nowhere),
             Leaving::Beyond(Exceeded::Phase(last)) => (last, SlidingEnded::Limits, StopReason::EndOfTime),
             Leaving::Beyond(Exceeded::Event(last, why, closing)) => {
-                let ended = match why {
-                    stretch::Ended::Closing => closing
-                        .first()
-                        .map_or(SlidingEnded::Jump, |interface| SlidingEnded::Guard(Guard::Close(*interface))),
-                    stretch::Ended::Opening(interface, side) => SlidingEnded::Guard(Guard::Tip(interface, side.sign())),
-                    stretch::Ended::Jump | stretch::Ended::Over(_) => SlidingEnded::Jump,
-                };
-                (last, ended, StopReason::EndOfTime)
+                (last, SlidingEnded::without_sliding(why, &closing), StopReason::EndOfTime)
             }
         };
         let configuration = Configuration::sticking(&self.scene.column, &last.pattern, &last.theta, &last.omega);

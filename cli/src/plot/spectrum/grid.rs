@@ -15,7 +15,7 @@ enum Span {
     X(Vec<usize>),
     /// Row of each value.
     Y(Vec<usize>),
-    /// Each value has panels of its own; number of values.
+    /// The axis is no side of a panel: the panels are repeated for each of its values. The number of values.
     Panels(usize),
 }
 

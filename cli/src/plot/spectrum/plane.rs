@@ -1,4 +1,5 @@
-//! Overturning spectra: what becomes of the column over the plane of two axes of a sweep, and the least value that overturns.
+//! Overturning spectra: the outcome over the plane of two axes of a sweep, and, for each value of the horizontal axis, the least value of the vertical
+//! one that overturns the column.
 
 use super::cells::{cells, legend, percent};
 use super::class::Class;
