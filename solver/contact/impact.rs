@@ -2,7 +2,7 @@
 
 use super::decision::Decision;
 use super::restitution::rebounded;
-use super::search::{Candidate, ContactProblem, Solution};
+use super::search::{Candidate, ContactProblem, Found};
 use super::state_at_event::{
     Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_choose, project, sizes,
 };
@@ -69,8 +69,9 @@ fn impact_at<S: Size>(
         answer: projected,
         given: |block| sizes(&before, block),
     };
-    let Solution { candidate: Candidate { mut mechanism, answer: plastic }, is_separation } =
-        problem.solve(problem.candidate(guess)?)?;
+    let mut candidate = problem.candidate(guess)?;
+    let is_impact_admissible = problem.solve(&mut candidate)? == Found::Admissible;
+    let Candidate { mut mechanism, answer: plastic } = candidate;
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
@@ -97,11 +98,12 @@ fn impact_at<S: Size>(
         answer: forces,
         given: |_| [ground.x.abs() + ground.gravity.abs(), 0.0],
     };
-    let forced = problem.solve(Candidate { mechanism, answer: forced })?;
+    let mut candidate = Candidate { mechanism, answer: forced };
+    let is_motion_admissible = problem.solve(&mut candidate)? == Found::Admissible;
     Ok(Decision {
-        pattern: Pattern::from_states(&forced.candidate.mechanism.states),
+        pattern: Pattern::from_states(&candidate.mechanism.states),
         omega: PerBlock::from_slice(&rates),
-        separation: is_separation || forced.is_separation,
+        separation: !is_impact_admissible || !is_motion_admissible,
         energy_lost,
         impulses: impulses.map_or_else(PerBlock::new, |list| PerBlock::from_slice(&list)),
     })

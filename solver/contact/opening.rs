@@ -1,7 +1,7 @@
 //! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
 
 use super::decision::Decision;
-use super::search::ContactProblem;
+use super::search::{ContactProblem, Found};
 use super::state_at_event::{Mechanism, SingularMass, StateAtEvent, accelerate, critical_acceleration, may_choose};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
@@ -43,8 +43,9 @@ fn open_at<S: Size>(
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
     let given = |_: usize| [ground.x.abs() + ground.gravity.abs(), 0.0];
     let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
-    let mut solution = problem.solve(problem.candidate(guess)?)?;
-    let accelerations = &solution.candidate.answer.angular;
+    let mut candidate = problem.candidate(guess)?;
+    let mut found = problem.solve(&mut candidate)?;
+    let accelerations = &candidate.answer.angular;
     let tolerance = critical_acceleration(at_event.column, accelerations, ground);
     let is_driven_back =
         |(i, side): &&(usize, Interface)| f64::from(side.sign()) * relative(accelerations, *i) < -tolerance;
@@ -53,9 +54,9 @@ fn open_at<S: Size>(
     if !driven_back.is_empty() {
         driven_back.iter().for_each(|&interface| free[interface] = true);
         let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
-        solution = problem.solve(solution.candidate)?;
+        found = problem.solve(&mut candidate)?;
     }
-    let pattern = Pattern::from_states(&solution.candidate.mechanism.states);
-    let (omega, separation) = (PerBlock::from_slice(omega), solution.is_separation);
+    let pattern = Pattern::from_states(&candidate.mechanism.states);
+    let (omega, separation) = (PerBlock::from_slice(omega), found == Found::Separation);
     Ok(Decision { pattern, omega, separation, energy_lost: 0.0, impulses: PerBlock::new() })
 }

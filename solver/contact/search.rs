@@ -82,25 +82,31 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
     }
 
     /// The candidate of a pattern.
+    #[inline(always)]
     pub(super) fn candidate(&self, states: S::List<Interface>) -> Result<Candidate<'a, S>, SingularMass> {
         let mechanism = self.at_event.mechanism(states)?;
         let answer = (self.answer)(&mechanism);
         Ok(Candidate { mechanism, answer })
     }
 
-    /// The admissible pattern, searched for from a guess. If none is found, the nearest pattern tried whose opened interfaces part.
+    /// Replaces a guess by the admissible pattern. If none is found, by the nearest pattern tried whose opened interfaces part.
     #[inline(always)]
-    pub(super) fn solve(&self, guess: Candidate<'a, S>) -> Result<Solution<'a, S>, SingularMass> {
-        if self.is_admissible(&guess) { Ok(Solution::admissible(guess)) } else { self.search(guess) }
+    pub(super) fn solve(&self, guess: &mut Candidate<'a, S>) -> Result<Found, SingularMass> {
+        if self.is_admissible(guess) { Ok(Found::Admissible) } else { self.search(guess) }
+    }
+
+    /// Replaces a candidate by that of another pattern.
+    fn go_to(&self, states: S::List<Interface>, candidate: &mut Candidate<'a, S>) -> Result<(), SingularMass> {
+        *candidate = self.candidate(states)?;
+        Ok(())
     }
 
     /// [`ContactProblem::solve`] for a guess that is not admissible.
     #[inline(never)]
-    fn search(&self, guess: Candidate<'a, S>) -> Result<Solution<'a, S>, SingularMass> {
-        let (first, choices) = (guess.mechanism.states.clone(), chosen(self.free).count());
+    fn search(&self, candidate: &mut Candidate<'a, S>) -> Result<Found, SingularMass> {
+        let (guess, choices) = (candidate.mechanism.states.clone(), chosen(self.free).count());
         let mut visited: Vec<S::List<Interface>> = Vec::new();
         let was_visited = |visited: &[S::List<Interface>], states: &[Interface]| visited.iter().any(|v| **v == *states);
-        let mut candidate = guess;
         loop {
             let states = candidate.mechanism.states.clone();
             let required = chosen(self.free)
@@ -111,7 +117,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
                 next[interface] = state;
                 lowest = lowest.or(Some((interface, state)));
             }
-            let Some((lowest, state)) = lowest else { return Ok(Solution::admissible(candidate)) };
+            let Some((lowest, state)) = lowest else { return Ok(Found::Admissible) };
             visited.push(states.clone());
             if was_visited(&visited, &next) {
                 // `next` was tried before: the search would go in circles. Only the lowest violated interface changes.
@@ -121,19 +127,20 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             if was_visited(&visited, &next) || visited.len() >= 8 * choices + 8 {
                 break;
             }
-            candidate = self.candidate(next)?;
+            self.go_to(next, candidate)?;
         }
         if choices <= MOST_CHOICES {
-            return self.search_all(first);
+            return self.search_all(guess, candidate);
         }
         let mut nearest = Nearest::none();
         for states in visited {
-            let candidate = self.candidate(states)?;
-            if self.opened_part(&candidate) {
+            self.go_to(states, candidate)?;
+            if self.opened_part(candidate) {
                 nearest.offer(candidate);
             }
         }
-        self.separation(nearest, first)
+        self.go_to(nearest.states.unwrap_or(guess), candidate)?;
+        Ok(Found::Separation)
     }
 
     /// As [`ContactProblem::search`], over all patterns. The admissible pattern, if there is one, is the nearest of those whose opened interfaces part.
@@ -141,14 +148,15 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
     /// Each free interface gets a side, and is open to it or closed. To close an interface is a constraint more: with given sides, no pattern is nearer
     /// than the one in which all free interfaces are open. Sides are taken in order of this bound, until it exceeds the distance of the nearest pattern.
     #[inline(never)]
-    fn search_all(&self, first: S::List<Interface>) -> Result<Solution<'a, S>, SingularMass> {
+    fn search_all(&self, guess: S::List<Interface>, candidate: &mut Candidate<'a, S>) -> Result<Found, SingularMass> {
         let mut bounded = Vec::new();
         for choice in 0..1 << chosen(self.free).count() {
-            let mut sides = first.clone();
+            let mut sides = guess.clone();
             for (bit, interface) in chosen(self.free).enumerate() {
                 sides[interface] = if choice >> bit & 1 == 0 { Interface::Right } else { Interface::Left };
             }
-            bounded.push((self.candidate(sides.clone())?.distance(), sides));
+            self.go_to(sides.clone(), candidate)?;
+            bounded.push((candidate.distance(), sides));
         }
         bounded.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let mut nearest = Nearest::none();
@@ -156,22 +164,28 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             if bound >= nearest.distance {
                 break;
             }
-            let Some(candidate) = self.solve_with_sides(&sides)? else { continue };
-            if self.is_admissible(&candidate) {
-                return Ok(Solution::admissible(candidate));
+            if self.solve_with_sides(&sides, candidate)? {
+                if self.is_admissible(candidate) {
+                    return Ok(Found::Admissible);
+                }
+                nearest.offer(candidate);
             }
-            nearest.offer(candidate);
         }
-        self.separation(nearest, first)
+        self.go_to(nearest.states.unwrap_or(guess), candidate)?;
+        Ok(Found::Separation)
     }
 
-    /// The nearest pattern whose opened interfaces part, with each free interface closed or open to its side: a projection onto a convex cone. All
-    /// violated conditions change at once as long as they become fewer, otherwise the lowest one alone, which comes to an end (Murty 1974). `None` if
-    /// rounding does not let it.
-    fn solve_with_sides(&self, sides: &S::List<Interface>) -> Result<Option<Candidate<'a, S>>, SingularMass> {
+    /// Finds the nearest pattern whose opened interfaces part, with each free interface closed or open to its side: a projection onto a convex cone. All
+    /// violated conditions change at once as long as they become fewer, otherwise the lowest one alone, which comes to an end (Murty 1974). Returns
+    /// `false` if rounding does not let it.
+    fn solve_with_sides(
+        &self,
+        sides: &S::List<Interface>,
+        candidate: &mut Candidate<'a, S>,
+    ) -> Result<bool, SingularMass> {
         let (mut states, mut fewest) = (sides.clone(), usize::MAX);
         for _ in 0..2 << chosen(self.free).count() {
-            let candidate = self.candidate(states.clone())?;
+            self.go_to(states.clone(), candidate)?;
             let answer = &candidate.answer;
             let is_violated = |interface: &usize| match states[*interface] {
                 Interface::Closed => self.required(Interface::Closed, answer, *interface) == Some(sides[*interface]),
@@ -179,7 +193,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
             };
             let violated: PerBlock<usize> = chosen(self.free).filter(is_violated).collect();
             if violated.is_empty() {
-                return Ok(Some(candidate));
+                return Ok(true);
             }
             let changing = if violated.len() < fewest { &violated[..] } else { &violated[..1] };
             fewest = fewest.min(violated.len());
@@ -187,16 +201,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
                 states[interface] = if states[interface].is_open() { Interface::Closed } else { sides[interface] };
             }
         }
-        Ok(None)
-    }
-
-    /// The separation with the nearest candidate; that of the pattern with which the search began if there is none.
-    fn separation(&self, nearest: Nearest<'a, S>, first: S::List<Interface>) -> Result<Solution<'a, S>, SingularMass> {
-        let candidate = match nearest.candidate {
-            Some(candidate) => candidate,
-            None => self.candidate(first)?,
-        };
-        Ok(Solution { candidate, is_separation: true })
+        Ok(false)
     }
 }
 
@@ -214,35 +219,30 @@ impl<S: Size> Candidate<'_, S> {
 }
 
 /// What a search has found.
-pub(super) struct Solution<'a, S: Size> {
-    pub(super) candidate: Candidate<'a, S>,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Found {
+    /// The candidate is admissible.
+    Admissible,
     /// No pattern is admissible: blocks would part. The candidate is the nearest of those tried.
-    pub(super) is_separation: bool,
-}
-
-impl<'a, S: Size> Solution<'a, S> {
-    #[inline(always)]
-    fn admissible(candidate: Candidate<'a, S>) -> Solution<'a, S> {
-        Solution { candidate, is_separation: false }
-    }
+    Separation,
 }
 
 /// The nearest of some candidates.
-struct Nearest<'a, S: Size> {
-    candidate: Option<Candidate<'a, S>>,
+struct Nearest<S: Size> {
+    states: Option<S::List<Interface>>,
     distance: f64,
 }
 
-impl<'a, S: Size> Nearest<'a, S> {
-    fn none() -> Nearest<'a, S> {
-        Nearest { candidate: None, distance: f64::INFINITY }
+impl<S: Size> Nearest<S> {
+    fn none() -> Nearest<S> {
+        Nearest { states: None, distance: f64::INFINITY }
     }
 
     /// Takes a candidate if it is nearer.
-    fn offer(&mut self, candidate: Candidate<'a, S>) {
+    fn offer(&mut self, candidate: &Candidate<S>) {
         let distance = candidate.distance();
         if distance < self.distance {
-            *self = Nearest { candidate: Some(candidate), distance };
+            *self = Nearest { states: Some(candidate.mechanism.states.clone()), distance };
         }
     }
 }
@@ -286,14 +286,16 @@ mod tests {
             let candidate = candidate(&states);
             admissible += usize::from(problem.is_admissible(&candidate));
             if problem.opened_part(&candidate) {
-                nearest.offer(candidate);
+                nearest.offer(&candidate);
             }
         }
-        let best = nearest.candidate.unwrap_or_else(|| candidate(states)).answer;
+        let best = candidate(&nearest.states.unwrap_or(states.clone())).answer;
         let scale = 1.0 + largest(&best.angular);
-        for solution in [problem.solve(candidate(states)), problem.search_all(states.clone())] {
-            let Solution { candidate: Candidate { answer: found, .. }, is_separation } = solution.expect("solvable");
-            assert_eq!(is_separation, admissible == 0);
+        let [mut solved, mut best_of_all] = [candidate(states), candidate(states)];
+        let found = problem.search_all(states.clone(), &mut best_of_all).expect("solvable");
+        assert_eq!(found, problem.solve(&mut solved).expect("solvable"));
+        assert_eq!(found == Found::Separation, admissible == 0);
+        for Candidate { answer: found, .. } in [solved, best_of_all] {
             for (a, b) in found.angular.iter().zip(&*best.angular) {
                 // Both are solves of systems with a condition number of some thousands.
                 assert!((a - b).abs() < 1e-10 * scale, "{:?} and {:?}", found.angular, best.angular);
