@@ -117,11 +117,15 @@ pub struct SceneFailure {
     source_text: Option<NamedSource<String>>,
 }
 
-/// Replaces the names of library options (`skip_rows`, in backquotes) by those of the command line (`--skip-rows`).
+/// Replaces the names of library options (`skip_rows`, in backquotes) by those of the command line (`--skip-rows`), where the message asks for them or begins
+/// with them. Elsewhere it quotes the file, which may have the same words.
 pub fn with_dashes(text: &str) -> String {
+    const BEFORE: [&str; 5] = ["with ", "give ", "leave ", "and ", "or "];
     let options = ["units", "dt", "lenient", "channel", "skip_rows", "column"];
     options.into_iter().fold(text.to_string(), |text, option| {
-        text.replace(&format!("`{option}`"), &format!("`--{}`", option.replace('_', "-")))
+        let (own, new) = (format!("`{option}`"), format!("`--{}`", option.replace('_', "-")));
+        let text = text.strip_prefix(&own).map_or(text.clone(), |rest| format!("{new}{rest}"));
+        BEFORE.iter().fold(text, |text, word| text.replace(&format!("{word}{own}"), &format!("{word}{new}")))
     })
 }
 

@@ -35,7 +35,7 @@ impl Component {
 /// Extensions of files without accelerations: velocity and displacement, which PEER gives beside them, and documents.
 const NO_ACCELERATION: [&str; 6] = ["vt2", "dt2", "md", "pdf", "html", "htm"];
 
-/// Names of the files of a folder, sorted. Hidden files, files whose names begin with `_` (lists and readmes of PEER), files with velocity or
+/// Names of the files of a folder, sorted. A link that leads nowhere counts: a record that is missing is refused where it is read. Hidden files, files whose names begin with `_` (lists and readmes of PEER), files with velocity or
 /// displacement, documents and `README` files are left out.
 pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
     // The folder of a bare name is the one that the program runs in.
@@ -48,7 +48,7 @@ pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
         let is_other = NO_ACCELERATION.iter().any(|other| extension.eq_ignore_ascii_case(other))
             || file.to_ascii_lowercase().starts_with("readme")
             || file.starts_with(['.', '_']);
-        if entry.path().is_file() && !is_other {
+        if !entry.path().is_dir() && !is_other {
             files.push(file);
         }
     }

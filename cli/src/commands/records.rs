@@ -66,7 +66,7 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     for entry in std::fs::read_dir(path).map_err(&system)? {
         let entry = entry.map_err(&system)?;
         let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if !hidden && entry.path().is_file() {
+        if !hidden && !entry.path().is_dir() {
             names.push(PathBuf::from(entry.file_name()));
         }
     }

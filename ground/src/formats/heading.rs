@@ -143,7 +143,21 @@ pub fn headings(text: &str, above: Option<&str>) -> Vec<Heading> {
     }
     let names = above.map(cells).filter(|names| names.len() == units.len());
     let names = names.unwrap_or_else(|| vec![String::new(); units.len()]);
-    let with_unit = |(name, unit): (&String, &&str)| Heading { unit: unit.to_string(), ..Heading::parse(name) };
+    let is_same = |one: &str, other: &str| {
+        let units = [one, other];
+        let [one, other] = units.map(AccelerationUnit::parse);
+        let [before, after] = units.map(second);
+        units[0].is_empty()
+            || units[0] == units[1]
+            || one.is_some() && one == other
+            || before.is_some() && before == after
+    };
+    let with_unit = |(name, unit): (&String, &&str)| {
+        let Heading { name, unit: own } = Heading::parse(name);
+        // Two units are none: the table is refused where the column is read.
+        let unit = if is_same(&own, unit) { unit.to_string() } else { format!("{own} and {unit}") };
+        Heading { name, unit }
+    };
     names.iter().zip(&units).map(with_unit).collect()
 }
 

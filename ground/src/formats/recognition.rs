@@ -1,5 +1,6 @@
 //! From the bytes of a file to its format's reader. A format is recognised by content, never by the file's name.
 
+use super::header::Entry;
 use super::numbers::number;
 use super::record_file::{Format, RecordFile};
 use super::{cosmos, csmip, dyna, knet, peer, table};
@@ -28,7 +29,8 @@ impl RecordFile {
         }
         let text = decode(bytes)?;
         // Old files end with Ctrl-Z, files that are cut off may end with zeros.
-        let text = text.trim_end_matches(['\u{1a}', '\0']);
+        let whole = text.trim_end_matches('\u{1a}');
+        let text = whole.trim_end_matches(['\u{1a}', '\0']);
         let lines = lines(text);
         if let Some(format) = unknown_format(&lines) {
             return Err(RecordError::UnknownFormat { format });
@@ -40,6 +42,12 @@ impl RecordFile {
             Format::Csmip => csmip::read(&lines, options),
             Format::Cosmos => cosmos::read(&lines, options),
             Format::Table if text.contains('\0') => Err(RecordError::NoText { kind: "binary" }),
+            // Other formats state how many samples there are.
+            Format::Table if whole.ends_with('\0') && !lines.is_empty() => {
+                let remedy = "fetch or write it again, or cut them off";
+                Err(Entry { line: lines.len(), text: "", remedy }
+                    .wrong("zero bytes follow this line to the end of the file, which was not written to its end"))
+            }
             Format::Table => table::read(&lines, options),
         }?;
         check_range(&file.accel)?;

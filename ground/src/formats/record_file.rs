@@ -169,6 +169,9 @@ impl RecordFile {
     /// Adds a warning for what is possible but hardly a record of an earthquake. One g is `gravity [m/s²]`.
     pub(super) fn check_plausibility(&mut self, gravity: f64) {
         let (peak, dt) = (self.peak() / gravity, self.dt);
+        if peak == 0.0 {
+            self.warnings.push("all samples are zero: is another column the acceleration?".into());
+        }
         if peak > LARGEST_PEAK_IN_G {
             self.warnings.push(format!(
                 "a peak of {peak:.1} g is hardly one; are the samples in another unit than {}?",

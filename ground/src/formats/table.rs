@@ -45,8 +45,8 @@ struct Rows {
     columns: usize,
     /// Line, from 1, and unit that the text above the numbers states, the headings excepted.
     stated_unit: Option<(usize, AccelerationUnit)>,
-    /// Line, from 1, and sampling interval `[s]` that the text above the numbers states.
-    stated_interval: Option<(usize, f64)>,
+    /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
+    stated_intervals: Vec<(usize, f64)>,
 }
 
 impl Rows {
@@ -154,7 +154,13 @@ fn unit(
             let (unit, name) = (brief(unit), brief(name));
             entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
         };
-        return entry.agreed(heading.acceleration().ok_or_else(unknown)?, options);
+        let unit = entry.agreed(heading.acceleration().ok_or_else(unknown)?, options)?;
+        if let Some((line, stated)) = rows.stated_unit.filter(|(_, stated)| *stated != unit) {
+            let problem = format!("column `{}` is in {unit}, and line {line} states {stated}", brief(&heading.name));
+            let remedy = "mend the wrong one, or take that of the column with `lenient`";
+            warnings.push(leniently(Entry { remedy, ..entry }, problem, options)?);
+        }
+        return Ok(unit);
     }
     match (options.units, rows.stated_unit) {
         (Some(own), Some((line, stated))) if own != stated => {
@@ -176,10 +182,19 @@ fn begin_and_interval(
     options: &TextOptions,
     warnings: &mut Vec<String>,
 ) -> Result<(Option<f64>, f64), RecordError> {
-    let stated = rows.stated_interval;
+    let stated = rows.stated_intervals.first().copied();
     let (begins, dt) = match time_column(rows, chosen, options) {
         None => {
             let given = options.dt.or(stated.map(|(_, dt)| dt));
+            let other = |(first, dt): (usize, f64)| {
+                let mut others = rows.stated_intervals.iter().filter(|(_, own)| (own - dt).abs() > EXACT_INTERVAL * dt);
+                others.next().map(|other| ((first, dt), *other))
+            };
+            if let Some(((first, dt), (line, other))) = stated.filter(|_| options.dt.is_none()).and_then(other) {
+                let problem = format!("a sampling interval of {other} s is stated, and one of {dt} s in line {first}");
+                let remedy = "mend the wrong one, give `dt`, or take the first with `lenient`";
+                warnings.push(leniently(Entry { line, text: "", remedy }, problem, options)?);
+            }
             (None, given.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?)
         }
         Some(time) => {
@@ -199,6 +214,20 @@ fn begin_and_interval(
     }
     Ok((begins, dt))
 }
+
+/// The warning that a file contradicts itself.
+///
+/// # Errors
+/// The same problem, unless the options are lenient.
+fn leniently(entry: Entry, problem: String, options: &TextOptions) -> Result<String, RecordError> {
+    match options.lenient {
+        true => Ok(format!("line {}: {problem}", entry.line)),
+        false => Err(entry.wrong(problem)),
+    }
+}
+
+/// Relative difference of stated intervals that are the same.
+const EXACT_INTERVAL: f64 = 1e-9;
 
 /// Number of intervals before the first time up to which a record counts as beginning at zero: some files begin with the time of one interval.
 const INTERVALS_BEFORE_FIRST: f64 = 1.5;
@@ -228,9 +257,9 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .filter(|(_, line)| words(line).next().is_some())
         .collect();
     let first = first_row(&body)?;
-    let mut rows = numbers(&body[first..])?;
     let above = first.checked_sub(2).map(|place| body[place].1);
     let headings = first.checked_sub(1).map(|last| (body[last].0, headings(body[last].1, above)));
+    let mut rows = numbers(&body[first..], headings.as_ref().map_or(0, |(_, headings)| headings.len()))?;
     let header = options.skip_rows..rows.lines[0] - 1;
     rows.headings = headings
         .filter(|(_, headings)| !headings.is_empty())
@@ -238,7 +267,7 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .unwrap_or_default();
     let text = || header.clone().map(|index| (index + 1, lines[index]));
     rows.stated_unit = statement::unit(text().filter(|(line, _)| *line != rows.headings.0));
-    rows.stated_interval = text().find_map(|(line, text)| Some((line, statement::interval(text)?)));
+    rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
     Ok(rows)
 }
 
@@ -256,17 +285,17 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     Ok(first)
 }
 
-/// The rows of numbers, without what stands above them.
-fn numbers(body: &[(usize, &str)]) -> Result<Rows, RecordError> {
+/// The rows of numbers, without what stands above them: `names` columns have names, zero if none has.
+fn numbers(body: &[(usize, &str)], names: usize) -> Result<Rows, RecordError> {
     refuse_count(body)?;
-    let decimal_comma = has_decimal_commas(body);
+    let decimal_comma = has_decimal_commas(body) || is_column_with_commas(body, names);
     let mut rows = Rows {
         headings: Default::default(),
         lines: Vec::new(),
         values: Vec::new(),
         columns: 0,
         stated_unit: None,
-        stated_interval: None,
+        stated_intervals: Vec::new(),
     };
     for (line, text) in body {
         // Spreadsheets may put every cell between quotes.
@@ -361,6 +390,17 @@ fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
     let any = body.iter().any(|(_, text)| text.contains(','));
     let parted = |text: &str| text.trim().contains([';', '\t', ' ']);
     any && body.iter().all(|(_, text)| !text.contains('.') && parted(text) && cells(text))
+}
+
+/// Whether each row is one number with a decimal comma: below one name, or where digits after the comma begin with a zero, as no second number does.
+fn is_column_with_commas(body: &[(usize, &str)], names: usize) -> bool {
+    let begins_with_zero = |text: &str| {
+        let (whole, fraction) = text.trim().split_once(',')?;
+        let is_number = !whole.contains('.') && number(&format!("{whole}.{fraction}")).is_some();
+        is_number.then(|| fraction.len() > 1 && fraction.starts_with('0'))
+    };
+    let found: Option<Vec<bool>> = body.iter().map(|(_, text)| begins_with_zero(text)).collect();
+    found.is_some_and(|zeros| names == 1 || zeros.contains(&true))
 }
 
 /// The numbers of a row. Delimiters may end it. Any other empty cell is refused: to skip it would move the cells after it.
